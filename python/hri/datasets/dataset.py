@@ -1,0 +1,201 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A folder of labelled recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from os import PathLike
+from pathlib import Path
+
+from hri.datasets.detection import detect_kind, detect_pattern, media_files, natural_key
+from hri.datasets.folds import Fold, split_by_person, split_stratified
+from hri.datasets.manifest import KINDS, MANIFEST_NAME, Manifest, read_manifest
+from hri.datasets.pattern import Pattern
+from hri.errors import FormatError, InvalidArgument, IoError
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One recording: its file, what is said or shown, by whom, and which repetition it is ("" if not known)."""
+
+    path: Path
+    label: str
+    person: str = ""
+    take: str = ""
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """Labelled recordings in one folder; `load` makes one.
+
+    Attributes
+    ----------
+    root : Path
+    kind : "speech" or "gesture"
+    samples : list of Sample
+        Natural order of their paths, or the manifest's order.
+    pattern : str or None
+        How label, person and take were read from the paths; None for a manifest with tables.
+    synthetic : bool
+        The manifest says that a program made the recordings.
+    ignored : list of Path
+        Recordings under `root` that do not fit a pattern given by the caller or the manifest.
+    """
+
+    root: Path
+    kind: str
+    samples: list[Sample]
+    pattern: str | None = None
+    synthetic: bool = False
+    ignored: list[Path] = field(default_factory=list)
+
+    @classmethod
+    def load(
+        cls,
+        directory: str | PathLike[str],
+        kind: str | None = None,
+        pattern: str | None = None,
+    ) -> Dataset:
+        """Find the recordings in a folder; their content is not read yet.
+
+        Parameters
+        ----------
+        directory : path-like
+        kind : "speech" or "gesture", optional
+            By default as the manifest says, or by the suffixes of the files.
+        pattern : str, optional
+            Such as ``"{label}/{label}_{person}_{take}.wav"``, see `Pattern`; it goes before a manifest. Without
+            it a ``dataset.toml`` is read, and without that the common layouts are tried.
+
+        Raises
+        ------
+        InvalidArgument
+            For an unknown kind or a bad pattern.
+        FormatError
+            For a faulty manifest (file, table and row are named), a layout that is not recognised
+            (what was tried is listed), or a folder without recordings.
+        IoError
+            When `directory` is not a folder.
+        """
+        root = Path(directory)
+        if kind is not None and kind not in KINDS:
+            raise InvalidArgument(f"kind is {kind!r}, must be one of {KINDS}")
+        if not root.is_dir():
+            raise IoError(f"{root}: not a folder" if root.exists() else f"{root}: no such folder")
+        manifest_path = root / MANIFEST_NAME
+        if pattern is not None:
+            return _load_pattern(root, kind or detect_kind(root), Pattern(pattern))
+        if manifest_path.exists():
+            return _load_manifest(root, kind, manifest_path)
+        kind = kind or detect_kind(root)
+        files = media_files(root, kind)
+        if not files:
+            raise FormatError(f"{root}: no {kind} recordings in it")
+        return _load_pattern(root, kind, detect_pattern(root, files))
+
+    def __len__(self) -> int:
+        return len(self.samples)
+
+    def __iter__(self) -> Iterator[Sample]:
+        return iter(self.samples)
+
+    @property
+    def labels(self) -> list[str]:
+        """All labels, each once, in natural order."""
+        return sorted({sample.label for sample in self.samples}, key=natural_key)
+
+    @property
+    def persons(self) -> list[str]:
+        """All persons, each once, in natural order; empty when they are not known."""
+        return sorted({s.person for s in self.samples if s.person}, key=natural_key)
+
+    def select(
+        self, labels: Collection[str] | None = None, persons: Collection[str] | None = None
+    ) -> Dataset:
+        """The part with these labels and these persons (None: all).
+
+        Raises
+        ------
+        InvalidArgument
+            For a label or person that does not occur.
+        """
+        _require_members(labels, self.labels, "label")
+        _require_members(persons, self.persons, "person")
+        return replace(
+            self,
+            samples=[
+                sample
+                for sample in self.samples
+                if (labels is None or sample.label in labels)
+                and (persons is None or sample.person in persons)
+            ],
+        )
+
+    def folds_by_person(self, num_folds: int | None = None, seed: int = 0) -> list[Fold]:
+        """Folds in which nobody is in both parts; None holds out one person at a time.
+
+        Raises
+        ------
+        InvalidArgument
+            When persons are not known or fewer than the folds.
+        """
+        return split_by_person([sample.person for sample in self.samples], num_folds, seed)
+
+    def folds_stratified(self, num_folds: int = 5, seed: int = 0) -> list[Fold]:
+        """Folds with nearly the same share of every label, whoever made the recordings."""
+        return split_stratified([sample.label for sample in self.samples], num_folds, seed)
+
+
+def _load_pattern(root: Path, kind: str, pattern: Pattern) -> Dataset:
+    samples, ignored = [], []
+    for path in media_files(root, kind):
+        fields = pattern.match(path.relative_to(root).as_posix())
+        if fields is None:
+            ignored.append(path)
+        else:
+            samples.append(Sample(path, fields.label, fields.person, fields.take))
+    if not samples:
+        example = f", for example {ignored[0].relative_to(root).as_posix()}" if ignored else ""
+        raise FormatError(
+            f"{root}: none of its {len(ignored)} {kind} files fits {pattern.text!r}{example}"
+        )
+    return Dataset(root, kind, samples, pattern.text, ignored=ignored)
+
+
+def _load_manifest(root: Path, kind: str | None, path: Path) -> Dataset:
+    manifest = read_manifest(path)
+    if kind is not None and kind != manifest.kind:
+        raise FormatError(f"{path}: kind is {manifest.kind!r}, but {kind!r} was asked for")
+    if manifest.pattern is not None:
+        dataset = _load_pattern(root, manifest.kind, Pattern(manifest.pattern))
+        places: Iterable[str] = (str(sample.path) for sample in dataset.samples)
+    else:
+        dataset = Dataset(root, manifest.kind, _listed_samples(root, manifest, path))
+        places = (f"[[samples]] row {i + 1}" for i in range(len(dataset)))
+    if manifest.labels:
+        for place, sample in zip(places, dataset.samples, strict=True):
+            if sample.label not in manifest.labels:
+                raise FormatError(
+                    f"{path}: {place}: label {sample.label!r} is not in labels {manifest.labels}"
+                )
+    return replace(dataset, synthetic=manifest.synthetic)
+
+
+def _listed_samples(root: Path, manifest: Manifest, manifest_path: Path) -> list[Sample]:
+    samples = []
+    for number, row in enumerate(manifest.rows, start=1):
+        path = root / row.path
+        if not path.is_file():
+            raise FormatError(f"{manifest_path}: [[samples]] row {number}: no file {row.path!r}")
+        samples.append(Sample(path, row.label, row.person, row.take))
+    if not samples:
+        raise FormatError(f"{manifest_path}: no [[samples]] tables in it")
+    return samples
+
+
+def _require_members(wanted: Collection[str] | None, known: list[str], what: str) -> None:
+    for name in wanted or ():
+        if name not in known:
+            raise InvalidArgument(f"no {what} {name!r} in this data set; it has {known}")

@@ -1,0 +1,29 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Sound, pictures and video in and out of files."""
+
+from hri.media.audio import AUDIO_SUFFIXES, Audio, read_audio
+from hri.media.video import (
+    IMAGE_SUFFIXES,
+    VIDEO_SUFFIXES,
+    Clip,
+    iterate_frames,
+    read_frames,
+    read_image,
+    write_image,
+    write_video,
+)
+
+__all__ = [
+    "AUDIO_SUFFIXES",
+    "IMAGE_SUFFIXES",
+    "VIDEO_SUFFIXES",
+    "Audio",
+    "Clip",
+    "iterate_frames",
+    "read_audio",
+    "read_frames",
+    "read_image",
+    "write_image",
+    "write_video",
+]

@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Sound files: WAV by libhri's own strict reader, other formats by the soundfile library."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.errors import FormatError, IoError
+from hri.media.optional import import_optional
+
+AUDIO_SUFFIXES = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aiff", ".aif")
+
+
+@dataclass(frozen=True)
+class Audio:
+    """One recording.
+
+    Attributes
+    ----------
+    samples : ndarray of float32, shape (num_samples,)
+        Mono, full scale is 1; finite and not empty.
+    sample_rate_hz : int
+    notes : list of str
+        What was done to the file on the way: channels averaged, a header that promised more, ...
+    """
+
+    samples: NDArray[np.float32]
+    sample_rate_hz: int
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def duration_s(self) -> float:
+        """Length in seconds."""
+        return len(self.samples) / self.sample_rate_hz
+
+
+def read_audio(path: str | PathLike[str]) -> Audio:
+    """Read a recording as mono float samples.
+
+    Parameters
+    ----------
+    path : path-like
+        A ``.wav`` file, or anything else that soundfile can read.
+
+    Returns
+    -------
+    Audio
+        Several channels are averaged; a shortened file gives what it holds. Both are said in ``notes``.
+
+    Raises
+    ------
+    FormatError
+        For a file that is no recording, holds no sample, or holds a NaN or an infinity (the message
+        gives its index).
+    IoError
+        For a file that cannot be opened.
+    ImportError
+        For a file other than WAV when soundfile is not installed.
+    """
+    path = Path(path)
+    if path.suffix.lower() == ".wav":
+        wav = _native.read_wav(str(path))
+        samples = np.asarray(wav.samples, dtype=np.float32)
+        audio = Audio(samples, int(wav.sample_rate_hz), list(wav.notes))
+    else:
+        audio = _read_with_soundfile(path)
+    _require_usable(audio.samples, path)
+    return audio
+
+
+def _read_with_soundfile(path: Path) -> Audio:
+    soundfile = import_optional("soundfile", "audio", f"to read {path.suffix or path.name} audio")
+    try:
+        with path.open("rb") as stream:
+            samples, rate = soundfile.read(stream, dtype="float32", always_2d=True)
+    except OSError as error:
+        raise IoError(f"{path}: {error.strerror or error}") from error
+    except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
+        raise FormatError(f"{path}: not a sound file that soundfile reads: {error}") from error
+    num_channels = samples.shape[1]
+    notes = [f"averaged {num_channels} channels to mono"] if num_channels > 1 else []
+    mono = np.ascontiguousarray(samples.mean(axis=1, dtype=np.float32))
+    return Audio(mono, int(rate), notes)
+
+
+def _require_usable(samples: NDArray[np.float32], path: Path) -> None:
+    if samples.size == 0:
+        raise FormatError(f"{path}: too short: no samples")
+    finite = np.isfinite(samples)
+    if not finite.all():
+        index = int(np.flatnonzero(~finite)[0])
+        raise FormatError(f"{path}: sample {index} is {samples[index]}")

@@ -1,0 +1,36 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Libraries that are imported only when something needs them."""
+
+from __future__ import annotations
+
+import os
+from importlib import import_module
+from typing import Any
+
+
+def import_optional(module: str, extra: str, purpose: str) -> Any:
+    """Import `module`, or raise an ImportError that says which extra brings it.
+
+    Parameters
+    ----------
+    module : str
+        Name as in an import statement.
+    extra : str
+        The extra of libhri that depends on it.
+    purpose : str
+        What it is needed for, as in "to read video".
+    """
+    try:
+        return import_module(module)
+    except ImportError as error:
+        raise ImportError(
+            f"{module} is needed {purpose}: pip install libhri[{extra}] ({error})"
+        ) from error
+
+
+def import_opencv(purpose: str) -> Any:
+    """Import OpenCV; its video decoder then reports through our errors and not on stderr."""
+    os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
+    os.environ.setdefault("OPENCV_LOG_LEVEL", "OFF")
+    return import_optional("cv2", "video", purpose)
