@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/io/model_file.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "hri/core/error.hpp"
+#include "hri/io/crc32.hpp"
+#include "hri/io/file.hpp"
+
+namespace hri {
+namespace {
+
+constexpr const char* kVersionKey = "format_version";
+constexpr const char* kChecksumKey = "checksum";
+
+template <class T>
+Matrix<T> from_bytes(const std::vector<std::uint8_t>& bytes, std::int64_t rows, std::int64_t cols) {
+  Matrix<T> m(rows, cols);
+  if (!bytes.empty()) std::memcpy(m.data(), bytes.data(), bytes.size());
+  return m;
+}
+
+template <class M>
+std::vector<std::uint8_t> to_bytes(const M& values) {
+  using T = typename M::Scalar;
+  const Matrix<T> dense = values;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(dense.size()) * sizeof(T));
+  if (!bytes.empty()) std::memcpy(bytes.data(), dense.data(), bytes.size());
+  return bytes;
+}
+
+std::string hex(std::uint32_t value) {
+  char text[9];
+  std::snprintf(text, sizeof text, "%08x", static_cast<unsigned>(value));
+  return text;
+}
+
+}  // namespace
+
+void ModelFile::refuse(const std::string& field, const std::string& why) const {
+  fail(ErrorKind::format, name_ + ": field '" + field + "' " + why);
+}
+
+bool ModelFile::has(const std::string& name) const {
+  return tensors_.count(name) != 0 || metadata_.count(name) != 0;
+}
+
+const std::string& ModelFile::text(const std::string& key) const {
+  const auto found = metadata_.find(key);
+  if (found == metadata_.end()) refuse(key, "is missing");
+  return found->second;
+}
+
+std::int64_t ModelFile::integer(const std::string& key) const {
+  const std::string& value = text(key);
+  char* end = nullptr;
+  errno = 0;
+  const long long parsed = std::strtoll(value.c_str(), &end, 10);
+  if (value.empty() || *end != '\0' || errno != 0) refuse(key, "is not an integer: '" + value + "'");
+  return parsed;
+}
+
+double ModelFile::number(const std::string& key) const {
+  const std::string& value = text(key);
+  char* end = nullptr;
+  const double parsed = std::strtod(value.c_str(), &end);
+  if (value.empty() || *end != '\0' || !std::isfinite(parsed)) refuse(key, "is not a finite number: '" + value + "'");
+  return parsed;
+}
+
+std::vector<std::string> ModelFile::text_list(const std::string& key) const {
+  const auto json = nlohmann::json::parse(text(key), nullptr, false);
+  if (!json.is_array()) refuse(key, "is not a list of texts");
+  std::vector<std::string> values;
+  for (const auto& item : json) {
+    if (!item.is_string()) refuse(key, "is not a list of texts");
+    values.push_back(item.get_ref<const std::string&>());
+  }
+  return values;
+}
+
+void ModelFile::set_text(const std::string& key, const std::string& value) { metadata_[key] = value; }
+
+void ModelFile::set_integer(const std::string& key, std::int64_t value) { metadata_[key] = std::to_string(value); }
+
+void ModelFile::set_number(const std::string& key, double value) {
+  if (!std::isfinite(value)) fail(ErrorKind::invalid_argument, "field '" + key + "' is not finite");
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  metadata_[key] = text;
+}
+
+void ModelFile::set_text_list(const std::string& key, const std::vector<std::string>& values) {
+  metadata_[key] =
+      nlohmann::json(values).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+const ModelFile::Tensor& ModelFile::tensor(const std::string& name, bool is_double) const {
+  const auto found = tensors_.find(name);
+  if (found == tensors_.end()) refuse(name, "is missing");
+  if (found->second.is_double != is_double) refuse(name, is_double ? "is not of dtype F64" : "is not of dtype F32");
+  return found->second;
+}
+
+MatrixD ModelFile::matrix_d(const std::string& name) const {
+  const Tensor& t = tensor(name, true);
+  MatrixD m = from_bytes<double>(t.bytes, t.rows, t.cols);
+  if (!m.allFinite()) refuse(name, "holds a value that is not finite");
+  return m;
+}
+
+MatrixF ModelFile::matrix_f(const std::string& name) const {
+  const Tensor& t = tensor(name, false);
+  MatrixF m = from_bytes<float>(t.bytes, t.rows, t.cols);
+  if (!m.allFinite()) refuse(name, "holds a value that is not finite");
+  return m;
+}
+
+VectorD ModelFile::vector_d(const std::string& name) const {
+  const MatrixD m = matrix_d(name);
+  if (m.rows() != 1) refuse(name, "is not a vector");
+  return m.row(0);
+}
+
+VectorF ModelFile::vector_f(const std::string& name) const {
+  const MatrixF m = matrix_f(name);
+  if (m.rows() != 1) refuse(name, "is not a vector");
+  return m.row(0);
+}
+
+void ModelFile::set_matrix(const std::string& name, ConstMatrixRefD values) {
+  tensors_[name] = {true, values.rows(), values.cols(), to_bytes(values)};
+}
+
+void ModelFile::set_matrix(const std::string& name, ConstMatrixRefF values) {
+  tensors_[name] = {false, values.rows(), values.cols(), to_bytes(values)};
+}
+
+void ModelFile::set_vector(const std::string& name, const VectorD& values) {
+  tensors_[name] = {true, 1, values.size(), to_bytes(values)};
+}
+
+void ModelFile::set_vector(const std::string& name, const VectorF& values) {
+  tensors_[name] = {false, 1, values.size(), to_bytes(values)};
+}
+
+std::uint32_t ModelFile::checksum() const {
+  const auto add = [](const std::string& s, std::uint32_t crc) {
+    // The terminating zero goes in too, so that ("ab", "c") and ("a", "bc") differ.
+    return crc32({reinterpret_cast<const std::uint8_t*>(s.c_str()), s.size() + 1}, crc);
+  };
+  std::uint32_t crc = 0;
+  for (const auto& [name, t] : tensors_) crc = crc32(t.bytes, add(name, crc));
+  for (const auto& [key, value] : metadata_) {
+    if (key != kChecksumKey) crc = add(value, add(key, crc));
+  }
+  return crc;
+}
+
+std::vector<std::uint8_t> ModelFile::serialise() const {
+  ModelFile stamped = *this;
+  stamped.set_integer(kVersionKey, kFormatVersion);
+  stamped.metadata_.erase(kChecksumKey);
+  stamped.set_text(kChecksumKey, hex(stamped.checksum()));
+
+  nlohmann::json header = nlohmann::json::object();
+  header["__metadata__"] = stamped.metadata_;
+  std::uint64_t offset = 0;
+  for (const auto& [name, t] : tensors_) {
+    header[name] = {{"dtype", t.is_double ? "F64" : "F32"},
+                    {"shape", {t.rows, t.cols}},
+                    {"data_offsets", {offset, offset + t.bytes.size()}}};
+    offset += t.bytes.size();
+  }
+  std::string text = header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  text.append((8 - text.size() % 8) % 8, ' ');  // tensors start on a multiple of 8, as the layout asks
+
+  std::vector<std::uint8_t> out;
+  out.reserve(8 + text.size() + offset);
+  for (unsigned i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>((std::uint64_t{text.size()} >> (8 * i)) & 0xFFU));
+  out.insert(out.end(), text.begin(), text.end());
+  for (const auto& entry : tensors_) out.insert(out.end(), entry.second.bytes.begin(), entry.second.bytes.end());
+  return out;
+}
+
+void ModelFile::write(const std::string& path) const { write_file_atomically(path, serialise()); }
+
+ModelFile ModelFile::read(const std::string& path) { return parse(read_file(path), path); }
+
+}  // namespace hri
