@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Hidden Markov model with Gaussian-mixture emissions of diagonal covariance (Rabiner, Proc. IEEE 77(2), 1989).
+// Trained by Baum-Welch over many sequences in double; emissions are scored in float.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/mixture_bank.hpp"
+#include "hri/models/stop_check.hpp"
+#include "hri/models/topology.hpp"
+#include "hri/models/training_report.hpp"
+
+namespace hri {
+
+struct GaussianMixtureHmmOptions {
+  Topology topology;
+  int num_mixtures = 1;          ///< Gaussians a state, 1..1024
+  int max_iterations = 20;       ///< Baum-Welch iterations, 1..100000
+  double tolerance = 1e-4;       ///< stop when the log-likelihood a frame gains less, >= 0
+  double variance_floor = 0.01;  ///< share of the global variance, > 0
+  double weight_floor = 1e-3;    ///< smallest mixture weight, 0..1 / num_mixtures
+  std::uint64_t seed = 0;        ///< of the k-means starts
+  StopCheck should_stop;
+};
+
+/// Immutable; const calls are safe from several threads. Invariant: start and the rows of transition sum to 1.
+class GaussianMixtureHmm {
+ public:
+  /// Throws InvalidArgument for parameters that do not fit each other or are no distributions.
+  GaussianMixtureHmm(Topology topology, VectorD start, MatrixD transition, MixtureBank bank);
+
+  /// Trains on sequences of frames (rows), each with at least one frame. Starts from uniform segmentation for
+  /// left_right (sequences shorter than the number of states skip some), seeded k-means otherwise. States never visited
+  /// keep their parameters. Throws InvalidArgument for no data or values not finite (names sequence, row, column).
+  static GaussianMixtureHmm train(const std::vector<MatrixF>& sequences, const GaussianMixtureHmmOptions& options,
+                                  TrainingReport* report = nullptr);
+
+  /// log P(frames | model) by the forward recursion, natural log; -inf for an impossible sequence.
+  [[nodiscard]] double log_likelihood(ConstMatrixRefF frames) const;
+  /// The same with emissions in double, to compare with other implementations.
+  [[nodiscard]] double log_likelihood_exact(ConstMatrixRefF frames) const;
+  /// log P(frames, best path | model); the path (num_frames states) if wanted.
+  double viterbi(ConstMatrixRefF frames, std::vector<int>* path = nullptr) const;
+
+  [[nodiscard]] int num_states() const { return bank_.num_states(); }
+  [[nodiscard]] int dim() const { return bank_.dim(); }
+  [[nodiscard]] const Topology& topology() const { return topology_; }
+  [[nodiscard]] const VectorD& start() const { return start_; }
+  [[nodiscard]] const MatrixD& transition() const { return transition_; }
+  [[nodiscard]] const MixtureBank& bank() const { return bank_; }
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  static GaussianMixtureHmm read(const ModelFile& file, const std::string& prefix);
+
+ private:
+  Topology topology_;
+  VectorD start_;
+  MatrixD transition_;
+  MixtureBank bank_;
+  VectorD log_start_;
+  MatrixD log_transition_;
+};
+
+}  // namespace hri

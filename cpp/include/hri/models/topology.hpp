@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which transitions a sequence model has. Structural zeros stay zero through training.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+
+namespace hri {
+
+struct Topology {
+  enum class Kind : std::uint8_t {
+    left_right,  ///< from i to i .. i + max_jump; starts in state 0
+    banded,      ///< from i to i - max_jump .. i + max_jump; starts anywhere
+    ergodic,     ///< from anywhere to anywhere; starts anywhere
+  };
+  Kind kind = Kind::left_right;
+  int num_states = 5;  ///< 1..4096
+  int max_jump = 1;    ///< 1..num_states, ignored by ergodic
+
+  /// Whether the transition from i to j exists.
+  [[nodiscard]] bool allows(int i, int j) const;
+  /// The first and one past the last state that can be reached from i.
+  [[nodiscard]] int first_next(int i) const;
+  [[nodiscard]] int end_next(int i) const;
+};
+
+/// nullptr, or what is wrong with the fields.
+const char* topology_fault(const Topology& topology);
+/// Throws InvalidArgument naming the field.
+void validate(const Topology& topology);
+
+/// Start probabilities: all on state 0 for left_right, uniform otherwise, shape (num_states,).
+VectorD initial_start(const Topology& topology);
+
+/// Row-stochastic start values: `stay` on the diagonal, the rest shared by the other allowed states.
+MatrixD initial_transition(const Topology& topology, double stay = 0.6);
+
+void write_topology(const Topology& topology, ModelFile& file, const std::string& prefix);
+Topology read_topology(const ModelFile& file, const std::string& prefix);
+
+}  // namespace hri

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/gaussian_mixture_hmm.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "forward_backward.hpp"
+#include "hri/core/error.hpp"
+#include "hri/core/random.hpp"
+
+namespace hri {
+namespace {
+
+void check(const GaussianMixtureHmmOptions& o) {
+  validate(o.topology);
+  require(o.num_mixtures >= 1 && o.num_mixtures <= 1024, "num_mixtures must lie in 1..1024");
+  require(o.max_iterations >= 1 && o.max_iterations <= 100000, "max_iterations must lie in 1..100000");
+  require(o.tolerance >= 0, "tolerance must not be negative");
+  require(o.variance_floor > 0, "variance_floor must be positive");
+  require(o.weight_floor >= 0 && o.weight_floor * o.num_mixtures <= 1, "weight_floor must lie in 0..1/num_mixtures");
+}
+
+// The state every frame starts in: equal parts for left-right models, at random otherwise.
+std::vector<std::vector<int>> first_states(const std::vector<MatrixF>& sequences, const Topology& topology,
+                                           std::uint64_t seed) {
+  std::vector<std::vector<int>> states;
+  Random random(seed);
+  for (const MatrixF& s : sequences) {
+    states.push_back(detail::uniform_segmentation(s.rows(), topology.num_states));
+    if (topology.kind == Topology::Kind::left_right) continue;
+    for (int& state : states.back()) {
+      state = static_cast<int>(random.below(static_cast<std::uint64_t>(topology.num_states)));
+    }
+  }
+  return states;
+}
+
+// A variance of zero (a constant feature) still needs a floor.
+VectorD floor_of(const VectorD& global_variance, double share) {
+  return (global_variance * share).cwiseMax(1e-10);
+}
+
+}  // namespace
+
+GaussianMixtureHmm::GaussianMixtureHmm(Topology topology, VectorD start, MatrixD transition, MixtureBank bank)
+    : topology_(topology), start_(std::move(start)), transition_(std::move(transition)), bank_(std::move(bank)) {
+  const char* fault = detail::chain_fault(topology_, start_, transition_);
+  require(fault == nullptr, fault);
+  require(bank_.num_states() == topology_.num_states, "the mixture bank must have one mixture a state");
+  log_start_ = detail::safe_log(start_);
+  log_transition_ = detail::safe_log(transition_);
+}
+
+GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequences,
+                                             const GaussianMixtureHmmOptions& options, TrainingReport* report) {
+  check(options);
+  const GlobalStatistics global = global_statistics(sequences);
+  const VectorD floor = floor_of(global.variance, options.variance_floor);
+  const int n = options.topology.num_states;
+  GaussianMixtureHmm model(
+      options.topology, initial_start(options.topology), initial_transition(options.topology),
+      initial_bank(sequences, first_states(sequences, options.topology, options.seed), n, options.num_mixtures, floor,
+                   options.seed));
+  double num_frames = 0;
+  for (const MatrixF& s : sequences) num_frames += static_cast<double>(s.rows());
+
+  TrainingReport local;
+  MatrixD densities;
+  MatrixD components;
+  MatrixD gamma;
+  for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
+    poll(options.should_stop);
+    detail::ChainCounts counts(n);
+    MixtureAccumulator accumulator(n, options.num_mixtures, model.dim());
+    double total = 0;
+    for (const MatrixF& s : sequences) {
+      model.bank_.log_densities(s, &densities, &components);
+      const detail::Chain chain{model.topology_, model.log_start_, model.log_transition_};
+      total += detail::forward_backward(chain, densities, &gamma, &counts);
+      accumulator.add(s, gamma, components, densities);
+    }
+    if (!local.log_likelihoods.empty()) {
+      local.converged = (total - local.log_likelihoods.back()) / num_frames < options.tolerance;
+    }
+    local.log_likelihoods.push_back(total);
+    VectorD start = model.start_;
+    MatrixD transition = model.transition_;
+    detail::estimate_chain(counts, &start, &transition);
+    model = GaussianMixtureHmm(options.topology, start, transition,
+                               accumulator.estimate(model.bank_, floor, options.weight_floor));
+  }
+  if (report != nullptr) *report = std::move(local);
+  return model;
+}
+
+double GaussianMixtureHmm::log_likelihood(ConstMatrixRefF frames) const {
+  require(frames.rows() > 0, "frames must have at least one row");
+  MatrixF log_b(frames.rows(), num_states());
+  bank_.log_densities(frames, log_b);
+  return detail::forward(detail::Chain{topology_, log_start_, log_transition_}, log_b);
+}
+
+double GaussianMixtureHmm::log_likelihood_exact(ConstMatrixRefF frames) const {
+  require(frames.rows() > 0 && frames.cols() == dim(), "frames must have at least one row and dim() columns");
+  MatrixD log_b;
+  bank_.log_densities(frames, &log_b, nullptr);
+  return detail::forward(detail::Chain{topology_, log_start_, log_transition_}, log_b);
+}
+
+double GaussianMixtureHmm::viterbi(ConstMatrixRefF frames, std::vector<int>* path) const {
+  require(frames.rows() > 0 && frames.cols() == dim(), "frames must have at least one row and dim() columns");
+  MatrixD log_b;
+  bank_.log_densities(frames, &log_b, nullptr);
+  return detail::viterbi(detail::Chain{topology_, log_start_, log_transition_}, log_b, path);
+}
+
+void GaussianMixtureHmm::write(ModelFile& file, const std::string& prefix) const {
+  write_topology(topology_, file, prefix);
+  file.set_vector(prefix + "start", start_);
+  file.set_matrix(prefix + "transition", transition_);
+  bank_.write(file, prefix);
+}
+
+GaussianMixtureHmm GaussianMixtureHmm::read(const ModelFile& file, const std::string& prefix) {
+  const Topology topology = read_topology(file, prefix);
+  const VectorD start = file.vector_d(prefix + "start");
+  const MatrixD transition = file.matrix_d(prefix + "transition");
+  if (const char* fault = detail::chain_fault(topology, start, transition)) {
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + "transition': " + fault);
+  }
+  MixtureBank bank = MixtureBank::read(file, prefix);
+  if (bank.num_states() != topology.num_states) {
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' needs one row a state");
+  }
+  return {topology, start, transition, std::move(bank)};
+}
+
+}  // namespace hri
