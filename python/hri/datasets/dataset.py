@@ -18,7 +18,7 @@ from hri.errors import FormatError, InvalidArgument, IoError
 
 @dataclass(frozen=True)
 class Sample:
-    """One recording: its file, what is said or shown, by whom, and which repetition it is ("" if not known)."""
+    """One recording: its file, what is said or shown, by whom, which repetition ("" if unknown)."""
 
     path: Path
     label: str
@@ -66,8 +66,9 @@ class Dataset:
         kind : "speech" or "gesture", optional
             By default as the manifest says, or by the suffixes of the files.
         pattern : str, optional
-            Such as ``"{label}/{label}_{person}_{take}.wav"``, see `Pattern`; it goes before a manifest. Without
-            it a ``dataset.toml`` is read, and without that the common layouts are tried.
+            Such as ``"{label}/{label}_{person}_{take}.wav"``, see `Pattern`; it goes before a
+            manifest. Without it a ``dataset.toml`` is read, and without that the common layouts
+            are tried.
 
         Raises
         ------

@@ -70,9 +70,9 @@ def detect_kind(root: Path) -> str:
 
 
 def detect_pattern(root: Path, files: Sequence[Path]) -> Pattern:
-    """The first of `COMMON_PATTERNS` that fits every file and whose fields look like what they are called.
+    """The first of `COMMON_PATTERNS` that fits every file, with fields that look like their names.
 
-    Outer folders that all files share, or that only group them (as "digits" and "words"), are skipped.
+    An outer folder that all files share, or that only groups them ("digits", "words"), is skipped.
 
     Raises
     ------
@@ -115,7 +115,7 @@ def _misfit(pattern: Pattern, names: Sequence[str]) -> str | None:
 
 
 def _looks_like_persons(pattern: Pattern, persons: set[str], labels: set[str]) -> bool:
-    """Where the folder order alone does not tell person from label, the person must be named as one."""
+    """Where the order does not tell person from label, the person must be named as one."""
     if pattern.text.count("{label}") > 1 or "_nohash_" in pattern.text:
         return True
     if pattern.text.endswith("{label}_{person}_{take}"):
@@ -128,7 +128,7 @@ def _looks_like_persons(pattern: Pattern, persons: set[str], labels: set[str]) -
 
 
 def _refuse_ambiguous(root: Path, pattern: Pattern, names: Sequence[str]) -> None:
-    """`{label}/{take}` also fits folders of persons that each hold the same words: ask rather than guess."""
+    """`{label}/{take}` also fits persons who each show the same words: ask rather than guess."""
     if not pattern.text.endswith("{label}/{take}"):
         return
     takes: dict[str, set[str]] = defaultdict(set)
@@ -139,7 +139,7 @@ def _refuse_ambiguous(root: Path, pattern: Pattern, names: Sequence[str]) -> Non
     same_everywhere = len(takes) > 1 and len({frozenset(stems) for stems in takes.values()}) == 1
     numbered = all(re.fullmatch(r"[^\W\d]+[-_]?\d+", take) for take in next(iter(takes.values())))
     if same_everywhere and not numbered:
+        other = pattern.text.replace("{label}/{take}", "{person}/{label}")
         raise FormatError(
-            f"{root}: {names[0]} may be {pattern.text} or "
-            f"{pattern.text.replace('{label}/{take}', '{person}/{label}')}; say which by pattern='...'"
+            f"{root}: {names[0]} may be {pattern.text} or {other}; say which by pattern='...'"
         )

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Splits for cross-validation: by person for unseen people, stratified where persons are not known."""
+"""Splits for cross-validation: by person, or stratified where persons are not known."""
 
 from __future__ import annotations
 

@@ -195,5 +195,5 @@ def write_manifest(path: Path, manifest: Manifest) -> None:
 
 
 def _toml(value: Any) -> str:
-    """A string, number, truth value or list of these as TOML (whose strings are JSON's but for DEL)."""
+    """A string, number, truth value or list of these; TOML's strings are JSON's but for DEL."""
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

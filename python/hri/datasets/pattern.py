@@ -25,11 +25,11 @@ class PathFields:
 class Pattern:
     """How the paths of a data set name label, person and take.
 
-    Placeholders are ``{label}`` (needed), ``{person}``, ``{take}`` and ``{_}`` (anything, ignored). None of
-    them matches a "/". A placeholder that stands twice must match the same text twice. A ``{person}``,
-    ``{take}`` or ``{_}`` ends at the first character that follows it in the pattern; a ``{label}`` may hold
-    that character, so ``{label}_{person}_{take}`` reads ``turn_left_ann_1`` as turn_left, ann, 1.
-    Upper and lower case differ, except in the suffix.
+    Placeholders are ``{label}`` (needed), ``{person}``, ``{take}`` and ``{_}`` (anything, ignored).
+    None of them matches a "/". A placeholder that stands twice must match the same text twice. A
+    ``{person}``, ``{take}`` or ``{_}`` ends at the first character that follows it in the pattern;
+    a ``{label}`` may hold that character, so ``{label}_{person}_{take}`` reads ``turn_left_ann_1``
+    as turn_left, ann, 1. Upper and lower case differ, except in the suffix.
 
     Parameters
     ----------
@@ -39,7 +39,8 @@ class Pattern:
     Raises
     ------
     InvalidArgument
-        For an unknown placeholder, a pattern without ``{label}``, or two placeholders with nothing between.
+        For an unknown placeholder, a pattern without ``{label}``, or two placeholders with nothing
+        between.
     """
 
     def __init__(self, text: str) -> None:

@@ -52,7 +52,8 @@ def read_audio(path: str | PathLike[str]) -> Audio:
     Returns
     -------
     Audio
-        Several channels are averaged; a shortened file gives what it holds. Both are said in ``notes``.
+        Several channels are averaged; a shortened file gives what it holds. Both are said in
+        ``notes``.
 
     Raises
     ------

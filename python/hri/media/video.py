@@ -194,7 +194,8 @@ def write_video(path: str | PathLike[str], frames: Iterable[Frame], fps: float) 
     Raises
     ------
     InvalidArgument
-        For no frames, a frame of another size or type (the message gives its index), or a bad rate or suffix.
+        For no frames, a frame of another size or type (the message gives its index), or a bad rate
+        or suffix.
     IoError
         When the file cannot be written.
     """

@@ -1,0 +1,254 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Drawn people who show the digits 0 to 9 with one hand, for demos and tests without recordings.
+
+Drawn signs vary far less than filmed ones: figures measured on them say that a chain works, not
+how well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from os import PathLike
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.datasets.corpus import finish_corpus, start_corpus
+from hri.datasets.dataset import Dataset
+from hri.datasets.drawing.hand import draw_hand
+from hri.datasets.drawing.hand_pose import (
+    DIGIT_POSES,
+    RELAXED,
+    HandPose,
+    blend,
+    make_skeleton,
+    rotation,
+    varied,
+)
+from hri.datasets.drawing.height_field import HeightField, View
+from hri.datasets.drawing.light import cast_shadow, over, photograph, shade
+from hri.datasets.drawing.room import draw_wall
+from hri.datasets.drawing.scene import RAISED_ELBOW, Scene, arm_look
+from hri.datasets.drawing.signer import Signer, make_signer
+from hri.datasets.manifest import SampleRow
+from hri.errors import InvalidArgument
+from hri.media import write_image, write_video
+from hri.media.optional import import_opencv
+
+SIGNS = tuple(DIGIT_POSES)
+"""The labels that can be drawn."""
+
+CLIP_FPS = 15.0
+_STILL_PX = 200
+_STILL_DRAWN_PX = 360
+_CLIP_FRAMES = 36
+
+Frame = NDArray[np.uint8]
+
+
+def draw_still(signer: Signer, label: str, take: int = 0, seed: int = 0) -> Frame:
+    """A close-up of the sign, uint8 BGR, shape (200, 200, 3); equal arguments give equal pixels.
+
+    Parameters
+    ----------
+    signer : Signer
+        From `make_signer`.
+    label : str
+        One of `SIGNS`.
+    take : int
+        Repetitions differ in pose, place, size and noise.
+    seed : int
+
+    Raises
+    ------
+    InvalidArgument
+        For a label that cannot be drawn.
+    """
+    cv2 = import_opencv("to draw signs")
+    rng = _generator(signer, label, take, seed, 1)
+    size = _STILL_DRAWN_PX
+    view = View(
+        (size * rng.uniform(0.42, 0.54), size * rng.uniform(0.80, 0.87)),
+        size * rng.uniform(0.62, 0.70),
+    )
+    yaw, pitch, roll = rng.normal(0, (6.0, 5.0, 5.0))
+    skeleton = make_skeleton(varied(_pose(label), rng), signer.hand_shape)
+    skeleton = skeleton.rotated(rotation(yaw, pitch, roll))
+    field = HeightField(size, size)
+    draw_hand(field, view, skeleton, signer.hand_shape, arm_look(signer), cv2)
+    lamp = signer.light.direction
+    offset = (-0.045 * size * np.sign(lamp[0]) * abs(lamp[0]), 0.03 * size)
+    wall = draw_wall(size, size, signer.wall, rng)
+    picture = over(
+        cast_shadow(wall, field.part > 0, offset, cv2),
+        shade(field, signer.light, 0.02 * view.scale, cv2),
+        field.part > 0,
+    )
+    picture = cv2.resize(picture, (_STILL_PX, _STILL_PX), interpolation=cv2.INTER_AREA)
+    return photograph(picture, signer.camera, rng)
+
+
+def draw_clip(
+    signer: Signer,
+    label: str,
+    take: int = 0,
+    seed: int = 0,
+    size_px: tuple[int, int] = (320, 240),
+    num_frames: int = _CLIP_FRAMES,
+) -> list[Frame]:
+    """The signer raises the hand, shows the sign, and lowers it again.
+
+    Parameters
+    ----------
+    signer, label, take, seed
+        As for `draw_still`.
+    size_px : (int, int)
+        Width and height, at least 64 each; 4:3 looks best.
+    num_frames : int
+        At `CLIP_FPS`, at least 3; the hand is still for the middle half.
+
+    Returns
+    -------
+    list of ndarray of uint8, shape (height, width, 3), BGR
+
+    Raises
+    ------
+    InvalidArgument
+        For a label that cannot be drawn, or a size or length too small.
+    """
+    width, height = size_px
+    if width < 64 or height < 64 or num_frames < 3:
+        raise InvalidArgument(
+            f"size_px is {size_px} and num_frames {num_frames}, must be at least (64, 64) and 3"
+        )
+    cv2 = import_opencv("to draw signs")
+    rng = _generator(signer, label, take, seed, 2)
+    sharp = 2 if height <= 300 else 1
+    scene = Scene(signer, height * sharp, width * sharp, rng, cv2)
+    sign = make_skeleton(varied(_pose(label), rng), signer.hand_shape)
+    relaxed = make_skeleton(RELAXED, signer.hand_shape)
+    sway = rng.uniform(0, 2 * np.pi, size=4)
+    lean = rng.normal(0, (4.0, 3.0, 4.0))
+    frames = []
+    for index in range(num_frames):
+        raised = _raised(index / (num_frames - 1))
+        wobble = np.sin(2 * np.pi * 0.6 * index / CLIP_FPS + sway)
+        turn = rotation(
+            lean[0] + 2.0 * wobble[0],
+            lean[1] + 1.5 * wobble[1] + 38.0 * (1 - raised),
+            lean[2] + 1.5 * wobble[2] - 24.0 * (1 - raised),
+        )
+        skeleton = blend(relaxed, sign, float(np.clip(1.6 * raised - 0.4, 0, 1))).rotated(turn)
+        elbow = RAISED_ELBOW * (signer.build, 1, 1) + (0.02 * wobble[3], -1.7 * (1 - raised), 0.0)
+        picture = scene.with_arm(skeleton, elbow, turn)
+        if sharp > 1:
+            picture = cv2.resize(picture, size_px, interpolation=cv2.INTER_AREA)
+        frames.append(photograph(picture, signer.camera, rng))
+    return frames
+
+
+def make_gesture_corpus(
+    directory: str | PathLike[str],
+    labels: Iterable[str] = SIGNS,
+    num_persons: int = 8,
+    takes: int = 1,
+    kind: str = "still",
+    seed: int = 0,
+    progress: Callable[[int, int], None] | None = None,
+) -> Dataset:
+    """Write drawn signs, ``{label}/{person}_{take}.jpg`` or ``.mp4``, and a manifest that says so.
+
+    Parameters
+    ----------
+    directory : path-like
+        Made if needed; pictures of the same names are replaced.
+    labels : iterable of str
+        Out of `SIGNS`.
+    num_persons : int
+        At least 1.
+    takes : int
+        Of every sign by every person, at least 1.
+    kind : "still" or "clip"
+        Close-ups of the hand, or clips of the whole person.
+    seed : int
+        The same people appear in stills and clips of one seed.
+    progress : callable, optional
+        Called with (done, total) after every file.
+
+    Raises
+    ------
+    InvalidArgument
+        For an unknown label or kind, no labels, or counts below 1.
+    IoError
+        When a file cannot be written.
+    ImportError
+        When OpenCV is not installed.
+    """
+    labels = list(dict.fromkeys(labels))
+    if not labels or num_persons < 1 or takes < 1:
+        raise InvalidArgument(
+            f"labels is {labels}, num_persons {num_persons}, takes {takes}; need at least one each"
+        )
+    if kind not in ("still", "clip"):
+        raise InvalidArgument(f"kind is {kind!r}, must be 'still' or 'clip'")
+    for label in labels:
+        _pose(label)
+    import_opencv("to draw signs")
+    root = start_corpus(directory, labels)
+    rows = []
+    for index in range(num_persons):
+        signer = make_signer(index, seed)
+        for label in labels:
+            for take in range(takes):
+                name = f"{label}/{signer.name}_{kind}{take + 1}"
+                if kind == "still":
+                    name += ".jpg"
+                    write_image(root / name, draw_still(signer, label, take, seed))
+                else:
+                    name += ".mp4"
+                    write_video(root / name, draw_clip(signer, label, take, seed), CLIP_FPS)
+                rows.append(SampleRow(name, label, signer.name, f"{kind}{take + 1}"))
+                if progress is not None:
+                    progress(len(rows), num_persons * takes * len(labels))
+    return finish_corpus(
+        root,
+        "gesture",
+        "synthetic signs",
+        "Drawn people who show digits with one hand; nobody was filmed.",
+        {
+            "program": "hri.datasets.synthetic_signer",
+            "seed": seed,
+            "num_persons": num_persons,
+            "takes": takes,
+            "kind": kind,
+        },
+        rows,
+    )
+
+
+def _generator(signer: Signer, label: str, take: int, seed: int, use: int) -> np.random.Generator:
+    return np.random.default_rng([seed, take, use, *signer.name.encode(), *label.encode()])
+
+
+def _pose(label: str) -> HandPose:
+    if label not in DIGIT_POSES:
+        raise InvalidArgument(f"label {label!r} cannot be drawn; known are {', '.join(SIGNS)}")
+    return DIGIT_POSES[label]
+
+
+def _raised(moment: float) -> float:
+    """How far the arm is up, 0..1, at a moment 0..1 of the clip."""
+    rise = float(np.clip(min(moment, 1.0 - moment) / 0.25, 0.0, 1.0))
+    return rise * rise * (3.0 - 2.0 * rise)
+
+
+__all__ = [
+    "CLIP_FPS",
+    "SIGNS",
+    "Signer",
+    "draw_clip",
+    "draw_still",
+    "make_gesture_corpus",
+    "make_signer",
+]
