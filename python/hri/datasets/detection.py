@@ -129,7 +129,7 @@ def _looks_like_persons(pattern: Pattern, persons: set[str], labels: set[str]) -
 
 def _refuse_ambiguous(root: Path, pattern: Pattern, names: Sequence[str]) -> None:
     """`{label}/{take}` also fits persons who each show the same words: ask rather than guess."""
-    if not pattern.text.endswith("{label}/{take}"):
+    if pattern.text not in ("{label}/{take}", "{_}/{label}/{take}"):
         return
     takes: dict[str, set[str]] = defaultdict(set)
     for name in names:
