@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Triangular filter banks over a power spectrum: mel (thesis eq. 3.30-3.31) and HFCC with the bandwidth factor E
+// (Skowronski and Harris, JASA 116(3), 2004).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hri/core/types.hpp"
+
+namespace hri {
+
+enum class FilterBankKind : std::uint8_t { mel, hfcc };
+
+struct FilterBankOptions {
+  FilterBankKind kind = FilterBankKind::mel;
+  int num_filters = 26;    ///< 1..512
+  double low_hz = 100;     ///< lower edge of the first filter, 0 <= low_hz < high_hz
+  double high_hz = 0;      ///< upper edge of the last filter; 0 means the Nyquist rate
+  double erb_factor = 1;   ///< E of HFCC-E, 0.1..10: filters E times as wide as an ear's; ignored by mel
+  double warp = 1;         ///< vocal-tract-length factor on all filter frequencies, 0.5..2
+};
+
+/// Edges and centre of one triangle, Hz: 0 at low, 1 at centre, 0 at high.
+struct FilterTriangle {
+  double low_hz = 0;
+  double centre_hz = 0;
+  double high_hz = 0;
+};
+
+double hz_to_mel(double hz);   ///< 2595 log10(1 + f / 700)
+double mel_to_hz(double mel);
+/// Equivalent rectangular bandwidth in Hz at `centre_hz` (thesis eq. 6.10 with its units put right).
+double equivalent_rectangular_bandwidth(double centre_hz, double erb_factor);
+
+/// The triangles before they are sampled. Throws InvalidArgument where they do not fit below the Nyquist rate.
+std::vector<FilterTriangle> filter_triangles(const FilterBankOptions& options, int sample_rate_hz);
+
+/// Immutable; const calls are safe from several threads.
+class FilterBank {
+ public:
+  /// Throws InvalidArgument naming the field that is out of range.
+  FilterBank(const FilterBankOptions& options, int sample_rate_hz, int fft_size);
+
+  [[nodiscard]] int num_filters() const { return static_cast<int>(weights_.rows()); }
+  [[nodiscard]] int num_bins() const { return static_cast<int>(weights_.cols()); }
+  /// Weights, shape (num_filters, num_bins).
+  [[nodiscard]] const MatrixF& weights() const { return weights_; }
+
+  /// Energy of every filter: `power` (num_bins) to `out` (num_filters). Allocates nothing.
+  void apply(Span<const float> power, Span<float> out) const;
+
+ private:
+  struct Support {
+    int begin = 0;
+    int end = 0;
+  };
+  MatrixF weights_;
+  std::vector<Support> supports_;  // bins where a filter is not zero
+};
+
+}  // namespace hri

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/features/filter_bank.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hri/core/error.hpp"
+#include "hri/core/simd.hpp"
+
+namespace hri {
+namespace {
+
+// ERB polynomial of Moore and Glasberg in Hz: E (a f^2 + b f + c).
+constexpr double kErbA = 6.23e-6;
+constexpr double kErbB = 93.39e-3;
+constexpr double kErbC = 28.52;
+constexpr double kCorner = 700;  // of the mel scale
+
+// The centre between low and high in mel satisfies (700 + fc)^2 = (700 + low)(700 + high); with one edge given and
+// high - low = 2 ERB(fc) that is a quadratic in fc. `sign` is +1 when `edge_hz` is the low edge, -1 when the high one.
+double centre_at_edge(double edge_hz, double erb_factor, double sign) {
+  const double side = kCorner + edge_hz;
+  const double twice = 2.0 * sign * side * erb_factor;
+  const double a = 1.0 - twice * kErbA;
+  const double b = 2.0 * kCorner - twice * kErbB;
+  const double c = kCorner * kCorner - side * side - twice * kErbC;
+  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+}
+
+std::vector<double> equally_spaced_in_mel(double from_hz, double to_hz, int count) {
+  std::vector<double> result;
+  for (int i = 0; i < count; ++i) {
+    const double share = count == 1 ? 0.0 : static_cast<double>(i) / (count - 1);
+    result.push_back(mel_to_hz(hz_to_mel(from_hz) + share * (hz_to_mel(to_hz) - hz_to_mel(from_hz))));
+  }
+  return result;
+}
+
+void check(const FilterBankOptions& o, int sample_rate_hz) {
+  require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000, "sample_rate_hz must lie in 1000..384000");
+  require(o.num_filters >= 1 && o.num_filters <= 512, "num_filters must lie in 1..512");
+  const double high = o.high_hz > 0 ? o.high_hz : sample_rate_hz / 2.0;
+  require(o.low_hz >= 0 && o.low_hz < high, "low_hz must lie in 0..high_hz");
+  require(high <= sample_rate_hz / 2.0, "high_hz must not exceed half the sample rate");
+  require(o.erb_factor >= 0.1 && o.erb_factor <= 10, "erb_factor must lie in 0.1..10");
+  require(o.warp >= 0.5 && o.warp <= 2, "warp must lie in 0.5..2");
+}
+
+HRI_SIMD_CLONES
+float dot(const float* a, const float* b, int count) {
+  constexpr int kLanes = 8;
+  float lanes[kLanes] = {};
+  int i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    for (int l = 0; l < kLanes; ++l) lanes[l] += a[i + l] * b[i + l];
+  }
+  float sum = 0;
+  for (; i < count; ++i) sum += a[i] * b[i];
+  for (const float lane : lanes) sum += lane;
+  return sum;
+}
+
+}  // namespace
+
+double hz_to_mel(double hz) { return 2595.0 * std::log10(1.0 + hz / kCorner); }
+
+double mel_to_hz(double mel) { return kCorner * (std::pow(10.0, mel / 2595.0) - 1.0); }
+
+double equivalent_rectangular_bandwidth(double centre_hz, double erb_factor) {
+  return erb_factor * (kErbA * centre_hz * centre_hz + kErbB * centre_hz + kErbC);
+}
+
+std::vector<FilterTriangle> filter_triangles(const FilterBankOptions& options, int sample_rate_hz) {
+  check(options, sample_rate_hz);
+  const double high = options.high_hz > 0 ? options.high_hz : sample_rate_hz / 2.0;
+  std::vector<FilterTriangle> triangles;
+  if (options.kind == FilterBankKind::mel) {
+    const std::vector<double> edges = equally_spaced_in_mel(options.low_hz, high, options.num_filters + 2);
+    for (std::size_t i = 1; i + 1 < edges.size(); ++i) triangles.push_back({edges[i - 1], edges[i], edges[i + 1]});
+  } else {
+    const double first = centre_at_edge(options.low_hz, options.erb_factor, 1.0);
+    const double last = centre_at_edge(high, options.erb_factor, -1.0);
+    if (!(first > 0) || !(last > first)) {
+      fail(ErrorKind::invalid_argument,
+           "erb_factor " + std::to_string(options.erb_factor) + ": HFCC filters do not fit between low_hz and high_hz");
+    }
+    for (const double centre : equally_spaced_in_mel(first, last, options.num_filters)) {
+      const double erb = equivalent_rectangular_bandwidth(centre, options.erb_factor);
+      const double corner = kCorner + centre;
+      const double low = -(kCorner + erb) + std::sqrt(erb * erb + corner * corner);
+      triangles.push_back({low, centre, low + 2 * erb});
+    }
+  }
+  for (FilterTriangle& t : triangles) {
+    t.low_hz *= options.warp;
+    t.centre_hz *= options.warp;
+    t.high_hz *= options.warp;
+  }
+  return triangles;
+}
+
+FilterBank::FilterBank(const FilterBankOptions& options, int sample_rate_hz, int fft_size) {
+  require(fft_size >= 2 && fft_size % 2 == 0, "fft_size must be even and positive");
+  const std::vector<FilterTriangle> triangles = filter_triangles(options, sample_rate_hz);
+  const int bins = fft_size / 2 + 1;
+  weights_ = MatrixF::Zero(static_cast<Eigen::Index>(triangles.size()), bins);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const FilterTriangle& t = triangles[i];
+    Support support{bins, 0};
+    for (int k = 0; k < bins; ++k) {
+      const double f = static_cast<double>(k) * sample_rate_hz / fft_size;
+      const double w = f <= t.centre_hz ? (f - t.low_hz) / (t.centre_hz - t.low_hz)
+                                        : (t.high_hz - f) / (t.high_hz - t.centre_hz);
+      if (!(w > 0)) continue;
+      weights_(static_cast<Eigen::Index>(i), k) = static_cast<float>(w);
+      support.begin = std::min(support.begin, k);
+      support.end = k + 1;
+    }
+    supports_.push_back(support);
+  }
+}
+
+void FilterBank::apply(Span<const float> power, Span<float> out) const {
+  require(power.size() == static_cast<std::size_t>(num_bins()) && out.size() == supports_.size(),
+          "filter bank input must have num_bins() values, output num_filters()");
+  for (std::size_t i = 0; i < supports_.size(); ++i) {
+    const Support s = supports_[i];
+    const float* w = weights_.data() + static_cast<Eigen::Index>(i) * weights_.cols();
+    out[i] = s.end > s.begin ? dot(power.data() + s.begin, w + s.begin, s.end - s.begin) : 0.0F;
+  }
+}
+
+}  // namespace hri

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/signal/resample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kKaiserBeta = 7.0;    // about 70 dB of stop band
+constexpr int kZeroCrossings = 32;     // on each side, at the lower rate
+constexpr double kPassBand = 0.95;     // cut-off as a share of the lower Nyquist rate
+
+// Modified Bessel function of the first kind, order 0, by its power series.
+double bessel_i0(double x) {
+  double sum = 1;
+  double term = 1;
+  for (int k = 1; k < 60; ++k) {
+    term *= (x / (2.0 * k)) * (x / (2.0 * k));
+    sum += term;
+  }
+  return sum;
+}
+
+double kernel(double t, double half_width, double cutoff) {
+  if (std::abs(t) >= half_width) return 0;
+  const double r = t / half_width;
+  const double x = kPi * cutoff * t;
+  const double sinc = std::abs(x) < 1e-9 ? 1.0 : std::sin(x) / x;
+  return cutoff * sinc * bessel_i0(kKaiserBeta * std::sqrt(1 - r * r)) / bessel_i0(kKaiserBeta);
+}
+
+}  // namespace
+
+std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz) {
+  if (from_hz < 1000 || from_hz > 384000 || to_hz < 1000 || to_hz > 384000) {
+    fail(ErrorKind::invalid_argument, "sample rates must lie in 1000..384000 Hz, got " + std::to_string(from_hz) +
+                                          " and " + std::to_string(to_hz));
+  }
+  if (from_hz == to_hz) return {samples.begin(), samples.end()};
+  const std::int64_t common = std::gcd(from_hz, to_hz);
+  const std::int64_t up = to_hz / common;
+  const std::int64_t down = from_hz / common;
+  // Time is counted in input samples; the cut-off falls with the output rate when that is the lower one.
+  const double cutoff = kPassBand * std::min(1.0, static_cast<double>(up) / static_cast<double>(down));
+  const double half_width = kZeroCrossings / cutoff;
+  const auto reach = static_cast<std::int64_t>(half_width);
+  const std::int64_t taps = 2 * reach + 2;
+
+  // Output n lies at n * down / up, so only `up` different phases occur: one row of weights each.
+  std::vector<float> weights(static_cast<std::size_t>(up * taps));
+  for (std::int64_t phase = 0; phase < up; ++phase) {
+    const double fraction = static_cast<double>(phase) / static_cast<double>(up);
+    for (std::int64_t k = 0; k < taps; ++k) {
+      weights[static_cast<std::size_t>(phase * taps + k)] =
+          static_cast<float>(kernel(static_cast<double>(k - reach) - fraction, half_width, cutoff));
+    }
+  }
+  const auto num_in = static_cast<std::int64_t>(samples.size());
+  const std::int64_t num_out = (num_in * up + down - 1) / down;
+  std::vector<float> out(static_cast<std::size_t>(num_out));
+  for (std::int64_t n = 0; n < num_out; ++n) {
+    const std::int64_t position = n * down;
+    const std::int64_t first = position / up - reach;
+    const float* row = weights.data() + (position % up) * taps;
+    const std::int64_t begin = std::max<std::int64_t>(0, -first);
+    const std::int64_t end = std::min(taps, num_in - first);
+    float sum = 0;
+    for (std::int64_t k = begin; k < end; ++k) sum += row[k] * samples[static_cast<std::size_t>(first + k)];
+    out[static_cast<std::size_t>(n)] = sum;
+  }
+  return out;
+}
+
+}  // namespace hri
