@@ -8,6 +8,7 @@ import builtins
 import struct
 import subprocess
 import sys
+import zlib
 from itertools import islice
 from pathlib import Path
 
@@ -161,6 +162,18 @@ def test_video_comes_back_with_its_times(tmp_path: Path, suffix: str) -> None:
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
 
 
+@pytest.mark.parametrize("suffix", [".mp4", ".avi", ".webm"])
+def test_reading_and_writing_video_prints_nothing(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], suffix: str
+) -> None:
+    write_video(tmp_path / f"a{suffix}", frames_of(3), fps=10.0)
+    read_frames(tmp_path / f"a{suffix}")
+    (tmp_path / f"no{suffix}").write_bytes(b"x" * 500)
+    with pytest.raises(FormatError):
+        read_frames(tmp_path / f"no{suffix}")
+    assert capfd.readouterr() == ("", "")
+
+
 def test_max_frames_stops_early(tmp_path: Path) -> None:
     write_video(tmp_path / "a.avi", frames_of(9), fps=10.0)
     assert len(read_frames(tmp_path / "a.avi", max_frames=4).frames) == 4
@@ -259,3 +272,11 @@ def test_picture_suffix_is_checked(tmp_path: Path) -> None:
 def test_grey_picture_comes_back_in_three_channels(tmp_path: Path) -> None:
     write_image(tmp_path / "a.png", np.arange(64, dtype=np.uint8).reshape(8, 8))
     assert read_image(tmp_path / "a.png").shape == (8, 8, 3)
+
+
+def test_picture_of_absurd_size_is_refused(tmp_path: Path) -> None:
+    head = struct.pack(">IIBBBBB", 2**30, 2**30, 8, 2, 0, 0, 0)
+    chunk = struct.pack(">I", 13) + b"IHDR" + head + struct.pack(">I", zlib.crc32(b"IHDR" + head))
+    (tmp_path / "huge.png").write_bytes(b"\x89PNG\r\n\x1a\n" + chunk + bytes(64))
+    with pytest.raises(FormatError, match=r"huge\.png"):
+        read_image(tmp_path / "huge.png")

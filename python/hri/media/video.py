@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import islice
 from os import PathLike
@@ -66,7 +68,10 @@ def read_image(path: str | PathLike[str]) -> Frame:
         data = np.fromfile(path, dtype=np.uint8)
     except OSError as error:
         raise IoError(f"{path}: {error.strerror or error}") from error
-    image = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
+    try:
+        image = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
+    except cv2.error as error:  # a picture too large to decode, for one
+        raise FormatError(f"{path}: OpenCV refuses this picture: {error}") from error
     if image is None:
         raise FormatError(f"{path}: not a picture that OpenCV reads")
     return np.asarray(image, dtype=np.uint8)
@@ -215,7 +220,9 @@ def write_video(path: str | PathLike[str], frames: Iterable[Frame], fps: float) 
                 shape = frame.shape
                 _require_frame(frame, shape, index)
                 size = (shape[1], shape[0])
-                writer = cv2.VideoWriter(str(part), cv2.VideoWriter_fourcc(*codec), fps, size)
+                fourcc = cv2.VideoWriter_fourcc(*codec)
+                with _silent_stderr(path.suffix.lower() == ".webm"):
+                    writer = cv2.VideoWriter(str(part), fourcc, fps, size)
                 if not writer.isOpened():
                     raise IoError(f"{path}: this OpenCV cannot write {path.suffix} video here")
             _require_frame(frame, shape, index)
@@ -238,6 +245,24 @@ def _require_frame(frame: Frame, shape: tuple[int, ...], index: int) -> None:
             f"frame {index} has shape {frame.shape} and type {frame.dtype}, "
             f"expected uint8 of shape (height, width, 3), all alike; frame 0 has {shape}"
         )
+
+
+@contextmanager
+def _silent_stderr(wanted: bool) -> Iterator[None]:
+    """OpenCV prints a remark about every WebM file, whatever its log level, that means nothing."""
+    if not wanted:
+        yield
+        return
+    sys.stderr.flush()
+    kept = os.dup(2)
+    sink = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(sink, 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(sink)
 
 
 def _temporary_beside(path: Path) -> Path:
