@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Hidden Markov model over discrete symbols (Rabiner, Proc. IEEE 77(2), 1989), Baum-Welch over many sequences.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/stop_check.hpp"
+#include "hri/models/topology.hpp"
+#include "hri/models/training_report.hpp"
+
+namespace hri {
+
+using SymbolSequence = std::vector<std::int32_t>;
+
+struct DiscreteHmmOptions {
+  Topology topology;
+  int num_symbols = 0;           ///< 1..65536
+  int max_iterations = 20;       ///< Baum-Welch iterations, 1..100000
+  double tolerance = 1e-4;       ///< stop when the log-likelihood a symbol gains less, >= 0
+  double emission_floor = 1e-4;  ///< smallest emission probability, 0..1 / num_symbols
+  std::uint64_t seed = 0;        ///< of the start of models that are not left-right
+  StopCheck should_stop;
+};
+
+/// Immutable; const calls are safe from several threads. Invariant: start, rows of transition and emission sum to 1.
+class DiscreteHmm {
+ public:
+  /// `emission` has shape (num_states, num_symbols). Throws InvalidArgument for what is no distribution.
+  DiscreteHmm(Topology topology, VectorD start, MatrixD transition, MatrixD emission);
+
+  /// Throws InvalidArgument for no sequence, an empty one, or a symbol outside 0..num_symbols - 1 (names it).
+  static DiscreteHmm train(const std::vector<SymbolSequence>& sequences, const DiscreteHmmOptions& options,
+                           TrainingReport* report = nullptr);
+
+  /// log P(symbols | model), natural log; -inf for an impossible sequence. Throws InvalidArgument for unknown symbols.
+  [[nodiscard]] double log_likelihood(Span<const std::int32_t> symbols) const;
+  /// log P(symbols, best path | model); the path if wanted (empty where the sequence is impossible).
+  double viterbi(Span<const std::int32_t> symbols, std::vector<int>* path = nullptr) const;
+
+  [[nodiscard]] int num_states() const { return topology_.num_states; }
+  [[nodiscard]] int num_symbols() const { return static_cast<int>(emission_.cols()); }
+  [[nodiscard]] const Topology& topology() const { return topology_; }
+  [[nodiscard]] const VectorD& start() const { return start_; }
+  [[nodiscard]] const MatrixD& transition() const { return transition_; }
+  [[nodiscard]] const MatrixD& emission() const { return emission_; }
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  static DiscreteHmm read(const ModelFile& file, const std::string& prefix);
+
+ private:
+  [[nodiscard]] MatrixD log_densities(Span<const std::int32_t> symbols) const;
+
+  Topology topology_;
+  VectorD start_;
+  MatrixD transition_;
+  MatrixD emission_;
+  VectorD log_start_;
+  MatrixD log_transition_;
+  MatrixD log_emission_;
+};
+
+/// Throws InvalidArgument unless every sequence has symbols, all in 0..num_symbols - 1.
+void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols);
+
+}  // namespace hri
