@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/features/silhouette_cepstrum.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "hri/core/error.hpp"
+#include "hri/features/hand_crop.hpp"
+#include "hri/signal/dwt.hpp"
+
+namespace hri {
+namespace {
+
+// The contour has no sampling rate of its own: a point every "millisecond" lets the speech front end be used as it is.
+constexpr int kPointsPerSecond = 1000;
+
+CepstraOptions cepstra_options(const SilhouetteCepstrumOptions& o) {
+  require(o.num_levels >= 1 && o.num_levels <= 4, "num_levels must lie in 1..4");
+  require(o.mask_px >= 64 && o.mask_px <= 1024, "mask_px must lie in 64..1024");
+  require(o.num_points >= 64 && o.num_points <= 4096, "num_points must lie in 64..4096");
+  require(o.num_filters >= 2 && o.num_filters <= 64, "num_filters must lie in 2..64");
+  CepstraOptions c;
+  c.sample_rate_hz = kPointsPerSecond;
+  c.frame_length_ms = o.num_points / 2.0 > 1000 ? 1000 : o.num_points / 2.0;
+  c.frame_shift_ms = c.frame_length_ms / 2;
+  c.pre_emphasis = 0;
+  c.num_filters = o.num_filters;
+  c.low_hz = 0;
+  c.num_cepstra = o.num_cepstra;
+  c.lifter = 0;
+  c.normalisation = Normalisation::none;
+  c.delta_orders = 0;
+  return c;
+}
+
+constexpr std::array<ContourPoint, 8> kAround = {
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+
+}  // namespace
+
+std::vector<ContourPoint> trace_contour(ConstMatrixRefF image, float threshold) {
+  const auto inside = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < image.cols() && y < image.rows() && image(y, x) > threshold;
+  };
+  ContourPoint start{-1, -1};
+  for (int y = 0; y < image.rows() && start.x_px < 0; ++y) {
+    for (int x = 0; x < image.cols() && start.x_px < 0; ++x) {
+      if (inside(x, y)) start = {x, y};
+    }
+  }
+  std::vector<ContourPoint> contour;
+  if (start.x_px < 0) return contour;
+  ContourPoint at = start;
+  int direction = 0;  // of the last step; nothing lies left of or above the start
+  const std::size_t limit = 4 * static_cast<std::size_t>(image.size());
+  do {
+    contour.push_back(at);
+    int step = -1;
+    // Look around clockwise, beginning behind the left shoulder.
+    for (int turn = 0; turn < 8; ++turn) {
+      const int candidate = (direction + 6 + turn) % 8;
+      const ContourPoint& d = kAround[static_cast<std::size_t>(candidate)];
+      if (inside(at.x_px + d.x_px, at.y_px + d.y_px)) {
+        step = candidate;
+        break;
+      }
+    }
+    if (step < 0) break;  // a single pixel
+    at = {at.x_px + kAround[static_cast<std::size_t>(step)].x_px, at.y_px + kAround[static_cast<std::size_t>(step)].y_px};
+    direction = step;
+  } while ((at.x_px != start.x_px || at.y_px != start.y_px) && contour.size() < limit);
+  return contour;
+}
+
+SilhouetteCepstrumComputer::SilhouetteCepstrumComputer(const SilhouetteCepstrumOptions& options)
+    : options_(options), cepstra_(cepstra_options(options)) {
+  static_cast<void>(wavelet(options.wavelet));  // refuses an unknown name now rather than at the first mask
+}
+
+std::vector<float> SilhouetteCepstrumComputer::contour_signal(ImageView mask) const {
+  const HandBox box = hand_box(mask);
+  require(box.side_px > 0, "mask is empty");
+  MatrixF square(options_.mask_px, options_.mask_px);
+  crop(mask, box, square);
+  const Wavelet& w = wavelet(options_.wavelet);
+  float gain = 1;
+  for (int level = 0; level < options_.num_levels; ++level) {
+    square = dwt2<float>(square, w, Border::zero).approx;
+    gain *= 2;  // of a constant image, a level
+  }
+  const std::vector<ContourPoint> contour = trace_contour(square, 0.5F * gain);
+  std::vector<float> signal(static_cast<std::size_t>(options_.num_points), 1.0F);
+  if (contour.size() < 3) return signal;
+  double mean_x = 0;
+  double mean_y = 0;
+  for (const ContourPoint& p : contour) {
+    mean_x += p.x_px;
+    mean_y += p.y_px;
+  }
+  const auto count = static_cast<double>(contour.size());
+  std::vector<double> radius;
+  double mean_radius = 0;
+  for (const ContourPoint& p : contour) {
+    radius.push_back(std::hypot(p.x_px - mean_x / count, p.y_px - mean_y / count));
+    mean_radius += radius.back() / count;
+  }
+  if (!(mean_radius > 0)) return signal;
+  for (std::size_t i = 0; i < signal.size(); ++i) {
+    const double position = static_cast<double>(i) * count / static_cast<double>(signal.size());
+    const auto before = static_cast<std::size_t>(position);
+    const double share = position - static_cast<double>(before);
+    const double value = radius[before] * (1 - share) + radius[(before + 1) % radius.size()] * share;
+    signal[i] = static_cast<float>(value / mean_radius);
+  }
+  return signal;
+}
+
+void SilhouetteCepstrumComputer::compute(ImageView mask, Span<float> out) const {
+  require(out.size() == static_cast<std::size_t>(num_features()), "out must have num_features() values");
+  const MatrixF frames = cepstra_.compute(contour_signal(mask));
+  for (Eigen::Index c = 0; c < frames.cols(); ++c) out[static_cast<std::size_t>(c)] = frames.col(c).mean();
+}
+
+}  // namespace hri
