@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Models of single rows: codebook, PCA, classifiers, distances, possibility.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <functional>
+
+#include "arrays.hpp"
+#include "hri/models/codebook.hpp"
+#include "hri/models/distances.hpp"
+#include "hri/models/gaussian_bayes.hpp"
+#include "hri/models/knn.hpp"
+#include "hri/models/linear_svm.hpp"
+#include "hri/models/pca.hpp"
+#include "hri/models/possibility.hpp"
+#include "options.hpp"
+
+namespace py = pybind11;
+using hri_bind::DoubleArray;
+using hri_bind::FloatArray;
+using hri_bind::integers_of;
+using hri_bind::matrix_of;
+using hri_bind::span_of;
+using hri_bind::to_array;
+using hri_bind::vector_of;
+
+namespace {
+
+// Applies a const member that takes one row to a row, giving a vector, or to every row of a matrix.
+template <class Model>
+py::array_t<float> per_row(const Model& model, const FloatArray& rows,
+                           hri::VectorF (Model::*method)(hri::Span<const float>) const) {
+  if (rows.ndim() == 1) return to_array((model.*method)(span_of<float>(rows, "rows")));
+  const auto matrix = matrix_of<float>(rows, "rows");
+  hri::MatrixF values(matrix.rows(), model.num_classes());
+  {
+    const py::gil_scoped_release release;
+    for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+      values.row(r) =
+          (model.*method)({matrix.row(r).data(), static_cast<std::size_t>(matrix.cols())})
+              .transpose();
+    }
+  }
+  return to_array(values);
+}
+
+template <class Model>
+void bind_files(py::class_<Model>& cls) {
+  cls.def("write", &Model::write, py::arg("file"), py::arg("prefix"),
+          "Adds the model to a ModelFile.");
+  cls.def_static(
+      "read", &Model::read, py::arg("file"), py::arg("prefix"),
+      "Reads what `write` added; raises FormatError naming the field that does not fit.");
+}
+
+// What the three classifiers of rows share.
+template <class Model, class Options>
+void bind_classifier(py::class_<Model>& cls, const std::function<void(Options*)>& prepare) {
+  cls.def_static(
+      "train",
+      [prepare](const FloatArray& rows, const py::array& classes, int num_classes,
+                Options options) {
+        const auto matrix = matrix_of<float>(rows, "rows");
+        const std::vector<int> labels = integers_of(classes, "classes");
+        if (prepare) prepare(&options);
+        const py::gil_scoped_release release;
+        return Model::train(matrix, labels, num_classes, options);
+      },
+      py::arg("rows"), py::arg("classes"), py::arg("num_classes"),
+      py::arg_v("options", Options(), "..."),
+      "Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.\n\n"
+      "Raises InvalidArgument for values not finite (names the row) or a class without a row.");
+  cls.def(
+      "decision_values",
+      [](const Model& self, const FloatArray& rows) {
+        return per_row(self, rows, &Model::decision_values);
+      },
+      py::arg("rows"),
+      "Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a "
+      "matrix.");
+  cls.def_property_readonly("num_classes", &Model::num_classes);
+  cls.def_property_readonly("dim", &Model::dim);
+  bind_files(cls);
+}
+
+void bind_codebook(py::module_& m) {
+  py::class_<hri::CodebookOptions> options(m, "CodebookOptions", "Options of Codebook.");
+  hri_bind::options(options)
+      .field("num_codewords", &hri::CodebookOptions::num_codewords)
+      .field("max_iterations", &hri::CodebookOptions::max_iterations)
+      .field("tolerance", &hri::CodebookOptions::tolerance)
+      .field("split_epsilon", &hri::CodebookOptions::split_epsilon);
+
+  py::class_<hri::Codebook> cls(m, "Codebook", "Vector quantiser (Linde, Buzo, Gray).");
+  cls.def(py::init([](const FloatArray& centroids) {
+            return hri::Codebook(hri::MatrixF(matrix_of<float>(centroids, "centroids")));
+          }),
+          py::arg("centroids"));
+  cls.def_static(
+      "train_lbg",
+      [](const FloatArray& rows, hri::CodebookOptions o) {
+        const auto matrix = matrix_of<float>(rows, "rows");
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return hri::Codebook::train_lbg(matrix, o);
+      },
+      py::arg("rows"), py::arg_v("options", hri::CodebookOptions(), "CodebookOptions()"),
+      "Grows a codebook from one codeword by splitting.");
+  cls.def_static(
+      "train_kmeans",
+      [](const FloatArray& rows, const FloatArray& centroids, hri::CodebookOptions o) {
+        const auto matrix = matrix_of<float>(rows, "rows");
+        const auto first = matrix_of<float>(centroids, "centroids");
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return hri::Codebook::train_kmeans(matrix, first, o);
+      },
+      py::arg("rows"), py::arg("centroids"),
+      py::arg_v("options", hri::CodebookOptions(), "CodebookOptions()"),
+      "k-means from given centroids.");
+  cls.def(
+      "quantise",
+      [](const hri::Codebook& self, const FloatArray& frames) {
+        const auto matrix = matrix_of<float>(frames, "frames");
+        std::vector<std::int32_t> symbols;
+        {
+          const py::gil_scoped_release release;
+          symbols = self.quantise(matrix);
+        }
+        return to_array(symbols);
+      },
+      py::arg("frames"), "The nearest codeword of every frame, int32, shape (num_frames,).");
+  cls.def(
+      "distortion",
+      [](const hri::Codebook& self, const FloatArray& frames) {
+        return self.distortion(matrix_of<float>(frames, "frames"));
+      },
+      py::arg("frames"), "Mean squared distance of the frames to their codewords.");
+  cls.def("__len__", &hri::Codebook::size);
+  cls.def_property_readonly("size", &hri::Codebook::size);
+  cls.def_property_readonly("dim", &hri::Codebook::dim);
+  cls.def_property_readonly("centroids",
+                            [](const hri::Codebook& self) { return to_array(self.centroids()); });
+  bind_files(cls);
+}
+
+void bind_pca(py::module_& m) {
+  py::class_<hri::Pca> cls(m, "Pca", "Principal component analysis (thesis eq. 6.11-6.14).");
+  cls.def_static(
+      "train",
+      [](const FloatArray& rows, int num_components) {
+        const auto matrix = matrix_of<float>(rows, "rows");
+        const py::gil_scoped_release release;
+        return hri::Pca::train(matrix, num_components);
+      },
+      py::arg("rows"), py::arg("num_components"));
+  cls.def(
+      "transform",
+      [](const hri::Pca& self, const FloatArray& rows) {
+        return to_array(self.transform(matrix_of<float>(rows, "rows")));
+      },
+      py::arg("rows"), "Shape (num_rows, num_components), float32.");
+  cls.def_property_readonly("num_components", &hri::Pca::num_components);
+  cls.def_property_readonly("dim", &hri::Pca::dim);
+  cls.def_property_readonly("components",
+                            [](const hri::Pca& self) { return to_array(self.components()); });
+  cls.def_property_readonly("mean", [](const hri::Pca& self) { return to_array(self.mean()); });
+  cls.def_property_readonly("variances",
+                            [](const hri::Pca& self) { return to_array(self.variances()); });
+  bind_files(cls);
+}
+
+void bind_svm(py::module_& m) {
+  py::class_<hri::LinearSvmOptions> options(m, "LinearSvmOptions", "Options of LinearSvm.");
+  hri_bind::options(options)
+      .field("cost", &hri::LinearSvmOptions::cost)
+      .field("bias_feature", &hri::LinearSvmOptions::bias_feature)
+      .field("max_iterations", &hri::LinearSvmOptions::max_iterations)
+      .field("tolerance", &hri::LinearSvmOptions::tolerance)
+      .field("seed", &hri::LinearSvmOptions::seed);
+  py::class_<hri::LinearSvm> cls(m, "LinearSvm",
+                                 "Linear support vector machines, one class against the rest.");
+  bind_classifier<hri::LinearSvm, hri::LinearSvmOptions>(
+      cls, [](hri::LinearSvmOptions* o) { o->should_stop = hri_bind::interrupted; });
+  cls.def_property_readonly("weights",
+                            [](const hri::LinearSvm& self) { return to_array(self.weights()); });
+  cls.def_property_readonly("biases",
+                            [](const hri::LinearSvm& self) { return to_array(self.biases()); });
+}
+
+void bind_bayes(py::module_& m) {
+  py::enum_<hri::CovarianceKind>(m, "CovarianceKind")
+      .value("shared", hri::CovarianceKind::shared)
+      .value("full", hri::CovarianceKind::full)
+      .value("diagonal", hri::CovarianceKind::diagonal);
+  py::class_<hri::GaussianBayesOptions> options(m, "GaussianBayesOptions",
+                                                "Options of GaussianBayes.");
+  hri_bind::options(options)
+      .field("covariance", &hri::GaussianBayesOptions::covariance)
+      .field("shrinkage", &hri::GaussianBayesOptions::shrinkage);
+  py::class_<hri::GaussianBayes> cls(m, "GaussianBayes",
+                                     "Bayes classifier with one Gaussian a class.");
+  bind_classifier<hri::GaussianBayes, hri::GaussianBayesOptions>(cls, {});
+  cls.def(
+      "log_densities",
+      [](const hri::GaussianBayes& self, const FloatArray& rows) {
+        return per_row(self, rows, &hri::GaussianBayes::log_densities);
+      },
+      py::arg("rows"), "log p(row | class), shapes as decision_values.");
+}
+
+void bind_knn(py::module_& m) {
+  py::class_<hri::KnnOptions> options(m, "KnnOptions", "Options of Knn.");
+  hri_bind::options(options).field("num_neighbours", &hri::KnnOptions::num_neighbours);
+  py::class_<hri::Knn> cls(m, "Knn", "k nearest neighbours by Euclidean distance.");
+  bind_classifier<hri::Knn, hri::KnnOptions>(cls, {});
+  cls.def(
+      "nearest_distance",
+      [](const hri::Knn& self, const FloatArray& row) {
+        return self.nearest_distance(span_of<float>(row, "row"));
+      },
+      py::arg("row"));
+}
+
+void bind_distances(py::module_& m) {
+  py::enum_<hri::Distance>(m, "Distance")
+      .value("euclidean", hri::Distance::euclidean)
+      .value("manhattan", hri::Distance::manhattan)
+      .value("cosine", hri::Distance::cosine)
+      .value("bhattacharyya", hri::Distance::bhattacharyya);
+  m.def(
+      "distance",
+      [](hri::Distance kind, const FloatArray& a, const FloatArray& b) {
+        return hri::distance(kind, span_of<float>(a, "a"), span_of<float>(b, "b"));
+      },
+      py::arg("kind"), py::arg("a"), py::arg("b"), "Distance of two vectors of one length.");
+  m.def(
+      "bhattacharyya_gaussian",
+      [](const DoubleArray& mean_a, const DoubleArray& covariance_a, const DoubleArray& mean_b,
+         const DoubleArray& covariance_b) {
+        return hri::bhattacharyya_gaussian(
+            vector_of<double>(mean_a, "mean_a"), matrix_of<double>(covariance_a, "covariance_a"),
+            vector_of<double>(mean_b, "mean_b"), matrix_of<double>(covariance_b, "covariance_b"));
+      },
+      py::arg("mean_a"), py::arg("covariance_a"), py::arg("mean_b"), py::arg("covariance_b"));
+}
+
+void bind_possibility(py::module_& m) {
+  m.def(
+      "possibility_of",
+      [](const DoubleArray& distribution, const std::vector<int>& event) {
+        return hri::possibility_of(span_of<double>(distribution, "distribution"), event);
+      },
+      py::arg("distribution"), py::arg("event"), "Pi(A) = max over the event (thesis eq. 4.1).");
+  m.def(
+      "necessity_of",
+      [](const DoubleArray& distribution, const std::vector<int>& event) {
+        return hri::necessity_of(span_of<double>(distribution, "distribution"), event);
+      },
+      py::arg("distribution"), py::arg("event"), "N(A) = 1 - Pi(not A) (thesis eq. 4.2).");
+  m.def(
+      "possibilities",
+      [](const FloatArray& log_densities) {
+        const hri::Possibilities p =
+            hri::possibilities(vector_of<float>(log_densities, "log_densities"));
+        return py::make_tuple(to_array(p.possibility), to_array(p.necessity));
+      },
+      py::arg("log_densities"),
+      "Possibility and necessity of every class from log densities (thesis eq. 5.14).");
+}
+
+}  // namespace
+
+void bind_models(py::module_& m) {
+  bind_distances(m);
+  bind_possibility(m);
+  bind_codebook(m);
+  bind_pca(m);
+  bind_svm(m);
+  bind_bayes(m);
+  bind_knn(m);
+}
