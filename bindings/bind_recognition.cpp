@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Recognisers and decisions. The Python classes in hri.recognition wrap these.
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "hri/recognition/gesture_recognizer.hpp"
+#include "hri/recognition/word_recognizer.hpp"
+#include "options.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+using FloatArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
+using ByteArray = py::array_t<std::uint8_t, py::array::c_style>;
+
+// Polled once a training iteration: raises what Ctrl-C left pending.
+bool python_wants_to_stop() {
+  const py::gil_scoped_acquire gil;
+  return PyErr_CheckSignals() != 0;
+}
+
+hri::TrainingProgress with_gil(const std::function<void(int, int)>& progress) {
+  if (!progress) return {};
+  return [&progress](int done, int total) {
+    const py::gil_scoped_acquire gil;
+    progress(done, total);
+  };
+}
+
+hri::Span<const float> as_span(const FloatArray& a, const char* name) {
+  if (a.ndim() != 1) hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must be one-dimensional");
+  return {a.data(), static_cast<std::size_t>(a.size())};
+}
+
+hri::MatrixF as_matrix(const FloatArray& a, const char* name) {
+  if (a.ndim() != 2) hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must be two-dimensional");
+  return Eigen::Map<const hri::MatrixF>(a.data(), a.shape(0), a.shape(1));
+}
+
+hri::ImageView as_grey(const ByteArray& a, const char* name) {
+  if (a.size() == 0) return {};
+  if (a.ndim() != 2) hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must have shape (height, width)");
+  const int width = static_cast<int>(a.shape(1));
+  return {a.data(), width, static_cast<int>(a.shape(0)), 1, width};
+}
+
+std::vector<hri::HandImage> as_hand_images(const std::vector<ByteArray>& greys, const std::vector<ByteArray>& masks) {
+  hri::require(greys.size() == masks.size(), "greys and masks differ in length");
+  std::vector<hri::HandImage> frames;
+  for (std::size_t i = 0; i < greys.size(); ++i) {
+    frames.push_back({as_grey(greys[i], "grey"), as_grey(masks[i], "mask")});
+    const auto& f = frames.back();
+    hri::require(f.mask.empty() || (f.grey.width_px == f.mask.width_px && f.grey.height_px == f.mask.height_px),
+                 "grey and mask differ in size");
+  }
+  return frames;
+}
+
+void bind_decision(py::module_& m) {
+  py::enum_<hri::DecisionStatus>(m, "DecisionStatus")
+      .value("recognised", hri::DecisionStatus::recognised)
+      .value("unknown", hri::DecisionStatus::unknown)
+      .value("no_input", hri::DecisionStatus::no_input);
+  py::class_<hri::NBest>(m, "NBest", "One class of the n-best list.")
+      .def_readonly("label", &hri::NBest::label)
+      .def_readonly("probability", &hri::NBest::probability)
+      .def_readonly("log_score", &hri::NBest::log_score);
+  py::class_<hri::Decision>(m, "Decision", "What a recogniser says of one utterance or gesture.")
+      .def_readonly("status", &hri::Decision::status)
+      .def_readonly("label", &hri::Decision::label)
+      .def_readonly("confidence", &hri::Decision::confidence)
+      .def_readonly("evidence", &hri::Decision::evidence)
+      .def_readonly("nbest", &hri::Decision::nbest)
+      .def_readonly("notes", &hri::Decision::notes);
+}
+
+hri::WordRecognizer train_words(const std::vector<FloatArray>& samples, const std::vector<int>& sample_rates_hz,
+                                const std::vector<std::string>& labels, const std::vector<std::string>& groups,
+                                const hri::WordRecognizerOptions& options,
+                                const std::function<void(int, int)>& progress) {
+  hri::require(samples.size() == labels.size() && samples.size() == groups.size() &&
+                   samples.size() == sample_rates_hz.size(),
+               "samples, sample_rates_hz, labels and groups differ in length");
+  std::vector<hri::WordSample> words;
+  words.reserve(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    words.push_back({as_span(samples[i], "samples"), sample_rates_hz[i], labels[i], groups[i]});
+  }
+  const py::gil_scoped_release release;
+  return hri::WordRecognizer::train(words, options, with_gil(progress), python_wants_to_stop);
+}
+
+void bind_words(py::module_& m) {
+  py::enum_<hri::SequenceModelKind>(m, "SequenceModelKind").value("hmm", hri::SequenceModelKind::hmm).value("ptbhmm", hri::SequenceModelKind::ptbhmm);
+
+  py::class_<hri::SequenceModelOptions> stream(m, "SequenceModelOptions", "The models trained on one front end.");
+  hri_bind::options(stream)
+      .field("model", &hri::SequenceModelOptions::model)
+      .field("num_states", &hri::SequenceModelOptions::num_states)
+      .field("num_mixtures", &hri::SequenceModelOptions::num_mixtures)
+      .field("num_codewords", &hri::SequenceModelOptions::num_codewords)
+      .field("garbage_mixtures", &hri::SequenceModelOptions::garbage_mixtures)
+      .field("max_iterations", &hri::SequenceModelOptions::max_iterations)
+      .field("seed", &hri::SequenceModelOptions::seed);
+
+  py::class_<hri::WordRecognizerOptions> options(m, "WordRecognizerOptions", "Options of WordRecognizer.");
+  hri_bind::options(options)
+      .field("cepstra", &hri::WordRecognizerOptions::cepstra)
+      .field("activity", &hri::WordRecognizerOptions::activity)
+      .field("models", &hri::WordRecognizerOptions::models)
+      .field("trim", &hri::WordRecognizerOptions::trim)
+      .field("level_stream", &hri::WordRecognizerOptions::level_stream)
+      .field("num_warps", &hri::WordRecognizerOptions::num_warps)
+      .field("warp_step", &hri::WordRecognizerOptions::warp_step)
+      .field("false_reject_rate", &hri::WordRecognizerOptions::false_reject_rate);
+
+  py::class_<hri::WordRecognizer>(m, "WordRecognizer", "Isolated words; hri.WordRecognizer wraps it.")
+      .def_static("train", &train_words, py::arg("samples"), py::arg("sample_rates_hz"), py::arg("labels"),
+                  py::arg("groups"), py::arg("options"), py::arg("progress") = nullptr)
+      .def_static("load", &hri::WordRecognizer::load, py::arg("path"))
+      .def("save", &hri::WordRecognizer::save, py::arg("path"), py::call_guard<py::gil_scoped_release>())
+      .def(
+          "recognise",
+          [](const hri::WordRecognizer& self, const FloatArray& samples, int sample_rate_hz) {
+            const auto audio = as_span(samples, "samples");
+            const py::gil_scoped_release release;
+            return self.recognise(audio, sample_rate_hz);
+          },
+          py::arg("samples"), py::arg("sample_rate_hz"))
+      .def(
+          "scores",
+          [](const hri::WordRecognizer& self, const FloatArray& samples, int sample_rate_hz) {
+            const auto audio = as_span(samples, "samples");
+            hri::VectorF scores;
+            {
+              const py::gil_scoped_release release;
+              scores = self.scores(audio, sample_rate_hz);
+            }
+            return py::array_t<float>(scores.size(), scores.data());
+          },
+          py::arg("samples"), py::arg("sample_rate_hz"))
+      .def_property_readonly("labels", &hri::WordRecognizer::labels)
+      .def_property_readonly("options", &hri::WordRecognizer::options);
+}
+
+hri::GestureRecognizer train_gestures(const std::vector<FloatArray>& features, const std::vector<std::string>& labels,
+                                      const std::vector<std::string>& groups,
+                                      const hri::GestureRecognizerOptions& options,
+                                      const std::function<void(int, int)>& progress) {
+  hri::require(features.size() == labels.size() && features.size() == groups.size(),
+               "features, labels and groups differ in length");
+  std::vector<hri::GestureSample> samples;
+  samples.reserve(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    samples.push_back({as_matrix(features[i], "features"), labels[i], groups[i]});
+  }
+  const py::gil_scoped_release release;
+  return hri::GestureRecognizer::train(samples, options, with_gil(progress), python_wants_to_stop);
+}
+
+hri::MatrixF gesture_features(const std::vector<ByteArray>& greys, const std::vector<ByteArray>& masks,
+                              const hri::HandFeatureOptions& options) {
+  const auto frames = as_hand_images(greys, masks);
+  const py::gil_scoped_release release;
+  return hri::GestureRecognizer::features(frames, options);
+}
+
+void bind_gestures(py::module_& m) {
+  py::enum_<hri::GestureModel>(m, "GestureModel")
+      .value("svm", hri::GestureModel::svm)
+      .value("bayes", hri::GestureModel::bayes)
+      .value("knn", hri::GestureModel::knn)
+      .value("hmm", hri::GestureModel::hmm)
+      .value("ptbhmm", hri::GestureModel::ptbhmm);
+
+  py::class_<hri::GestureRecognizerOptions> options(m, "GestureRecognizerOptions", "Options of GestureRecognizer.");
+  hri_bind::options(options)
+      .field("features", &hri::GestureRecognizerOptions::features)
+      .field("model", &hri::GestureRecognizerOptions::model)
+      .field("svm_cost", &hri::GestureRecognizerOptions::svm_cost)
+      .field("num_components", &hri::GestureRecognizerOptions::num_components)
+      .field("num_neighbours", &hri::GestureRecognizerOptions::num_neighbours)
+      .field("num_states", &hri::GestureRecognizerOptions::num_states)
+      .field("num_codewords", &hri::GestureRecognizerOptions::num_codewords)
+      .field("max_iterations", &hri::GestureRecognizerOptions::max_iterations)
+      .field("false_reject_rate", &hri::GestureRecognizerOptions::false_reject_rate)
+      .field("seed", &hri::GestureRecognizerOptions::seed);
+
+  py::class_<hri::GestureRecognizer>(m, "GestureRecognizer", "Signs and gestures; hri.GestureRecognizer wraps it.")
+      .def_static("train", &train_gestures, py::arg("features"), py::arg("labels"), py::arg("groups"),
+                  py::arg("options"), py::arg("progress") = nullptr)
+      .def_static("features", &gesture_features, py::arg("greys"), py::arg("masks"), py::arg("options"))
+      .def_static("load", &hri::GestureRecognizer::load, py::arg("path"))
+      .def("save", &hri::GestureRecognizer::save, py::arg("path"), py::call_guard<py::gil_scoped_release>())
+      .def(
+          "recognise_features",
+          [](const hri::GestureRecognizer& self, const FloatArray& features) {
+            const hri::MatrixF rows = as_matrix(features, "features");
+            const py::gil_scoped_release release;
+            return self.recognise_features(rows);
+          },
+          py::arg("features"))
+      .def(
+          "scores",
+          [](const hri::GestureRecognizer& self, const FloatArray& features) {
+            const hri::VectorF scores = self.scores(as_matrix(features, "features"));
+            return py::array_t<float>(scores.size(), scores.data());
+          },
+          py::arg("features"))
+      .def_property_readonly("labels", &hri::GestureRecognizer::labels)
+      .def_property_readonly("options", &hri::GestureRecognizer::options);
+}
+
+}  // namespace
+
+void bind_recognition(py::module_& m) {
+  bind_decision(m);
+  bind_words(m);
+  bind_gestures(m);
+}

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// hri._native: the core without OpenCV. Exception classes are made here and shared with hri._native_vision.
+#include <pybind11/pybind11.h>
+
+#include "hri/core/error.hpp"
+#include "hri/core/version.hpp"
+
+namespace py = pybind11;
+
+void bind_io(py::module_& m);
+void bind_signal(py::module_& m);
+void bind_features(py::module_& m);
+void bind_hand_features(py::module_& m);
+void bind_models(py::module_& m);
+void bind_sequence_models(py::module_& m);
+void bind_recognition(py::module_& m);
+
+namespace {
+
+// Never released: exception classes live as long as the process.
+PyObject* g_invalid_argument = nullptr;
+py::object g_format_error;      // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+py::object g_io_error;          // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+py::object g_interrupted;       // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+// Makes the class `name` with the bases (hri Error, a builtin), so that both "except" clauses catch it.
+PyObject* make_error(py::module_& m, const char* name, PyObject* base, PyObject* builtin, const char* doc) {
+  const py::tuple bases =
+      builtin == nullptr ? py::make_tuple(py::handle(base)) : py::make_tuple(py::handle(base), py::handle(builtin));
+  const std::string qualified = std::string("hri._native.") + name;
+  PyObject* type = PyErr_NewExceptionWithDoc(qualified.c_str(), doc, bases.ptr(), nullptr);
+  if (type == nullptr) throw py::error_already_set();
+  m.attr(name) = py::handle(type);
+  return type;
+}
+
+void bind_errors(py::module_& m) {
+  PyObject* root = make_error(m, "Error", PyExc_Exception, nullptr, "Root of hri's errors.");
+  g_invalid_argument = make_error(m, "InvalidArgument", root, PyExc_ValueError, "A value outside its documented range.");
+  g_format_error = make_error(m, "FormatError", root, PyExc_ValueError, "A file breaks its format.");
+  g_io_error = make_error(m, "IoError", root, PyExc_OSError, "The operating system refused a file operation.");
+  g_interrupted = make_error(m, "Interrupted", PyExc_KeyboardInterrupt, nullptr,
+                             "Training was interrupted; nothing was kept.");
+  py::register_exception_translator([](std::exception_ptr p) {
+    try {
+      if (p) std::rethrow_exception(p);
+    } catch (const hri::InvalidArgument& e) {
+      PyErr_SetString(g_invalid_argument, e.what());
+    } catch (const hri::FormatError& e) {
+      PyErr_SetString(g_format_error, e.what());
+    } catch (const hri::IoError& e) {
+      PyErr_SetString(g_io_error, e.what());
+    } catch (const hri::Interrupted& e) {
+      // A pending KeyboardInterrupt raised by the stop check would otherwise be reported twice.
+      PyErr_Clear();
+      PyErr_SetString(g_interrupted, e.what());
+    }
+  });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_native, m) {
+  m.doc() = "libhri's core: signal, features, models and recognition, without OpenCV.";
+  m.attr("__version__") = HRI_VERSION;
+  bind_errors(m);
+  bind_io(m);
+  bind_signal(m);
+  bind_features(m);
+  bind_hand_features(m);
+  bind_models(m);
+  bind_sequence_models(m);
+  bind_recognition(m);
+}

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One sequence model a class over one stream of frames, and a garbage model of all classes: what words and movements
+// share.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/codebook.hpp"
+#include "hri/models/gaussian_mixture.hpp"
+#include "hri/models/gaussian_mixture_hmm.hpp"
+#include "hri/models/possibilistic_hmm.hpp"
+#include "hri/models/stop_check.hpp"
+
+namespace hri {
+
+enum class SequenceModelKind : std::uint8_t {
+  hmm,     ///< Gaussian-mixture HMM a class, forward score
+  ptbhmm,  ///< vector quantisation and the possibility-theory HMM set, product conjunction
+};
+
+struct SequenceModelOptions {
+  SequenceModelKind model = SequenceModelKind::hmm;
+  int num_states = 8;         ///< left-right states a class, 1..64
+  int num_mixtures = 1;       ///< Gaussians a state (hmm), 1..64
+  int num_codewords = 128;    ///< codebook size (ptbhmm), 2..4096
+  int garbage_mixtures = 16;  ///< Gaussians of the garbage model that rejection compares with (hmm), 1..256
+  int max_iterations = 12;    ///< Baum-Welch iterations, 1..1000
+  std::uint64_t seed = 0;
+};
+
+/// Immutable but for `train`; const calls are safe from several threads.
+class SequenceModels {
+ public:
+  /// Throws InvalidArgument naming the field that is out of range.
+  explicit SequenceModels(const SequenceModelOptions& options);
+
+  /// Replaces the models; `per_label[c]` holds the frames of every sample of class c.
+  void train(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop);
+
+  /// Log score of every class (natural log; -1e30 for impossible), shape (num_classes,).
+  [[nodiscard]] VectorF scores(ConstMatrixRefF frames) const;
+
+  /// What the best class is compared with for rejection, in the unit of `scores`.
+  [[nodiscard]] float garbage_score(ConstMatrixRefF frames) const;
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  /// Throws FormatError where the models do not fit `num_classes` or frames of `dim` columns.
+  void read(const ModelFile& file, const std::string& prefix, int num_classes, int dim);
+
+ private:
+  void train_hmms(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop);
+  void train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop);
+
+  SequenceModelOptions options_;
+  std::vector<GaussianMixtureHmm> hmms_;       // one a class, model == hmm
+  std::vector<GaussianMixture> garbage_;       // one, model == hmm
+  std::vector<Codebook> codebook_;             // one, model == ptbhmm
+  std::vector<PossibilisticHmmSet> ptbhmm_;    // one, model == ptbhmm
+};
+
+}  // namespace hri

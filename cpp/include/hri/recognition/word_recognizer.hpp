@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Isolated words: audio -> end points -> cepstra -> one sequence model a word -> Decision (thesis section 6.2).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/features/cepstra.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/recognition/calibration.hpp"
+#include "hri/recognition/decision.hpp"
+#include "hri/recognition/training.hpp"
+#include "hri/recognition/sequence_models.hpp"
+#include "hri/signal/activity.hpp"
+
+namespace hri {
+
+struct WordRecognizerOptions {
+  CepstraOptions cepstra;           ///< sample_rate_hz 0 takes the lowest training rate, at most 16000
+  ActivityOptions activity;         ///< how the word is found in the clip
+  SequenceModelOptions models;         ///< the models trained on each stream
+  bool trim = true;                 ///< cut silence before and after the word
+  bool level_stream = true;         ///< a second stream votes, whose cepstra are normalised in level only
+  int num_warps = 3;                ///< training copies with warped frequency axis: 1 (none), 3 or 5
+  double warp_step = 0.08;          ///< step of the warp factor between copies, 0..0.2
+  double false_reject_rate = 0.02;  ///< share of correct held-out words that the threshold may reject, 0..0.5
+};
+
+/// A front end and the models trained on it; several vote by adding their log scores.
+struct WordStream {
+  CepstraComputer cepstra;
+  SequenceModels models;
+};
+
+/// One training word. `group` is the speaker: calibration holds whole groups out.
+struct WordSample {
+  Span<const float> samples;  ///< mono, -1..1, at `sample_rate_hz`
+  int sample_rate_hz = 16000;
+  std::string label;
+  std::string group;
+};
+
+/// Immutable once made; const calls are safe from several threads.
+class WordRecognizer {
+ public:
+  /// Trains one model a label. Throws InvalidArgument for NaN (with sample index), audio without a word, a label with
+  /// no usable sample; Interrupted when `should_stop` says so. Labels are kept in sorted order.
+  static WordRecognizer train(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
+                              const TrainingProgress& progress = {}, const StopCheck& should_stop = {});
+
+  static WordRecognizer load(const std::string& path);
+  void save(const std::string& path) const;
+  [[nodiscard]] ModelFile to_model_file() const;
+  static WordRecognizer from_model_file(const ModelFile& file);
+
+  /// Recognises one utterance; other sample rates are resampled and said so in Decision::notes.
+  /// Evidence is the log-likelihood ratio per frame of the best word against the garbage model.
+  [[nodiscard]] Decision recognise(Span<const float> samples, int sample_rate_hz) const;
+
+  /// Raw score of every label for one utterance (log-likelihood or log-possibility), without end points or rejection
+  /// beyond `trim`. Throws InvalidArgument "too short" for less than one frame.
+  [[nodiscard]] VectorF scores(Span<const float> samples, int sample_rate_hz) const;
+
+  [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
+  [[nodiscard]] const WordRecognizerOptions& options() const { return options_; }
+  [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+
+ private:
+  WordRecognizer(const WordRecognizerOptions& options, std::vector<std::string> labels);
+
+  /// The word in the clip at the model's rate; empty when nobody speaks.
+  [[nodiscard]] std::vector<float> locate(Span<const float> samples, int sample_rate_hz,
+                                          std::vector<std::string>* notes) const;
+  /// The frames of `word` for every stream.
+  [[nodiscard]] std::vector<MatrixF> frames(Span<const float> word) const;
+  [[nodiscard]] VectorF score(const std::vector<MatrixF>& frames) const;
+  [[nodiscard]] float evidence(const std::vector<MatrixF>& frames, const VectorF& scores) const;
+
+  friend class WordTrainer;
+
+  WordRecognizerOptions options_;
+  std::vector<std::string> labels_;
+  std::vector<WordStream> streams_;
+  Calibration calibration_;
+};
+
+}  // namespace hri

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// GestureRecognizer to and from a model file.
+#include "gesture_scorer.hpp"
+#include "hri/core/error.hpp"
+#include "hri/recognition/gesture_recognizer.hpp"
+#include "option_fields.hpp"
+
+namespace hri {
+namespace {
+
+constexpr const char* kKind = "gesture_recognizer";
+
+}  // namespace
+
+ModelFile GestureRecognizer::to_model_file() const {
+  ModelFile file;
+  file.set_kind(kKind);
+  file.set_text_list("labels", labels_);
+  detail::visit_gesture(detail::FieldWriter{file}, options_);
+  calibration_.write(file);
+  scorer_->write(file);
+  return file;
+}
+
+GestureRecognizer GestureRecognizer::from_model_file(const ModelFile& file) {
+  if (file.kind() != kKind) {
+    fail(ErrorKind::format, file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
+  }
+  GestureRecognizer result;
+  detail::visit_gesture(detail::FieldReader{file}, result.options_);
+  static_cast<void>(HandFeatureComputer(result.options_.features));  // refuses options out of range
+  result.labels_ = sorted_labels(file.text_list("labels"));
+  if (result.labels_ != file.text_list("labels")) fail(ErrorKind::format, file.name() + ": labels are not sorted");
+  result.calibration_ = Calibration::read(file);
+  result.scorer_ = read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
+  return result;
+}
+
+}  // namespace hri

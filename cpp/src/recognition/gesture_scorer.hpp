@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How GestureRecognizer scores the feature rows of one gesture. Two families: frames that vote (still signs) and
+// sequence models (movements).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/stop_check.hpp"
+#include "hri/recognition/gesture_recognizer.hpp"
+
+namespace hri {
+
+class GestureScorer {
+ public:
+  GestureScorer() = default;
+  GestureScorer(const GestureScorer&) = delete;
+  GestureScorer& operator=(const GestureScorer&) = delete;
+  virtual ~GestureScorer() = default;
+
+  /// Score of every class for the rows of one gesture (at least one row).
+  [[nodiscard]] virtual VectorF scores(ConstMatrixRefF rows) const = 0;
+  /// What the rejection threshold is compared with; larger is surer.
+  [[nodiscard]] virtual float evidence(ConstMatrixRefF rows, const VectorF& scores) const = 0;
+  virtual void write(ModelFile& file) const = 0;
+};
+
+/// `per_class[c]` holds the rows of every gesture of class c; no class is empty.
+std::shared_ptr<const GestureScorer> train_gesture_scorer(const std::vector<std::vector<MatrixF>>& per_class,
+                                                          const GestureRecognizerOptions& options,
+                                                          const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
+                                                         const GestureRecognizerOptions& options, int num_classes);
+
+namespace detail {
+
+std::shared_ptr<const GestureScorer> train_vote_scorer(const std::vector<std::vector<MatrixF>>& per_class,
+                                                       const GestureRecognizerOptions& options,
+                                                       const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file, const GestureRecognizerOptions& options,
+                                                      int num_classes);
+std::shared_ptr<const GestureScorer> train_movement_scorer(const std::vector<std::vector<MatrixF>>& per_class,
+                                                           const GestureRecognizerOptions& options,
+                                                           const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> read_movement_scorer(const ModelFile& file,
+                                                          const GestureRecognizerOptions& options, int num_classes);
+
+/// Columns of GestureRecognizer::features behind the hand's shape: centre x, centre y, log area.
+constexpr int kNumTrackColumns = 3;
+
+/// All rows of all gestures below each other, and the class of each row.
+struct StackedRows {
+  MatrixF rows;
+  std::vector<int> classes;
+};
+StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class);
+
+}  // namespace detail
+}  // namespace hri

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Still signs: every frame is classified by itself and the scores are averaged. The last columns (the hand's track in
+// the picture) are left out, so that it does not matter where a sign is shown.
+#include <optional>
+
+#include "gesture_scorer.hpp"
+#include "hri/core/error.hpp"
+#include "hri/models/gaussian_bayes.hpp"
+#include "hri/models/knn.hpp"
+#include "hri/models/linear_svm.hpp"
+#include "hri/models/pca.hpp"
+
+namespace hri {
+namespace {
+
+class VoteScorer : public GestureScorer {
+ public:
+  std::optional<Pca> pca;
+  std::optional<LinearSvm> svm;
+  std::optional<GaussianBayes> bayes;
+  std::optional<Knn> knn;
+  Eigen::Index num_shape_columns = 0;
+
+  [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
+    const MatrixF shapes = shape_rows(rows);
+    VectorF sum = frame_scores(row_span(shapes, 0));
+    for (Eigen::Index t = 1; t < shapes.rows(); ++t) sum += frame_scores(row_span(shapes, t));
+    return sum / static_cast<float>(shapes.rows());
+  }
+
+  [[nodiscard]] float evidence(ConstMatrixRefF rows, const VectorF& scores) const override {
+    if (!knn) return scores.maxCoeff();
+    const MatrixF shapes = shape_rows(rows);
+    float sum = 0;
+    for (Eigen::Index t = 0; t < shapes.rows(); ++t) sum -= knn->nearest_distance(row_span(shapes, t));
+    return sum / static_cast<float>(shapes.rows());
+  }
+
+  void write(ModelFile& file) const override {
+    file.set_integer("num_shape_columns", num_shape_columns);
+    if (pca) pca->write(file, "pca.");
+    if (svm) svm->write(file, "svm.");
+    if (bayes) bayes->write(file, "bayes.");
+    if (knn) knn->write(file, "knn.");
+  }
+
+  [[nodiscard]] int num_classes() const {
+    if (svm) return svm->num_classes();
+    return bayes ? bayes->num_classes() : knn->num_classes();
+  }
+  [[nodiscard]] int input_dim() const {
+    if (pca) return pca->dim();
+    return svm ? svm->dim() : -1;
+  }
+
+ private:
+  [[nodiscard]] MatrixF shape_rows(ConstMatrixRefF rows) const {
+    require(rows.cols() >= num_shape_columns, "features have fewer columns than the model was trained on");
+    const MatrixF shapes = rows.leftCols(num_shape_columns);
+    return pca ? pca->transform(shapes) : shapes;
+  }
+  [[nodiscard]] VectorF frame_scores(Span<const float> row) const {
+    if (svm) return svm->decision_values(row);
+    return bayes ? bayes->decision_values(row) : knn->decision_values(row);
+  }
+};
+
+}  // namespace
+
+namespace detail {
+
+std::shared_ptr<const GestureScorer> train_vote_scorer(const std::vector<std::vector<MatrixF>>& per_class,
+                                                       const GestureRecognizerOptions& options,
+                                                       const StopCheck& should_stop) {
+  auto scorer = std::make_shared<VoteScorer>();
+  StackedRows all = stack_rows(per_class);
+  require(all.rows.cols() > kNumTrackColumns, "features need columns besides the hand's track");
+  scorer->num_shape_columns = all.rows.cols() - kNumTrackColumns;
+  MatrixF shapes = all.rows.leftCols(scorer->num_shape_columns);
+  const auto num_classes = static_cast<int>(per_class.size());
+  if (options.model != GestureModel::svm) {
+    scorer->pca = Pca::train(shapes, options.num_components);
+    shapes = scorer->pca->transform(shapes);
+  }
+  if (options.model == GestureModel::svm) {
+    LinearSvmOptions svm;
+    svm.cost = options.svm_cost;
+    svm.seed = options.seed;
+    svm.should_stop = should_stop;
+    scorer->svm = LinearSvm::train(shapes, all.classes, num_classes, svm);
+  } else if (options.model == GestureModel::bayes) {
+    scorer->bayes = GaussianBayes::train(shapes, all.classes, num_classes, {});
+  } else {
+    KnnOptions knn;
+    knn.num_neighbours = options.num_neighbours;
+    scorer->knn = Knn::train(shapes, all.classes, num_classes, knn);
+  }
+  return scorer;
+}
+
+std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file, const GestureRecognizerOptions& options,
+                                                      int num_classes) {
+  auto scorer = std::make_shared<VoteScorer>();
+  scorer->num_shape_columns = file.integer("num_shape_columns");
+  if (options.model != GestureModel::svm) scorer->pca = Pca::read(file, "pca.");
+  if (options.model == GestureModel::svm) scorer->svm = LinearSvm::read(file, "svm.");
+  if (options.model == GestureModel::bayes) scorer->bayes = GaussianBayes::read(file, "bayes.");
+  if (options.model == GestureModel::knn) scorer->knn = Knn::read(file, "knn.");
+  const int reduced = scorer->pca ? scorer->pca->num_components() : 0;
+  const bool fits = scorer->num_classes() == num_classes && scorer->input_dim() == scorer->num_shape_columns &&
+                    (!scorer->bayes || scorer->bayes->dim() == reduced) && (!scorer->knn || scorer->knn->dim() == reduced);
+  if (!fits) fail(ErrorKind::format, file.name() + ": the classifier does not fit the labels or the features");
+  return scorer;
+}
+
+}  // namespace detail
+}  // namespace hri

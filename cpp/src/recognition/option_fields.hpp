@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The fields of the options structs, each named once, so that writing and reading a model file cannot drift apart.
+// `visit(v, options)` calls v("name", field) for every field; nested structs are visited by visit_nested.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+
+#include "hri/core/error.hpp"
+#include "hri/features/cepstra.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/recognition/gesture_recognizer.hpp"
+#include "hri/recognition/word_recognizer.hpp"
+
+namespace hri::detail {
+
+template <class V, class O>
+void visit_cepstra(V&& v, O& o) {
+  v("cepstra.sample_rate_hz", o.sample_rate_hz);
+  v("cepstra.frame_length_ms", o.frame_length_ms);
+  v("cepstra.frame_shift_ms", o.frame_shift_ms);
+  v("cepstra.pre_emphasis", o.pre_emphasis);
+  v("cepstra.filter_bank", o.filter_bank);
+  v("cepstra.num_filters", o.num_filters);
+  v("cepstra.low_hz", o.low_hz);
+  v("cepstra.high_hz", o.high_hz);
+  v("cepstra.erb_factor", o.erb_factor);
+  v("cepstra.num_cepstra", o.num_cepstra);
+  v("cepstra.use_c0", o.use_c0);
+  v("cepstra.lifter", o.lifter);
+  v("cepstra.delta_orders", o.delta_orders);
+  v("cepstra.delta_window", o.delta_window);
+  v("cepstra.normalisation", o.normalisation);
+  v("cepstra.warp", o.warp);
+}
+
+template <class V, class O>
+void visit_activity(V&& v, O& o) {
+  v("activity.frame_ms", o.frame_ms);
+  v("activity.shift_ms", o.shift_ms);
+  v("activity.silence_dbfs", o.silence_dbfs);
+  v("activity.min_range_db", o.min_range_db);
+  v("activity.margin_db", o.margin_db);
+  v("activity.max_depth_db", o.max_depth_db);
+  v("activity.padding_ms", o.padding_ms);
+}
+
+template <class V, class O>
+void visit_word(V&& v, O& o) {
+  visit_cepstra(v, o.cepstra);
+  visit_activity(v, o.activity);
+  v("models.model", o.models.model);
+  v("models.num_states", o.models.num_states);
+  v("models.num_mixtures", o.models.num_mixtures);
+  v("models.num_codewords", o.models.num_codewords);
+  v("models.garbage_mixtures", o.models.garbage_mixtures);
+  v("models.max_iterations", o.models.max_iterations);
+  v("models.seed", o.models.seed);
+  v("trim", o.trim);
+  v("level_stream", o.level_stream);
+  v("num_warps", o.num_warps);
+  v("warp_step", o.warp_step);
+  v("false_reject_rate", o.false_reject_rate);
+}
+
+template <class V, class O>
+void visit_gesture(V&& v, O& o) {
+  v("features.crop_px", o.features.crop_px);
+  v("features.histogram.num_cells", o.features.histogram.num_cells);
+  v("features.histogram.num_bins", o.features.histogram.num_bins);
+  v("features.use_grey", o.features.use_grey);
+  v("features.use_silhouette", o.features.use_silhouette);
+  v("features.use_cepstrum", o.features.use_cepstrum);
+  v("features.cepstrum.wavelet", o.features.cepstrum.wavelet);
+  v("features.cepstrum.num_levels", o.features.cepstrum.num_levels);
+  v("features.cepstrum.mask_px", o.features.cepstrum.mask_px);
+  v("features.cepstrum.num_points", o.features.cepstrum.num_points);
+  v("features.cepstrum.num_filters", o.features.cepstrum.num_filters);
+  v("features.cepstrum.num_cepstra", o.features.cepstrum.num_cepstra);
+  v("features.cepstrum_weight", o.features.cepstrum_weight);
+  v("model", o.model);
+  v("svm_cost", o.svm_cost);
+  v("num_components", o.num_components);
+  v("num_neighbours", o.num_neighbours);
+  v("num_states", o.num_states);
+  v("num_codewords", o.num_codewords);
+  v("max_iterations", o.max_iterations);
+  v("false_reject_rate", o.false_reject_rate);
+  v("seed", o.seed);
+}
+
+/// Visitor that writes every field into a model file's metadata.
+struct FieldWriter {
+  ModelFile& file;
+  template <class T>
+  void operator()(const char* name, const T& field) const {
+    if constexpr (std::is_same_v<T, std::string>) {
+      file.set_text(name, field);
+    } else if constexpr (std::is_floating_point_v<T>) {
+      file.set_number(name, static_cast<double>(field));
+    } else {
+      file.set_integer(name, static_cast<std::int64_t>(field));
+    }
+  }
+};
+
+/// Visitor that reads every field back; range checks stay with the classes that use the options.
+struct FieldReader {
+  const ModelFile& file;
+  template <class T>
+  void operator()(const char* name, T& field) const {
+    if constexpr (std::is_same_v<T, std::string>) {
+      field = file.text(name);
+    } else if constexpr (std::is_floating_point_v<T>) {
+      field = static_cast<T>(file.number(name));
+    } else {
+      const std::int64_t value = file.integer(name);
+      field = static_cast<T>(value);
+      if (static_cast<std::int64_t>(field) != value || (std::is_enum_v<T> && (value < 0 || value > 7))) {
+        fail(ErrorKind::format,
+             file.name() + ": field '" + name + "' is out of range: " + std::to_string(value));
+      }
+    }
+  }
+};
+
+}  // namespace hri::detail

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/sequence_models.hpp"
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+constexpr float kImpossible = -1e30F;  // stands for log 0, so that differences stay finite
+
+MatrixF stacked(const std::vector<std::vector<MatrixF>>& per_label) {
+  Eigen::Index rows = 0;
+  for (const auto& list : per_label) {
+    for (const MatrixF& m : list) rows += m.rows();
+  }
+  MatrixF all(rows, per_label.front().front().cols());
+  Eigen::Index at = 0;
+  for (const auto& list : per_label) {
+    for (const MatrixF& m : list) {
+      all.middleRows(at, m.rows()) = m;
+      at += m.rows();
+    }
+  }
+  return all;
+}
+
+Topology left_right(int num_states) {
+  Topology topology;
+  topology.kind = Topology::Kind::left_right;
+  topology.num_states = num_states;
+  return topology;
+}
+
+}  // namespace
+
+SequenceModels::SequenceModels(const SequenceModelOptions& options) : options_(options) {
+  require(options.num_states >= 1 && options.num_states <= 64, "num_states must lie in 1..64");
+  require(options.num_mixtures >= 1 && options.num_mixtures <= 64, "num_mixtures must lie in 1..64");
+  require(options.num_codewords >= 2 && options.num_codewords <= 4096, "num_codewords must lie in 2..4096");
+  require(options.garbage_mixtures >= 1 && options.garbage_mixtures <= 256, "garbage_mixtures must lie in 1..256");
+  require(options.max_iterations >= 1 && options.max_iterations <= 1000, "max_iterations must lie in 1..1000");
+}
+
+void SequenceModels::train(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop) {
+  if (options_.model == SequenceModelKind::ptbhmm) {
+    train_ptbhmm(per_label, should_stop);
+  } else {
+    train_hmms(per_label, should_stop);
+  }
+}
+
+void SequenceModels::train_hmms(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop) {
+  GaussianMixtureHmmOptions options;
+  options.topology = left_right(options_.num_states);
+  options.num_mixtures = options_.num_mixtures;
+  options.max_iterations = options_.max_iterations;
+  options.seed = options_.seed;
+  options.should_stop = should_stop;
+  hmms_.clear();
+  for (const auto& sequences : per_label) hmms_.push_back(GaussianMixtureHmm::train(sequences, options));
+  GaussianMixtureOptions garbage;
+  garbage.num_mixtures = options_.garbage_mixtures;
+  garbage.seed = options_.seed;
+  garbage.should_stop = should_stop;
+  garbage_ = {GaussianMixture::train(stacked(per_label), garbage)};
+}
+
+void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop) {
+  CodebookOptions book;
+  book.num_codewords = options_.num_codewords;
+  codebook_ = {Codebook::train_lbg(stacked(per_label), book)};
+  std::vector<std::vector<std::vector<std::int32_t>>> symbols(per_label.size());
+  for (std::size_t c = 0; c < per_label.size(); ++c) {
+    for (const MatrixF& m : per_label[c]) symbols[c].push_back(codebook_.front().quantise(m));
+  }
+  PossibilisticHmmOptions options;
+  options.topology = left_right(options_.num_states);
+  options.num_symbols = codebook_.front().size();
+  options.max_iterations = options_.max_iterations;
+  options.should_stop = should_stop;
+  ptbhmm_ = {PossibilisticHmmSet::train(symbols, options)};
+}
+
+VectorF SequenceModels::scores(ConstMatrixRefF frames) const {
+  if (options_.model == SequenceModelKind::ptbhmm) {
+    return ptbhmm_.front().log_possibilities(codebook_.front().quantise(frames)).cwiseMax(kImpossible);
+  }
+  VectorF result(static_cast<Eigen::Index>(hmms_.size()));
+  for (std::size_t c = 0; c < hmms_.size(); ++c) {
+    result[static_cast<Eigen::Index>(c)] = static_cast<float>(hmms_[c].log_likelihood(frames));
+  }
+  return result.cwiseMax(kImpossible);
+}
+
+float SequenceModels::garbage_score(ConstMatrixRefF frames) const {
+  // A log-possibility is already a ratio to the best explanation of every symbol (thesis eq. 5.14).
+  if (options_.model == SequenceModelKind::ptbhmm) return 0;
+  return static_cast<float>(garbage_.front().log_likelihood(frames));
+}
+
+void SequenceModels::write(ModelFile& file, const std::string& prefix) const {
+  if (options_.model == SequenceModelKind::ptbhmm) {
+    codebook_.front().write(file, prefix + "codebook.");
+    ptbhmm_.front().write(file, prefix + "ptbhmm.");
+    return;
+  }
+  for (std::size_t c = 0; c < hmms_.size(); ++c) hmms_[c].write(file, prefix + "hmm." + std::to_string(c) + ".");
+  garbage_.front().write(file, prefix + "garbage.");
+}
+
+void SequenceModels::read(const ModelFile& file, const std::string& prefix, int num_classes, int dim) {
+  const auto check_width = [&](Eigen::Index width, const std::string& what) {
+    if (width != dim) {
+      fail(ErrorKind::format, file.name() + ": field '" + what + "': has " + std::to_string(width) +
+                                  " features, the front end gives " + std::to_string(dim));
+    }
+  };
+  if (options_.model == SequenceModelKind::ptbhmm) {
+    codebook_ = {Codebook::read(file, prefix + "codebook.")};
+    ptbhmm_ = {PossibilisticHmmSet::read(file, prefix + "ptbhmm.")};
+    check_width(codebook_.front().dim(), prefix + "codebook");
+    if (ptbhmm_.front().num_classes() != num_classes || ptbhmm_.front().num_symbols() != codebook_.front().size()) {
+      fail(ErrorKind::format, prefix + "ptbhmm: does not fit the labels or the codebook");
+    }
+    return;
+  }
+  hmms_.clear();
+  for (int c = 0; c < num_classes; ++c) {
+    const std::string name = prefix + "hmm." + std::to_string(c) + ".";
+    hmms_.push_back(GaussianMixtureHmm::read(file, name));
+    check_width(hmms_.back().dim(), name);
+  }
+  garbage_ = {GaussianMixture::read(file, prefix + "garbage.")};
+  check_width(garbage_.front().dim(), prefix + "garbage");
+}
+
+}  // namespace hri

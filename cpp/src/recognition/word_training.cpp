@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Training of WordRecognizer: frames of every sample and of its frequency-warped copies, models without each fold of
+// speakers for the calibration, then the models that are kept.
+#include <algorithm>
+#include <utility>
+
+#include "hri/core/error.hpp"
+#include "hri/recognition/word_recognizer.hpp"
+
+namespace hri {
+namespace {
+
+constexpr int kMaxFolds = 4;
+constexpr int kDefaultRateHz = 16000;
+
+int training_rate_hz(const std::vector<WordSample>& samples, int wanted_hz) {
+  if (wanted_hz != 0) return wanted_hz;
+  int rate = kDefaultRateHz;
+  for (const WordSample& s : samples) rate = std::min(rate, s.sample_rate_hz);
+  return rate;
+}
+
+// 1, 1 - step, 1 + step, 1 - 2 step, 1 + 2 step: as many as asked for.
+std::vector<double> warp_factors(const WordRecognizerOptions& options) {
+  std::vector<double> factors{1.0};
+  for (int i = 1; static_cast<int>(factors.size()) < options.num_warps; ++i) {
+    factors.push_back(1.0 - i * options.warp_step);
+    factors.push_back(1.0 + i * options.warp_step);
+  }
+  return factors;
+}
+
+std::vector<std::string> labels_of(const std::vector<WordSample>& samples) {
+  std::vector<std::string> names;
+  names.reserve(samples.size());
+  for (const WordSample& s : samples) names.push_back(s.label);
+  return sorted_labels(names);
+}
+
+}  // namespace
+
+class WordTrainer {
+ public:
+  WordTrainer(const std::vector<WordSample>& samples, const WordRecognizerOptions& options, StopCheck should_stop)
+      : result_(options, labels_of(samples)), should_stop_(std::move(should_stop)) {
+    for (const double factor : warp_factors(options)) {
+      WordRecognizerOptions warped = options;
+      warped.cepstra.warp *= factor;
+      fronts_.push_back(WordRecognizer(warped, result_.labels_));
+    }
+  }
+
+  WordRecognizer run(const std::vector<WordSample>& samples, const TrainingProgress& progress) {
+    for (std::size_t i = 0; i < samples.size(); ++i) prepare(samples[i], i);
+    const int num_folds = assign_folds();
+    const int num_steps = num_folds + 2;
+    std::vector<HeldOut> held_out;
+    for (int fold = 0; fold < num_folds; ++fold) {
+      if (progress) progress(fold + 1, num_steps);
+      score_fold(fold, &held_out);
+    }
+    if (progress) progress(num_folds + 1, num_steps);
+    train_without(-1);
+    result_.calibration_ = Calibration::fit(held_out, result_.options_.false_reject_rate);
+    if (progress) progress(num_steps, num_steps);
+    return std::move(result_);
+  }
+
+ private:
+  // What is kept of one sample: per warp (1 first), the frames of every stream.
+  struct Prepared {
+    int label = 0;
+    int fold = 0;
+    std::string group;
+    std::vector<std::vector<MatrixF>> warped;
+  };
+
+  void prepare(const WordSample& sample, std::size_t index) {
+    if (should_stop_ && should_stop_()) fail(ErrorKind::interrupted, "training interrupted");
+    for (std::size_t i = 0; i < sample.samples.size(); ++i) {
+      if (!(sample.samples[i] - sample.samples[i] == 0)) {
+        fail(ErrorKind::invalid_argument,
+             "sample " + std::to_string(index) + ": audio is not finite at index " + std::to_string(i));
+      }
+    }
+    const std::vector<float> word = result_.locate(sample.samples, sample.sample_rate_hz, nullptr);
+    if (word.empty()) return;  // nobody speaks; a label without any word is refused in train_without
+    Prepared p;
+    p.label = label_index(result_.labels_, sample.label);
+    p.group = sample.group;
+    for (const WordRecognizer& front : fronts_) p.warped.push_back(front.frames(word));
+    prepared_.push_back(std::move(p));
+  }
+
+  int assign_folds() {
+    std::vector<int> classes;
+    std::vector<std::string> groups;
+    for (const Prepared& p : prepared_) {
+      classes.push_back(p.label);
+      groups.push_back(p.group);
+    }
+    const std::vector<int> folds = held_out_folds(classes, groups, kMaxFolds);
+    int num_folds = 0;
+    for (std::size_t i = 0; i < folds.size(); ++i) {
+      prepared_[i].fold = folds[i];
+      num_folds = std::max(num_folds, folds[i] + 1);
+    }
+    return num_folds;
+  }
+
+  // Trains every stream on all folds but `left_out` (-1 leaves nothing out). False when a class would be empty.
+  bool train_without(int left_out) {
+    for (std::size_t s = 0; s < result_.streams_.size(); ++s) {
+      std::vector<std::vector<MatrixF>> per_label(result_.labels_.size());
+      for (const Prepared& p : prepared_) {
+        if (p.fold == left_out) continue;
+        for (const auto& streams : p.warped) per_label[static_cast<std::size_t>(p.label)].push_back(streams[s]);
+      }
+      for (std::size_t c = 0; c < per_label.size(); ++c) {
+        if (!per_label[c].empty()) continue;
+        if (left_out >= 0) return false;
+        fail(ErrorKind::invalid_argument, "label '" + result_.labels_[c] + "': no sample with speech in it");
+      }
+      result_.streams_[s].models.train(per_label, should_stop_);
+    }
+    return true;
+  }
+
+  void score_fold(int fold, std::vector<HeldOut>* held_out) {
+    if (!train_without(fold)) return;  // without every class there is nothing to calibrate on
+    for (const Prepared& p : prepared_) {
+      if (p.fold != fold) continue;
+      const VectorF scores = result_.score(p.warped.front());
+      held_out->push_back({scores, p.label, result_.evidence(p.warped.front(), scores)});
+    }
+  }
+
+  WordRecognizer result_;
+  std::vector<WordRecognizer> fronts_;  // the front ends at every warp; their models stay empty
+  StopCheck should_stop_;
+  std::vector<Prepared> prepared_;
+};
+
+WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
+                                     const TrainingProgress& progress, const StopCheck& should_stop) {
+  require(options.num_warps == 1 || options.num_warps == 3 || options.num_warps == 5, "num_warps must be 1, 3 or 5");
+  require(options.warp_step >= 0 && options.warp_step <= 0.2, "warp_step must lie in 0..0.2");
+  require(options.false_reject_rate >= 0 && options.false_reject_rate <= 0.5, "false_reject_rate must lie in 0..0.5");
+  WordRecognizerOptions used = options;
+  used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);
+  return WordTrainer(samples, used, should_stop).run(samples, progress);
+}
+
+}  // namespace hri

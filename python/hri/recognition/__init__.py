@@ -1,0 +1,9 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Recognisers: thin wrappers of the C++ pipelines."""
+
+from hri.recognition.decision import Decision, NBest
+from hri.recognition.gesture import GestureRecognizer
+from hri.recognition.word import WordRecognizer
+
+__all__ = ["Decision", "GestureRecognizer", "NBest", "WordRecognizer"]

@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What recognisers of words and of gestures share, after scikit-learn's conventions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.recognition.decision import Decision
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+
+class Recognizer:
+    """Base of `WordRecognizer` and `GestureRecognizer`; holds the native recogniser once trained or loaded."""
+
+    mode: ClassVar[str]
+    _native_class: ClassVar[Any]
+    _options_class: ClassVar[Any]
+
+    def __init__(self, **options: Any) -> None:
+        self.options = self._options_class(**options)
+        self._native: Any = None
+
+    @classmethod
+    def _wrap(cls, native: Any) -> Self:
+        recognizer = cls()
+        recognizer.options = native.options
+        recognizer._native = native
+        return recognizer
+
+    @property
+    def _trained(self) -> Any:
+        if self._native is None:
+            raise _native.InvalidArgument(f"{type(self).__name__} is not trained: call fit or load first")
+        return self._native
+
+    @property
+    def classes_(self) -> NDArray[np.str_]:
+        """The labels in sorted order, shape (num_classes,)."""
+        return np.asarray(self._trained.labels)
+
+    def get_params(self, deep: bool = True) -> dict[str, Any]:
+        """The options by name, as scikit-learn's estimators give them."""
+        return dict(self.options.as_dict())
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the model (safetensors layout). The old file stays whole if this fails."""
+        self._trained.save(fspath(path))
+
+    def decide(self, X: Sequence[Any], *args: Any, **kwargs: Any) -> list[Decision]:
+        """The decision for every item of `X`."""
+        raise TypeError(f"{type(self).__name__} does not say how to decide")
+
+    def predict(self, X: Sequence[Any], *args: Any, **kwargs: Any) -> NDArray[np.str_]:
+        """The best label for every item, whether or not it would be rejected; "no_input" where there is none."""
+        decisions = self.decide(X, *args, **kwargs)
+        return np.asarray([d.nbest[0].label if d.nbest else d.label for d in decisions])
+
+    def predict_proba(self, X: Sequence[Any], *args: Any, **kwargs: Any) -> NDArray[np.float64]:
+        """Calibrated posteriors, shape (len(X), num_classes) in the order of `classes_`; uniform without input."""
+        classes = list(self.classes_)
+        result = np.full((len(X), len(classes)), 1.0 / len(classes))
+        for row, decision in zip(result, self.decide(X, *args, **kwargs), strict=True):
+            for entry in decision.nbest:
+                row[classes.index(entry.label)] = entry.probability
+        return result
+
+    def score(self, X: Sequence[Any], y: Sequence[str], *args: Any, **kwargs: Any) -> float:
+        """Share of items whose best label is right, 0..1."""
+        return float(np.mean(self.predict(X, *args, **kwargs) == np.asarray(y)))

@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Isolated spoken words: train, save, load, recognise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from os import PathLike, fspath
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.recognition.base import Recognizer
+from hri.recognition.decision import Decision
+
+Audio = NDArray[np.float32]
+
+
+class WordRecognizer(Recognizer):
+    """Recognise one spoken word at a time.
+
+    Parameters
+    ----------
+    **options
+        Fields of ``hri.WordRecognizerOptions``, for example ``model="ptbhmm"`` or ``num_states=10``.
+        ``cepstra`` and ``activity`` take an options object of their own. Defaults are the C++ library's.
+
+    Attributes
+    ----------
+    classes_ : ndarray of str
+        The labels, sorted; set by `fit` and `load`.
+
+    Examples
+    --------
+    >>> recognizer = WordRecognizer(model="hmm")            # doctest: +SKIP
+    >>> recognizer.fit(clips, labels, sample_rate_hz=16000)  # doctest: +SKIP
+    >>> recognizer.recognise(clip, 16000).label              # doctest: +SKIP
+    'seven'
+    """
+
+    mode = "speech"
+    _native_class = _native.WordRecognizer
+    _options_class = _native.WordRecognizerOptions
+
+    def fit(
+        self,
+        X: Sequence[Audio],
+        y: Sequence[str],
+        *,
+        sample_rate_hz: int | Sequence[int],
+        groups: Sequence[str] | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> WordRecognizer:
+        """Train one model a label.
+
+        Parameters
+        ----------
+        X : sequence of float32 arrays, shape (num_samples,)
+            Mono audio in -1..1.
+        y : sequence of str
+            The word spoken in each clip.
+        sample_rate_hz : int or sequence of int
+            One rate for all clips, or one for each.
+        groups : sequence of str, optional
+            The speaker of each clip; calibration then holds out whole speakers.
+        progress : callable, optional
+            Called with (done, total) training steps.
+
+        Raises
+        ------
+        InvalidArgument
+            For lengths that differ, audio with NaN (names the clip and the sample), or a label without speech.
+        Interrupted
+            When Ctrl-C is pressed; the recogniser is left as it was.
+        """
+        rates = [sample_rate_hz] * len(X) if isinstance(sample_rate_hz, int) else list(sample_rate_hz)
+        speakers = [""] * len(X) if groups is None else [str(g) for g in groups]
+        if not len(X) == len(y) == len(rates) == len(speakers):
+            raise _native.InvalidArgument(
+                f"X, y, sample_rate_hz and groups differ in length: "
+                f"{len(X)}, {len(y)}, {len(rates)}, {len(speakers)}"
+            )
+        clips = [_as_audio(x, f"X[{i}]") for i, x in enumerate(X)]
+        self._native = self._native_class.train(
+            clips, rates, [str(label) for label in y], speakers, self.options, progress
+        )
+        return self
+
+    def recognise(self, audio: Audio, sample_rate_hz: int) -> Decision:
+        """Recognise one clip.
+
+        Parameters
+        ----------
+        audio : float32 array, shape (num_samples,)
+        sample_rate_hz : int
+            Another rate than the model's is resampled, and said so in ``Decision.notes``.
+        """
+        return Decision.from_native(
+            self.mode, self._trained.recognise(_as_audio(audio, "audio"), sample_rate_hz)
+        )
+
+    def scores(self, audio: Audio, sample_rate_hz: int) -> NDArray[np.float32]:
+        """Raw score of every class (natural log), shape (num_classes,), in the order of `classes_`."""
+        return np.asarray(self._trained.scores(_as_audio(audio, "audio"), sample_rate_hz))
+
+    def decide(self, X: Sequence[Audio], sample_rate_hz: int | Sequence[int]) -> list[Decision]:
+        """The decision for every clip of `X`."""
+        rates = [sample_rate_hz] * len(X) if isinstance(sample_rate_hz, int) else sample_rate_hz
+        return [self.recognise(x, rate) for x, rate in zip(X, rates, strict=True)]
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> WordRecognizer:
+        """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
+        return cls._wrap(_native.WordRecognizer.load(fspath(path)))
+
+
+def _as_audio(samples: Any, name: str) -> Audio:
+    array = np.ascontiguousarray(samples, dtype=np.float32)
+    if array.ndim != 1:
+        raise _native.InvalidArgument(f"{name} must be one-dimensional (mono), got shape {array.shape}")
+    return array
