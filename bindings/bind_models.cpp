@@ -7,7 +7,6 @@
 
 #include <functional>
 
-#include "arrays.hpp"
 #include "hri/models/codebook.hpp"
 #include "hri/models/distances.hpp"
 #include "hri/models/gaussian_bayes.hpp"
@@ -15,16 +14,18 @@
 #include "hri/models/linear_svm.hpp"
 #include "hri/models/pca.hpp"
 #include "hri/models/possibility.hpp"
+#include "model_inputs.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
+using hri_bind::as_integers;
+using hri_bind::as_matrix;
+using hri_bind::as_span;
+using hri_bind::as_vector;
+using hri_bind::bind_files;
 using hri_bind::DoubleArray;
 using hri_bind::FloatArray;
-using hri_bind::integers_of;
-using hri_bind::matrix_of;
-using hri_bind::span_of;
 using hri_bind::to_array;
-using hri_bind::vector_of;
 
 namespace {
 
@@ -32,8 +33,8 @@ namespace {
 template <class Model>
 py::array_t<float> per_row(const Model& model, const FloatArray& rows,
                            hri::VectorF (Model::*method)(hri::Span<const float>) const) {
-  if (rows.ndim() == 1) return to_array((model.*method)(span_of<float>(rows, "rows")));
-  const auto matrix = matrix_of<float>(rows, "rows");
+  if (rows.ndim() == 1) return to_array((model.*method)(as_span(rows, "rows")));
+  const auto matrix = as_matrix(rows, "rows");
   hri::MatrixF values(matrix.rows(), model.num_classes());
   {
     const py::gil_scoped_release release;
@@ -46,15 +47,6 @@ py::array_t<float> per_row(const Model& model, const FloatArray& rows,
   return to_array(values);
 }
 
-template <class Model>
-void bind_files(py::class_<Model>& cls) {
-  cls.def("write", &Model::write, py::arg("file"), py::arg("prefix"),
-          "Adds the model to a ModelFile.");
-  cls.def_static(
-      "read", &Model::read, py::arg("file"), py::arg("prefix"),
-      "Reads what `write` added; raises FormatError naming the field that does not fit.");
-}
-
 // What the three classifiers of rows share.
 template <class Model, class Options>
 void bind_classifier(py::class_<Model>& cls, const std::function<void(Options*)>& prepare) {
@@ -62,8 +54,8 @@ void bind_classifier(py::class_<Model>& cls, const std::function<void(Options*)>
       "train",
       [prepare](const FloatArray& rows, const py::array& classes, int num_classes,
                 Options options) {
-        const auto matrix = matrix_of<float>(rows, "rows");
-        const std::vector<int> labels = integers_of(classes, "classes");
+        const auto matrix = as_matrix(rows, "rows");
+        const std::vector<int> labels = as_integers(classes, "classes");
         if (prepare) prepare(&options);
         const py::gil_scoped_release release;
         return Model::train(matrix, labels, num_classes, options);
@@ -95,13 +87,13 @@ void bind_codebook(py::module_& m) {
 
   py::class_<hri::Codebook> cls(m, "Codebook", "Vector quantiser (Linde, Buzo, Gray).");
   cls.def(py::init([](const FloatArray& centroids) {
-            return hri::Codebook(hri::MatrixF(matrix_of<float>(centroids, "centroids")));
+            return hri::Codebook(hri::MatrixF(as_matrix(centroids, "centroids")));
           }),
           py::arg("centroids"));
   cls.def_static(
       "train_lbg",
       [](const FloatArray& rows, hri::CodebookOptions o) {
-        const auto matrix = matrix_of<float>(rows, "rows");
+        const auto matrix = as_matrix(rows, "rows");
         o.should_stop = hri_bind::interrupted;
         const py::gil_scoped_release release;
         return hri::Codebook::train_lbg(matrix, o);
@@ -111,8 +103,8 @@ void bind_codebook(py::module_& m) {
   cls.def_static(
       "train_kmeans",
       [](const FloatArray& rows, const FloatArray& centroids, hri::CodebookOptions o) {
-        const auto matrix = matrix_of<float>(rows, "rows");
-        const auto first = matrix_of<float>(centroids, "centroids");
+        const auto matrix = as_matrix(rows, "rows");
+        const auto first = as_matrix(centroids, "centroids");
         o.should_stop = hri_bind::interrupted;
         const py::gil_scoped_release release;
         return hri::Codebook::train_kmeans(matrix, first, o);
@@ -123,7 +115,7 @@ void bind_codebook(py::module_& m) {
   cls.def(
       "quantise",
       [](const hri::Codebook& self, const FloatArray& frames) {
-        const auto matrix = matrix_of<float>(frames, "frames");
+        const auto matrix = as_matrix(frames, "frames");
         std::vector<std::int32_t> symbols;
         {
           const py::gil_scoped_release release;
@@ -135,7 +127,7 @@ void bind_codebook(py::module_& m) {
   cls.def(
       "distortion",
       [](const hri::Codebook& self, const FloatArray& frames) {
-        return self.distortion(matrix_of<float>(frames, "frames"));
+        return self.distortion(as_matrix(frames, "frames"));
       },
       py::arg("frames"), "Mean squared distance of the frames to their codewords.");
   cls.def("__len__", &hri::Codebook::size);
@@ -151,7 +143,7 @@ void bind_pca(py::module_& m) {
   cls.def_static(
       "train",
       [](const FloatArray& rows, int num_components) {
-        const auto matrix = matrix_of<float>(rows, "rows");
+        const auto matrix = as_matrix(rows, "rows");
         const py::gil_scoped_release release;
         return hri::Pca::train(matrix, num_components);
       },
@@ -159,7 +151,7 @@ void bind_pca(py::module_& m) {
   cls.def(
       "transform",
       [](const hri::Pca& self, const FloatArray& rows) {
-        return to_array(self.transform(matrix_of<float>(rows, "rows")));
+        return to_array(self.transform(as_matrix(rows, "rows")));
       },
       py::arg("rows"), "Shape (num_rows, num_components), float32.");
   cls.def_property_readonly("num_components", &hri::Pca::num_components);
@@ -219,7 +211,7 @@ void bind_knn(py::module_& m) {
   cls.def(
       "nearest_distance",
       [](const hri::Knn& self, const FloatArray& row) {
-        return self.nearest_distance(span_of<float>(row, "row"));
+        return self.nearest_distance(as_span(row, "row"));
       },
       py::arg("row"));
 }
@@ -233,7 +225,7 @@ void bind_distances(py::module_& m) {
   m.def(
       "distance",
       [](hri::Distance kind, const FloatArray& a, const FloatArray& b) {
-        return hri::distance(kind, span_of<float>(a, "a"), span_of<float>(b, "b"));
+        return hri::distance(kind, as_span(a, "a"), as_span(b, "b"));
       },
       py::arg("kind"), py::arg("a"), py::arg("b"), "Distance of two vectors of one length.");
   m.def(
@@ -241,8 +233,8 @@ void bind_distances(py::module_& m) {
       [](const DoubleArray& mean_a, const DoubleArray& covariance_a, const DoubleArray& mean_b,
          const DoubleArray& covariance_b) {
         return hri::bhattacharyya_gaussian(
-            vector_of<double>(mean_a, "mean_a"), matrix_of<double>(covariance_a, "covariance_a"),
-            vector_of<double>(mean_b, "mean_b"), matrix_of<double>(covariance_b, "covariance_b"));
+            as_vector(mean_a, "mean_a"), as_matrix(covariance_a, "covariance_a"),
+            as_vector(mean_b, "mean_b"), as_matrix(covariance_b, "covariance_b"));
       },
       py::arg("mean_a"), py::arg("covariance_a"), py::arg("mean_b"), py::arg("covariance_b"));
 }
@@ -251,20 +243,19 @@ void bind_possibility(py::module_& m) {
   m.def(
       "possibility_of",
       [](const DoubleArray& distribution, const std::vector<int>& event) {
-        return hri::possibility_of(span_of<double>(distribution, "distribution"), event);
+        return hri::possibility_of(as_span(distribution, "distribution"), event);
       },
       py::arg("distribution"), py::arg("event"), "Pi(A) = max over the event (thesis eq. 4.1).");
   m.def(
       "necessity_of",
       [](const DoubleArray& distribution, const std::vector<int>& event) {
-        return hri::necessity_of(span_of<double>(distribution, "distribution"), event);
+        return hri::necessity_of(as_span(distribution, "distribution"), event);
       },
       py::arg("distribution"), py::arg("event"), "N(A) = 1 - Pi(not A) (thesis eq. 4.2).");
   m.def(
       "possibilities",
       [](const FloatArray& log_densities) {
-        const hri::Possibilities p =
-            hri::possibilities(vector_of<float>(log_densities, "log_densities"));
+        const hri::Possibilities p = hri::possibilities(as_vector(log_densities, "log_densities"));
         return py::make_tuple(to_array(p.possibility), to_array(p.necessity));
       },
       py::arg("log_densities"),

@@ -6,45 +6,37 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
 #include "hri/models/discrete_hmm.hpp"
 #include "hri/models/gaussian_mixture.hpp"
 #include "hri/models/gaussian_mixture_hmm.hpp"
 #include "hri/models/possibilistic_hmm.hpp"
 #include "hri/models/topology.hpp"
+#include "model_inputs.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
+using hri_bind::as_integers;
+using hri_bind::as_matrix;
+using hri_bind::as_vector;
+using hri_bind::bind_files;
 using hri_bind::DoubleArray;
 using hri_bind::FloatArray;
-using hri_bind::integers_of;
-using hri_bind::matrix_of;
 using hri_bind::to_array;
-using hri_bind::vector_of;
 
 namespace {
 
 std::vector<hri::MatrixF> sequences_of(const std::vector<FloatArray>& arrays) {
   std::vector<hri::MatrixF> sequences;
   sequences.reserve(arrays.size());
-  for (const FloatArray& a : arrays) sequences.emplace_back(matrix_of<float>(a, "a sequence"));
+  for (const FloatArray& a : arrays) sequences.emplace_back(as_matrix(a, "a sequence"));
   return sequences;
 }
 
 std::vector<hri::SymbolSequence> symbols_of(const std::vector<py::array>& arrays) {
   std::vector<hri::SymbolSequence> sequences;
   sequences.reserve(arrays.size());
-  for (const py::array& a : arrays) sequences.push_back(integers_of(a, "a sequence"));
+  for (const py::array& a : arrays) sequences.push_back(as_integers(a, "a sequence"));
   return sequences;
-}
-
-template <class Model>
-void bind_files(py::class_<Model>& cls) {
-  cls.def("write", &Model::write, py::arg("file"), py::arg("prefix"),
-          "Adds the model to a ModelFile.");
-  cls.def_static(
-      "read", &Model::read, py::arg("file"), py::arg("prefix"),
-      "Reads what `write` added; raises FormatError naming the field that does not fit.");
 }
 
 // Start, transition and topology, which both classical HMMs have.
@@ -105,7 +97,7 @@ void bind_gaussian_mixture(py::module_& m) {
   cls.def_static(
       "train",
       [](const FloatArray& rows, hri::GaussianMixtureOptions o, hri::TrainingReport* report) {
-        const auto matrix = matrix_of<float>(rows, "rows");
+        const auto matrix = as_matrix(rows, "rows");
         o.should_stop = hri_bind::interrupted;
         const py::gil_scoped_release release;
         return hri::GaussianMixture::train(matrix, o, report);
@@ -116,7 +108,7 @@ void bind_gaussian_mixture(py::module_& m) {
   cls.def(
       "log_likelihood",
       [](const hri::GaussianMixture& self, const FloatArray& frames) {
-        const auto matrix = matrix_of<float>(frames, "frames");
+        const auto matrix = as_matrix(frames, "frames");
         const py::gil_scoped_release release;
         return self.log_likelihood(matrix);
       },
@@ -149,11 +141,9 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
   cls.def(py::init([](const hri::Topology& topology, const DoubleArray& start,
                       const DoubleArray& transition, const DoubleArray& weights,
                       const DoubleArray& means, const DoubleArray& variances) {
-            return Model(topology, vector_of<double>(start, "start"),
-                         matrix_of<double>(transition, "transition"),
-                         hri::MixtureBank(matrix_of<double>(weights, "weights"),
-                                          matrix_of<double>(means, "means"),
-                                          matrix_of<double>(variances, "variances")));
+            return Model(topology, as_vector(start, "start"), as_matrix(transition, "transition"),
+                         hri::MixtureBank(as_matrix(weights, "weights"), as_matrix(means, "means"),
+                                          as_matrix(variances, "variances")));
           }),
           py::arg("topology"), py::arg("start"), py::arg("transition"), py::arg("weights"),
           py::arg("means"), py::arg("variances"),
@@ -171,7 +161,7 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
       py::arg("report") = nullptr, "Baum-Welch over a list of (num_frames, dim) arrays.");
   const auto scorer = [](double (Model::*method)(hri::ConstMatrixRefF) const) {
     return [method](const Model& self, const FloatArray& frames) {
-      const auto matrix = matrix_of<float>(frames, "frames");
+      const auto matrix = as_matrix(frames, "frames");
       const py::gil_scoped_release release;
       return (self.*method)(matrix);
     };
@@ -183,7 +173,7 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
   cls.def(
       "viterbi",
       [](const Model& self, const FloatArray& frames) {
-        const auto matrix = matrix_of<float>(frames, "frames");
+        const auto matrix = as_matrix(frames, "frames");
         std::vector<int> path;
         double score = 0;
         {
@@ -217,9 +207,8 @@ void bind_discrete_hmm(py::module_& m) {
   py::class_<Model> cls(m, "DiscreteHmm", "HMM over discrete symbols.");
   cls.def(py::init([](const hri::Topology& topology, const DoubleArray& start,
                       const DoubleArray& transition, const DoubleArray& emission) {
-            return Model(topology, vector_of<double>(start, "start"),
-                         matrix_of<double>(transition, "transition"),
-                         matrix_of<double>(emission, "emission"));
+            return Model(topology, as_vector(start, "start"), as_matrix(transition, "transition"),
+                         as_matrix(emission, "emission"));
           }),
           py::arg("topology"), py::arg("start"), py::arg("transition"), py::arg("emission"));
   cls.def_static(
@@ -234,14 +223,14 @@ void bind_discrete_hmm(py::module_& m) {
   cls.def(
       "log_likelihood",
       [](const Model& self, const py::array& symbols) {
-        return self.log_likelihood(integers_of(symbols, "symbols"));
+        return self.log_likelihood(as_integers(symbols, "symbols"));
       },
       py::arg("symbols"), "log P(symbols | model), natural log.");
   cls.def(
       "viterbi",
       [](const Model& self, const py::array& symbols) {
         std::vector<int> path;
-        const double score = self.viterbi(integers_of(symbols, "symbols"), &path);
+        const double score = self.viterbi(as_integers(symbols, "symbols"), &path);
         return py::make_tuple(score, to_array(path));
       },
       py::arg("symbols"), "log P(symbols, best path | model) and the path, int32.");
@@ -286,7 +275,7 @@ void bind_possibilistic(py::module_& m) {
   cls.def(
       "log_possibilities",
       [](const Model& self, const py::array& symbols) {
-        return to_array(self.log_possibilities(integers_of(symbols, "symbols")));
+        return to_array(self.log_possibilities(as_integers(symbols, "symbols")));
       },
       py::arg("symbols"),
       "log possibility of the symbols under each class, float32, shape (num_classes,).");
@@ -294,7 +283,7 @@ void bind_possibilistic(py::module_& m) {
       "viterbi",
       [](const Model& self, int class_index, const py::array& symbols) {
         std::vector<int> path;
-        const double score = self.viterbi(class_index, integers_of(symbols, "symbols"), &path);
+        const double score = self.viterbi(class_index, as_integers(symbols, "symbols"), &path);
         return py::make_tuple(score, to_array(path));
       },
       py::arg("class_index"), py::arg("symbols"),
