@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bayes classifier with one Gaussian a class (thesis eq. 6.15), and its possibilities (eq. 5.14-5.15).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+
+namespace hri {
+
+enum class CovarianceKind : std::uint8_t {
+  shared,    ///< one covariance for all classes: linear boundaries (LDA)
+  full,      ///< one a class
+  diagonal,  ///< one diagonal a class
+};
+
+struct GaussianBayesOptions {
+  CovarianceKind covariance = CovarianceKind::shared;
+  double shrinkage = 0.1;  ///< share of the covariance replaced by its mean variance times the identity, 0..1
+};
+
+/// Immutable; const calls are safe from several threads. Class priors are the shares of the training rows.
+class GaussianBayes {
+ public:
+  /// See LinearSvm::train for what is refused.
+  static GaussianBayes train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
+                             const GaussianBayesOptions& options);
+
+  /// log P(class) + log p(row | class), natural log, shape (num_classes,).
+  [[nodiscard]] VectorF decision_values(Span<const float> row) const;
+  /// log p(row | class) alone, from which possibilities follow.
+  [[nodiscard]] VectorF log_densities(Span<const float> row) const;
+
+  [[nodiscard]] int num_classes() const { return static_cast<int>(means_.rows()); }
+  [[nodiscard]] int dim() const { return static_cast<int>(means_.cols()); }
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  static GaussianBayes read(const ModelFile& file, const std::string& prefix);
+
+ private:
+  void finish();
+
+  MatrixD means_;        // (num_classes, dim)
+  MatrixD covariances_;  // (num_covariances * dim, dim): one for all classes, or one a class
+  VectorD log_priors_;
+  // From finish(): whitening matrices L^-1 of each covariance, and log sqrt(|2 pi S|).
+  std::vector<MatrixF> whitening_;
+  std::vector<float> log_norms_;
+};
+
+/// Possibility of each class: its density over the largest (eq. 5.14). Necessity: 1 - the best other class's
+/// possibility, the honest confidence of the best class; 0 for all others.
+struct Possibilities {
+  VectorF possibility;
+  VectorF necessity;
+};
+Possibilities possibilities(const VectorF& log_densities);
+
+}  // namespace hri

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// k nearest neighbours by Euclidean distance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+
+namespace hri {
+
+struct KnnOptions {
+  int num_neighbours = 5;  ///< k, 1..1000; fewer where there are fewer rows
+};
+
+/// Immutable; const calls are safe from several threads.
+class Knn {
+ public:
+  /// See LinearSvm::train for what is refused.
+  static Knn train(ConstMatrixRefF rows, Span<const int> classes, int num_classes, const KnnOptions& options);
+
+  /// Share of the k nearest rows in every class, 0..1, shape (num_classes,); of two classes with as many neighbours
+  /// the one whose nearest row is nearer has up to 1e-3 more.
+  [[nodiscard]] VectorF decision_values(Span<const float> row) const;
+  /// Distance to the nearest row.
+  [[nodiscard]] float nearest_distance(Span<const float> row) const;
+
+  [[nodiscard]] int num_classes() const { return num_classes_; }
+  [[nodiscard]] int dim() const { return static_cast<int>(rows_.cols()); }
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  static Knn read(const ModelFile& file, const std::string& prefix);
+
+ private:
+  [[nodiscard]] VectorF squared_distances(Span<const float> row) const;
+
+  MatrixF rows_;
+  std::vector<int> classes_;
+  int num_classes_ = 0;
+  int num_neighbours_ = 1;
+};
+
+}  // namespace hri
