@@ -122,7 +122,7 @@ class PyBulletRobot(Robot):
     def close(self) -> None:
         if self._client >= 0:
             client, self._client = self._client, -1
-            self._bullet.boardonnect(client)
+            self._bullet.disconnect(client)
 
     def _build(self, fixed_base: bool) -> None:
         bullet, client = self._bullet, self._client

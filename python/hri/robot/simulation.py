@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Open a simulated robot, and film it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from os import PathLike
+
+import numpy as np
+
+from hri.errors import InvalidArgument
+from hri.media import write_video
+from hri.robot.backend import Image, Robot
+from hri.robot.checks import require_safe
+from hri.robot.trajectory import Trajectory
+
+BACKENDS = ("pybullet", "kinematic")
+
+
+def open_robot(backend: str = "pybullet", gui: bool = False, fixed_base: bool = True) -> Robot:
+    """Start a simulated HOAP-2, standing at rest.
+
+    Parameters
+    ----------
+    backend : "pybullet" or "kinematic"
+        With physics, or without (which needs no PyBullet).
+    gui : bool
+        Show a window and move in real time; only pybullet can.
+    fixed_base : bool
+        Hold the torso, as for gestures of the arms; kinematic always does.
+
+    Returns
+    -------
+    Robot
+        A context manager; close it when done.
+
+    Raises
+    ------
+    InvalidArgument
+        For another backend, or what the backend cannot do.
+    ImportError
+        When PyBullet is needed and not installed.
+    """
+    if backend == "pybullet":
+        from hri.robot.pybullet_backend import PyBulletRobot
+
+        return PyBulletRobot(gui=gui, fixed_base=fixed_base)
+    if backend == "kinematic":
+        if gui:
+            raise InvalidArgument("the kinematic backend has no window; use pybullet for gui")
+        if not fixed_base:
+            raise InvalidArgument("the kinematic backend cannot stand on its feet; use pybullet")
+        from hri.robot.kinematic_backend import KinematicRobot
+
+        return KinematicRobot()
+    raise InvalidArgument(f"backend is {backend!r}, must be one of {', '.join(BACKENDS)}")
+
+
+def render_video(
+    trajectory: Trajectory,
+    path: str | PathLike[str],
+    backend: str = "pybullet",
+    fps: float = 12.0,
+    size: tuple[int, int] = (480, 360),
+    progress: Callable[[int, int], None] | None = None,
+) -> int:
+    """Film a motion, from its first row on, the torso held.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+    path : path-like
+        The suffix chooses the format, see `hri.media.write_video`.
+    backend : "pybullet" or "kinematic"
+    fps : float
+    size : width and height in pixels
+    progress : callable of (frames made, frames in all), optional
+
+    Returns
+    -------
+    int
+        Number of frames.
+
+    Raises
+    ------
+    TrajectoryError
+        When the check finds errors; nothing is written.
+    InvalidArgument, IoError
+        As `open_robot` and `hri.media.write_video` do.
+    """
+    require_safe(trajectory)
+    frames: list[Image] = []
+
+    def keep(image: Image, time_s: float) -> None:
+        frames.append(np.ascontiguousarray(image[:, :, ::-1]))
+        if progress is not None:
+            progress(len(frames), max(total, len(frames)))
+
+    with open_robot(backend) as robot:
+        total = int(trajectory.duration_s * fps + 1e-6) + 1
+        first = trajectory.positions_rad[0].tolist()
+        robot.reset(dict(zip(trajectory.joint_names, first, strict=True)))
+        robot.perform(trajectory, keep, fps, size)
+    write_video(path, frames, fps)
+    return len(frames)
