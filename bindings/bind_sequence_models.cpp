@@ -255,7 +255,8 @@ void bind_possibilistic(py::module_& m) {
       .field("conditioned", &Options::conditioned)
       .field("max_iterations", &Options::max_iterations)
       .field("tolerance", &Options::tolerance)
-      .field("emission_floor", &Options::emission_floor);
+      .field("emission_floor", &Options::emission_floor)
+      .field("seed", &Options::seed);
   py::class_<Model> cls(
       m, "PossibilisticHmmSet",
       "Possibility-theory HMMs of all classes, trained and scaled together (thesis chapter 4).");

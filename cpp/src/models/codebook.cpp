@@ -9,40 +9,68 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/simd.hpp"
+#include "hri/models/row_checks.hpp"
 
 namespace hri {
 namespace {
 
-HRI_SIMD_CLONES
-float squared_distance(const float* a, const float* b, int dim) {
-  constexpr int kLanes = 8;
-  float lanes[kLanes] = {};
-  int d = 0;
-  for (; d + kLanes <= dim; d += kLanes) {
-    for (int l = 0; l < kLanes; ++l) {
-      const float diff = a[d + l] - b[d + l];
-      lanes[l] += diff * diff;
-    }
-  }
-  float sum = 0;
-  for (; d < dim; ++d) sum += (a[d] - b[d]) * (a[d] - b[d]);
-  for (const float lane : lanes) sum += lane;
-  return sum;
-}
+constexpr int kLanes = 32;
 
 struct Nearest {
-  int index = 0;
-  float distance = std::numeric_limits<float>::max();
+  std::int32_t index = 0;
+  float distance = 0;
 };
 
-Nearest nearest_row(const MatrixF& centroids, const float* x) {
-  Nearest best;
-  const int dim = static_cast<int>(centroids.cols());
-  for (Eigen::Index k = 0; k < centroids.rows(); ++k) {
-    const float distance = squared_distance(x, centroids.data() + k * dim, dim);
-    if (distance < best.distance) best = {static_cast<int>(k), distance};
+// The nearest codeword of every row, the lower index where two are as near. `columns` is (dim,
+// padded), padded a multiple of kLanes.
+HRI_SIMD_CLONES
+void find_nearest(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows, int dim,
+                  const float* columns, int padded, Nearest* out) {
+  for (std::ptrdiff_t r = 0; r < num_rows; ++r) {
+    const float* x = rows + r * stride;
+    float best[kLanes];
+    std::int32_t block_of[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      best[l] = std::numeric_limits<float>::infinity();
+      block_of[l] = 0;
+    }
+    for (std::int32_t first = 0; first < padded; first += kLanes) {
+      float sums[kLanes] = {};
+      for (int d = 0; d < dim; ++d) {
+        const float* c = columns + static_cast<std::ptrdiff_t>(d) * padded + first;
+        for (int l = 0; l < kLanes; ++l) sums[l] += (x[d] - c[l]) * (x[d] - c[l]);
+      }
+      for (int l = 0; l < kLanes; ++l) {
+        const bool nearer = sums[l] < best[l];
+        best[l] = nearer ? sums[l] : best[l];
+        block_of[l] = nearer ? first : block_of[l];
+      }
+    }
+    Nearest nearest{block_of[0], best[0]};
+    for (std::int32_t l = 1; l < kLanes; ++l) {
+      const std::int32_t index = block_of[l] + l;
+      if (best[l] < nearest.distance || (best[l] == nearest.distance && index < nearest.index)) {
+        nearest = {index, best[l]};
+      }
+    }
+    out[r] = nearest;
   }
-  return best;
+}
+
+// Centroids as columns; codewords that only pad lie infinitely far.
+MatrixF columns_of(const MatrixF& centroids) {
+  const Eigen::Index padded = (centroids.rows() + kLanes - 1) / kLanes * kLanes;
+  MatrixF columns =
+      MatrixF::Constant(centroids.cols(), padded, std::numeric_limits<float>::infinity());
+  columns.leftCols(centroids.rows()) = centroids.transpose();
+  return columns;
+}
+
+std::vector<Nearest> nearest_codewords(ConstMatrixRefF rows, const MatrixF& columns) {
+  std::vector<Nearest> nearest(static_cast<std::size_t>(rows.rows()));
+  find_nearest(rows.data(), rows.outerStride(), rows.rows(), static_cast<int>(rows.cols()),
+               columns.data(), static_cast<int>(columns.cols()), nearest.data());
+  return nearest;
 }
 
 // One pass of k-means: assignments, cell sums, and how much of the distortion lies in each cell.
@@ -54,10 +82,12 @@ struct Pass {
 };
 
 Pass assign(ConstMatrixRefF rows, const MatrixF& centroids) {
-  Pass pass{MatrixD::Zero(centroids.rows(), rows.cols()), MatrixD::Zero(centroids.rows(), rows.cols()),
-            VectorD::Zero(centroids.rows()), VectorD::Zero(centroids.rows())};
+  Pass pass{MatrixD::Zero(centroids.rows(), rows.cols()),
+            MatrixD::Zero(centroids.rows(), rows.cols()), VectorD::Zero(centroids.rows()),
+            VectorD::Zero(centroids.rows())};
+  const std::vector<Nearest> nearest = nearest_codewords(rows, columns_of(centroids));
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    const Nearest best = nearest_row(centroids, rows.data() + r * rows.outerStride());
+    const Nearest& best = nearest[static_cast<std::size_t>(r)];
     pass.sums.row(best.index) += rows.row(r).cast<double>();
     pass.squares.row(best.index) += rows.row(r).cast<double>().cwiseAbs2();
     pass.counts[best.index] += 1;
@@ -69,24 +99,32 @@ Pass assign(ConstMatrixRefF rows, const MatrixF& centroids) {
 Eigen::RowVectorXf deviation(const Pass& pass, Eigen::Index k) {
   if (!(pass.counts[k] > 0)) return Eigen::RowVectorXf::Zero(pass.sums.cols());
   const Eigen::RowVectorXd mean = pass.sums.row(k) / pass.counts[k];
-  return (pass.squares.row(k) / pass.counts[k] - mean.cwiseAbs2()).cwiseMax(0).cwiseSqrt().cast<float>();
+  return (pass.squares.row(k) / pass.counts[k] - mean.cwiseAbs2())
+      .cwiseMax(0)
+      .cwiseSqrt()
+      .cast<float>();
 }
 
-// Centroids of the cells; an empty one is put beside the codeword of the worst cell, which then gives up half.
+// Centroids of the cells; an empty one is put beside the codeword of the worst cell, which then
+// gives up half.
 void update(Pass* pass, double epsilon, MatrixF* centroids) {
   for (Eigen::Index k = 0; k < centroids->rows(); ++k) {
-    if (pass->counts[k] > 0) centroids->row(k) = (pass->sums.row(k) / pass->counts[k]).cast<float>();
+    if (pass->counts[k] > 0)
+      centroids->row(k) = (pass->sums.row(k) / pass->counts[k]).cast<float>();
   }
   for (Eigen::Index k = 0; k < centroids->rows(); ++k) {
     if (pass->counts[k] > 0) continue;
     Eigen::Index worst = 0;
-    if (!(pass->distortions.maxCoeff(&worst) > 0)) continue;  // every row sits on its codeword already
-    centroids->row(k) = centroids->row(worst) + static_cast<float>(epsilon) * deviation(*pass, worst);
+    if (!(pass->distortions.maxCoeff(&worst) > 0))
+      continue;  // every row sits on its codeword already
+    centroids->row(k) =
+        centroids->row(worst) + static_cast<float>(epsilon) * deviation(*pass, worst);
     pass->distortions[worst] = 0;
   }
 }
 
-MatrixF run_kmeans(ConstMatrixRefF rows, MatrixF centroids, const CodebookOptions& options, Pass* last) {
+MatrixF run_kmeans(ConstMatrixRefF rows, MatrixF centroids, const CodebookOptions& options,
+                   Pass* last) {
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     poll(options.should_stop);
@@ -102,22 +140,31 @@ MatrixF run_kmeans(ConstMatrixRefF rows, MatrixF centroids, const CodebookOption
 }
 
 void check(ConstMatrixRefF rows, const CodebookOptions& options) {
-  require(options.num_codewords >= 1 && options.num_codewords <= 65536, "num_codewords must lie in 1..65536");
+  require(options.num_codewords >= 1 && options.num_codewords <= 65536,
+          "num_codewords must lie in 1..65536");
   require(options.max_iterations >= 1, "max_iterations must be at least 1");
   require(options.tolerance >= 0, "tolerance must not be negative");
   require(options.split_epsilon > 0, "split_epsilon must be positive");
   require(rows.rows() > 0 && rows.cols() > 0, "training needs at least one row and column");
-  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    if (!rows.row(r).allFinite()) {
-      fail(ErrorKind::invalid_argument, "rows are not finite at row " + std::to_string(r));
-    }
+  validate_finite(rows, "rows");
+}
+
+// Drops codewords without rows: fewer different rows than codewords leave some over.
+MatrixF without_empty(const MatrixF& centroids, const VectorD& counts) {
+  MatrixF kept(centroids.rows(), centroids.cols());
+  Eigen::Index size = 0;
+  for (Eigen::Index k = 0; k < centroids.rows(); ++k) {
+    if (counts[k] > 0) kept.row(size++) = centroids.row(k);
   }
+  return kept.topRows(size);
 }
 
 }  // namespace
 
 Codebook::Codebook(MatrixF centroids) : centroids_(std::move(centroids)) {
-  require(centroids_.size() > 0 && centroids_.allFinite(), "a codebook needs at least one codeword, all finite");
+  require(centroids_.size() > 0, "a codebook needs at least one codeword");
+  validate_finite(centroids_, "centroids");
+  columns_ = columns_of(centroids_);
 }
 
 Codebook Codebook::train_lbg(ConstMatrixRefF rows, const CodebookOptions& options) {
@@ -127,41 +174,51 @@ Codebook Codebook::train_lbg(ConstMatrixRefF rows, const CodebookOptions& option
   while (centroids.rows() < options.num_codewords && pass.distortions.sum() > 0) {
     const Eigen::Index size = centroids.rows();
     const Eigen::Index grown = std::min<Eigen::Index>(2 * size, options.num_codewords);
-    // The cells with the largest distortion split first, which matters where the last split is a partial one.
+    // The cells with the largest distortion split first, which matters where the last split is a
+    // partial one.
     std::vector<Eigen::Index> order(static_cast<std::size_t>(size));
     for (Eigen::Index k = 0; k < size; ++k) order[static_cast<std::size_t>(k)] = k;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Eigen::Index a, Eigen::Index b) { return pass.distortions[a] > pass.distortions[b]; });
+    std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+      return pass.distortions[a] > pass.distortions[b];
+    });
     centroids.conservativeResize(grown, Eigen::NoChange);
     for (Eigen::Index i = 0; i < grown - size; ++i) {
       const Eigen::Index k = order[static_cast<std::size_t>(i)];
-      const Eigen::RowVectorXf step = static_cast<float>(options.split_epsilon) * deviation(pass, k);
+      const Eigen::RowVectorXf step =
+          static_cast<float>(options.split_epsilon) * deviation(pass, k);
       centroids.row(size + i) = centroids.row(k) + step;
       centroids.row(k) -= step;
     }
     centroids = run_kmeans(rows, std::move(centroids), options, &pass);
   }
-  return Codebook(std::move(centroids));
+  return Codebook(without_empty(centroids, pass.counts));
 }
 
-Codebook Codebook::train_kmeans(ConstMatrixRefF rows, ConstMatrixRefF centroids, const CodebookOptions& options) {
+Codebook Codebook::train_kmeans(ConstMatrixRefF rows, ConstMatrixRefF centroids,
+                                const CodebookOptions& options) {
   check(rows, options);
-  require(centroids.rows() > 0 && centroids.cols() == rows.cols(), "centroids must have as many columns as the rows");
+  require(centroids.rows() > 0 && centroids.cols() == rows.cols(),
+          "centroids must have as many columns as the rows");
+  validate_finite(centroids, "centroids");
   Pass pass;
-  return Codebook(run_kmeans(rows, centroids, options, &pass));
+  const MatrixF trained = run_kmeans(rows, centroids, options, &pass);
+  return Codebook(without_empty(trained, pass.counts));
 }
 
 int Codebook::quantise(Span<const float> frame) const {
-  require(frame.size() == static_cast<std::size_t>(dim()), "frame must have dim() values");
-  return nearest_row(centroids_, frame.data()).index;
+  validate_row(frame, dim());
+  Nearest nearest;
+  find_nearest(frame.data(), 0, 1, dim(), columns_.data(), static_cast<int>(columns_.cols()),
+               &nearest);
+  return nearest.index;
 }
 
 void Codebook::quantise(ConstMatrixRefF frames, Span<std::int32_t> out) const {
   require(frames.cols() == dim() && out.size() == static_cast<std::size_t>(frames.rows()),
           "frames must have dim() columns, out one place a row");
-  for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    out[static_cast<std::size_t>(t)] = nearest_row(centroids_, frames.data() + t * frames.outerStride()).index;
-  }
+  validate_finite(frames, "frames");
+  const std::vector<Nearest> nearest = nearest_codewords(frames, columns_);
+  for (std::size_t t = 0; t < nearest.size(); ++t) out[t] = nearest[t].index;
 }
 
 std::vector<std::int32_t> Codebook::quantise(ConstMatrixRefF frames) const {
@@ -172,10 +229,10 @@ std::vector<std::int32_t> Codebook::quantise(ConstMatrixRefF frames) const {
 
 double Codebook::distortion(ConstMatrixRefF frames) const {
   require(frames.rows() > 0 && frames.cols() == dim(), "frames must have rows, and dim() columns");
+  validate_finite(frames, "frames");
   double sum = 0;
-  for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    sum += static_cast<double>(nearest_row(centroids_, frames.data() + t * frames.outerStride()).distance);
-  }
+  for (const Nearest& n : nearest_codewords(frames, columns_))
+    sum += static_cast<double>(n.distance);
   return sum / static_cast<double>(frames.rows());
 }
 
@@ -185,7 +242,8 @@ void Codebook::write(ModelFile& file, const std::string& prefix) const {
 
 Codebook Codebook::read(const ModelFile& file, const std::string& prefix) {
   MatrixF centroids = file.matrix_f(prefix + "centroids");
-  if (centroids.size() == 0) fail(ErrorKind::format, file.name() + ": field '" + prefix + "centroids' is empty");
+  if (centroids.size() == 0)
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + "centroids' is empty");
   return Codebook(std::move(centroids));
 }
 

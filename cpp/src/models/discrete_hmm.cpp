@@ -14,18 +14,22 @@ namespace hri {
 namespace {
 
 const char* emission_fault(const Topology& topology, const MatrixD& emission) {
-  if (emission.rows() != topology.num_states || emission.cols() < 1) return "emission needs a row for every state";
+  if (emission.rows() != topology.num_states || emission.cols() < 1)
+    return "emission needs a row for every state";
   if (!emission.allFinite() || emission.minCoeff() < 0) return "emission must be finite and >= 0";
-  if ((emission.rowwise().sum().array() - 1).abs().maxCoeff() > 1e-6) return "the rows of emission must sum to 1";
+  if ((emission.rowwise().sum().array() - 1).abs().maxCoeff() > 1e-6)
+    return "the rows of emission must sum to 1";
   return nullptr;
 }
 
 void check(const DiscreteHmmOptions& o) {
   validate(o.topology);
   require(o.num_symbols >= 1 && o.num_symbols <= 65536, "num_symbols must lie in 1..65536");
-  require(o.max_iterations >= 1 && o.max_iterations <= 100000, "max_iterations must lie in 1..100000");
+  require(o.max_iterations >= 1 && o.max_iterations <= 100000,
+          "max_iterations must lie in 1..100000");
   require(o.tolerance >= 0, "tolerance must not be negative");
-  require(o.emission_floor >= 0 && o.emission_floor * o.num_symbols <= 1, "emission_floor must lie in 0..1/num_symbols");
+  require(o.emission_floor >= 0 && o.emission_floor * o.num_symbols <= 1,
+          "emission_floor must lie in 0..1/num_symbols");
 }
 
 // Floors every row and scales it back to sum 1.
@@ -35,13 +39,16 @@ MatrixD floored(MatrixD emission, double floor) {
   return emission;
 }
 
-// Emissions counted from uniform segments; states of other topologies start from the common histogram, stirred.
-MatrixD initial_emission(const std::vector<SymbolSequence>& sequences, const DiscreteHmmOptions& options) {
+// Emissions counted from uniform segments; states of other topologies start from the common
+// histogram, stirred.
+MatrixD initial_emission(const std::vector<SymbolSequence>& sequences,
+                         const DiscreteHmmOptions& options) {
   const int n = options.topology.num_states;
   MatrixD counts = MatrixD::Constant(n, options.num_symbols, 1e-3);
   Random random(options.seed);
   for (const SymbolSequence& s : sequences) {
-    const std::vector<int> states = detail::uniform_segmentation(static_cast<Eigen::Index>(s.size()), n);
+    const std::vector<int> states =
+        detail::uniform_segmentation(static_cast<Eigen::Index>(s.size()), n);
     for (std::size_t t = 0; t < s.size(); ++t) {
       if (options.topology.kind == Topology::Kind::left_right) {
         counts(states[t], s[t]) += 1;
@@ -58,12 +65,14 @@ MatrixD initial_emission(const std::vector<SymbolSequence>& sequences, const Dis
 void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols) {
   require(!sequences.empty(), "training needs at least one sequence");
   for (std::size_t s = 0; s < sequences.size(); ++s) {
-    if (sequences[s].empty()) fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + " has no symbols");
+    if (sequences[s].empty())
+      fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + " has no symbols");
     for (std::size_t t = 0; t < sequences[s].size(); ++t) {
       if (sequences[s][t] >= 0 && sequences[s][t] < num_symbols) continue;
       fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + ": symbol " +
-                                            std::to_string(sequences[s][t]) + " at position " + std::to_string(t) +
-                                            " lies outside 0.." + std::to_string(num_symbols - 1));
+                                            std::to_string(sequences[s][t]) + " at position " +
+                                            std::to_string(t) + " lies outside 0.." +
+                                            std::to_string(num_symbols - 1));
     }
   }
 }
@@ -86,21 +95,22 @@ MatrixD DiscreteHmm::log_densities(Span<const std::int32_t> symbols) const {
   MatrixD log_b(static_cast<Eigen::Index>(symbols.size()), num_states());
   for (std::size_t t = 0; t < symbols.size(); ++t) {
     if (symbols[t] < 0 || symbols[t] >= num_symbols()) {
-      fail(ErrorKind::invalid_argument, "symbol " + std::to_string(symbols[t]) + " at position " + std::to_string(t) +
-                                            " lies outside 0.." + std::to_string(num_symbols() - 1));
+      fail(ErrorKind::invalid_argument, "symbol " + std::to_string(symbols[t]) + " at position " +
+                                            std::to_string(t) + " lies outside 0.." +
+                                            std::to_string(num_symbols() - 1));
     }
     log_b.row(static_cast<Eigen::Index>(t)) = log_emission_.col(symbols[t]).transpose();
   }
   return log_b;
 }
 
-DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences, const DiscreteHmmOptions& options,
-                               TrainingReport* report) {
+DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
+                               const DiscreteHmmOptions& options, TrainingReport* report) {
   check(options);
   validate_symbols(sequences, options.num_symbols);
   const int n = options.topology.num_states;
-  DiscreteHmm model(options.topology, initial_start(options.topology), initial_transition(options.topology),
-                    initial_emission(sequences, options));
+  DiscreteHmm model(options.topology, initial_start(options.topology),
+                    initial_transition(options.topology), initial_emission(sequences, options));
   double num_total = 0;
   for (const SymbolSequence& s : sequences) num_total += static_cast<double>(s.size());
   TrainingReport local;
@@ -111,7 +121,8 @@ DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences, con
     MatrixD emitted = MatrixD::Zero(n, options.num_symbols);
     double total = 0;
     for (const SymbolSequence& s : sequences) {
-      const detail::Chain chain{model.topology_, model.log_start_, model.log_transition_};
+      const detail::Chain chain{model.topology_, model.log_start_, model.transition_,
+                                model.log_transition_};
       total += detail::forward_backward(chain, model.log_densities(s), &gamma, &counts);
       for (std::size_t t = 0; t < s.size(); ++t) {
         emitted.col(s[t]) += gamma.row(static_cast<Eigen::Index>(t)).transpose();
@@ -127,20 +138,24 @@ DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences, con
     MatrixD emission = model.emission_;
     constexpr double kUnvisited = 1e-8;
     for (int j = 0; j < n; ++j) {
-      if (emitted.row(j).sum() > kUnvisited) emission.row(j) = emitted.row(j) / emitted.row(j).sum();
+      if (emitted.row(j).sum() > kUnvisited)
+        emission.row(j) = emitted.row(j) / emitted.row(j).sum();
     }
-    model = DiscreteHmm(options.topology, start, transition, floored(emission, options.emission_floor));
+    model =
+        DiscreteHmm(options.topology, start, transition, floored(emission, options.emission_floor));
   }
   if (report != nullptr) *report = std::move(local);
   return model;
 }
 
 double DiscreteHmm::log_likelihood(Span<const std::int32_t> symbols) const {
-  return detail::forward(detail::Chain{topology_, log_start_, log_transition_}, log_densities(symbols));
+  return detail::forward(detail::Chain{topology_, log_start_, transition_, log_transition_},
+                         log_densities(symbols));
 }
 
 double DiscreteHmm::viterbi(Span<const std::int32_t> symbols, std::vector<int>* path) const {
-  return detail::viterbi(detail::Chain{topology_, log_start_, log_transition_}, log_densities(symbols), path);
+  return detail::viterbi(detail::Chain{topology_, log_start_, transition_, log_transition_},
+                         log_densities(symbols), path);
 }
 
 void DiscreteHmm::write(ModelFile& file, const std::string& prefix) const {
@@ -157,7 +172,8 @@ DiscreteHmm DiscreteHmm::read(const ModelFile& file, const std::string& prefix) 
   const MatrixD emission = file.matrix_d(prefix + "emission");
   const char* fault = detail::chain_fault(topology, start, transition);
   if (fault == nullptr) fault = emission_fault(topology, emission);
-  if (fault != nullptr) fail(ErrorKind::format, file.name() + ": fields of '" + prefix + "': " + fault);
+  if (fault != nullptr)
+    fail(ErrorKind::format, file.name() + ": fields of '" + prefix + "': " + fault);
   return {topology, start, transition, emission};
 }
 

@@ -11,14 +11,19 @@ namespace hri {
 
 GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtureOptions& options,
                                        TrainingReport* report) {
-  require(options.num_mixtures >= 1 && options.num_mixtures <= 4096, "num_mixtures must lie in 1..4096");
-  require(options.max_iterations >= 1 && options.max_iterations <= 100000, "max_iterations must lie in 1..100000");
+  require(options.num_mixtures >= 1 && options.num_mixtures <= 4096,
+          "num_mixtures must lie in 1..4096");
+  require(options.max_iterations >= 1 && options.max_iterations <= 100000,
+          "max_iterations must lie in 1..100000");
+  require(options.tolerance >= 0, "tolerance must not be negative");
   require(options.variance_floor > 0, "variance_floor must be positive");
   require(rows.rows() > 0, "training needs at least one row");
   const std::vector<MatrixF> sequence{rows};
-  const VectorD floor = (global_statistics(sequence).variance * options.variance_floor).cwiseMax(1e-10);
-  MixtureBank bank = initial_bank(sequence, {std::vector<int>(static_cast<std::size_t>(rows.rows()), 0)}, 1,
-                                  options.num_mixtures, floor, options.seed);
+  const VectorD floor =
+      (global_statistics(sequence).variance * options.variance_floor).cwiseMax(1e-10);
+  MixtureBank bank =
+      initial_bank(sequence, {std::vector<int>(static_cast<std::size_t>(rows.rows()), 0)}, 1,
+                   options.num_mixtures, floor, options.seed);
   const MatrixD gamma = MatrixD::Ones(rows.rows(), 1);
   TrainingReport local;
   MatrixD densities;
@@ -28,8 +33,8 @@ GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtu
     bank.log_densities(rows, &densities, &components);
     const double total = densities.sum();
     if (!local.log_likelihoods.empty()) {
-      local.converged =
-          (total - local.log_likelihoods.back()) / static_cast<double>(rows.rows()) < options.tolerance;
+      local.converged = (total - local.log_likelihoods.back()) / static_cast<double>(rows.rows()) <
+                        options.tolerance;
     }
     local.log_likelihoods.push_back(total);
     MixtureAccumulator accumulator(1, options.num_mixtures, bank.dim());
@@ -48,7 +53,8 @@ double GaussianMixture::log_likelihood(ConstMatrixRefF frames) const {
 
 GaussianMixture GaussianMixture::read(const ModelFile& file, const std::string& prefix) {
   MixtureBank bank = MixtureBank::read(file, prefix);
-  if (bank.num_states() != 1) fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' needs one row");
+  if (bank.num_states() != 1)
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' needs one row");
   return GaussianMixture(std::move(bank));
 }
 

@@ -15,15 +15,17 @@ namespace {
 void check(const GaussianMixtureHmmOptions& o) {
   validate(o.topology);
   require(o.num_mixtures >= 1 && o.num_mixtures <= 1024, "num_mixtures must lie in 1..1024");
-  require(o.max_iterations >= 1 && o.max_iterations <= 100000, "max_iterations must lie in 1..100000");
+  require(o.max_iterations >= 1 && o.max_iterations <= 100000,
+          "max_iterations must lie in 1..100000");
   require(o.tolerance >= 0, "tolerance must not be negative");
   require(o.variance_floor > 0, "variance_floor must be positive");
-  require(o.weight_floor >= 0 && o.weight_floor * o.num_mixtures <= 1, "weight_floor must lie in 0..1/num_mixtures");
+  require(o.weight_floor >= 0 && o.weight_floor * o.num_mixtures <= 1,
+          "weight_floor must lie in 0..1/num_mixtures");
 }
 
 // The state every frame starts in: equal parts for left-right models, at random otherwise.
-std::vector<std::vector<int>> first_states(const std::vector<MatrixF>& sequences, const Topology& topology,
-                                           std::uint64_t seed) {
+std::vector<std::vector<int>> first_states(const std::vector<MatrixF>& sequences,
+                                           const Topology& topology, std::uint64_t seed) {
   std::vector<std::vector<int>> states;
   Random random(seed);
   for (const MatrixF& s : sequences) {
@@ -43,25 +45,31 @@ VectorD floor_of(const VectorD& global_variance, double share) {
 
 }  // namespace
 
-GaussianMixtureHmm::GaussianMixtureHmm(Topology topology, VectorD start, MatrixD transition, MixtureBank bank)
-    : topology_(topology), start_(std::move(start)), transition_(std::move(transition)), bank_(std::move(bank)) {
+GaussianMixtureHmm::GaussianMixtureHmm(Topology topology, VectorD start, MatrixD transition,
+                                       MixtureBank bank)
+    : topology_(topology),
+      start_(std::move(start)),
+      transition_(std::move(transition)),
+      bank_(std::move(bank)) {
   const char* fault = detail::chain_fault(topology_, start_, transition_);
   require(fault == nullptr, fault);
-  require(bank_.num_states() == topology_.num_states, "the mixture bank must have one mixture a state");
+  require(bank_.num_states() == topology_.num_states,
+          "the mixture bank must have one mixture a state");
   log_start_ = detail::safe_log(start_);
   log_transition_ = detail::safe_log(transition_);
 }
 
 GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequences,
-                                             const GaussianMixtureHmmOptions& options, TrainingReport* report) {
+                                             const GaussianMixtureHmmOptions& options,
+                                             TrainingReport* report) {
   check(options);
   const GlobalStatistics global = global_statistics(sequences);
   const VectorD floor = floor_of(global.variance, options.variance_floor);
   const int n = options.topology.num_states;
   GaussianMixtureHmm model(
       options.topology, initial_start(options.topology), initial_transition(options.topology),
-      initial_bank(sequences, first_states(sequences, options.topology, options.seed), n, options.num_mixtures, floor,
-                   options.seed));
+      initial_bank(sequences, first_states(sequences, options.topology, options.seed), n,
+                   options.num_mixtures, floor, options.seed));
   double num_frames = 0;
   for (const MatrixF& s : sequences) num_frames += static_cast<double>(s.rows());
 
@@ -76,7 +84,8 @@ GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequenc
     double total = 0;
     for (const MatrixF& s : sequences) {
       model.bank_.log_densities(s, &densities, &components);
-      const detail::Chain chain{model.topology_, model.log_start_, model.log_transition_};
+      const detail::Chain chain{model.topology_, model.log_start_, model.transition_,
+                                model.log_transition_};
       total += detail::forward_backward(chain, densities, &gamma, &counts);
       accumulator.add(s, gamma, components, densities);
     }
@@ -98,21 +107,24 @@ double GaussianMixtureHmm::log_likelihood(ConstMatrixRefF frames) const {
   require(frames.rows() > 0, "frames must have at least one row");
   MatrixF log_b(frames.rows(), num_states());
   bank_.log_densities(frames, log_b);
-  return detail::forward(detail::Chain{topology_, log_start_, log_transition_}, log_b);
+  return detail::forward(detail::Chain{topology_, log_start_, transition_, log_transition_}, log_b);
 }
 
 double GaussianMixtureHmm::log_likelihood_exact(ConstMatrixRefF frames) const {
-  require(frames.rows() > 0 && frames.cols() == dim(), "frames must have at least one row and dim() columns");
+  require(frames.rows() > 0 && frames.cols() == dim(),
+          "frames must have at least one row and dim() columns");
   MatrixD log_b;
   bank_.log_densities(frames, &log_b, nullptr);
-  return detail::forward(detail::Chain{topology_, log_start_, log_transition_}, log_b);
+  return detail::forward(detail::Chain{topology_, log_start_, transition_, log_transition_}, log_b);
 }
 
 double GaussianMixtureHmm::viterbi(ConstMatrixRefF frames, std::vector<int>* path) const {
-  require(frames.rows() > 0 && frames.cols() == dim(), "frames must have at least one row and dim() columns");
+  require(frames.rows() > 0 && frames.cols() == dim(),
+          "frames must have at least one row and dim() columns");
   MatrixD log_b;
   bank_.log_densities(frames, &log_b, nullptr);
-  return detail::viterbi(detail::Chain{topology_, log_start_, log_transition_}, log_b, path);
+  return detail::viterbi(detail::Chain{topology_, log_start_, transition_, log_transition_}, log_b,
+                         path);
 }
 
 void GaussianMixtureHmm::write(ModelFile& file, const std::string& prefix) const {

@@ -7,13 +7,15 @@
 #include <numeric>
 
 #include "hri/core/error.hpp"
-#include "hri/models/linear_svm.hpp"
+#include "hri/models/row_checks.hpp"
 
 namespace hri {
 
-Knn Knn::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes, const KnnOptions& options) {
+Knn Knn::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
+               const KnnOptions& options) {
   validate_rows(rows, classes, num_classes);
-  require(options.num_neighbours >= 1 && options.num_neighbours <= 1000, "num_neighbours must lie in 1..1000");
+  require(options.num_neighbours >= 1 && options.num_neighbours <= 1000,
+          "num_neighbours must lie in 1..1000");
   Knn model;
   model.rows_ = rows;
   model.classes_.assign(classes.begin(), classes.end());
@@ -23,7 +25,7 @@ Knn Knn::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes, c
 }
 
 VectorF Knn::squared_distances(Span<const float> row) const {
-  require(row.size() == static_cast<std::size_t>(dim()), "row must have dim() values");
+  validate_row(row, dim());
   const Eigen::Map<const VectorF> x(row.data(), dim());
   return (rows_.rowwise() - x.transpose()).rowwise().squaredNorm();
 }
@@ -51,12 +53,15 @@ VectorF Knn::decision_values(Span<const float> row) const {
   return votes;
 }
 
-float Knn::nearest_distance(Span<const float> row) const { return std::sqrt(squared_distances(row).minCoeff()); }
+float Knn::nearest_distance(Span<const float> row) const {
+  return std::sqrt(squared_distances(row).minCoeff());
+}
 
 void Knn::write(ModelFile& file, const std::string& prefix) const {
   file.set_matrix(prefix + "rows", rows_);
   VectorF classes(static_cast<Eigen::Index>(classes_.size()));
-  for (std::size_t i = 0; i < classes_.size(); ++i) classes[static_cast<Eigen::Index>(i)] = static_cast<float>(classes_[i]);
+  for (std::size_t i = 0; i < classes_.size(); ++i)
+    classes[static_cast<Eigen::Index>(i)] = static_cast<float>(classes_[i]);
   file.set_vector(prefix + "classes", classes);
   file.set_integer(prefix + "num_classes", num_classes_);
   file.set_integer(prefix + "num_neighbours", num_neighbours_);
@@ -68,15 +73,17 @@ Knn Knn::read(const ModelFile& file, const std::string& prefix) {
   const VectorF classes = file.vector_f(prefix + "classes");
   const std::int64_t num_classes = file.integer(prefix + "num_classes");
   const std::int64_t k = file.integer(prefix + "num_neighbours");
-  if (model.rows_.size() == 0 || classes.size() != model.rows_.rows() || num_classes < 2 || num_classes > 1000000 ||
-      k < 1 || k > 1000) {
-    fail(ErrorKind::format, file.name() + ": field '" + prefix + "rows' does not fit classes or num_neighbours");
+  if (model.rows_.size() == 0 || classes.size() != model.rows_.rows() || num_classes < 2 ||
+      num_classes > 1000000 || k < 1 || k > 1000) {
+    fail(ErrorKind::format,
+         file.name() + ": field '" + prefix + "rows' does not fit classes or num_neighbours");
   }
   model.num_classes_ = static_cast<int>(num_classes);
   model.num_neighbours_ = static_cast<int>(k);
   for (const float c : classes) {
     if (c < 0 || c >= static_cast<float>(num_classes) || c != std::floor(c)) {
-      fail(ErrorKind::format, file.name() + ": field '" + prefix + "classes' holds " + std::to_string(c));
+      fail(ErrorKind::format,
+           file.name() + ": field '" + prefix + "classes' holds " + std::to_string(c));
     }
     model.classes_.push_back(static_cast<int>(c));
   }

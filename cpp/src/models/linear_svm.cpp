@@ -11,6 +11,7 @@
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 #include "hri/core/simd.hpp"
+#include "hri/models/row_checks.hpp"
 
 namespace hri {
 namespace {
@@ -39,8 +40,10 @@ struct Hyperplane {
   float bias = 0;
 };
 
-// One class against the rest. Algorithm 1 of the paper for the L2 loss: D_ii = 1 / (2 C), no upper bound on alpha.
-Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive, const LinearSvmOptions& options) {
+// One class against the rest. Algorithm 1 of the paper for the L2 loss: D_ii = 1 / (2 C), no upper
+// bound on alpha.
+Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
+                    const LinearSvmOptions& options) {
   const Eigen::Index count = rows.rows();
   const int dim = static_cast<int>(rows.cols());
   const auto bias_feature = static_cast<float>(options.bias_feature);
@@ -48,8 +51,8 @@ Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
   std::vector<double> alpha(static_cast<std::size_t>(count), 0.0);
   std::vector<double> curvature(alpha.size());
   for (Eigen::Index r = 0; r < count; ++r) {
-    curvature[static_cast<std::size_t>(r)] =
-        static_cast<double>(rows.row(r).squaredNorm()) + options.bias_feature * options.bias_feature + diagonal;
+    curvature[static_cast<std::size_t>(r)] = static_cast<double>(rows.row(r).squaredNorm()) +
+                                             options.bias_feature * options.bias_feature + diagonal;
   }
   std::vector<std::size_t> order(alpha.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -63,7 +66,8 @@ Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
     for (const std::size_t i : order) {
       const float* x = rows.data() + static_cast<Eigen::Index>(i) * rows.outerStride();
       const float y = classes[i] == positive ? 1.0F : -1.0F;
-      const double margin = static_cast<double>(dot(x, h.weights.data(), dim) + h.bias * bias_feature);
+      const double margin =
+          static_cast<double>(dot(x, h.weights.data(), dim) + h.bias * bias_feature);
       const double gradient = static_cast<double>(y) * margin - 1.0 + diagonal * alpha[i];
       const double projected = alpha[i] == 0.0 ? std::min(gradient, 0.0) : gradient;
       highest = std::max(highest, projected);
@@ -83,28 +87,6 @@ Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
 
 }  // namespace
 
-void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classes) {
-  require(rows.rows() > 0 && rows.cols() > 0, "training needs at least one row and column");
-  require(static_cast<std::size_t>(rows.rows()) == classes.size(), "there must be one class a row");
-  require(num_classes >= 2, "num_classes must be at least 2");
-  std::vector<int> counts(static_cast<std::size_t>(num_classes), 0);
-  for (std::size_t r = 0; r < classes.size(); ++r) {
-    if (classes[r] < 0 || classes[r] >= num_classes) {
-      fail(ErrorKind::invalid_argument, "row " + std::to_string(r) + ": class " + std::to_string(classes[r]) +
-                                            " lies outside 0.." + std::to_string(num_classes - 1));
-    }
-    if (!rows.row(static_cast<Eigen::Index>(r)).allFinite()) {
-      fail(ErrorKind::invalid_argument, "row " + std::to_string(r) + " is not finite");
-    }
-    ++counts[static_cast<std::size_t>(classes[r])];
-  }
-  for (int c = 0; c < num_classes; ++c) {
-    if (counts[static_cast<std::size_t>(c)] == 0) {
-      fail(ErrorKind::invalid_argument, "class " + std::to_string(c) + " has no row");
-    }
-  }
-}
-
 LinearSvm LinearSvm::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                            const LinearSvmOptions& options) {
   validate_rows(rows, classes, num_classes);
@@ -123,10 +105,11 @@ LinearSvm LinearSvm::train(ConstMatrixRefF rows, Span<const int> classes, int nu
 }
 
 VectorF LinearSvm::decision_values(Span<const float> row) const {
-  require(row.size() == static_cast<std::size_t>(dim()), "row must have dim() values");
+  validate_row(row, dim());
   VectorF result(num_classes());
   for (int c = 0; c < num_classes(); ++c) {
-    result[c] = dot(row.data(), weights_.data() + static_cast<Eigen::Index>(c) * dim(), dim()) + biases_[c];
+    result[c] =
+        dot(row.data(), weights_.data() + static_cast<Eigen::Index>(c) * dim(), dim()) + biases_[c];
   }
   return result;
 }

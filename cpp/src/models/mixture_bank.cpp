@@ -8,6 +8,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/simd.hpp"
+#include "hri/models/row_checks.hpp"
 
 namespace hri {
 namespace {
@@ -16,8 +17,8 @@ constexpr double kLog2Pi = 1.8378770664093454835606594728112;
 
 // Weighted squared distance of one frame to every row of means; the hot loop of scoring.
 HRI_SIMD_CLONES
-void weighted_distances(const float* x, const float* means, const float* precisions, int num_rows, int dim,
-                        float* out) {
+void weighted_distances(const float* x, const float* means, const float* precisions, int num_rows,
+                        int dim, float* out) {
   constexpr int kLanes = 16;
   for (int r = 0; r < num_rows; ++r) {
     const float* m = means + static_cast<std::ptrdiff_t>(r) * dim;
@@ -60,10 +61,12 @@ MixtureBank::MixtureBank(MatrixD weights, MatrixD means, MatrixD variances)
   require(rows > 0 && means_.rows() == rows && variances_.rows() == rows && means_.cols() > 0 &&
               variances_.cols() == means_.cols(),
           "mixture bank: shapes of weights, means and variances do not fit");
-  require(weights_.allFinite() && means_.allFinite() && variances_.allFinite(), "mixture bank: a value is not finite");
+  require(weights_.allFinite() && means_.allFinite() && variances_.allFinite(),
+          "mixture bank: a value is not finite");
   require(variances_.minCoeff() > 0, "mixture bank: variances must be positive");
-  require(weights_.minCoeff() >= 0 && (weights_.rowwise().sum().array() - 1.0).abs().maxCoeff() < 1e-6,
-          "mixture bank: the weights of a state must be >= 0 and sum to 1");
+  require(
+      weights_.minCoeff() >= 0 && (weights_.rowwise().sum().array() - 1.0).abs().maxCoeff() < 1e-6,
+      "mixture bank: the weights of a state must be >= 0 and sum to 1");
   constants_.resize(rows);
   for (Eigen::Index r = 0; r < rows; ++r) {
     const double weight = weights_.data()[r];
@@ -77,10 +80,12 @@ MixtureBank::MixtureBank(MatrixD weights, MatrixD means, MatrixD variances)
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
   if (frames.cols() != dim()) {
-    fail(ErrorKind::invalid_argument, "frames have " + std::to_string(frames.cols()) + " columns, the model has " +
-                                          std::to_string(dim()));
+    fail(ErrorKind::invalid_argument, "frames have " + std::to_string(frames.cols()) +
+                                          " columns, the model has " + std::to_string(dim()));
   }
-  require(out.rows() == frames.rows() && out.cols() == num_states(), "out must have shape (num_frames, num_states)");
+  validate_finite(frames, "frames");
+  require(out.rows() == frames.rows() && out.cols() == num_states(),
+          "out must have shape (num_frames, num_states)");
   const int num_rows = static_cast<int>(means_f_.rows());
   const int k = num_mixtures();
   thread_local std::vector<float> scratch;
@@ -97,19 +102,22 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
 }
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* components) const {
+  validate_finite(frames, "frames");
   const int k = num_mixtures();
   MatrixD local(frames.rows(), means_.rows());
   const MatrixD precisions = variances_.cwiseInverse();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     const Eigen::RowVectorXd x = frames.row(t).cast<double>();
     for (Eigen::Index r = 0; r < means_.rows(); ++r) {
-      local(t, r) = constants_[r] - 0.5 * ((x - means_.row(r)).array().square() * precisions.row(r).array()).sum();
+      local(t, r) = constants_[r] -
+                    0.5 * ((x - means_.row(r)).array().square() * precisions.row(r).array()).sum();
     }
   }
   out->resize(frames.rows(), num_states());
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     for (int j = 0; j < num_states(); ++j) {
-      (*out)(t, j) = log_sum_exp(local.data() + t * local.cols() + static_cast<std::ptrdiff_t>(j) * k, k);
+      (*out)(t, j) =
+          log_sum_exp(local.data() + t * local.cols() + static_cast<std::ptrdiff_t>(j) * k, k);
     }
   }
   if (components != nullptr) *components = std::move(local);
@@ -129,7 +137,8 @@ MixtureBank MixtureBank::read(const ModelFile& file, const std::string& prefix) 
                       variances.rows() == means.rows() && variances.cols() == means.cols();
   if (!shapes || !(variances.minCoeff() > 0) || !(weights.minCoeff() >= 0) ||
       (weights.rowwise().sum().array() - 1.0).abs().maxCoeff() > 1e-6) {
-    fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights', means or variances: no mixture");
+    fail(ErrorKind::format,
+         file.name() + ": field '" + prefix + "weights', means or variances: no mixture");
   }
   return MixtureBank(weights, means, variances);
 }

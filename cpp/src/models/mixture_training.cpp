@@ -18,7 +18,8 @@ constexpr int kStartIterations = 10;
 std::vector<int> clusters_of(const MatrixD& rows, int num_clusters, Random* random) {
   const auto count = static_cast<std::uint64_t>(rows.rows());
   MatrixD centres(num_clusters, rows.cols());
-  for (int k = 0; k < num_clusters; ++k) centres.row(k) = rows.row(static_cast<Eigen::Index>(random->below(count)));
+  for (int k = 0; k < num_clusters; ++k)
+    centres.row(k) = rows.row(static_cast<Eigen::Index>(random->below(count)));
   std::vector<int> nearest(static_cast<std::size_t>(rows.rows()), 0);
   for (int iteration = 0; iteration < kStartIterations; ++iteration) {
     MatrixD sums = MatrixD::Zero(num_clusters, rows.cols());
@@ -47,28 +48,38 @@ GlobalStatistics global_statistics(const std::vector<MatrixF>& sequences) {
   double count = 0;
   for (std::size_t s = 0; s < sequences.size(); ++s) {
     const MatrixF& m = sequences[s];
-    if (m.rows() == 0) fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + " has no frames");
+    if (m.rows() == 0)
+      fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + " has no frames");
     if (m.cols() != dim) {
-      fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + " has " + std::to_string(m.cols()) +
-                                            " columns, the first has " + std::to_string(dim));
+      fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + " has " +
+                                            std::to_string(m.cols()) + " columns, the first has " +
+                                            std::to_string(dim));
     }
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       if (std::isfinite(m.data()[i])) continue;
       fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + " is not finite at row " +
-                                            std::to_string(i / dim) + ", column " + std::to_string(i % dim));
+                                            std::to_string(i / dim) + ", column " +
+                                            std::to_string(i % dim));
     }
     sum += m.cast<double>().colwise().sum().transpose();
     count += static_cast<double>(m.rows());
   }
   const VectorD mean = sum / count;
   for (const MatrixF& m : sequences) {
-    squares += (m.cast<double>().rowwise() - mean.transpose()).array().square().matrix().colwise().sum().transpose();
+    squares += (m.cast<double>().rowwise() - mean.transpose())
+                   .array()
+                   .square()
+                   .matrix()
+                   .colwise()
+                   .sum()
+                   .transpose();
   }
   return {mean, squares / count};
 }
 
-MixtureBank initial_bank(const std::vector<MatrixF>& sequences, const std::vector<std::vector<int>>& states,
-                         int num_states, int num_mixtures, const VectorD& variance_floor, std::uint64_t seed) {
+MixtureBank initial_bank(const std::vector<MatrixF>& sequences,
+                         const std::vector<std::vector<int>>& states, int num_states,
+                         int num_mixtures, const VectorD& variance_floor, std::uint64_t seed) {
   const GlobalStatistics global = global_statistics(sequences);
   const auto dim = global.mean.size();
   const Eigen::Index k = num_mixtures;
@@ -80,11 +91,13 @@ MixtureBank initial_bank(const std::vector<MatrixF>& sequences, const std::vecto
     std::vector<Eigen::RowVectorXd> members;
     for (std::size_t s = 0; s < sequences.size(); ++s) {
       for (std::size_t t = 0; t < states[s].size(); ++t) {
-        if (states[s][t] == j) members.emplace_back(sequences[s].row(static_cast<Eigen::Index>(t)).cast<double>());
+        if (states[s][t] == j)
+          members.emplace_back(sequences[s].row(static_cast<Eigen::Index>(t)).cast<double>());
       }
     }
     MatrixD rows(static_cast<Eigen::Index>(members.size()), dim);
-    for (std::size_t i = 0; i < members.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = members[i];
+    for (std::size_t i = 0; i < members.size(); ++i)
+      rows.row(static_cast<Eigen::Index>(i)) = members[i];
     const std::vector<int> nearest =
         members.empty() ? std::vector<int>{} : clusters_of(rows, num_mixtures, &random);
     VectorD counts = VectorD::Zero(k);
@@ -110,7 +123,8 @@ MixtureBank initial_bank(const std::vector<MatrixF>& sequences, const std::vecto
       variances.row(at) = variances.row(at).cwiseMax(variance_floor.transpose());
     }
     // Laplace's rule keeps a mixture without frames alive.
-    weights.row(j) = ((counts.array() + 1.0) / (counts.sum() + static_cast<double>(k))).matrix().transpose();
+    weights.row(j) =
+        ((counts.array() + 1.0) / (counts.sum() + static_cast<double>(k))).matrix().transpose();
   }
   return {weights, means, variances};
 }
@@ -120,8 +134,8 @@ MixtureAccumulator::MixtureAccumulator(int num_states, int num_mixtures, int dim
       sums_(MatrixD::Zero(num_states * num_mixtures, dim)),
       squares_(MatrixD::Zero(num_states * num_mixtures, dim)) {}
 
-void MixtureAccumulator::add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& components,
-                             const MatrixD& densities) {
+void MixtureAccumulator::add(ConstMatrixRefF frames, const MatrixD& gamma,
+                             const MatrixD& components, const MatrixD& densities) {
   const Eigen::Index k = components.cols() / gamma.cols();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     const Eigen::RowVectorXd x = frames.row(t).cast<double>();
@@ -153,7 +167,8 @@ MixtureBank MixtureAccumulator::estimate(const MixtureBank& previous, const Vect
       weights(j, c) = std::max(counts_[r] / total, weight_floor);
       if (counts_[r] < kUnvisited) continue;
       means.row(r) = sums_.row(r) / counts_[r];
-      variances.row(r) = (squares_.row(r) / counts_[r] - means.row(r).cwiseAbs2()).cwiseMax(variance_floor.transpose());
+      variances.row(r) = (squares_.row(r) / counts_[r] - means.row(r).cwiseAbs2())
+                             .cwiseMax(variance_floor.transpose());
     }
     weights.row(j) /= weights.row(j).sum();
   }

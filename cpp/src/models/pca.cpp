@@ -6,13 +6,14 @@
 #include <algorithm>
 
 #include "hri/core/error.hpp"
+#include "hri/models/row_checks.hpp"
 
 namespace hri {
 
 Pca Pca::train(ConstMatrixRefF rows, int num_components) {
   require(rows.rows() > 0 && rows.cols() > 0, "training needs at least one row and column");
   require(num_components >= 1, "num_components must be at least 1");
-  require(rows.allFinite(), "rows must be finite");
+  validate_finite(rows, "rows");
   Pca pca;
   const VectorD mean = rows.cast<double>().colwise().mean();
   const MatrixD centred = rows.cast<double>().rowwise() - mean.transpose();
@@ -22,7 +23,12 @@ Pca Pca::train(ConstMatrixRefF rows, int num_components) {
   const Eigen::MatrixXd square = few_rows ? Eigen::MatrixXd(centred * centred.transpose() * scale)
                                           : Eigen::MatrixXd(centred.transpose() * centred * scale);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(square);
-  const Eigen::Index count = std::min<Eigen::Index>(num_components, square.rows());
+  // Directions without variance are noise; one is kept for rows that are all alike.
+  const double largest_variance = solver.eigenvalues()[square.rows() - 1];
+  const double negligible = 1e-12 * static_cast<double>(square.rows()) * largest_variance;
+  const Eigen::Index rank = (solver.eigenvalues().array() > negligible).count();
+  const Eigen::Index count =
+      std::max<Eigen::Index>(1, std::min<Eigen::Index>(num_components, rank));
   pca.mean_ = mean.cast<float>();
   pca.components_.resize(count, rows.cols());
   pca.variances_.resize(count);
@@ -31,7 +37,7 @@ Pca Pca::train(ConstMatrixRefF rows, int num_components) {
     VectorD direction = few_rows ? VectorD(centred.transpose() * solver.eigenvectors().col(from))
                                  : VectorD(solver.eigenvectors().col(from));
     const double length = direction.norm();
-    if (length > 0) direction /= length;
+    direction = length > 0 ? VectorD(direction / length) : VectorD(VectorD::Unit(rows.cols(), 0));
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
     if (direction[largest] < 0) direction = -direction;
@@ -43,9 +49,10 @@ Pca Pca::train(ConstMatrixRefF rows, int num_components) {
 
 MatrixF Pca::transform(ConstMatrixRefF rows) const {
   if (rows.cols() != dim()) {
-    fail(ErrorKind::invalid_argument,
-         "rows have " + std::to_string(rows.cols()) + " columns, the model has " + std::to_string(dim()));
+    fail(ErrorKind::invalid_argument, "rows have " + std::to_string(rows.cols()) +
+                                          " columns, the model has " + std::to_string(dim()));
   }
+  validate_finite(rows, "rows");
   return (rows.rowwise() - mean_.transpose()) * components_.transpose();
 }
 
@@ -60,8 +67,10 @@ Pca Pca::read(const ModelFile& file, const std::string& prefix) {
   pca.components_ = file.matrix_f(prefix + "components");
   pca.mean_ = file.vector_f(prefix + "mean");
   pca.variances_ = file.vector_f(prefix + "variances");
-  if (pca.components_.size() == 0 || pca.mean_.size() != pca.dim() || pca.variances_.size() != pca.num_components()) {
-    fail(ErrorKind::format, file.name() + ": field '" + prefix + "components' does not fit mean and variances");
+  if (pca.components_.size() == 0 || pca.mean_.size() != pca.dim() ||
+      pca.variances_.size() != pca.num_components()) {
+    fail(ErrorKind::format,
+         file.name() + ": field '" + prefix + "components' does not fit mean and variances");
   }
   return pca;
 }

@@ -18,22 +18,26 @@ constexpr float kMinusInf = -std::numeric_limits<float>::infinity();
 const char* set_fault(const Topology& topology, const std::vector<MatrixD>& transitions,
                       const std::vector<MatrixD>& emissions) {
   if (const char* fault = topology_fault(topology)) return fault;
-  if (transitions.empty() || transitions.size() != emissions.size()) return "a set needs at least one class";
+  if (transitions.empty() || transitions.size() != emissions.size())
+    return "a set needs at least one class";
   const Eigen::Index n = topology.num_states;
   for (std::size_t c = 0; c < transitions.size(); ++c) {
     if (transitions[c].rows() != n || transitions[c].cols() != n || emissions[c].rows() != n ||
         emissions[c].cols() != emissions[0].cols() || emissions[c].cols() < 1) {
       return "the shapes of transitions and emissions do not fit";
     }
-    if (!transitions[c].allFinite() || !emissions[c].allFinite()) return "a possibility is not finite";
-    if (transitions[c].minCoeff() < 0 || emissions[c].minCoeff() < 0 || transitions[c].maxCoeff() > 1 ||
-        emissions[c].maxCoeff() > 1) {
+    if (!transitions[c].allFinite() || !emissions[c].allFinite())
+      return "a possibility is not finite";
+    if (transitions[c].minCoeff() < 0 || emissions[c].minCoeff() < 0 ||
+        transitions[c].maxCoeff() > 1 || emissions[c].maxCoeff() > 1) {
       return "possibilities must lie in 0..1";
     }
     for (int i = 0; i < topology.num_states; ++i) {
-      if (std::abs(transitions[c].row(i).maxCoeff() - 1) > 1e-9) return "every row of transition needs maximum 1";
+      if (std::abs(transitions[c].row(i).maxCoeff() - 1) > 1e-9)
+        return "every row of transition needs maximum 1";
       for (int j = 0; j < topology.num_states; ++j) {
-        if (!topology.allows(i, j) && transitions[c](i, j) != 0) return "transition has an entry outside its topology";
+        if (!topology.allows(i, j) && transitions[c](i, j) != 0)
+          return "transition has an entry outside its topology";
       }
     }
   }
@@ -41,7 +45,8 @@ const char* set_fault(const Topology& topology, const std::vector<MatrixD>& tran
 }
 
 // Viterbi re-estimation: count along best paths instead of summing over all of them.
-DiscreteHmm reestimate(const std::vector<SymbolSequence>& sequences, const DiscreteHmm& model, double floor) {
+DiscreteHmm reestimate(const std::vector<SymbolSequence>& sequences, const DiscreteHmm& model,
+                       double floor) {
   const int n = model.num_states();
   detail::ChainCounts counts(n);
   MatrixD emitted = MatrixD::Constant(n, model.num_symbols(), 1e-9);
@@ -59,7 +64,8 @@ DiscreteHmm reestimate(const std::vector<SymbolSequence>& sequences, const Discr
   MatrixD transition = model.transition();
   // One imagined visit of every allowed transition keeps rare ones possible.
   for (int i = 0; i < n; ++i) {
-    for (int j = model.topology().first_next(i); j < model.topology().end_next(i); ++j) counts.transition(i, j) += 1;
+    for (int j = model.topology().first_next(i); j < model.topology().end_next(i); ++j)
+      counts.transition(i, j) += 1;
   }
   detail::estimate_chain(counts, &start, &transition);
   MatrixD emission = model.emission();
@@ -71,12 +77,14 @@ DiscreteHmm reestimate(const std::vector<SymbolSequence>& sequences, const Discr
   return {model.topology(), start, transition, emission};
 }
 
-DiscreteHmm train_class(const std::vector<SymbolSequence>& sequences, const PossibilisticHmmOptions& options) {
+DiscreteHmm train_class(const std::vector<SymbolSequence>& sequences,
+                        const PossibilisticHmmOptions& options) {
   DiscreteHmmOptions first;
   first.topology = options.topology;
   first.num_symbols = options.num_symbols;
   first.emission_floor = options.emission_floor;
   first.max_iterations = 1;
+  first.seed = options.seed;
   first.should_stop = options.should_stop;
   DiscreteHmm model = DiscreteHmm::train(sequences, first);
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
@@ -92,11 +100,14 @@ DiscreteHmm train_class(const std::vector<SymbolSequence>& sequences, const Poss
 
 // max over i of join(phi(i), s_ij) for the states i that lead to j.
 template <class Join>
-float best_previous(const Topology& topology, const MatrixF& log_s, const float* phi, int j, const Join& join) {
-  const int begin = topology.kind == Topology::Kind::ergodic ? 0 : std::max(0, j - topology.max_jump);
+float best_previous(const Topology& topology, const MatrixF& log_s, const float* phi, int j,
+                    const Join& join) {
+  const int begin =
+      topology.kind == Topology::Kind::ergodic ? 0 : std::max(0, j - topology.max_jump);
   int end = topology.num_states;
   if (topology.kind == Topology::Kind::left_right) end = j + 1;
-  if (topology.kind == Topology::Kind::banded) end = std::min(topology.num_states, j + topology.max_jump + 1);
+  if (topology.kind == Topology::Kind::banded)
+    end = std::min(topology.num_states, j + topology.max_jump + 1);
   float best = kMinusInf;
   for (int i = begin; i < end; ++i) best = std::max(best, join(phi[i], log_s(i, j)));
   return best;
@@ -104,8 +115,8 @@ float best_previous(const Topology& topology, const MatrixF& log_s, const float*
 
 // Logs of possibilities rise with them, so min and max may be taken of the logs.
 template <class Join>
-float score(const Topology& topology, const MatrixF& log_s, const MatrixF& log_pi, Span<const std::int32_t> symbols,
-            bool condition, const Join& join) {
+float score(const Topology& topology, const MatrixF& log_s, const MatrixF& log_pi,
+            Span<const std::int32_t> symbols, bool condition, const Join& join) {
   const auto n = static_cast<std::size_t>(topology.num_states);
   thread_local std::vector<float> buffers;
   buffers.resize(2 * n);
@@ -116,7 +127,8 @@ float score(const Topology& topology, const MatrixF& log_s, const MatrixF& log_p
     const float* pi = log_pi.data() + static_cast<Eigen::Index>(symbols[t]) * log_pi.cols();
     for (int j = 0; j < topology.num_states; ++j) {
       const bool startable = topology.kind != Topology::Kind::left_right || j == 0;
-      const float before = t == 0 ? (startable ? 0.0F : kMinusInf) : best_previous(topology, log_s, phi, j, join);
+      const float before =
+          t == 0 ? (startable ? 0.0F : kMinusInf) : best_previous(topology, log_s, phi, j, join);
       next[j] = join(before, pi[j]);
     }
     std::swap(phi, next);
@@ -131,8 +143,9 @@ float score(const Topology& topology, const MatrixF& log_s, const MatrixF& log_p
 
 }  // namespace
 
-PossibilisticHmmSet::PossibilisticHmmSet(Topology topology, Conjunction conjunction, bool conditioned,
-                                         std::vector<MatrixD> transitions, std::vector<MatrixD> emissions)
+PossibilisticHmmSet::PossibilisticHmmSet(Topology topology, Conjunction conjunction,
+                                         bool conditioned, std::vector<MatrixD> transitions,
+                                         std::vector<MatrixD> emissions)
     : topology_(topology),
       num_symbols_(static_cast<int>(emissions.front().cols())),
       conjunction_(conjunction),
@@ -145,24 +158,27 @@ PossibilisticHmmSet::PossibilisticHmmSet(Topology topology, Conjunction conjunct
   }
 }
 
-PossibilisticHmmSet PossibilisticHmmSet::train(const std::vector<std::vector<SymbolSequence>>& per_class,
-                                               const PossibilisticHmmOptions& options) {
+PossibilisticHmmSet PossibilisticHmmSet::train(
+    const std::vector<std::vector<SymbolSequence>>& per_class,
+    const PossibilisticHmmOptions& options) {
   validate(options.topology);
-  require(options.num_symbols >= 1 && options.num_symbols <= 65536, "num_symbols must lie in 1..65536");
+  require(options.num_symbols >= 1 && options.num_symbols <= 65536,
+          "num_symbols must lie in 1..65536");
   require(options.max_iterations >= 1, "max_iterations must be at least 1");
   require(options.emission_floor >= 0 && options.emission_floor * options.num_symbols <= 1,
           "emission_floor must lie in 0..1/num_symbols");
   require(!per_class.empty(), "training needs at least one class");
   std::vector<DiscreteHmm> models;
   for (std::size_t c = 0; c < per_class.size(); ++c) {
-    if (per_class[c].empty()) fail(ErrorKind::invalid_argument, "class " + std::to_string(c) + " has no sequence");
+    if (per_class[c].empty())
+      fail(ErrorKind::invalid_argument, "class " + std::to_string(c) + " has no sequence");
     models.push_back(train_class(per_class[c], options));
   }
   return from_hmms(models, options.conjunction, options.conditioned);
 }
 
-PossibilisticHmmSet PossibilisticHmmSet::from_hmms(const std::vector<DiscreteHmm>& models, Conjunction conjunction,
-                                                   bool conditioned) {
+PossibilisticHmmSet PossibilisticHmmSet::from_hmms(const std::vector<DiscreteHmm>& models,
+                                                   Conjunction conjunction, bool conditioned) {
   require(!models.empty(), "a set needs at least one model");
   const Topology& topology = models.front().topology();
   std::vector<MatrixD> transitions;
@@ -170,9 +186,11 @@ PossibilisticHmmSet PossibilisticHmmSet::from_hmms(const std::vector<DiscreteHmm
   VectorD largest = VectorD::Zero(models.front().num_symbols());
   for (const DiscreteHmm& m : models) {
     require(m.topology().kind == topology.kind && m.num_states() == topology.num_states &&
-                m.topology().max_jump == topology.max_jump && m.num_symbols() == models.front().num_symbols(),
+                m.topology().max_jump == topology.max_jump &&
+                m.num_symbols() == models.front().num_symbols(),
             "all models of a set need the same topology and number of symbols");
-    transitions.emplace_back(m.transition().array().colwise() / m.transition().rowwise().maxCoeff().array());
+    transitions.emplace_back(m.transition().array().colwise() /
+                             m.transition().rowwise().maxCoeff().array());
     emissions.push_back(m.emission());
     largest = largest.cwiseMax(m.emission().colwise().maxCoeff().transpose());
   }
@@ -189,8 +207,9 @@ VectorF PossibilisticHmmSet::log_possibilities(Span<const std::int32_t> symbols)
   require(!symbols.empty(), "symbols must not be empty");
   for (std::size_t t = 0; t < symbols.size(); ++t) {
     if (symbols[t] >= 0 && symbols[t] < num_symbols_) continue;
-    fail(ErrorKind::invalid_argument, "symbol " + std::to_string(symbols[t]) + " at position " + std::to_string(t) +
-                                          " lies outside 0.." + std::to_string(num_symbols_ - 1));
+    fail(ErrorKind::invalid_argument, "symbol " + std::to_string(symbols[t]) + " at position " +
+                                          std::to_string(t) + " lies outside 0.." +
+                                          std::to_string(num_symbols_ - 1));
   }
   VectorF result(num_classes());
   for (int c = 0; c < num_classes(); ++c) {
@@ -201,29 +220,35 @@ VectorF PossibilisticHmmSet::log_possibilities(Span<const std::int32_t> symbols)
         result[c] = score(topology_, s, pi, symbols, false, [](float a, float b) { return a + b; });
         break;
       case Conjunction::min:
-        result[c] = score(topology_, s, pi, symbols, conditioned_, [](float a, float b) { return std::min(a, b); });
+        result[c] = score(topology_, s, pi, symbols, conditioned_,
+                          [](float a, float b) { return std::min(a, b); });
         break;
       case Conjunction::max:
-        result[c] = score(topology_, s, pi, symbols, false, [](float a, float b) { return std::max(a, b); });
+        result[c] = score(topology_, s, pi, symbols, false,
+                          [](float a, float b) { return std::max(a, b); });
         break;
     }
   }
   return result;
 }
 
-double PossibilisticHmmSet::viterbi(int class_index, Span<const std::int32_t> symbols, std::vector<int>* path) const {
+double PossibilisticHmmSet::viterbi(int class_index, Span<const std::int32_t> symbols,
+                                    std::vector<int>* path) const {
   require(!symbols.empty(), "symbols must not be empty");
   const MatrixD& pi = emission(class_index);
   MatrixD log_b(static_cast<Eigen::Index>(symbols.size()), topology_.num_states);
   for (std::size_t t = 0; t < symbols.size(); ++t) {
-    require(symbols[t] >= 0 && symbols[t] < num_symbols_, "a symbol lies outside 0..num_symbols - 1");
-    log_b.row(static_cast<Eigen::Index>(t)) = detail::safe_log(VectorD(pi.col(symbols[t]))).transpose();
+    require(symbols[t] >= 0 && symbols[t] < num_symbols_,
+            "a symbol lies outside 0..num_symbols - 1");
+    log_b.row(static_cast<Eigen::Index>(t)) =
+        detail::safe_log(VectorD(pi.col(symbols[t]))).transpose();
   }
   VectorD start = VectorD::Ones(topology_.num_states);
   if (topology_.kind == Topology::Kind::left_right) start = initial_start(topology_);
   const VectorD log_start = detail::safe_log(start);
   const MatrixD log_transition = detail::safe_log(transition(class_index));
-  return detail::viterbi(detail::Chain{topology_, log_start, log_transition}, log_b, path);
+  return detail::viterbi(
+      detail::Chain{topology_, log_start, transition(class_index), log_transition}, log_b, path);
 }
 
 const MatrixD& PossibilisticHmmSet::transition(int class_index) const {
@@ -253,11 +278,13 @@ PossibilisticHmmSet PossibilisticHmmSet::read(const ModelFile& file, const std::
   const std::int64_t conditioned = file.integer(prefix + "conditioned");
   const std::int64_t num_classes = file.integer(prefix + "num_classes");
   if (conjunction < 0 || conjunction > 2 || conditioned < 0 || conditioned > 1 || num_classes < 1) {
-    fail(ErrorKind::format, file.name() + ": fields of '" + prefix + "': conjunction, conditioned or num_classes");
+    fail(ErrorKind::format,
+         file.name() + ": fields of '" + prefix + "': conjunction, conditioned or num_classes");
   }
   std::vector<MatrixD> transitions;
   std::vector<MatrixD> emissions;
-  for (std::int64_t c = 0; c < num_classes; ++c) {  // a class that is not there ends this, however large the number
+  for (std::int64_t c = 0; c < num_classes;
+       ++c) {  // a class that is not there ends this, however large the number
     transitions.push_back(file.matrix_d(prefix + std::to_string(c) + ".transition"));
     emissions.push_back(file.matrix_d(prefix + std::to_string(c) + ".emission"));
   }

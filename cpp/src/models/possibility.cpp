@@ -3,6 +3,8 @@
 #include "hri/models/possibility.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "hri/core/error.hpp"
@@ -45,6 +47,28 @@ double possibility_of(Span<const double> distribution, const std::vector<int>& e
 
 double necessity_of(Span<const double> distribution, const std::vector<int>& event) {
   return 1.0 - max_where(distribution, members(distribution, event), false);
+}
+
+Possibilities possibilities(const VectorF& log_densities) {
+  const Eigen::Index n = log_densities.size();
+  require(n > 0, "log_densities must not be empty");
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (Eigen::Index c = 0; c < n; ++c) {
+    if (log_densities[c] < kInfinity) continue;  // false for NaN
+    fail(ErrorKind::invalid_argument,
+         "log_densities[" + std::to_string(c) + "] is " + std::to_string(log_densities[c]));
+  }
+  Eigen::Index best = 0;
+  const float top = log_densities.maxCoeff(&best);
+  Possibilities result{VectorF::Ones(n), VectorF::Zero(n)};
+  if (top == -kInfinity) return result;
+  result.possibility = (log_densities.array() - top).exp();
+  float other = 0;
+  for (Eigen::Index c = 0; c < n; ++c) {
+    if (c != best) other = std::max(other, result.possibility[c]);
+  }
+  result.necessity[best] = 1.0F - other;
+  return result;
 }
 
 }  // namespace hri

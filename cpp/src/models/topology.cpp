@@ -13,12 +13,15 @@ int Topology::first_next(int i) const {
   return kind == Kind::banded ? std::max(0, i - max_jump) : 0;
 }
 
-int Topology::end_next(int i) const { return kind == Kind::ergodic ? num_states : std::min(num_states, i + max_jump + 1); }
+int Topology::end_next(int i) const {
+  return kind == Kind::ergodic ? num_states : std::min(num_states, i + max_jump + 1);
+}
 
 bool Topology::allows(int i, int j) const { return j >= first_next(i) && j < end_next(i); }
 
 const char* topology_fault(const Topology& topology) {
-  if (topology.num_states < 1 || topology.num_states > 4096) return "num_states must lie in 1..4096";
+  if (topology.num_states < 1 || topology.num_states > 4096)
+    return "num_states must lie in 1..4096";
   if (topology.max_jump < 1 || topology.max_jump > 4096) return "max_jump must lie in 1..4096";
   return nullptr;
 }
@@ -59,7 +62,8 @@ Topology read_topology(const ModelFile& file, const std::string& prefix) {
   const auto field = [&](const char* name, std::int64_t low, std::int64_t high) {
     const std::int64_t value = file.integer(prefix + name);
     if (value < low || value > high) {
-      fail(ErrorKind::format, file.name() + ": field '" + prefix + name + "' is out of range: " + std::to_string(value));
+      fail(ErrorKind::format, file.name() + ": field '" + prefix + name +
+                                  "' is out of range: " + std::to_string(value));
     }
     return static_cast<int>(value);
   };

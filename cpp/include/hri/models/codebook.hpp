@@ -15,23 +15,28 @@
 namespace hri {
 
 struct CodebookOptions {
-  int num_codewords = 64;       ///< 1..65536; fewer come out where the data have fewer different rows
-  int max_iterations = 50;      ///< of k-means after each split, 1..100000
-  double tolerance = 1e-4;      ///< stop when the distortion falls by a smaller share, >= 0
-  double split_epsilon = 0.01;  ///< a codeword splits into c + e s and c - e s, s the deviation of its cell, > 0
+  int num_codewords = 64;   ///< 1..65536; fewer come out where the data have fewer different rows
+  int max_iterations = 50;  ///< of k-means after each split, 1..100000
+  double tolerance = 1e-4;  ///< stop when the distortion falls by a smaller share, >= 0
+  double split_epsilon =
+      0.01;  ///< a codeword splits into c + e s and c - e s, s the deviation of its cell, > 0
   StopCheck should_stop;
 };
 
-/// Immutable; const calls are safe from several threads. Invariant: at least one codeword, all finite.
+/// Immutable; const calls are safe from several threads. Invariant: at least one codeword, all
+/// finite.
 class Codebook {
  public:
   /// Throws InvalidArgument for an empty or non-finite matrix.
   explicit Codebook(MatrixF centroids);
 
-  /// Grows from one codeword by splitting. Cells that run empty take half of the cell with the largest distortion.
+  /// Grows from one codeword by splitting. Cells that run empty take half of the cell with the
+  /// largest distortion; every codeword that comes out has rows. Throws InvalidArgument for no rows
+  /// or values not finite (names row and column).
   static Codebook train_lbg(ConstMatrixRefF rows, const CodebookOptions& options);
-  /// k-means from the centroids given; `num_codewords` and `split_epsilon` are not used.
-  static Codebook train_kmeans(ConstMatrixRefF rows, ConstMatrixRefF centroids, const CodebookOptions& options);
+  /// k-means from the centroids given, as many as come out; `num_codewords` is not used.
+  static Codebook train_kmeans(ConstMatrixRefF rows, ConstMatrixRefF centroids,
+                               const CodebookOptions& options);
 
   [[nodiscard]] int size() const { return static_cast<int>(centroids_.rows()); }
   [[nodiscard]] int dim() const { return static_cast<int>(centroids_.cols()); }
@@ -39,7 +44,7 @@ class Codebook {
 
   /// The nearest codeword of one frame (the lower index where two are as near).
   [[nodiscard]] int quantise(Span<const float> frame) const;
-  /// One symbol a row.
+  /// One symbol a row. Frames with NaN or infinity are refused with row and column.
   [[nodiscard]] std::vector<std::int32_t> quantise(ConstMatrixRefF frames) const;
   void quantise(ConstMatrixRefF frames, Span<std::int32_t> out) const;
   /// Mean squared distance of the rows to their codewords.
@@ -50,6 +55,8 @@ class Codebook {
 
  private:
   MatrixF centroids_;
+  MatrixF columns_;  // centroids transposed and padded, so that the search runs over many codewords
+                     // at once
 };
 
 }  // namespace hri

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hidden Markov model over discrete symbols (Rabiner, Proc. IEEE 77(2), 1989), Baum-Welch over many sequences.
+// Hidden Markov model over discrete symbols (Rabiner, Proc. IEEE 77(2), 1989), Baum-Welch over many
+// sequences.
 #pragma once
 
 #include <cstdint>
@@ -28,19 +29,24 @@ struct DiscreteHmmOptions {
   StopCheck should_stop;
 };
 
-/// Immutable; const calls are safe from several threads. Invariant: start, rows of transition and emission sum to 1.
+/// Immutable; const calls are safe from several threads. Invariant: start, rows of transition and
+/// emission sum to 1.
 class DiscreteHmm {
  public:
-  /// `emission` has shape (num_states, num_symbols). Throws InvalidArgument for what is no distribution.
+  /// `emission` has shape (num_states, num_symbols). Throws InvalidArgument for what is no
+  /// distribution.
   DiscreteHmm(Topology topology, VectorD start, MatrixD transition, MatrixD emission);
 
-  /// Throws InvalidArgument for no sequence, an empty one, or a symbol outside 0..num_symbols - 1 (names it).
-  static DiscreteHmm train(const std::vector<SymbolSequence>& sequences, const DiscreteHmmOptions& options,
-                           TrainingReport* report = nullptr);
+  /// Throws InvalidArgument for no sequence, an empty one, or a symbol outside 0..num_symbols - 1
+  /// (names it).
+  static DiscreteHmm train(const std::vector<SymbolSequence>& sequences,
+                           const DiscreteHmmOptions& options, TrainingReport* report = nullptr);
 
-  /// log P(symbols | model), natural log; -inf for an impossible sequence. Throws InvalidArgument for unknown symbols.
+  /// log P(symbols | model), natural log; -inf for an impossible sequence. Throws InvalidArgument
+  /// for unknown symbols.
   [[nodiscard]] double log_likelihood(Span<const std::int32_t> symbols) const;
-  /// log P(symbols, best path | model); the path if wanted (empty where the sequence is impossible).
+  /// log P(symbols, best path | model); the path if wanted (empty where the sequence is
+  /// impossible).
   double viterbi(Span<const std::int32_t> symbols, std::vector<int>* path = nullptr) const;
 
   [[nodiscard]] int num_states() const { return topology_.num_states; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bayes classifier with one Gaussian a class (thesis eq. 6.15), and its possibilities (eq. 5.14-5.15).
+// Bayes classifier with one Gaussian a class (thesis eq. 5.15 and 6.15).
 #pragma once
 
 #include <cstdint>
@@ -21,17 +21,21 @@ enum class CovarianceKind : std::uint8_t {
 
 struct GaussianBayesOptions {
   CovarianceKind covariance = CovarianceKind::shared;
-  double shrinkage = 0.1;  ///< share of the covariance replaced by its mean variance times the identity, 0..1
+  double shrinkage =
+      0.1;  ///< share of the covariance replaced by its mean variance times the identity, 0..1
 };
 
-/// Immutable; const calls are safe from several threads. Class priors are the shares of the training rows.
+/// Immutable; const calls are safe from several threads. Class priors are the shares of the
+/// training rows.
 class GaussianBayes {
  public:
-  /// See LinearSvm::train for what is refused.
+  /// A class with one row takes the covariance shared by all. Throws InvalidArgument as
+  /// validate_rows does.
   static GaussianBayes train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                              const GaussianBayesOptions& options);
 
-  /// log P(class) + log p(row | class), natural log, shape (num_classes,).
+  /// log P(class) + log p(row | class), natural log, shape (num_classes,); the posterior is its
+  /// softmax.
   [[nodiscard]] VectorF decision_values(Span<const float> row) const;
   /// log p(row | class) alone, from which possibilities follow.
   [[nodiscard]] VectorF log_densities(Span<const float> row) const;
@@ -43,7 +47,8 @@ class GaussianBayes {
   static GaussianBayes read(const ModelFile& file, const std::string& prefix);
 
  private:
-  void finish();
+  // Fills what scoring needs; false where a covariance is not positive definite.
+  bool finish();
 
   MatrixD means_;        // (num_classes, dim)
   MatrixD covariances_;  // (num_covariances * dim, dim): one for all classes, or one a class
@@ -52,13 +57,5 @@ class GaussianBayes {
   std::vector<MatrixF> whitening_;
   std::vector<float> log_norms_;
 };
-
-/// Possibility of each class: its density over the largest (eq. 5.14). Necessity: 1 - the best other class's
-/// possibility, the honest confidence of the best class; 0 for all others.
-struct Possibilities {
-  VectorF possibility;
-  VectorF necessity;
-};
-Possibilities possibilities(const VectorF& log_densities);
 
 }  // namespace hri

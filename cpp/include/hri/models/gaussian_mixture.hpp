@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A Gaussian mixture with diagonal covariance over single frames, trained by EM: the garbage model of rejection.
+// A Gaussian mixture with diagonal covariance over single frames, trained by EM: the garbage model
+// of rejection.
 #pragma once
 
 #include <cstdint>

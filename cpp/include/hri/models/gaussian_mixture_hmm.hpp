@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hidden Markov model with Gaussian-mixture emissions of diagonal covariance (Rabiner, Proc. IEEE 77(2), 1989).
-// Trained by Baum-Welch over many sequences in double; emissions are scored in float.
+// Hidden Markov model with Gaussian-mixture emissions of diagonal covariance (Rabiner, Proc. IEEE
+// 77(2), 1989). Trained by Baum-Welch over many sequences in double; emissions are scored in float.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +29,19 @@ struct GaussianMixtureHmmOptions {
   StopCheck should_stop;
 };
 
-/// Immutable; const calls are safe from several threads. Invariant: start and the rows of transition sum to 1.
+/// Immutable; const calls are safe from several threads. Invariant: start and the rows of
+/// transition sum to 1.
 class GaussianMixtureHmm {
  public:
   /// Throws InvalidArgument for parameters that do not fit each other or are no distributions.
   GaussianMixtureHmm(Topology topology, VectorD start, MatrixD transition, MixtureBank bank);
 
-  /// Trains on sequences of frames (rows), each with at least one frame. Starts from uniform segmentation for
-  /// left_right (sequences shorter than the number of states skip some), seeded k-means otherwise. States never visited
-  /// keep their parameters. Throws InvalidArgument for no data or values not finite (names sequence, row, column).
-  static GaussianMixtureHmm train(const std::vector<MatrixF>& sequences, const GaussianMixtureHmmOptions& options,
+  /// Trains on sequences of frames (rows), each with at least one frame. Starts from uniform
+  /// segmentation for left_right (sequences shorter than the number of states skip some), seeded
+  /// k-means otherwise. States never visited keep their parameters. Throws InvalidArgument for no
+  /// data or values not finite (names sequence, row, column).
+  static GaussianMixtureHmm train(const std::vector<MatrixF>& sequences,
+                                  const GaussianMixtureHmmOptions& options,
                                   TrainingReport* report = nullptr);
 
   /// log P(frames | model) by the forward recursion, natural log; -inf for an impossible sequence.

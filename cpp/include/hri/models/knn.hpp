@@ -19,11 +19,12 @@ struct KnnOptions {
 /// Immutable; const calls are safe from several threads.
 class Knn {
  public:
-  /// See LinearSvm::train for what is refused.
-  static Knn train(ConstMatrixRefF rows, Span<const int> classes, int num_classes, const KnnOptions& options);
+  /// Throws InvalidArgument as validate_rows does.
+  static Knn train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
+                   const KnnOptions& options);
 
-  /// Share of the k nearest rows in every class, 0..1, shape (num_classes,); of two classes with as many neighbours
-  /// the one whose nearest row is nearer has up to 1e-3 more.
+  /// Share of the k nearest rows in every class, 0..1, shape (num_classes,); of two classes with as
+  /// many neighbours the one whose nearest row is nearer has up to 1e-3 more.
   [[nodiscard]] VectorF decision_values(Span<const float> row) const;
   /// Distance to the nearest row.
   [[nodiscard]] float nearest_distance(Span<const float> row) const;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Linear support vector machines, one class against the rest, by dual coordinate descent on the squared hinge loss
-// (Hsieh et al., "A dual coordinate descent method for large-scale linear SVM", ICML 2008).
+// Linear support vector machines, one class against the rest, by dual coordinate descent on the
+// squared hinge loss (Hsieh et al., "A dual coordinate descent method for large-scale linear SVM",
+// ICML 2008).
 #pragma once
 
 #include <cstdint>
@@ -15,19 +16,19 @@
 namespace hri {
 
 struct LinearSvmOptions {
-  double cost = 1.0;           ///< C > 0: larger fits the training rows more closely
-  double bias_feature = 1.0;   ///< constant feature that carries the bias, > 0
-  int max_iterations = 1000;   ///< passes over the rows, 1..1000000
-  double tolerance = 1e-3;     ///< stop when the projected gradient's range falls below, > 0
-  std::uint64_t seed = 0;      ///< of the order of the rows
+  double cost = 1.0;          ///< C > 0: larger fits the training rows more closely
+  double bias_feature = 1.0;  ///< constant feature that carries the bias, > 0
+  int max_iterations = 1000;  ///< passes over the rows, 1..1000000
+  double tolerance = 1e-3;    ///< stop when the projected gradient's range falls below, > 0
+  std::uint64_t seed = 0;     ///< of the order of the rows
   StopCheck should_stop;
 };
 
 /// Immutable; const calls are safe from several threads.
 class LinearSvm {
  public:
-  /// `classes[r]` in 0..num_classes - 1 is the class of row r. Throws InvalidArgument for rows not finite, a class
-  /// without a row (names it), or fewer than two classes.
+  /// `classes[r]` in 0..num_classes - 1 is the class of row r. Throws InvalidArgument for rows not
+  /// finite, a class without a row (names it), or fewer than two classes.
   static LinearSvm train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                          const LinearSvmOptions& options);
 
@@ -43,13 +44,10 @@ class LinearSvm {
   static LinearSvm read(const ModelFile& file, const std::string& prefix);
 
  private:
-  LinearSvm(MatrixF weights, VectorF biases) : weights_(std::move(weights)), biases_(std::move(biases)) {}
+  LinearSvm(MatrixF weights, VectorF biases)
+      : weights_(std::move(weights)), biases_(std::move(biases)) {}
   MatrixF weights_;
   VectorF biases_;
 };
-
-/// What every classifier of rows demands: throws InvalidArgument for shapes that differ, rows not finite (names the
-/// row), classes outside 0..num_classes - 1 or without a row.
-void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classes);
 
 }  // namespace hri

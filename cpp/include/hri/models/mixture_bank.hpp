@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A bank of Gaussian mixtures with diagonal covariance, one mixture a state: emissions of an HMM, or with one state a
-// plain mixture. Trained in double, scored in float.
+// A bank of Gaussian mixtures with diagonal covariance, one mixture a state: emissions of an HMM,
+// or with one state a plain mixture. Trained in double, scored in float.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,14 @@
 
 namespace hri {
 
-/// Immutable; const calls are safe from several threads. Invariant: weights of a state sum to 1, variances > 0.
+/// Immutable; const calls are safe from several threads. Invariant: weights of a state sum to 1,
+/// variances > 0.
 class MixtureBank {
  public:
   MixtureBank() = default;
-  /// `weights` (num_states, num_mixtures); `means`, `variances` (num_states * num_mixtures, dim), state by state.
-  /// Throws InvalidArgument for shapes that do not fit, values not finite, variances <= 0, weights that do not sum to 1.
+  /// `weights` (num_states, num_mixtures); `means`, `variances` (num_states * num_mixtures, dim),
+  /// state by state. Throws InvalidArgument for shapes that do not fit, values not finite,
+  /// variances <= 0, weights that do not sum to 1.
   MixtureBank(MatrixD weights, MatrixD means, MatrixD variances);
 
   [[nodiscard]] int num_states() const { return static_cast<int>(weights_.rows()); }
@@ -29,10 +31,12 @@ class MixtureBank {
   [[nodiscard]] const MatrixD& means() const { return means_; }
   [[nodiscard]] const MatrixD& variances() const { return variances_; }
 
-  /// log b_j(x_t) for all frames (rows) and states (columns), natural log, in float; `out` is (num_frames, num_states).
+  /// log b_j(x_t) for all frames (rows) and states (columns), natural log, in float; `out` is
+  /// (num_frames, num_states).
   void log_densities(ConstMatrixRefF frames, MatrixRefF out) const;
 
-  /// The same in double, with the log density of every component, (num_frames, num_states * num_mixtures), if wanted.
+  /// The same in double, with the log density of every component, (num_frames, num_states *
+  /// num_mixtures), if wanted.
   void log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* components) const;
 
   void write(ModelFile& file, const std::string& prefix) const;
@@ -42,7 +46,8 @@ class MixtureBank {
   MatrixD weights_;
   MatrixD means_;
   MatrixD variances_;
-  // Float copies for scoring: log density of a component is constant - 0.5 * sum((x - mean)^2 * precision).
+  // Float copies for scoring: log density of a component is constant - 0.5 * sum((x - mean)^2 *
+  // precision).
   MatrixF means_f_;
   MatrixF precisions_f_;
   VectorF constants_f_;
@@ -54,12 +59,13 @@ class MixtureAccumulator {
  public:
   MixtureAccumulator(int num_states, int num_mixtures, int dim);
 
-  /// Adds one sequence: `gamma` (num_frames, num_states) are state posteriors; `components` and `densities` as
-  /// MixtureBank::log_densities gave them.
-  void add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& components, const MatrixD& densities);
+  /// Adds one sequence: `gamma` (num_frames, num_states) are state posteriors; `components` and
+  /// `densities` as MixtureBank::log_densities gave them.
+  void add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& components,
+           const MatrixD& densities);
 
-  /// The re-estimated bank; states and components without data keep `previous`. Variances are floored by
-  /// `variance_floor` (dim), weights by `weight_floor` and rescaled.
+  /// The re-estimated bank; states and components without data keep `previous`. Variances are
+  /// floored by `variance_floor` (dim), weights by `weight_floor` and rescaled.
   [[nodiscard]] MixtureBank estimate(const MixtureBank& previous, const VectorD& variance_floor,
                                      double weight_floor) const;
 
@@ -76,9 +82,10 @@ struct GlobalStatistics {
 };
 GlobalStatistics global_statistics(const std::vector<MatrixF>& sequences);
 
-/// A first bank from frames already assigned to states: k-means within each state, seeded. States without frames get
-/// the global statistics.
-MixtureBank initial_bank(const std::vector<MatrixF>& sequences, const std::vector<std::vector<int>>& states,
-                         int num_states, int num_mixtures, const VectorD& variance_floor, std::uint64_t seed);
+/// A first bank from frames already assigned to states: k-means within each state, seeded. States
+/// without frames get the global statistics.
+MixtureBank initial_bank(const std::vector<MatrixF>& sequences,
+                         const std::vector<std::vector<int>>& states, int num_states,
+                         int num_mixtures, const VectorD& variance_floor, std::uint64_t seed);
 
 }  // namespace hri

@@ -11,11 +11,13 @@
 
 namespace hri {
 
-/// Immutable; const calls are safe from several threads. Invariant: rows of `components` are orthonormal.
+/// Immutable; const calls are safe from several threads. Invariant: rows of `components` are
+/// orthonormal.
 class Pca {
  public:
-  /// The `num_components` directions of largest variance; fewer where rows or columns are fewer. The sign of a
-  /// component is such that its largest entry is positive. Throws InvalidArgument for no rows or values not finite.
+  /// The `num_components` directions of largest variance, 1..; fewer where the rows vary in fewer.
+  /// The sign of a component is such that its largest entry is positive. Throws InvalidArgument for
+  /// no rows or values not finite.
   static Pca train(ConstMatrixRefF rows, int num_components);
 
   [[nodiscard]] int num_components() const { return static_cast<int>(components_.rows()); }

@@ -10,7 +10,8 @@
 
 namespace hri {
 
-/// Polled at least once an iteration by every training; true ends it with hri::Interrupted, and nothing is kept.
+/// Polled at least once an iteration by every training; true ends it with hri::Interrupted, and
+/// nothing is kept.
 using StopCheck = std::function<bool()>;
 
 /// Throws Interrupted when `should_stop` is set and says so.

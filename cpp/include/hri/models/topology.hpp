@@ -37,7 +37,8 @@ void validate(const Topology& topology);
 /// Start probabilities: all on state 0 for left_right, uniform otherwise, shape (num_states,).
 VectorD initial_start(const Topology& topology);
 
-/// Row-stochastic start values: `stay` on the diagonal, the rest shared by the other allowed states.
+/// Row-stochastic start values: `stay` on the diagonal, the rest shared by the other allowed
+/// states.
 MatrixD initial_transition(const Topology& topology, double stay = 0.6);
 
 void write_topology(const Topology& topology, ModelFile& file, const std::string& prefix);

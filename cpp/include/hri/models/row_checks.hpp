@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What every model of rows demands of its input.
+#pragma once
+
+#include "hri/core/types.hpp"
+
+namespace hri {
+
+/// Throws InvalidArgument unless every value is finite; the message names `what`, row and column.
+void validate_finite(ConstMatrixRefF rows, const char* what);
+
+/// Throws InvalidArgument unless the row has `dim` values, all finite; the message names the index.
+void validate_row(Span<const float> row, int dim);
+
+/// What every classifier of rows demands: throws InvalidArgument for shapes that differ, rows not
+/// finite (names row and column), fewer than two classes, classes outside 0..num_classes - 1 or
+/// without a row (names them).
+void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classes);
+
+}  // namespace hri

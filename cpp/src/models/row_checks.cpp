@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/row_checks.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+
+void validate_finite(ConstMatrixRefF rows, const char* what) {
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    if (rows.row(r).allFinite()) continue;
+    Eigen::Index c = 0;
+    while (std::isfinite(rows(r, c))) ++c;
+    fail(ErrorKind::invalid_argument, std::string(what) + " are not finite at row " +
+                                          std::to_string(r) + ", column " + std::to_string(c) +
+                                          ": " + std::to_string(rows(r, c)));
+  }
+}
+
+void validate_row(Span<const float> row, int dim) {
+  if (row.size() != static_cast<std::size_t>(dim)) {
+    fail(ErrorKind::invalid_argument,
+         "row has " + std::to_string(row.size()) + " values, the model has " + std::to_string(dim));
+  }
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (std::isfinite(row[i])) continue;
+    fail(ErrorKind::invalid_argument,
+         "row[" + std::to_string(i) + "] is not finite: " + std::to_string(row[i]));
+  }
+}
+
+void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classes) {
+  require(rows.rows() > 0 && rows.cols() > 0, "training needs at least one row and column");
+  if (static_cast<std::size_t>(rows.rows()) != classes.size()) {
+    fail(ErrorKind::invalid_argument, "there are " + std::to_string(rows.rows()) + " rows and " +
+                                          std::to_string(classes.size()) + " classes");
+  }
+  require(num_classes >= 2, "num_classes must be at least 2");
+  validate_finite(rows, "rows");
+  std::vector<int> counts(static_cast<std::size_t>(num_classes), 0);
+  for (std::size_t r = 0; r < classes.size(); ++r) {
+    if (classes[r] < 0 || classes[r] >= num_classes) {
+      fail(ErrorKind::invalid_argument, "row " + std::to_string(r) + ": class " +
+                                            std::to_string(classes[r]) + " lies outside 0.." +
+                                            std::to_string(num_classes - 1));
+    }
+    ++counts[static_cast<std::size_t>(classes[r])];
+  }
+  for (int c = 0; c < num_classes; ++c) {
+    if (counts[static_cast<std::size_t>(c)] == 0) {
+      fail(ErrorKind::invalid_argument, "class " + std::to_string(c) + " has no row");
+    }
+  }
+}
+
+}  // namespace hri
