@@ -16,8 +16,11 @@ namespace py = pybind11;
 
 namespace {
 
-using FloatArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
-using ByteArray = py::array_t<std::uint8_t, py::array::c_style>;
+using hri_bind::as_image;
+using hri_bind::as_matrix;
+using hri_bind::as_span;
+using hri_bind::ByteArray;
+using hri_bind::FloatArray;
 
 // Polled once a training iteration: raises what Ctrl-C left pending.
 bool python_wants_to_stop() {
@@ -33,28 +36,11 @@ hri::TrainingProgress with_gil(const std::function<void(int, int)>& progress) {
   };
 }
 
-hri::Span<const float> as_span(const FloatArray& a, const char* name) {
-  if (a.ndim() != 1) hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must be one-dimensional");
-  return {a.data(), static_cast<std::size_t>(a.size())};
-}
-
-hri::MatrixF as_matrix(const FloatArray& a, const char* name) {
-  if (a.ndim() != 2) hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must be two-dimensional");
-  return Eigen::Map<const hri::MatrixF>(a.data(), a.shape(0), a.shape(1));
-}
-
-hri::ImageView as_grey(const ByteArray& a, const char* name) {
-  if (a.size() == 0) return {};
-  if (a.ndim() != 2) hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must have shape (height, width)");
-  const int width = static_cast<int>(a.shape(1));
-  return {a.data(), width, static_cast<int>(a.shape(0)), 1, width};
-}
-
 std::vector<hri::HandImage> as_hand_images(const std::vector<ByteArray>& greys, const std::vector<ByteArray>& masks) {
   hri::require(greys.size() == masks.size(), "greys and masks differ in length");
   std::vector<hri::HandImage> frames;
   for (std::size_t i = 0; i < greys.size(); ++i) {
-    frames.push_back({as_grey(greys[i], "grey"), as_grey(masks[i], "mask")});
+    frames.push_back({as_image(greys[i], 1, "grey"), as_image(masks[i], 1, "mask")});
     const auto& f = frames.back();
     hri::require(f.mask.empty() || (f.grey.width_px == f.mask.width_px && f.grey.height_px == f.mask.height_px),
                  "grey and mask differ in size");
@@ -142,7 +128,7 @@ void bind_words(py::module_& m) {
               const py::gil_scoped_release release;
               scores = self.scores(audio, sample_rate_hz);
             }
-            return py::array_t<float>(scores.size(), scores.data());
+            return hri_bind::to_array(scores);
           },
           py::arg("samples"), py::arg("sample_rate_hz"))
       .def_property_readonly("labels", &hri::WordRecognizer::labels)
@@ -210,7 +196,7 @@ void bind_gestures(py::module_& m) {
           "scores",
           [](const hri::GestureRecognizer& self, const FloatArray& features) {
             const hri::VectorF scores = self.scores(as_matrix(features, "features"));
-            return py::array_t<float>(scores.size(), scores.data());
+            return hri_bind::to_array(scores);
           },
           py::arg("features"))
       .def_property_readonly("labels", &hri::GestureRecognizer::labels)

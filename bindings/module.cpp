@@ -21,16 +21,17 @@ namespace {
 
 // Never released: exception classes live as long as the process.
 PyObject* g_invalid_argument = nullptr;
-py::object g_format_error;      // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-py::object g_io_error;          // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-py::object g_interrupted;       // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+PyObject* g_format_error = nullptr;
+PyObject* g_io_error = nullptr;
+PyObject* g_interrupted = nullptr;
 
 // Makes the class `name` with the bases (hri Error, a builtin), so that both "except" clauses catch it.
 PyObject* make_error(py::module_& m, const char* name, PyObject* base, PyObject* builtin, const char* doc) {
-  const py::tuple bases =
-      builtin == nullptr ? py::make_tuple(py::handle(base)) : py::make_tuple(py::handle(base), py::handle(builtin));
+  py::list bases;
+  bases.append(py::handle(base));
+  if (builtin != nullptr) bases.append(py::handle(builtin));
   const std::string qualified = std::string("hri._native.") + name;
-  PyObject* type = PyErr_NewExceptionWithDoc(qualified.c_str(), doc, bases.ptr(), nullptr);
+  PyObject* type = PyErr_NewExceptionWithDoc(qualified.c_str(), doc, py::tuple(bases).ptr(), nullptr);
   if (type == nullptr) throw py::error_already_set();
   m.attr(name) = py::handle(type);
   return type;

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace hri_bind {
+namespace [[gnu::visibility("hidden")]] hri_bind {
 
 namespace py = pybind11;
 

@@ -51,6 +51,12 @@ bool ModelFile::has(const std::string& name) const {
   return tensors_.count(name) != 0 || metadata_.count(name) != 0;
 }
 
+std::map<std::string, std::pair<std::int64_t, std::int64_t>> ModelFile::tensor_shapes() const {
+  std::map<std::string, std::pair<std::int64_t, std::int64_t>> shapes;
+  for (const auto& [name, t] : tensors_) shapes[name] = {t.rows, t.cols};
+  return shapes;
+}
+
 const std::string& ModelFile::text(const std::string& key) const {
   const auto found = metadata_.find(key);
   if (found == metadata_.end()) refuse(key, "is missing");

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hri/core/types.hpp"
@@ -38,6 +39,9 @@ class ModelFile {
   void set_kind(const std::string& kind) { set_text("kind", kind); }
 
   [[nodiscard]] bool has(const std::string& name) const;
+  [[nodiscard]] const std::map<std::string, std::string>& metadata() const { return metadata_; }
+  /// Rows and columns of every tensor by name.
+  [[nodiscard]] std::map<std::string, std::pair<std::int64_t, std::int64_t>> tensor_shapes() const;
   [[nodiscard]] const std::string& text(const std::string& key) const;
   [[nodiscard]] std::int64_t integer(const std::string& key) const;
   [[nodiscard]] double number(const std::string& key) const;

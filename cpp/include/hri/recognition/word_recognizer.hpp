@@ -20,7 +20,9 @@
 namespace hri {
 
 struct WordRecognizerOptions {
-  CepstraOptions cepstra;           ///< sample_rate_hz 0 takes the lowest training rate, at most 16000
+  WordRecognizerOptions() { cepstra.sample_rate_hz = 0; }
+
+  CepstraOptions cepstra;           ///< sample_rate_hz 0 (default) takes the lowest training rate, at most 16000
   ActivityOptions activity;         ///< how the word is found in the clip
   SequenceModelOptions models;         ///< the models trained on each stream
   bool trim = true;                 ///< cut silence before and after the word

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Model files and WAV files.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/io/wav.hpp"
+
+namespace py = pybind11;
+
+void bind_io(py::module_& m) {
+  py::class_<hri::ModelFile>(m, "ModelFile", "Tensors and metadata in the safetensors layout; strict reader.")
+      .def(py::init<>())
+      .def_static("read", &hri::ModelFile::read, py::arg("path"),
+                  "Reads a whole file; raises IoError, or FormatError naming file and field.")
+      .def("write", &hri::ModelFile::write, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+           "Writes beside the old file, syncs, and renames.")
+      .def_property("kind", &hri::ModelFile::kind, &hri::ModelFile::set_kind)
+      .def("has", &hri::ModelFile::has, py::arg("name"))
+      .def("text", &hri::ModelFile::text, py::arg("key"))
+      .def("integer", &hri::ModelFile::integer, py::arg("key"))
+      .def("number", &hri::ModelFile::number, py::arg("key"))
+      .def("text_list", &hri::ModelFile::text_list, py::arg("key"))
+      .def("set_text", &hri::ModelFile::set_text, py::arg("key"), py::arg("value"))
+      .def("set_integer", &hri::ModelFile::set_integer, py::arg("key"), py::arg("value"))
+      .def("set_number", &hri::ModelFile::set_number, py::arg("key"), py::arg("value"))
+      .def("set_text_list", &hri::ModelFile::set_text_list, py::arg("key"), py::arg("values"))
+      .def("metadata", &hri::ModelFile::metadata, "All metadata as a dict of text.")
+      .def("tensor_shapes", &hri::ModelFile::tensor_shapes, "Name to (rows, columns).")
+      .def(
+          "matrix_d", [](const hri::ModelFile& self, const std::string& name) { return hri_bind::to_array(self.matrix_d(name)); },
+          py::arg("name"))
+      .def(
+          "matrix_f", [](const hri::ModelFile& self, const std::string& name) { return hri_bind::to_array(self.matrix_f(name)); },
+          py::arg("name"))
+      .def(
+          "set_matrix_d",
+          [](hri::ModelFile& self, const std::string& name, const hri_bind::DoubleArray& values) {
+            self.set_matrix(name, hri::ConstMatrixRefD(hri_bind::as_matrix(values, "values")));
+          },
+          py::arg("name"), py::arg("values"))
+      .def(
+          "set_matrix_f",
+          [](hri::ModelFile& self, const std::string& name, const hri_bind::FloatArray& values) {
+            self.set_matrix(name, hri::ConstMatrixRefF(hri_bind::as_matrix(values, "values")));
+          },
+          py::arg("name"), py::arg("values"));
+
+  py::class_<hri::Wav>(m, "Wav", "Mono samples of a WAV file.")
+      .def_property_readonly("samples", [](const hri::Wav& self) { return hri_bind::to_array(self.samples); })
+      .def_readonly("sample_rate_hz", &hri::Wav::sample_rate_hz)
+      .def_readonly("num_channels", &hri::Wav::num_channels)
+      .def_readonly("notes", &hri::Wav::notes);
+  m.def("read_wav", &hri::read_wav, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+        "Reads PCM or float WAV, averaged to mono; raises FormatError naming file and field.");
+  m.def(
+      "parse_wav",
+      [](const py::bytes& data, const std::string& name) {
+        const std::string_view view(data);
+        return hri::parse_wav({reinterpret_cast<const std::uint8_t*>(view.data()), view.size()}, name);
+      },
+      py::arg("data"), py::arg("name") = "bytes");
+  m.def(
+      "write_wav_pcm16",
+      [](const std::string& path, const hri_bind::FloatArray& samples, int sample_rate_hz) {
+        hri::write_wav_pcm16(path, hri_bind::as_span(samples, "samples"), sample_rate_hz);
+      },
+      py::arg("path"), py::arg("samples"), py::arg("sample_rate_hz"));
+}
