@@ -6,11 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hri.errors import FormatError, InvalidArgument
+from hri.errors import FormatError, InvalidArgument, IoError
 
 
 class Trajectory:
@@ -74,6 +76,17 @@ class Trajectory:
         if part == 0.0:
             return self.positions_rad[row].copy()
         return (1.0 - part) * self.positions_rad[row] + part * self.positions_rad[row + 1]
+
+    def write_tsv(self, path: str | PathLike[str]) -> None:
+        """Write a table with a header: seconds, then degrees of each joint; IoError if it fails."""
+        lines = ["\t".join(("time_s", *(f"{name}_deg" for name in self.joint_names)))]
+        for row, degrees in enumerate(np.degrees(self.positions_rad).tolist()):
+            cells = (f"{value:.4f}" for value in degrees)
+            lines.append("\t".join((f"{row * self.period_s:.6g}", *cells)))
+        try:
+            Path(path).write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
+        except OSError as error:
+            raise IoError(f"{path}: {error.strerror or error}") from error
 
 
 @dataclass(frozen=True)

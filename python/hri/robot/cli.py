@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The commands of ``hri robot``: data on stdout, messages on stderr, errors to the caller."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+import numpy as np
+
+from hri.errors import InvalidArgument
+from hri.robot.checks import check_pulse_csv
+from hri.robot.gestures import gesture_trajectory, load_gestures
+from hri.robot.joints import HOAP2
+from hri.robot.pulse_csv import read_pulse_csv, write_pulse_csv
+from hri.robot.simulation import BACKENDS, open_robot, render_video
+from hri.robot.trajectory import Trajectory
+
+EXIT_BAD_DATA = 3
+
+_backend = click.option(
+    "--backend",
+    type=click.Choice(BACKENDS),
+    default="pybullet",
+    show_default=True,
+    help="With physics, or without.",
+)
+
+
+@click.group()
+def robot() -> None:
+    """Check motions of the robot HOAP-2, carry them out in simulation and film them."""
+
+
+@robot.command()
+@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+def check(file: Path) -> None:
+    """Look over a pulse CSV FILE; tab-separated findings go to stdout, exit code 3 for errors."""
+    findings = check_pulse_csv(file)
+    for finding in findings:
+        place = (finding.severity, str(finding.row), finding.column, finding.joint)
+        click.echo("\t".join((*place, finding.message)))
+    errors = sum(finding.severity == "error" for finding in findings)
+    click.echo(f"{file}: {errors} errors, {len(findings) - errors} warnings", err=True)
+    if errors:
+        sys.exit(EXIT_BAD_DATA)
+
+
+@robot.command()
+@click.argument("motion")
+@_backend
+@click.option("--gui", is_flag=True, help="Show a window and move in real time (pybullet).")
+@click.option("--stand", is_flag=True, help="Stand on the feet instead of holding the torso.")
+def play(motion: str, backend: str, gui: bool, stand: bool) -> None:
+    """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end."""
+    trajectory = _motion(motion)
+    with open_robot(backend, gui=gui, fixed_base=not stand) as opened:
+        opened.perform(trajectory)
+        for name, position in opened.joint_positions_rad().items():
+            click.echo(f"{name}\t{position:.4f}")
+
+
+@robot.command()
+@click.argument("motion")
+@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+@_backend
+@click.option("--fps", type=click.FloatRange(1, 120), default=12.0, show_default=True)
+@click.option("--size", type=(int, int), default=(480, 360), show_default=True, help="Pixels.")
+def render(motion: str, out: Path, backend: str, fps: float, size: tuple[int, int]) -> None:
+    """Film MOTION, the name of a gesture or a pulse CSV file, as the video OUT."""
+    trajectory = _motion(motion)
+    if sys.stderr.isatty():
+        with click.progressbar(length=1000, label="Filming", file=sys.stderr) as bar:
+
+            def show(made: int, total: int) -> None:
+                bar.update(1000 * made // total - bar.pos)
+
+            render_video(trajectory, out, backend, fps, size, show)
+    else:
+        render_video(trajectory, out, backend, fps, size)
+    click.echo(str(out))
+
+
+@robot.command()
+@click.argument("motion")
+@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+def convert(motion: str, out: Path) -> None:
+    """Write MOTION as OUT: pulses with .csv, else times and degrees, tab-separated (.tsv).
+
+    MOTION is the name of a gesture or a pulse CSV file.
+    """
+    trajectory = _motion(motion)
+    if out.suffix.lower() == ".csv":
+        left_out = write_pulse_csv(out, trajectory)
+        if left_out:
+            click.echo(f"left out, as the format has no count: {', '.join(left_out)}", err=True)
+    elif out.suffix.lower() == ".tsv":
+        trajectory.write_tsv(out)
+    else:
+        raise InvalidArgument(f"{out}: suffix must be .csv or .tsv")
+    click.echo(str(out))
+
+
+@robot.command()
+@click.option("--markdown", is_flag=True, help="As a table for a Markdown page.")
+def joints(markdown: bool) -> None:
+    """List the joints with limits in degrees, CSV column and pulses per degree."""
+    rows = [("joint", "meaning", "lower deg", "upper deg", "column", "pulses/deg")]
+    for joint, limits in zip(HOAP2.joints, np.degrees(HOAP2.limits_rad), strict=True):
+        pulses = "" if joint.pulses_per_degree is None else str(joint.pulses_per_degree)
+        degrees = (f"{limits[0]:.1f}", f"{limits[1]:.1f}")
+        rows.append((joint.name, joint.meaning, *degrees, joint.column, pulses))
+    if markdown:
+        rows.insert(1, ("---",) * 6)
+    for row in rows:
+        click.echo(f"| {' | '.join(row)} |" if markdown else "\t".join(row))
+
+
+@robot.command()
+def gestures() -> None:
+    """List the gestures: name, seconds and what it looks like."""
+    for gesture in load_gestures().values():
+        click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
+
+
+def _motion(motion: str) -> Trajectory:
+    if motion in load_gestures():
+        return gesture_trajectory(motion)
+    if Path(motion).suffix.lower() == ".csv" or Path(motion).is_file():
+        return read_pulse_csv(motion)
+    return gesture_trajectory(motion)  # its error names the gestures
