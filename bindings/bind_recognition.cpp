@@ -150,11 +150,15 @@ hri::GestureRecognizer train_gestures(const std::vector<FloatArray>& features, c
   return hri::GestureRecognizer::train(samples, options, with_gil(progress), python_wants_to_stop);
 }
 
-hri::MatrixF gesture_features(const std::vector<ByteArray>& greys, const std::vector<ByteArray>& masks,
+py::array_t<float> gesture_features(const std::vector<ByteArray>& greys, const std::vector<ByteArray>& masks,
                               const hri::HandFeatureOptions& options) {
   const auto frames = as_hand_images(greys, masks);
-  const py::gil_scoped_release release;
-  return hri::GestureRecognizer::features(frames, options);
+  hri::MatrixF rows;
+  {
+    const py::gil_scoped_release release;
+    rows = hri::GestureRecognizer::features(frames, options);
+  }
+  return hri_bind::to_array(rows);
 }
 
 void bind_gestures(py::module_& m) {
