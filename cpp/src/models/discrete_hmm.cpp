@@ -62,14 +62,16 @@ MatrixD initial_emission(const std::vector<SymbolSequence>& sequences,
 
 }  // namespace
 
-void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols) {
+void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols,
+                      const std::string& where) {
   require(!sequences.empty(), "training needs at least one sequence");
   for (std::size_t s = 0; s < sequences.size(); ++s) {
     if (sequences[s].empty())
-      fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + " has no symbols");
+      fail(ErrorKind::invalid_argument,
+           where + "sequence " + std::to_string(s) + " has no symbols");
     for (std::size_t t = 0; t < sequences[s].size(); ++t) {
       if (sequences[s][t] >= 0 && sequences[s][t] < num_symbols) continue;
-      fail(ErrorKind::invalid_argument, "sequence " + std::to_string(s) + ": symbol " +
+      fail(ErrorKind::invalid_argument, where + "sequence " + std::to_string(s) + ": symbol " +
                                             std::to_string(sequences[s][t]) + " at position " +
                                             std::to_string(t) + " lies outside 0.." +
                                             std::to_string(num_symbols - 1));

@@ -167,11 +167,13 @@ PossibilisticHmmSet PossibilisticHmmSet::train(
   require(options.max_iterations >= 1, "max_iterations must be at least 1");
   require(options.emission_floor >= 0 && options.emission_floor * options.num_symbols <= 1,
           "emission_floor must lie in 0..1/num_symbols");
+  require(options.tolerance >= 0, "tolerance must not be negative");
   require(!per_class.empty(), "training needs at least one class");
   std::vector<DiscreteHmm> models;
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     if (per_class[c].empty())
       fail(ErrorKind::invalid_argument, "class " + std::to_string(c) + " has no sequence");
+    validate_symbols(per_class[c], options.num_symbols, "class " + std::to_string(c) + ", ");
     models.push_back(train_class(per_class[c], options));
   }
   return from_hmms(models, options.conjunction, options.conditioned);

@@ -71,7 +71,9 @@ class DiscreteHmm {
   MatrixD log_emission_;
 };
 
-/// Throws InvalidArgument unless every sequence has symbols, all in 0..num_symbols - 1.
-void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols);
+/// Throws InvalidArgument unless every sequence has symbols, all in 0..num_symbols - 1. `where`
+/// begins the message.
+void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols,
+                      const std::string& where = "");
 
 }  // namespace hri

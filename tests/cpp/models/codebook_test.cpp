@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/codebook.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "hri/core/error.hpp"
+#include "models/model_testing.hpp"
+
+namespace hri {
+namespace {
+
+using namespace testing_data;
+
+CodebookOptions with_size(int num_codewords) {
+  CodebookOptions options;
+  options.num_codewords = num_codewords;
+  return options;
+}
+
+// The nearest centroid in double, by brute force.
+int nearest(const MatrixF& centroids, const Eigen::RowVectorXf& x) {
+  Eigen::Index best = 0;
+  (centroids.cast<double>().rowwise() - x.cast<double>()).rowwise().squaredNorm().minCoeff(&best);
+  return static_cast<int>(best);
+}
+
+TEST(Codebook, FindsTheCentresOfSeparateClusters) {
+  const LabelledRows data = blobs(4, 50, 20.0, 1);
+  const Codebook book = Codebook::train_lbg(data.rows, with_size(4));
+  ASSERT_EQ(book.size(), 4);
+  const std::vector<std::int32_t> symbols = book.quantise(data.rows);
+  for (std::size_t r = 4; r < symbols.size(); ++r) EXPECT_EQ(symbols[r], symbols[r % 4]);
+  EXPECT_EQ(std::set<std::int32_t>(symbols.begin(), symbols.begin() + 4).size(), 4U);
+  EXPECT_NEAR(book.distortion(data.rows), 3.0, 0.5);  // three columns of variance 1
+}
+
+TEST(Codebook, QuantisesToTheNearestCodeword) {
+  for (const int size : {1, 3, 31, 32, 33, 100}) {
+    for (const int dim : {1, 2, 39}) {
+      const MatrixF centroids = noise(size, dim, 2);
+      const Codebook book(centroids);
+      const MatrixF frames = noise(200, dim, 3);
+      const std::vector<std::int32_t> symbols = book.quantise(frames);
+      for (Eigen::Index t = 0; t < frames.rows(); ++t) {
+        const int expected = nearest(centroids, frames.row(t));
+        EXPECT_EQ(symbols[static_cast<std::size_t>(t)], expected)
+            << size << " codewords, frame " << t;
+        EXPECT_EQ(book.quantise(row_span(frames, t)), expected);
+      }
+    }
+  }
+}
+
+TEST(Codebook, TakesTheLowerOfTwoCodewordsAsNear) {
+  MatrixF centroids = MatrixF::Zero(70, 1);
+  centroids(0, 0) = 5;
+  EXPECT_EQ(Codebook(centroids).quantise(std::vector<float>{1.0F}), 1);
+}
+
+TEST(Codebook, FallsInDistortionAsItGrows) {
+  const MatrixF rows = noise(500, 4, 4);
+  double before = Codebook::train_lbg(rows, with_size(1)).distortion(rows);
+  for (const int size : {2, 3, 5, 8, 24, 64}) {
+    const Codebook book = Codebook::train_lbg(rows, with_size(size));
+    EXPECT_EQ(book.size(), size);
+    EXPECT_LT(book.distortion(rows), before);
+    before = book.distortion(rows);
+  }
+}
+
+TEST(Codebook, HasNoEmptyCells) {
+  MatrixF rows(60, 1);  // three different rows, one of them rare
+  for (Eigen::Index r = 0; r < rows.rows(); ++r)
+    rows(r, 0) = r == 0 ? 100.0F : static_cast<float>(r % 2);
+  const Codebook book = Codebook::train_lbg(rows, with_size(16));
+  EXPECT_EQ(book.size(), 3);
+  EXPECT_EQ(book.distortion(rows), 0.0);
+  const std::vector<std::int32_t> symbols = book.quantise(rows);
+  EXPECT_EQ(std::set<std::int32_t>(symbols.begin(), symbols.end()).size(), 3U);
+}
+
+TEST(Codebook, RepairsEmptyCellsOfGivenCentroids) {
+  const LabelledRows data = blobs(3, 40, 20.0, 5);
+  MatrixF centroids = MatrixF::Constant(3, 3, 1000.0F);  // the second and third win no row
+  centroids.row(0).setZero();
+  centroids.row(2).setConstant(2000.0F);
+  const Codebook book = Codebook::train_kmeans(data.rows, centroids, {});
+  EXPECT_EQ(book.size(), 3);
+  EXPECT_LT(book.distortion(data.rows), 4.0);
+}
+
+TEST(Codebook, KeepsOneCodewordForRowsAllAlike) {
+  const Codebook book = Codebook::train_lbg(MatrixF::Constant(5, 2, 3.0F), with_size(8));
+  EXPECT_EQ(book.size(), 1);
+  EXPECT_EQ(book.centroids(), MatrixF::Constant(1, 2, 3.0F));
+  EXPECT_EQ(Codebook::train_lbg(MatrixF::Constant(1, 2, 3.0F), with_size(8)).size(), 1);
+}
+
+TEST(Codebook, RefusesBadInputByName) {
+  MatrixF rows = noise(6, 2, 6);
+  EXPECT_THROW(Codebook::train_lbg(MatrixF(0, 2), {}), InvalidArgument);
+  EXPECT_THROW(Codebook::train_lbg(rows, with_size(0)), InvalidArgument);
+  EXPECT_THROW(Codebook::train_kmeans(rows, MatrixF::Zero(2, 3), {}), InvalidArgument);
+  EXPECT_THROW(Codebook(MatrixF(0, 2)), InvalidArgument);
+  const Codebook book = Codebook::train_lbg(rows, with_size(2));
+  EXPECT_THROW(static_cast<void>(book.distortion(MatrixF(0, 2))), InvalidArgument);
+  rows(3, 1) = kNan;
+  const auto refused = [](const auto& action) { return message_of<InvalidArgument>(action); };
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "row 3, column 1",
+                      refused([&] { return book.quantise(rows); }));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "row 3, column 1",
+                      refused([&] { return book.distortion(rows); }));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "row 3, column 1",
+                      refused([&] { return Codebook::train_lbg(rows, {}); }));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "row[1]", refused([&] {
+                        return book.quantise(std::vector<float>{0, kNan});
+                      }));
+}
+
+TEST(Codebook, QuantisesNoFramesToNoSymbols) {
+  EXPECT_TRUE(Codebook(MatrixF::Zero(2, 3)).quantise(MatrixF(0, 3)).empty());
+}
+
+TEST(Codebook, StopsWhenAsked) {
+  CodebookOptions options = with_size(8);
+  options.should_stop = [] { return true; };
+  EXPECT_THROW(Codebook::train_lbg(noise(50, 2, 7), options), Interrupted);
+}
+
+TEST(Codebook, QuantisesTheSameAfterLoading) {
+  const MatrixF rows = noise(300, 5, 8);
+  const Codebook book = Codebook::train_lbg(rows, with_size(20));
+  ModelFile file;
+  book.write(file, "vq.");
+  const Codebook loaded = Codebook::read(through_bytes(file), "vq.");
+  EXPECT_EQ(loaded.centroids(), book.centroids());
+  EXPECT_EQ(loaded.quantise(rows), book.quantise(rows));
+  EXPECT_THROW(Codebook::read(file, "other."), FormatError);
+}
+
+}  // namespace
+}  // namespace hri

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/possibilistic_hmm.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "hri/core/error.hpp"
+#include "models/model_testing.hpp"
+
+namespace hri {
+namespace {
+
+using Kind = Topology::Kind;
+using namespace testing_data;
+
+constexpr int kNumClasses = 4;
+constexpr int kNumSymbols = 6;
+
+// Words that share their symbols and differ in their order: class c cycles through the symbols from
+// c on.
+SymbolSequence word(int class_index, std::uint64_t seed) {
+  Random random(seed);
+  SymbolSequence s;
+  for (int stretch = 0; stretch < 3; ++stretch) {
+    const int length = 4 + static_cast<int>(random.below(5));
+    for (int t = 0; t < length; ++t) {
+      const bool wrong = random.uniform() < 0.1;
+      const int right = class_index % 2 == 0 ? class_index + stretch : class_index + 2 - stretch;
+      s.push_back(wrong ? static_cast<std::int32_t>(random.below(kNumSymbols))
+                        : right % kNumSymbols);
+    }
+  }
+  return s;
+}
+
+std::vector<std::vector<SymbolSequence>> words(int per_class, std::uint64_t seed) {
+  std::vector<std::vector<SymbolSequence>> per(kNumClasses);
+  for (int c = 0; c < kNumClasses; ++c) {
+    for (int i = 0; i < per_class; ++i) per[static_cast<std::size_t>(c)].push_back(word(c, seed++));
+  }
+  return per;
+}
+
+PossibilisticHmmOptions with(Conjunction conjunction,
+                             Topology topology = {Kind::left_right, 3, 1}) {
+  PossibilisticHmmOptions options;
+  options.topology = topology;
+  options.num_symbols = kNumSymbols;
+  options.conjunction = conjunction;
+  return options;
+}
+
+double accuracy(const PossibilisticHmmSet& set, std::uint64_t seed) {
+  int right = 0;
+  int total = 0;
+  const auto test = words(25, seed);
+  for (int c = 0; c < kNumClasses; ++c) {
+    for (const SymbolSequence& s : test[static_cast<std::size_t>(c)]) {
+      right += argmax(set.log_possibilities(s)) == c ? 1 : 0;
+      ++total;
+    }
+  }
+  return static_cast<double>(right) / total;
+}
+
+// The recursion over a dense matrix, in plain possibilities: no logs, no band.
+double brute_force(const PossibilisticHmmSet& set, int c, const SymbolSequence& s, bool condition) {
+  const int n = set.topology().num_states;
+  const auto join = [&set](double a, double b) {
+    if (set.conjunction() == Conjunction::product) return a * b;
+    return set.conjunction() == Conjunction::min ? std::min(a, b) : std::max(a, b);
+  };
+  VectorD phi(n);
+  double log_scale = 0;
+  for (std::size_t t = 0; t < s.size(); ++t) {
+    VectorD next(n);
+    for (int j = 0; j < n; ++j) {
+      double before = set.topology().kind != Kind::left_right || j == 0 ? 1.0 : 0.0;
+      if (t > 0) {
+        before = 0;
+        for (int i = 0; i < n; ++i) {
+          // A transition that does not exist joins nothing, also under max.
+          if (set.topology().allows(i, j))
+            before = std::max(before, join(phi[i], set.transition(c)(i, j)));
+        }
+      }
+      next[j] = join(before, set.emission(c)(j, s[t]));
+    }
+    phi = next;
+    if (condition) {
+      log_scale += std::log(phi.maxCoeff());
+      phi /= phi.maxCoeff();
+    }
+  }
+  return std::log(phi.maxCoeff()) + log_scale;
+}
+
+TEST(PossibilisticHmmSet, MatchesTheRecursionByBruteForce) {
+  for (const Conjunction conjunction : {Conjunction::product, Conjunction::min, Conjunction::max}) {
+    for (const Topology& topology :
+         {Topology{Kind::left_right, 4, 1}, Topology{Kind::left_right, 4, 2},
+          Topology{Kind::banded, 4, 1}, Topology{Kind::ergodic, 3, 1}}) {
+      for (const bool conditioned : {false, true}) {
+        PossibilisticHmmOptions options = with(conjunction, topology);
+        options.conditioned = conditioned;
+        const auto set = PossibilisticHmmSet::train(words(8, 1), options);
+        for (const std::size_t length : {1U, 2U, 12U}) {
+          SymbolSequence s = word(1, 99);
+          s.resize(length);
+          const VectorF scores = set.log_possibilities(s);
+          for (int c = 0; c < kNumClasses; ++c) {
+            const double expected =
+                brute_force(set, c, s, conditioned && conjunction == Conjunction::min);
+            EXPECT_NEAR(scores[c], expected, 1e-5 * std::abs(expected) + 1e-6);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(PossibilisticHmmSet, ScalesEverySymbolOverAllClassesAndStates) {
+  const auto set = PossibilisticHmmSet::train(words(8, 1), with(Conjunction::product));
+  for (int o = 0; o < kNumSymbols; ++o) {
+    double largest = 0;
+    for (int c = 0; c < kNumClasses; ++c)
+      largest = std::max(largest, set.emission(c).col(o).maxCoeff());
+    EXPECT_DOUBLE_EQ(largest, 1.0);
+  }
+  for (int c = 0; c < kNumClasses; ++c) {
+    for (int i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(set.transition(c).row(i).maxCoeff(), 1.0);
+  }
+}
+
+TEST(PossibilisticHmmSet, TellsWordsApartByProductAndMin) {
+  EXPECT_GT(accuracy(PossibilisticHmmSet::train(words(20, 1), with(Conjunction::product)), 5000),
+            0.95);
+  EXPECT_GT(accuracy(PossibilisticHmmSet::train(words(20, 1), with(Conjunction::min)), 5000), 0.9);
+}
+
+TEST(PossibilisticHmmSet, GainsFromConditioningTheMinimum) {
+  PossibilisticHmmOptions plain = with(Conjunction::min);
+  plain.conditioned = false;
+  const double without = accuracy(PossibilisticHmmSet::train(words(20, 1), plain), 5000);
+  EXPECT_LT(without,
+            accuracy(PossibilisticHmmSet::train(words(20, 1), with(Conjunction::min)), 5000));
+}
+
+TEST(PossibilisticHmmSet, ScoresAllClassesAlikeByTheLiteralMaximum) {
+  // Eq. 4.11 to the letter: one transition of possibility 1 saturates phi, so that recognition is a
+  // guess.
+  const auto set = PossibilisticHmmSet::train(words(20, 1), with(Conjunction::max));
+  for (int c = 0; c < kNumClasses; ++c) {
+    for (std::uint64_t seed = 5000; seed < 5020; ++seed) {
+      EXPECT_EQ(set.log_possibilities(word(c, seed)), VectorF::Zero(kNumClasses));
+    }
+  }
+  EXPECT_DOUBLE_EQ(accuracy(set, 5000), 1.0 / kNumClasses);
+}
+
+TEST(PossibilisticHmmSet, ConvertsTrainedHmms) {
+  std::vector<DiscreteHmm> models;
+  for (const auto& sequences : words(20, 1)) {
+    DiscreteHmmOptions options;
+    options.topology = {Kind::left_right, 3, 1};
+    options.num_symbols = kNumSymbols;
+    models.push_back(DiscreteHmm::train(sequences, options));
+  }
+  EXPECT_GT(accuracy(PossibilisticHmmSet::from_hmms(models, Conjunction::product), 5000), 0.95);
+  const Topology other{Kind::left_right, 2, 1};
+  models.emplace_back(other, initial_start(other), initial_transition(other),
+                      MatrixD::Constant(2, kNumSymbols, 1.0 / kNumSymbols));
+  EXPECT_THROW(PossibilisticHmmSet::from_hmms(models, Conjunction::product), InvalidArgument);
+  EXPECT_THROW(PossibilisticHmmSet::from_hmms({}, Conjunction::product), InvalidArgument);
+}
+
+TEST(PossibilisticHmmSet, FindsTheMostPossiblePath) {
+  const auto set = PossibilisticHmmSet::train(words(20, 1), with(Conjunction::product));
+  std::vector<int> path;
+  const SymbolSequence s{0, 0, 0, 1, 1, 2, 2, 2};
+  const double score = set.viterbi(0, s, &path);
+  EXPECT_EQ(path, (std::vector<int>{0, 0, 0, 1, 1, 2, 2, 2}));
+  EXPECT_NEAR(score, set.log_possibilities(s)[0], 1e-5);
+  EXPECT_THROW(set.viterbi(kNumClasses, s), InvalidArgument);
+}
+
+TEST(PossibilisticHmmSet, LivesOnOneSequencePerClassAndOnShortOnes) {
+  const auto one = PossibilisticHmmSet::train(words(1, 1), with(Conjunction::product));
+  EXPECT_TRUE(one.log_possibilities(word(2, 7)).allFinite());
+  const auto brief = PossibilisticHmmSet::train(
+      {{{0}}, {{1, 2}}}, with(Conjunction::product, {Kind::left_right, 8, 1}));
+  EXPECT_EQ(argmax(brief.log_possibilities(SymbolSequence{0})), 0);
+  EXPECT_EQ(argmax(brief.log_possibilities(SymbolSequence{1, 2})), 1);
+}
+
+TEST(PossibilisticHmmSet, RefusesBadInputByName) {
+  const auto refused = [](const auto& action) { return message_of<InvalidArgument>(action); };
+  auto data = words(3, 1);
+  const auto set = PossibilisticHmmSet::train(data, with(Conjunction::product));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "symbol 6 at position 1", refused([&] {
+                        return set.log_possibilities(SymbolSequence{0, 6});
+                      }));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "empty",
+                      refused([&] { return set.log_possibilities(SymbolSequence{}); }));
+  data[2].clear();
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "class 2 has no sequence", refused([&] {
+                        return PossibilisticHmmSet::train(data, with(Conjunction::product));
+                      }));
+  data[2].push_back({0, 7});
+  EXPECT_PRED_FORMAT2(
+      ::testing::IsSubstring, "class 2, sequence 0: symbol 7 at position 1",
+      refused([&] { return PossibilisticHmmSet::train(data, with(Conjunction::product)); }));
+  EXPECT_THROW(PossibilisticHmmSet::train({}, with(Conjunction::product)), InvalidArgument);
+}
+
+TEST(PossibilisticHmmSet, StopsWhenAsked) {
+  PossibilisticHmmOptions options = with(Conjunction::product);
+  options.should_stop = [] { return true; };
+  EXPECT_THROW(PossibilisticHmmSet::train(words(3, 1), options), Interrupted);
+}
+
+TEST(PossibilisticHmmSet, ScoresTheSameAfterLoadingAndFromManyThreads) {
+  for (const Conjunction conjunction : {Conjunction::product, Conjunction::min, Conjunction::max}) {
+    const auto set = PossibilisticHmmSet::train(words(5, 1), with(conjunction));
+    ModelFile file;
+    set.write(file, "p.");
+    const auto loaded = PossibilisticHmmSet::read(through_bytes(file), "p.");
+    EXPECT_EQ(loaded.conjunction(), conjunction);
+    const SymbolSequence s = word(1, 77);
+    const VectorF expected = set.log_possibilities(s);
+    EXPECT_EQ(loaded.log_possibilities(s), expected);
+    std::vector<VectorF> scores(4);
+    std::vector<std::thread> threads;
+    for (VectorF& v : scores)
+      threads.emplace_back([&set, &s, &v] { v = set.log_possibilities(s); });
+    for (std::thread& t : threads) t.join();
+    for (const VectorF& v : scores) EXPECT_EQ(v, expected);
+  }
+}
+
+TEST(PossibilisticHmmSet, RefusesFilesThatAreNoSet) {
+  ModelFile file;
+  PossibilisticHmmSet::train(words(5, 1), with(Conjunction::product)).write(file, "p.");
+  const auto refused = [](const ModelFile& f) {
+    return message_of<FormatError>([&f] { return PossibilisticHmmSet::read(f, "p."); });
+  };
+  ModelFile bad = file;
+  bad.set_integer("p.conjunction", 9);
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "conjunction", refused(bad));
+  bad = file;
+  bad.set_integer("p.num_classes", 1000000000);
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "p.4.transition", refused(bad));
+  bad = file;
+  bad.set_matrix("p.1.emission", MatrixD(MatrixD::Constant(3, kNumSymbols, 1.5)));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "0..1", refused(bad));
+}
+
+}  // namespace
+}  // namespace hri
