@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Speech and gesture to one command: table 6.9 of the thesis, and rules on whole score vectors."""
+
+from __future__ import annotations
+
+from hri.errors import InvalidArgument
+from hri.fusion import vectors
+from hri.fusion.options import RULES, FusedDecision, FusionOptions
+from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision
+
+_VECTOR_RULES = {
+    "weighted_sum": vectors.weighted_sum,
+    "product": vectors.product,
+    "dempster_shafer": vectors.dempster_shafer,
+}
+
+
+def fuse(
+    speech: Decision | None,
+    gesture: Decision | None,
+    *,
+    rule: str = "table_6_9",
+    options: FusionOptions | None = None,
+) -> FusedDecision:
+    """Fuse what was heard and what was seen.
+
+    Parameters
+    ----------
+    speech, gesture : Decision or None
+        None, or a decision without input, leaves the other mode alone.
+    rule : {"table_6_9", "weighted_sum", "product", "dempster_shafer"}
+        Table 6.9 takes the class of the surer mode; the others combine the whole score vectors.
+    options : FusionOptions, optional
+
+    Returns
+    -------
+    FusedDecision
+        ``rule`` says which case fired.
+
+    Raises
+    ------
+    InvalidArgument
+        For an unknown rule.
+    """
+    if rule not in RULES:
+        raise InvalidArgument(f"rule is {rule!r}, must be one of {', '.join(RULES)}")
+    options = options or FusionOptions()
+    for decision in (speech, gesture):
+        if decision is not None and decision.status == RECOGNISED and decision.label in options.stop_labels:
+            return _as_decided(decision, f"stop: recognised in {decision.mode}", speech, gesture)
+    heard = speech if _has_input(speech) else None
+    seen = gesture if _has_input(gesture) else None
+    if heard is None and seen is None:
+        return FusedDecision(NO_INPUT, NO_INPUT, 0.0, "no input in either mode", (), speech, gesture)
+    if heard is None or seen is None:
+        only = heard or seen
+        assert only is not None
+        return _as_decided(only, f"{only.mode} alone: no input in the other mode", speech, gesture)
+    if heard.status == UNKNOWN and seen.status == UNKNOWN:
+        return FusedDecision(UNKNOWN, UNKNOWN, 0.0, "both modes rejected", (), speech, gesture)
+    if rule == "table_6_9":
+        return _table_6_9(heard, seen, options)
+    return _by_vectors(heard, seen, rule, options)
+
+
+def _has_input(decision: Decision | None) -> bool:
+    return decision is not None and decision.status != NO_INPUT and len(decision.nbest) > 0
+
+
+def _as_decided(
+    decision: Decision, rule: str, speech: Decision | None, gesture: Decision | None
+) -> FusedDecision:
+    return FusedDecision(
+        decision.label, decision.status, decision.confidence, rule, decision.nbest, speech, gesture
+    )
+
+
+def _winner(decision: Decision, rule: str, speech: Decision, gesture: Decision) -> FusedDecision:
+    """The class that `decision` puts first wins, whatever its own rejection said: the rule has weighed it."""
+    best = decision.nbest[0]
+    return FusedDecision(
+        best.label, RECOGNISED, best.probability, f"table 6.9: {rule}", decision.nbest, speech, gesture
+    )
+
+
+def _table_6_9(speech: Decision, gesture: Decision, options: FusionOptions) -> FusedDecision:
+    """The four cases of table 6.9; gesture is source 1, and it wins ties."""
+    alpha_1, alpha_2 = gesture.confidence, speech.confidence
+    # A mode that rejected its input cannot be above its threshold.
+    above_1 = alpha_1 >= options.threshold_gesture and gesture.status == RECOGNISED
+    above_2 = alpha_2 >= options.threshold_speech and speech.status == RECOGNISED
+    if above_1 and above_2:
+        if alpha_2 <= alpha_1:
+            return _winner(gesture, "both above, gesture at least as sure", speech, gesture)
+        return _winner(speech, "both above, speech surer", speech, gesture)
+    if above_1:
+        return _winner(gesture, "only gesture above its threshold", speech, gesture)
+    if above_2:
+        return _winner(speech, "only speech above its threshold", speech, gesture)
+    if options.weight_speech * alpha_2 <= options.weight_gesture * alpha_1:
+        return _winner(gesture, "both below, weighted gesture at least as sure", speech, gesture)
+    return _winner(speech, "both below, weighted speech surer", speech, gesture)
+
+
+def _by_vectors(speech: Decision, gesture: Decision, rule: str, options: FusionOptions) -> FusedDecision:
+    labels = sorted({n.label for n in speech.nbest} | {n.label for n in gesture.nbest})
+    fused = _VECTOR_RULES[rule](
+        vectors.probabilities(speech, labels), vectors.probabilities(gesture, labels), options
+    )
+    nbest = vectors.ranked(fused)
+    name = rule.replace("_", " ") + " of both score vectors"
+    return FusedDecision(nbest[0].label, RECOGNISED, nbest[0].probability, name, nbest, speech, gesture)

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Options and result of fusion."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from hri.errors import InvalidArgument
+from hri.recognition.decision import Decision, NBest
+
+RULES = ("table_6_9", "weighted_sum", "product", "dempster_shafer")
+
+
+@dataclass(frozen=True)
+class FusionOptions:
+    """How two decisions become one.
+
+    Attributes
+    ----------
+    threshold_gesture, threshold_speech : float
+        Theta of table 6.9, 0..1; they suppose calibrated confidences.
+    weight_gesture, weight_speech : float
+        w of table 6.9, and the weights of the other rules, > 0.
+    reliability_gesture, reliability_speech : float
+        For Dempster-Shafer, 0..1: 1 - reliability is the mass given to ignorance.
+    probability_floor : float
+        No class falls below this in the product rule, 0..0.1: one mode alone cannot veto a class.
+    stop_labels : tuple of str
+        Recognised in either mode, these win over everything.
+    """
+
+    threshold_gesture: float = 0.8
+    threshold_speech: float = 0.85
+    weight_gesture: float = 1.0
+    weight_speech: float = 1.0
+    reliability_gesture: float = 0.95
+    reliability_speech: float = 0.9
+    probability_floor: float = 1e-3
+    stop_labels: tuple[str, ...] = ("stop",)
+
+    def __post_init__(self) -> None:
+        for name in ("threshold_gesture", "threshold_speech", "reliability_gesture", "reliability_speech"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise InvalidArgument(f"FusionOptions.{name} must lie in 0..1, got {getattr(self, name)}")
+        for name in ("weight_gesture", "weight_speech"):
+            if not getattr(self, name) > 0:
+                raise InvalidArgument(f"FusionOptions.{name} must be positive, got {getattr(self, name)}")
+        if not 0 <= self.probability_floor <= 0.1:
+            raise InvalidArgument(
+                f"FusionOptions.probability_floor must lie in 0..0.1, got {self.probability_floor}"
+            )
+
+
+@dataclass(frozen=True)
+class FusedDecision:
+    """The common decision of two modes.
+
+    Attributes
+    ----------
+    label, status, confidence
+        As in `Decision`.
+    rule : str
+        The rule that fired, for example "table 6.9: only gesture above its threshold".
+    nbest : tuple of NBest
+        Fused probabilities of every class, falling; for table 6.9 the list of the mode that won.
+    speech, gesture : Decision or None
+        What was fused.
+    """
+
+    label: str
+    status: str
+    confidence: float
+    rule: str
+    nbest: tuple[NBest, ...] = field(default=())
+    speech: Decision | None = None
+    gesture: Decision | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain values that can be written as JSON."""
+        return asdict(self)
