@@ -81,7 +81,7 @@ class GestureRecognizer(Recognizer):
         groups : sequence of str, optional
             The signer of each clip; calibration then holds out whole signers.
         progress : callable, optional
-            Called with (done, total); clips first, then training steps.
+            Called with (done, total), first for the clips, then for the training steps.
 
         Raises
         ------
@@ -96,11 +96,16 @@ class GestureRecognizer(Recognizer):
         for done, clip in enumerate(X):
             rows.append(self.features(clip))
             if progress is not None:
-                progress(done + 1, len(X) + 1)
-        return self.fit_features(rows, y, groups=groups)
+                progress(done + 1, len(X))
+        return self.fit_features(rows, y, groups=groups, progress=progress)
 
     def fit_features(
-        self, rows: Sequence[NDArray[np.float32]], y: Sequence[str], *, groups: Sequence[str] | None = None
+        self,
+        rows: Sequence[NDArray[np.float32]],
+        y: Sequence[str],
+        *,
+        groups: Sequence[str] | None = None,
+        progress: Callable[[int, int], None] | None = None,
     ) -> GestureRecognizer:
         """Train on what `features` returned, so that clips are read once for several trainings."""
         signers = [""] * len(rows) if groups is None else [str(g) for g in groups]
@@ -109,7 +114,7 @@ class GestureRecognizer(Recognizer):
                 f"features, y and groups differ in length: {len(rows)}, {len(y)}, {len(signers)}"
             )
         self._native = self._native_class.train(
-            list(rows), [str(label) for label in y], signers, self.options, None
+            list(rows), [str(label) for label in y], signers, self.options, progress
         )
         return self
 

@@ -1,0 +1,202 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Cross-validation by person, and training on one folder while testing on another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from hri.datasets import Dataset, Fold
+from hri.errors import InvalidArgument
+from hri.evaluation.conditions import expose, make_noise, mix_noise
+from hri.evaluation.result import EvaluationResult, FoldResult, Trial
+from hri.media import read_audio, read_frames
+from hri.recognition import GestureRecognizer, WordRecognizer
+
+Progress = Callable[[str, int, int], None]
+Recognizer = WordRecognizer | GestureRecognizer
+
+
+def cross_validate(
+    dataset: Dataset,
+    make_recognizer: Callable[[], Recognizer],
+    *,
+    num_folds: int | None = None,
+    seed: int = 0,
+    noise: str | None = None,
+    snr_db: float | None = None,
+    train_noise: bool = False,
+    exposure: float | None = None,
+    progress: Progress | None = None,
+) -> EvaluationResult:
+    """Accuracy on people the recogniser has not met.
+
+    Parameters
+    ----------
+    dataset : Dataset
+    make_recognizer : callable
+        Gives a new, untrained recogniser for every fold.
+    num_folds : int, optional
+        Folds by person; None holds out one person at a time (for gestures with more than 10 persons: 5 folds). Where
+        persons are not known, folds are stratified by label, and the result says so.
+    seed : int
+        Of folds and noise.
+    noise, snr_db : str and float, optional
+        Added to the test clips: see `make_noise`.
+    train_noise : bool
+        Also train on a copy of each clip with the same noise at the same SNR.
+    exposure : float, optional
+        Factor on the pixels of the test pictures.
+    progress : callable, optional
+        Called with (what, done, total).
+    """
+    conditions = _conditions(seed, noise, snr_db, train_noise, exposure)
+    if dataset.persons:
+        if num_folds is None and dataset.kind == "gesture" and len(dataset.persons) > 10:
+            num_folds = 5
+        folds = dataset.folds_by_person(num_folds, seed)
+        conditions["folds"] = "by person"
+    else:
+        folds = dataset.folds_stratified(num_folds or 5, seed)
+        conditions["folds"] = "stratified by label: persons are not known, so test people may have been met"
+    runner = _runner(dataset, make_recognizer, conditions, progress)
+    return EvaluationResult(dataset.labels, [runner.run(fold) for fold in folds], conditions)
+
+
+def evaluate_split(
+    train: Dataset,
+    test: Dataset,
+    make_recognizer: Callable[[], Recognizer],
+    *,
+    seed: int = 0,
+    noise: str | None = None,
+    snr_db: float | None = None,
+    train_noise: bool = False,
+    exposure: float | None = None,
+    progress: Progress | None = None,
+) -> EvaluationResult:
+    """Train on one data set, test on another; parameters as for `cross_validate`.
+
+    Raises
+    ------
+    InvalidArgument
+        When the kinds differ, or the test set has a label that was not trained.
+    """
+    if train.kind != test.kind:
+        raise InvalidArgument(f"train is {train.kind}, test is {test.kind}")
+    unknown = sorted(set(test.labels) - set(train.labels))
+    if unknown:
+        raise InvalidArgument(f"test has labels that train has not: {', '.join(unknown)}")
+    conditions = _conditions(seed, noise, snr_db, train_noise, exposure)
+    both = Dataset(train.root, train.kind, [*train.samples, *test.samples])
+    fold = Fold(str(test.root.name), list(range(len(train))), list(range(len(train), len(both))))
+    runner = _runner(both, make_recognizer, conditions, progress)
+    return EvaluationResult(train.labels, [runner.run(fold)], conditions)
+
+
+def _conditions(
+    seed: int, noise: str | None, snr_db: float | None, train_noise: bool, exposure: float | None
+) -> dict[str, Any]:
+    if (noise is None) != (snr_db is None):
+        raise InvalidArgument("noise and snr_db go together")
+    return {
+        "seed": seed,
+        "noise": noise,
+        "snr_db": snr_db,
+        "train_noise": train_noise,
+        "exposure": exposure,
+    }
+
+
+def _runner(
+    dataset: Dataset,
+    make_recognizer: Callable[[], Recognizer],
+    conditions: dict[str, Any],
+    progress: Progress | None,
+) -> _SpeechRunner | _GestureRunner:
+    kind = _SpeechRunner if dataset.kind == "speech" else _GestureRunner
+    return kind(dataset, make_recognizer, conditions, progress or (lambda what, done, total: None))
+
+
+class _SpeechRunner:
+    """Clips are read once; the noise of a clip depends on the seed and its place alone, not on the fold."""
+
+    def __init__(
+        self, dataset: Dataset, make: Callable[[], Any], conditions: dict[str, Any], progress: Progress
+    ) -> None:
+        self._samples = dataset.samples
+        self._make = make
+        self._progress = progress
+        self._train_noise = conditions["train_noise"]
+        self._clean: list[Any] = []
+        self._noisy: list[Any] = []
+        self._rates: list[int] = []
+        for done, sample in enumerate(dataset.samples):
+            audio = read_audio(sample.path)
+            self._clean.append(audio.samples)
+            self._rates.append(audio.sample_rate_hz)
+            progress("reading", done + 1, len(dataset))
+            if conditions["noise"] is None:
+                continue
+            rng = np.random.default_rng([conditions["seed"], done])
+            noise = make_noise(conditions["noise"], len(audio.samples), audio.sample_rate_hz, rng)
+            self._noisy.append(mix_noise(audio.samples, noise, conditions["snr_db"]))
+
+    def run(self, fold: Fold) -> FoldResult:
+        recognizer = self._make()
+        indices = list(fold.train)
+        clips = [self._clean[i] for i in indices]
+        if self._train_noise and self._noisy:
+            clips += [self._noisy[i] for i in indices]
+            indices += indices
+        recognizer.fit(
+            clips,
+            [self._samples[i].label for i in indices],
+            sample_rate_hz=[self._rates[i] for i in indices],
+            groups=[self._samples[i].person for i in indices],
+            progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
+        )
+        tested = self._noisy or self._clean
+        trials = []
+        for done, i in enumerate(fold.test):
+            decision = recognizer.recognise(tested[i], self._rates[i])
+            trials.append(Trial(i, self._samples[i].label, decision))
+            self._progress(f"testing {fold.name}", done + 1, len(fold.test))
+        return FoldResult(fold.name, tuple(trials))
+
+
+class _GestureRunner:
+    """Features depend on the options alone, so every clip is read once for all folds."""
+
+    def __init__(
+        self, dataset: Dataset, make: Callable[[], Any], conditions: dict[str, Any], progress: Progress
+    ) -> None:
+        self._samples = dataset.samples
+        self._make = make
+        self._progress = progress
+        recognizer = make()
+        self._plain: list[Any] = []
+        self._exposed: list[Any] = []
+        for done, sample in enumerate(dataset.samples):
+            frames: Sequence[Any] = read_frames(sample.path).frames
+            self._plain.append(recognizer.features(frames))
+            if conditions["exposure"] is not None:
+                self._exposed.append(recognizer.features(expose(frames, conditions["exposure"])))
+            progress("finding hands", done + 1, len(dataset))
+
+    def run(self, fold: Fold) -> FoldResult:
+        recognizer = self._make()
+        recognizer.fit_features(
+            [self._plain[i] for i in fold.train],
+            [self._samples[i].label for i in fold.train],
+            groups=[self._samples[i].person for i in fold.train],
+            progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
+        )
+        tested = self._exposed or self._plain
+        trials = tuple(
+            Trial(i, self._samples[i].label, recognizer.recognise_features(tested[i])) for i in fold.test
+        )
+        return FoldResult(fold.name, trials)

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What an evaluation found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.media.optional import import_optional
+from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One test item: its index in the data set, its true label, and what was decided."""
+
+    index: int
+    truth: str
+    decision: Decision
+
+    @property
+    def best(self) -> str:
+        """The best label, whether or not it was rejected; "no_input" where there is none."""
+        return self.decision.nbest[0].label if self.decision.nbest else NO_INPUT
+
+
+@dataclass(frozen=True)
+class FoldResult:
+    """The test items of one fold."""
+
+    name: str
+    trials: tuple[Trial, ...]
+
+    @property
+    def accuracy(self) -> float:
+        """Share of items whose best label is right, rejected or not, 0..1."""
+        return float(np.mean([t.best == t.truth for t in self.trials]))
+
+    @property
+    def rejected(self) -> float:
+        """Share of items that were rejected or had no input, 0..1."""
+        return float(np.mean([t.decision.status != RECOGNISED for t in self.trials]))
+
+
+@dataclass(frozen=True)
+class EvaluationResult:
+    """Accuracy over folds in which nobody is both trained on and tested.
+
+    Attributes
+    ----------
+    labels : list of str
+    folds : list of FoldResult
+    conditions : dict
+        Noise, SNR, exposure, seed and the like, as they were asked for.
+    """
+
+    labels: list[str]
+    folds: list[FoldResult]
+    conditions: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def trials(self) -> list[Trial]:
+        """The test items of all folds."""
+        return [t for fold in self.folds for t in fold.trials]
+
+    @property
+    def mean(self) -> float:
+        """Mean of the folds' accuracies, 0..1."""
+        return float(np.mean([fold.accuracy for fold in self.folds]))
+
+    @property
+    def std(self) -> float:
+        """Standard deviation over the folds (population)."""
+        return float(np.std([fold.accuracy for fold in self.folds]))
+
+    def confusion(self) -> NDArray[np.int64]:
+        """Counts, shape (num_labels, num_labels + 1): row truth, column best label, last column no input."""
+        index = {label: i for i, label in enumerate(self.labels)}
+        counts = np.zeros((len(self.labels), len(self.labels) + 1), dtype=np.int64)
+        for t in self.trials:
+            counts[index[t.truth], index.get(t.best, len(self.labels))] += 1
+        return counts
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain values that can be written as JSON."""
+        return {
+            "accuracy_mean": self.mean,
+            "accuracy_std": self.std,
+            "num_samples": len(self.trials),
+            "folds": [
+                {
+                    "name": fold.name,
+                    "accuracy": fold.accuracy,
+                    "rejected": fold.rejected,
+                    "num_samples": len(fold.trials),
+                }
+                for fold in self.folds
+            ],
+            "labels": self.labels,
+            "confusion": self.confusion().tolist(),
+            "conditions": self.conditions,
+        }
+
+    def plot_confusion(self, path: str | PathLike[str]) -> None:
+        """Write the confusion matrix as a picture (PNG, SVG or PDF by suffix)."""
+        import_optional("matplotlib", "plots", "confusion plots")
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        counts = self.confusion()
+        columns = [*self.labels, "none"] if counts[:, -1].any() else self.labels
+        counts = counts[:, : len(columns)]
+        side = 2.5 + 0.45 * len(self.labels)
+        figure = Figure(figsize=(side, side), layout="constrained")
+        FigureCanvasAgg(figure)
+        axes = figure.add_subplot()
+        axes.imshow(counts / np.maximum(counts.sum(axis=1, keepdims=True), 1), cmap="Blues", vmin=0, vmax=1)
+        for (row, column), count in np.ndenumerate(counts):
+            if count:
+                dark = count > 0.5 * counts[row].sum()
+                axes.text(column, row, str(count), ha="center", va="center", color="white" if dark else "black")
+        axes.set_xticks(range(len(columns)), columns, rotation=60, ha="right")
+        axes.set_yticks(range(len(self.labels)), self.labels)
+        axes.set_xlabel("recognised as")
+        axes.set_ylabel("truth")
+        axes.set_title(f"accuracy {100 * self.mean:.1f} % ± {100 * self.std:.1f} ({len(self.folds)} folds)")
+        figure.savefig(fspath(path), dpi=110)
