@@ -45,7 +45,7 @@ class PyBulletRobot(Robot):
 
     def __init__(self, gui: bool = False, fixed_base: bool = True) -> None:
         super().__init__()
-        self._bullet = import_optional("pybullet", "sim", "to simulate the robot")
+        self._bullet = import_optional("pybullet", "robot", "to simulate the robot")
         self._client = self._bullet.connect(self._bullet.GUI if gui else self._bullet.DIRECT)
         if self._client < 0:
             raise Error("PyBullet gives no simulation")
