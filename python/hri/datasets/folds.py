@@ -60,7 +60,7 @@ def split_by_person(persons: Sequence[str], num_folds: int | None, seed: int) ->
         )
     order = np.random.default_rng(seed).permutation(len(names))
     groups = [sorted(names[i] for i in order[start::num_folds]) for start in range(num_folds)]
-    return [_fold(", ".join(group), persons, set(group)) for group in groups]
+    return [_fold(_group_name(group, part, num_folds), persons, set(group)) for part, group in enumerate(groups)]
 
 
 def split_stratified(labels: Sequence[str], num_folds: int, seed: int) -> list[Fold]:
@@ -90,6 +90,12 @@ def split_stratified(labels: Sequence[str], num_folds: int, seed: int) -> list[F
         )
         for fold in range(num_folds)
     ]
+
+
+def _group_name(group: Sequence[str], part: int, num_parts: int) -> str:
+    if len(group) <= 3:
+        return ", ".join(group)
+    return f"part {part + 1} of {num_parts} ({len(group)} persons)"
 
 
 def _fold(name: str, persons: Sequence[str], held_out: set[str]) -> Fold:
