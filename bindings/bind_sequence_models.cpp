@@ -264,6 +264,7 @@ void bind_possibilistic(py::module_& m) {
       "train",
       [](const std::vector<std::vector<py::array>>& per_class, Options o) {
         std::vector<std::vector<hri::SymbolSequence>> symbols;
+        symbols.reserve(per_class.size());
         for (const auto& sequences : per_class) symbols.push_back(symbols_of(sequences));
         o.should_stop = hri_bind::interrupted;
         const py::gil_scoped_release release;

@@ -163,7 +163,7 @@ def test_pictures_show_the_whole_robot_on_a_light_ground(robot):
     assert hands[:, :120].sum() > 30 and hands[:, 120:].sum() > 30
     with pytest.raises(InvalidArgument, match="width"):
         robot.render(4, 180)
-    with pytest.raises(InvalidArgument, match="no joint|fps"):
+    with pytest.raises(InvalidArgument, match=r"no joint|fps"):
         robot.perform(gesture_trajectory("rest"), fps=0)
 
 

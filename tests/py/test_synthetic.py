@@ -119,8 +119,10 @@ def extended_fingers(label: str) -> list[bool]:
 
 @pytest.mark.parametrize(
     ("label", "fingers"),
-    [("0", "...."), ("1", "|..."), ("2", "||.."), ("3", "||.."), ("4", "||||")]
-    + [("5", "||||"), ("6", "|||."), ("7", "||.|"), ("8", "|.||"), ("9", ".|||")],
+    [
+        *(("0", "...."), ("1", "|..."), ("2", "||.."), ("3", "||.."), ("4", "||||")),
+        *(("5", "||||"), ("6", "|||."), ("7", "||.|"), ("8", "|.||"), ("9", ".|||")),
+    ],
 )
 def test_signs_raise_the_right_fingers(label: str, fingers: str) -> None:
     assert extended_fingers(label) == [mark == "|" for mark in fingers]
@@ -208,7 +210,7 @@ def test_clip_shows_face_and_a_smaller_hand_apart_from_it(index: int) -> None:
     label = SIGNS[(5 + index) % 10]
     frames = draw_clip(make_signer(index), label, num_frames=9)
     assert {frame.shape for frame in frames} == {(240, 320, 3)}
-    count, _, stats, centres = cv2.connectedComponentsWithStats(skin_mask(frames[4]))
+    _count, _, stats, centres = cv2.connectedComponentsWithStats(skin_mask(frames[4]))
     order = 1 + np.argsort(stats[1:, cv2.CC_STAT_AREA])[::-1]
     face, hand = order[:2]
     assert 800 < stats[hand, cv2.CC_STAT_AREA] < stats[face, cv2.CC_STAT_AREA]

@@ -28,6 +28,7 @@ const std::vector<Wavelet>& all_wavelets() {
 #include "wavelet_tables.inc"
     };
     std::vector<Wavelet> result;
+    result.reserve(table.size());
     for (const LowPass& low : table) result.push_back(with_mirrors(low));
     return result;
   }();

@@ -15,7 +15,7 @@ from hri import _native
 from hri.recognition.decision import Decision
 
 if TYPE_CHECKING:
-    from typing_extensions import Self
+    from typing import Self
 
 
 class Recognizer:

@@ -87,10 +87,7 @@ class Robot(ABC):
                 self._brake(names, target, (target - previous) / self.step_s)
                 return False
             previous = target
-            if approach and time_s < approach_s:
-                target = approach.at(time_s)
-            else:
-                target = trajectory.at(time_s - approach_s)
+            target = approach.at(time_s) if approach and time_s < approach_s else trajectory.at(time_s - approach_s)
             self._command(dict(zip(names, target.tolist(), strict=True)))
         return True
 
@@ -140,7 +137,7 @@ class Robot(ABC):
         if distance < _NEAR_RAD:
             return None
         duration_s = max(0.2, 1.875 * distance / (0.5 * self.table.max_speed_rad_s))
-        times_s = np.arange(int(duration_s / 0.01) + 2) * 0.01
+        times_s = 0.01 * np.arange(int(duration_s / 0.01) + 2, dtype=np.float64)
         positions = minimum_jerk(np.array([0.0, times_s[-1]]), keys, times_s)
         return Trajectory(trajectory.joint_names, 0.01, positions)
 

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -73,7 +74,7 @@ def _draw_torso(field: HeightField, view: View, signer: Signer, cv2: Any) -> Non
         for a in np.linspace(-1.45, 1.45, 15)
     ]
     with field.merged(cv2, 0.012 * view.scale) as layer:
-        for start, end in zip(ring[:-1], ring[1:], strict=True):
+        for start, end in itertools.pairwise(ring):
             _Pencil(layer, view).limb(start, end, 0.062, 0.062, collar, BODY)
 
 
@@ -114,7 +115,7 @@ def _draw_face(pencil: _Pencil, signer: Signer) -> None:
                 (side * 0.165 + 0.115 * np.cos(a), 0.01 + 0.085 * np.sin(a), 0.50)
                 for a in np.linspace(0, 2 * np.pi, 17)
             ]
-            for a, b in zip(rim[:-1], rim[1:], strict=True):
+            for a, b in itertools.pairwise(rim):
                 pencil.limb(a, b, 0.010, 0.010, (40.0, 38.0, 38.0), EYE)
         pencil.limb((-0.05, 0.02, 0.54), (0.05, 0.02, 0.54), 0.010, 0.010, (40.0, 38.0, 38.0), EYE)
 
@@ -159,7 +160,7 @@ def _add_scarf(pencil: _Pencil, colour: Colour) -> None:
         (0.40 * np.sin(a), -0.02 - 0.58 * np.cos(a), 0.16 + 0.10 * np.cos(a))
         for a in np.linspace(-2.4, 2.4, 25)
     ]
-    for start, end in zip(rim[:-1], rim[1:], strict=True):
+    for start, end in itertools.pairwise(rim):
         pencil.limb(start, end, 0.10, 0.10, colour, HAIR)
     for x in (-0.20, 0.0, 0.20):
         pencil.limb((x, -0.66, 0.14), (1.5 * x, -1.04, 0.40), 0.21, 0.20, colour, HAIR)

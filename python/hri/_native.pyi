@@ -1,0 +1,1902 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+# Written by tools/generate_stubs.py from the compiled module; do not edit.
+"""
+libhri's core: signal, features, models and recognition, without OpenCV.
+"""
+
+from __future__ import annotations
+import collections.abc
+import numpy
+import numpy.typing
+import typing
+
+__all__: list[str] = [
+    "ActivityOptions",
+    "Border",
+    "CepstraComputer",
+    "CepstraOptions",
+    "Codebook",
+    "CodebookOptions",
+    "Conjunction",
+    "CovarianceKind",
+    "Decision",
+    "DecisionStatus",
+    "DiscreteHmm",
+    "DiscreteHmmOptions",
+    "Distance",
+    "Error",
+    "FilterBankKind",
+    "FilterBankOptions",
+    "FormatError",
+    "GaussianBayes",
+    "GaussianBayesOptions",
+    "GaussianMixture",
+    "GaussianMixtureHmm",
+    "GaussianMixtureHmmOptions",
+    "GaussianMixtureOptions",
+    "GestureModel",
+    "GestureRecognizer",
+    "GestureRecognizerOptions",
+    "HandFeatureComputer",
+    "HandFeatureOptions",
+    "Interrupted",
+    "InvalidArgument",
+    "IoError",
+    "Knn",
+    "KnnOptions",
+    "LinearSvm",
+    "LinearSvmOptions",
+    "ModelFile",
+    "NBest",
+    "Normalisation",
+    "OrientationHistogramOptions",
+    "Pca",
+    "PossibilisticHmmOptions",
+    "PossibilisticHmmSet",
+    "SequenceModelKind",
+    "SequenceModelOptions",
+    "SilhouetteCepstrumComputer",
+    "SilhouetteCepstrumOptions",
+    "Topology",
+    "TrainingReport",
+    "Wav",
+    "WordRecognizer",
+    "WordRecognizerOptions",
+    "bhattacharyya_gaussian",
+    "distance",
+    "dwt",
+    "dwt2",
+    "filter_bank",
+    "filter_edges",
+    "find_speech",
+    "idwt",
+    "idwt2",
+    "initial_start",
+    "initial_transition",
+    "necessity_of",
+    "orientation_histogram",
+    "parse_wav",
+    "possibilities",
+    "possibility_of",
+    "read_wav",
+    "resample",
+    "wavedec",
+    "wavelet_names",
+    "waverec",
+    "write_wav_pcm16",
+]
+
+class Error(Exception):
+    """
+    Root of hri's errors.
+    """
+
+class InvalidArgument(Error, ValueError):
+    """
+    A value outside its documented range.
+    """
+
+class FormatError(Error, ValueError):
+    """
+    A file breaks its format.
+    """
+
+class IoError(Error, OSError):
+    """
+    The operating system refused a file operation.
+    """
+
+class Interrupted(KeyboardInterrupt):
+    """
+    Training was interrupted; nothing was kept.
+    """
+
+class ModelFile:
+    """
+    Tensors and metadata in the safetensors layout; strict reader.
+    """
+
+    kind: str
+    @staticmethod
+    def read(path: str) -> ModelFile:
+        """
+        Reads a whole file; raises IoError, or FormatError naming file and field.
+        """
+    def __init__(self) -> None: ...
+    def has(self, name: str) -> bool: ...
+    def integer(self, key: str) -> int: ...
+    def matrix_d(self, name: str) -> numpy.typing.NDArray[numpy.float64]: ...
+    def matrix_f(self, name: str) -> numpy.typing.NDArray[numpy.float32]: ...
+    def metadata(self) -> dict[str, str]:
+        """
+        All metadata as a dict of text.
+        """
+    def number(self, key: str) -> float: ...
+    def set_integer(self, key: str, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def set_matrix_d(self, name: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
+    def set_matrix_f(self, name: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None: ...
+    def set_number(self, key: str, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def set_text(self, key: str, value: str) -> None: ...
+    def set_text_list(self, key: str, values: collections.abc.Sequence[str]) -> None: ...
+    def tensor_shapes(self) -> dict[str, tuple[int, int]]:
+        """
+        Name to (rows, columns).
+        """
+    def text(self, key: str) -> str: ...
+    def text_list(self, key: str) -> list[str]: ...
+    def write(self, path: str) -> None:
+        """
+        Writes beside the old file, syncs, and renames.
+        """
+
+class Wav:
+    """
+    Mono samples of a WAV file.
+    """
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def num_channels(self) -> int: ...
+    @property
+    def sample_rate_hz(self) -> int: ...
+    @property
+    def samples(self) -> numpy.typing.NDArray[numpy.float32]: ...
+
+class Border:
+    """
+    What stands beyond the ends of a signal, by PyWavelets' names.
+
+    Members:
+
+      symmetric
+
+      zero
+
+      constant
+
+      periodic
+
+      reflect
+
+      periodization
+    """
+
+    __members__: typing.ClassVar[dict[str, Border]]
+    constant: typing.ClassVar[Border]
+    periodic: typing.ClassVar[Border]
+    periodization: typing.ClassVar[Border]
+    reflect: typing.ClassVar[Border]
+    symmetric: typing.ClassVar[Border]
+    zero: typing.ClassVar[Border]
+    @typing.overload
+    def __eq__(self, other: Border) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Border) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class ActivityOptions:
+    """
+    Where somebody speaks in a clip.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def frame_ms(self) -> float: ...
+    @frame_ms.setter
+    def frame_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def margin_db(self) -> float: ...
+    @margin_db.setter
+    def margin_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_depth_db(self) -> float: ...
+    @max_depth_db.setter
+    def max_depth_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_range_db(self) -> float: ...
+    @min_range_db.setter
+    def min_range_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def padding_ms(self) -> float: ...
+    @padding_ms.setter
+    def padding_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def shift_ms(self) -> float: ...
+    @shift_ms.setter
+    def shift_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def silence_dbfs(self) -> float: ...
+    @silence_dbfs.setter
+    def silence_dbfs(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class FilterBankKind:
+    """
+    Members:
+
+      mel
+
+      hfcc
+    """
+
+    __members__: typing.ClassVar[dict[str, FilterBankKind]]
+    hfcc: typing.ClassVar[FilterBankKind]
+    mel: typing.ClassVar[FilterBankKind]
+    @typing.overload
+    def __eq__(self, other: FilterBankKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: FilterBankKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Normalisation:
+    """
+    Members:
+
+      none
+
+      level
+
+      mean
+
+      mean_variance
+    """
+
+    __members__: typing.ClassVar[dict[str, Normalisation]]
+    level: typing.ClassVar[Normalisation]
+    mean: typing.ClassVar[Normalisation]
+    mean_variance: typing.ClassVar[Normalisation]
+    none: typing.ClassVar[Normalisation]
+    @typing.overload
+    def __eq__(self, other: Normalisation) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Normalisation) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class FilterBankOptions:
+    """
+    Triangular filters over a power spectrum.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    kind: FilterBankKind
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def erb_factor(self) -> float: ...
+    @erb_factor.setter
+    def erb_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def high_hz(self) -> float: ...
+    @high_hz.setter
+    def high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def low_hz(self) -> float: ...
+    @low_hz.setter
+    def low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def num_filters(self) -> int: ...
+    @num_filters.setter
+    def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def warp(self) -> float: ...
+    @warp.setter
+    def warp(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class CepstraOptions:
+    """
+    Cepstra of speech (MFCC, HFCC).
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    filter_bank: FilterBankKind
+    normalisation: Normalisation
+    use_c0: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def delta_orders(self) -> int: ...
+    @delta_orders.setter
+    def delta_orders(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def delta_window(self) -> int: ...
+    @delta_window.setter
+    def delta_window(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def erb_factor(self) -> float: ...
+    @erb_factor.setter
+    def erb_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def frame_length_ms(self) -> float: ...
+    @frame_length_ms.setter
+    def frame_length_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def frame_shift_ms(self) -> float: ...
+    @frame_shift_ms.setter
+    def frame_shift_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def high_hz(self) -> float: ...
+    @high_hz.setter
+    def high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def lifter(self) -> float: ...
+    @lifter.setter
+    def lifter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def low_hz(self) -> float: ...
+    @low_hz.setter
+    def low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def num_cepstra(self) -> int: ...
+    @num_cepstra.setter
+    def num_cepstra(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_filters(self) -> int: ...
+    @num_filters.setter
+    def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def pre_emphasis(self) -> float: ...
+    @pre_emphasis.setter
+    def pre_emphasis(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def sample_rate_hz(self) -> int: ...
+    @sample_rate_hz.setter
+    def sample_rate_hz(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def warp(self) -> float: ...
+    @warp.setter
+    def warp(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class CepstraComputer:
+    """
+    Cepstra of whole clips.
+    """
+    def __init__(self, options: CepstraOptions = ...) -> None: ...
+    def compute(
+        self, audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.
+        """
+    def num_frames(self, num_samples: typing.SupportsInt | typing.SupportsIndex) -> int: ...
+    @property
+    def num_features(self) -> int: ...
+    @property
+    def options(self) -> CepstraOptions: ...
+
+class OrientationHistogramOptions:
+    """
+    Grid of cells and bins.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_bins(self) -> int: ...
+    @num_bins.setter
+    def num_bins(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_cells(self) -> int: ...
+    @num_cells.setter
+    def num_cells(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class SilhouetteCepstrumOptions:
+    """
+    DWT + MFCC of a silhouette.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    wavelet: str
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def mask_px(self) -> int: ...
+    @mask_px.setter
+    def mask_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_cepstra(self) -> int: ...
+    @num_cepstra.setter
+    def num_cepstra(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_filters(self) -> int: ...
+    @num_filters.setter
+    def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_levels(self) -> int: ...
+    @num_levels.setter
+    def num_levels(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_points(self) -> int: ...
+    @num_points.setter
+    def num_points(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class SilhouetteCepstrumComputer:
+    """
+    Cepstrum of a silhouette's contour.
+    """
+    def __init__(self, options: SilhouetteCepstrumOptions = ...) -> None: ...
+    def compute(
+        self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        c0, c1, ..., float32.
+        """
+    def contour_signal(
+        self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Distance from the centroid along the contour, scaled by its mean.
+        """
+
+class HandFeatureOptions:
+    """
+    The joined feature of one hand picture.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    cepstrum: SilhouetteCepstrumOptions
+    histogram: OrientationHistogramOptions
+    use_cepstrum: bool
+    use_grey: bool
+    use_silhouette: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def cepstrum_weight(self) -> float: ...
+    @cepstrum_weight.setter
+    def cepstrum_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def crop_px(self) -> int: ...
+    @crop_px.setter
+    def crop_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class HandFeatureComputer:
+    """
+    Features of one hand picture.
+    """
+    def __init__(self, options: HandFeatureOptions = ...) -> None: ...
+    def compute(
+        self,
+        grey: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
+        mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_features,); mask is 0 or 255, uint8.
+        """
+    @property
+    def num_features(self) -> int: ...
+
+class Distance:
+    """
+    Members:
+
+      euclidean
+
+      manhattan
+
+      cosine
+
+      bhattacharyya
+    """
+
+    __members__: typing.ClassVar[dict[str, Distance]]
+    bhattacharyya: typing.ClassVar[Distance]
+    cosine: typing.ClassVar[Distance]
+    euclidean: typing.ClassVar[Distance]
+    manhattan: typing.ClassVar[Distance]
+    @typing.overload
+    def __eq__(self, other: Distance) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Distance) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class CodebookOptions:
+    """
+    Options of Codebook.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_codewords(self) -> int: ...
+    @num_codewords.setter
+    def num_codewords(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def split_epsilon(self) -> float: ...
+    @split_epsilon.setter
+    def split_epsilon(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float: ...
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Codebook:
+    """
+    Vector quantiser (Linde, Buzo, Gray).
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> Codebook:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train_kmeans(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        centroids: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        options: CodebookOptions = ...,
+    ) -> Codebook:
+        """
+        k-means from given centroids.
+        """
+    @staticmethod
+    def train_lbg(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], options: CodebookOptions = ...
+    ) -> Codebook:
+        """
+        Grows a codebook from one codeword by splitting.
+        """
+    def __init__(self, centroids: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None: ...
+    def __len__(self) -> int: ...
+    def distortion(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
+        """
+        Mean squared distance of the frames to their codewords.
+        """
+    def quantise(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.int32]:
+        """
+        The nearest codeword of every frame, int32, shape (num_frames,).
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def centroids(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def dim(self) -> int: ...
+    @property
+    def size(self) -> int: ...
+
+class Pca:
+    """
+    Principal component analysis (thesis eq. 6.11-6.14).
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> Pca:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        num_components: typing.SupportsInt | typing.SupportsIndex,
+    ) -> Pca: ...
+    def transform(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Shape (num_rows, num_components), float32.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def components(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def dim(self) -> int: ...
+    @property
+    def mean(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def num_components(self) -> int: ...
+    @property
+    def variances(self) -> numpy.typing.NDArray[numpy.float32]: ...
+
+class LinearSvmOptions:
+    """
+    Options of LinearSvm.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def bias_feature(self) -> float: ...
+    @bias_feature.setter
+    def bias_feature(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def cost(self) -> float: ...
+    @cost.setter
+    def cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float: ...
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class LinearSvm:
+    """
+    Linear support vector machines, one class against the rest.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> LinearSvm:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: LinearSvmOptions = ...,
+    ) -> LinearSvm:
+        """
+        Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.
+
+        Raises InvalidArgument for values not finite (names the row) or a class without a row.
+        """
+    def decision_values(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def biases(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def dim(self) -> int: ...
+    @property
+    def num_classes(self) -> int: ...
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float32]: ...
+
+class CovarianceKind:
+    """
+    Members:
+
+      shared
+
+      full
+
+      diagonal
+    """
+
+    __members__: typing.ClassVar[dict[str, CovarianceKind]]
+    diagonal: typing.ClassVar[CovarianceKind]
+    full: typing.ClassVar[CovarianceKind]
+    shared: typing.ClassVar[CovarianceKind]
+    @typing.overload
+    def __eq__(self, other: CovarianceKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: CovarianceKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class GaussianBayesOptions:
+    """
+    Options of GaussianBayes.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    covariance: CovarianceKind
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def shrinkage(self) -> float: ...
+    @shrinkage.setter
+    def shrinkage(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class GaussianBayes:
+    """
+    Bayes classifier with one Gaussian a class.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> GaussianBayes:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: GaussianBayesOptions = ...,
+    ) -> GaussianBayes:
+        """
+        Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.
+
+        Raises InvalidArgument for values not finite (names the row) or a class without a row.
+        """
+    def decision_values(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
+        """
+    def log_densities(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        log p(row | class), shapes as decision_values.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def num_classes(self) -> int: ...
+
+class KnnOptions:
+    """
+    Options of Knn.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_neighbours(self) -> int: ...
+    @num_neighbours.setter
+    def num_neighbours(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class Knn:
+    """
+    k nearest neighbours by Euclidean distance.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> Knn:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: KnnOptions = ...,
+    ) -> Knn:
+        """
+        Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.
+
+        Raises InvalidArgument for values not finite (names the row) or a class without a row.
+        """
+    def decision_values(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
+        """
+    def nearest_distance(self, row: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float: ...
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def num_classes(self) -> int: ...
+
+class Topology:
+    """
+    Which transitions a sequence model has.
+    """
+    class Kind:
+        """
+        Members:
+
+          left_right
+
+          banded
+
+          ergodic
+        """
+
+        __members__: typing.ClassVar[dict[str, Topology.Kind]]
+        banded: typing.ClassVar[Topology.Kind]
+        ergodic: typing.ClassVar[Topology.Kind]
+        left_right: typing.ClassVar[Topology.Kind]
+        @typing.overload
+        def __eq__(self, other: Topology.Kind) -> bool: ...
+        @typing.overload
+        def __eq__(self, other: typing.Any) -> bool: ...
+        def __getstate__(self) -> int: ...
+        def __hash__(self) -> int: ...
+        def __index__(self) -> int: ...
+        def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+        def __int__(self) -> int: ...
+        @typing.overload
+        def __ne__(self, other: Topology.Kind) -> bool: ...
+        @typing.overload
+        def __ne__(self, other: typing.Any) -> bool: ...
+        def __repr__(self) -> str: ...
+        def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+        def __str__(self) -> str: ...
+        @property
+        def name(self) -> str: ...
+        @property
+        def value(self) -> int: ...
+
+    __hash__: typing.ClassVar[None] = None
+    kind: Topology.Kind
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def allows(
+        self, i: typing.SupportsInt | typing.SupportsIndex, j: typing.SupportsInt | typing.SupportsIndex
+    ) -> bool: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_jump(self) -> int: ...
+    @max_jump.setter
+    def max_jump(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_states(self) -> int: ...
+    @num_states.setter
+    def num_states(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class TrainingReport:
+    """
+    How an iterative training went.
+    """
+    def __init__(self) -> None: ...
+    @property
+    def converged(self) -> bool: ...
+    @property
+    def log_likelihoods(self) -> list[float]: ...
+
+class GaussianMixtureOptions:
+    """
+    Options of GaussianMixture.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_mixtures(self) -> int: ...
+    @num_mixtures.setter
+    def num_mixtures(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float: ...
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def variance_floor(self) -> float: ...
+    @variance_floor.setter
+    def variance_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class GaussianMixture:
+    """
+    Gaussian mixture with diagonal covariance.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> GaussianMixture:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        options: GaussianMixtureOptions = ...,
+        report: TrainingReport = None,
+    ) -> GaussianMixture: ...
+    def log_likelihood(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
+        """
+        Sum over the frames of log p(frame), natural log.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def means(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def variances(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]: ...
+
+class GaussianMixtureHmmOptions:
+    """
+    Options of GaussianMixtureHmm.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    topology: Topology
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_mixtures(self) -> int: ...
+    @num_mixtures.setter
+    def num_mixtures(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float: ...
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def variance_floor(self) -> float: ...
+    @variance_floor.setter
+    def variance_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def weight_floor(self) -> float: ...
+    @weight_floor.setter
+    def weight_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class GaussianMixtureHmm:
+    """
+    HMM with Gaussian-mixture emissions of diagonal covariance.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> GaussianMixtureHmm:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        sequences: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        options: GaussianMixtureHmmOptions = ...,
+        report: TrainingReport = None,
+    ) -> GaussianMixtureHmm:
+        """
+        Baum-Welch over a list of (num_frames, dim) arrays.
+        """
+    def __init__(
+        self,
+        topology: Topology,
+        start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        transition: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        means: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        variances: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    ) -> None:
+        """
+        weights (num_states, num_mixtures); means and variances (num_states * num_mixtures, dim), state by state.
+        """
+    def log_likelihood(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
+        """
+        log P(frames | model), natural log; emissions in float.
+        """
+    def log_likelihood_exact(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
+        """
+        The same with emissions in double.
+        """
+    def viterbi(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> tuple[float, numpy.typing.NDArray[numpy.int32]]:
+        """
+        log P(frames, best path | model) and the path, int32.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def means(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def num_states(self) -> int: ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def topology(self) -> Topology: ...
+    @property
+    def transition(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def variances(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]: ...
+
+class DiscreteHmmOptions:
+    """
+    Options of DiscreteHmm.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    topology: Topology
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def emission_floor(self) -> float: ...
+    @emission_floor.setter
+    def emission_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_symbols(self) -> int: ...
+    @num_symbols.setter
+    def num_symbols(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float: ...
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class DiscreteHmm:
+    """
+    HMM over discrete symbols.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> DiscreteHmm:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        sequences: collections.abc.Sequence[numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]],
+        options: DiscreteHmmOptions,
+        report: TrainingReport = None,
+    ) -> DiscreteHmm: ...
+    def __init__(
+        self,
+        topology: Topology,
+        start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        transition: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        emission: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    ) -> None: ...
+    def log_likelihood(self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]) -> float:
+        """
+        log P(symbols | model), natural log.
+        """
+    def viterbi(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> tuple[float, numpy.typing.NDArray[numpy.int32]]:
+        """
+        log P(symbols, best path | model) and the path, int32.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def emission(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def num_states(self) -> int: ...
+    @property
+    def num_symbols(self) -> int: ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def topology(self) -> Topology: ...
+    @property
+    def transition(self) -> numpy.typing.NDArray[numpy.float64]: ...
+
+class Conjunction:
+    """
+    Members:
+
+      product
+
+      min
+
+      max
+    """
+
+    __members__: typing.ClassVar[dict[str, Conjunction]]
+    max: typing.ClassVar[Conjunction]
+    min: typing.ClassVar[Conjunction]
+    product: typing.ClassVar[Conjunction]
+    @typing.overload
+    def __eq__(self, other: Conjunction) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Conjunction) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class PossibilisticHmmOptions:
+    """
+    Options of PossibilisticHmmSet.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    conditioned: bool
+    conjunction: Conjunction
+    topology: Topology
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def emission_floor(self) -> float: ...
+    @emission_floor.setter
+    def emission_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_symbols(self) -> int: ...
+    @num_symbols.setter
+    def num_symbols(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float: ...
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class PossibilisticHmmSet:
+    """
+    Possibility-theory HMMs of all classes, trained and scaled together (thesis chapter 4).
+    """
+    @staticmethod
+    def from_hmms(
+        models: collections.abc.Sequence[DiscreteHmm], conjunction: Conjunction, conditioned: bool = True
+    ) -> PossibilisticHmmSet: ...
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> PossibilisticHmmSet:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        per_class: collections.abc.Sequence[
+            collections.abc.Sequence[numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]]
+        ],
+        options: PossibilisticHmmOptions,
+    ) -> PossibilisticHmmSet:
+        """
+        per_class[c] lists the symbol sequences of class c.
+        """
+    def emission(
+        self, class_index: typing.SupportsInt | typing.SupportsIndex
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def log_possibilities(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        log possibility of the symbols under each class, float32, shape (num_classes,).
+        """
+    def transition(
+        self, class_index: typing.SupportsInt | typing.SupportsIndex
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def viterbi(
+        self,
+        class_index: typing.SupportsInt | typing.SupportsIndex,
+        symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+    ) -> tuple[float, numpy.typing.NDArray[numpy.int32]]:
+        """
+        Log possibility of the best path and the path, int32.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def conjunction(self) -> Conjunction: ...
+    @property
+    def num_classes(self) -> int: ...
+    @property
+    def num_symbols(self) -> int: ...
+    @property
+    def topology(self) -> Topology: ...
+
+class DecisionStatus:
+    """
+    Members:
+
+      recognised
+
+      unknown
+
+      no_input
+    """
+
+    __members__: typing.ClassVar[dict[str, DecisionStatus]]
+    no_input: typing.ClassVar[DecisionStatus]
+    recognised: typing.ClassVar[DecisionStatus]
+    unknown: typing.ClassVar[DecisionStatus]
+    @typing.overload
+    def __eq__(self, other: DecisionStatus) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: DecisionStatus) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class NBest:
+    """
+    One class of the n-best list.
+    """
+    @property
+    def label(self) -> str: ...
+    @property
+    def log_score(self) -> float: ...
+    @property
+    def probability(self) -> float: ...
+
+class Decision:
+    """
+    What a recogniser says of one utterance or gesture.
+    """
+    @property
+    def confidence(self) -> float: ...
+    @property
+    def evidence(self) -> float: ...
+    @property
+    def label(self) -> str: ...
+    @property
+    def nbest(self) -> list[NBest]: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def status(self) -> DecisionStatus: ...
+
+class SequenceModelKind:
+    """
+    Members:
+
+      hmm
+
+      ptbhmm
+    """
+
+    __members__: typing.ClassVar[dict[str, SequenceModelKind]]
+    hmm: typing.ClassVar[SequenceModelKind]
+    ptbhmm: typing.ClassVar[SequenceModelKind]
+    @typing.overload
+    def __eq__(self, other: SequenceModelKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: SequenceModelKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class SequenceModelOptions:
+    """
+    The models trained on one front end.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    model: SequenceModelKind
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def garbage_mixtures(self) -> int: ...
+    @garbage_mixtures.setter
+    def garbage_mixtures(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_codewords(self) -> int: ...
+    @num_codewords.setter
+    def num_codewords(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_mixtures(self) -> int: ...
+    @num_mixtures.setter
+    def num_mixtures(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_states(self) -> int: ...
+    @num_states.setter
+    def num_states(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class WordRecognizerOptions:
+    """
+    Options of WordRecognizer.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    activity: ActivityOptions
+    cepstra: CepstraOptions
+    level_stream: bool
+    models: SequenceModelOptions
+    trim: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def false_reject_rate(self) -> float: ...
+    @false_reject_rate.setter
+    def false_reject_rate(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def num_warps(self) -> int: ...
+    @num_warps.setter
+    def num_warps(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def warp_step(self) -> float: ...
+    @warp_step.setter
+    def warp_step(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class WordRecognizer:
+    """
+    Isolated words; hri.WordRecognizer wraps it.
+    """
+    @staticmethod
+    def load(path: str) -> WordRecognizer: ...
+    @staticmethod
+    def train(
+        samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        labels: collections.abc.Sequence[str],
+        groups: collections.abc.Sequence[str],
+        options: WordRecognizerOptions,
+        progress: collections.abc.Callable[[int, int], None] | None = None,
+    ) -> WordRecognizer: ...
+    def recognise(
+        self,
+        samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    ) -> Decision: ...
+    def save(self, path: str) -> None: ...
+    def scores(
+        self,
+        samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def labels(self) -> list[str]: ...
+    @property
+    def options(self) -> WordRecognizerOptions: ...
+
+class GestureModel:
+    """
+    Members:
+
+      svm
+
+      bayes
+
+      knn
+
+      hmm
+
+      ptbhmm
+    """
+
+    __members__: typing.ClassVar[dict[str, GestureModel]]
+    bayes: typing.ClassVar[GestureModel]
+    hmm: typing.ClassVar[GestureModel]
+    knn: typing.ClassVar[GestureModel]
+    ptbhmm: typing.ClassVar[GestureModel]
+    svm: typing.ClassVar[GestureModel]
+    @typing.overload
+    def __eq__(self, other: GestureModel) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: GestureModel) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class GestureRecognizerOptions:
+    """
+    Options of GestureRecognizer.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    features: HandFeatureOptions
+    model: GestureModel
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def false_reject_rate(self) -> float: ...
+    @false_reject_rate.setter
+    def false_reject_rate(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_codewords(self) -> int: ...
+    @num_codewords.setter
+    def num_codewords(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_components(self) -> int: ...
+    @num_components.setter
+    def num_components(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_neighbours(self) -> int: ...
+    @num_neighbours.setter
+    def num_neighbours(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_states(self) -> int: ...
+    @num_states.setter
+    def num_states(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def svm_cost(self) -> float: ...
+    @svm_cost.setter
+    def svm_cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class GestureRecognizer:
+    """
+    Signs and gestures; hri.GestureRecognizer wraps it.
+    """
+    @staticmethod
+    def features(
+        greys: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
+        masks: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
+        options: HandFeatureOptions,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    @staticmethod
+    def load(path: str) -> GestureRecognizer: ...
+    @staticmethod
+    def train(
+        features: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        labels: collections.abc.Sequence[str],
+        groups: collections.abc.Sequence[str],
+        options: GestureRecognizerOptions,
+        progress: collections.abc.Callable[[int, int], None] | None = None,
+    ) -> GestureRecognizer: ...
+    def recognise_features(self, features: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> Decision: ...
+    def save(self, path: str) -> None: ...
+    def scores(
+        self, features: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def labels(self) -> list[str]: ...
+    @property
+    def options(self) -> GestureRecognizerOptions: ...
+
+def bhattacharyya_gaussian(
+    mean_a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    covariance_a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    mean_b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    covariance_b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+) -> float: ...
+def distance(
+    kind: Distance,
+    a: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    b: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+) -> float:
+    """
+    Distance of two vectors of one length.
+    """
+
+@typing.overload
+def dwt(
+    x: numpy.typing.NDArray[numpy.float32], wavelet: str, border: Border
+) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
+    """
+    One level: (approximation, detail), float32 or float64 as x.
+    """
+
+@typing.overload
+def dwt(
+    x: numpy.typing.NDArray[numpy.float64], wavelet: str, border: Border
+) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    One level: (approximation, detail), float32 or float64 as x.
+    """
+
+@typing.overload
+def dwt2(
+    image: numpy.typing.NDArray[numpy.float32], wavelet: str, border: Border
+) -> tuple[
+    numpy.typing.NDArray[numpy.float32],
+    tuple[
+        numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]
+    ],
+]:
+    """
+    One level of an image: (approximation, (horizontal, vertical, diagonal)).
+    """
+
+@typing.overload
+def dwt2(
+    image: numpy.typing.NDArray[numpy.float64], wavelet: str, border: Border
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    tuple[
+        numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]
+    ],
+]:
+    """
+    One level of an image: (approximation, (horizontal, vertical, diagonal)).
+    """
+
+def filter_bank(
+    options: FilterBankOptions,
+    sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    fft_size: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Weights, float32, shape (num_filters, fft_size / 2 + 1).
+    """
+
+def filter_edges(
+    options: FilterBankOptions, sample_rate_hz: typing.SupportsInt | typing.SupportsIndex
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Low, centre and high frequency in Hz, shape (num_filters, 3).
+    """
+
+def find_speech(
+    audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    options: ActivityOptions = ...,
+) -> typing.Any:
+    """
+    (first, last) sample of the word, or None where nobody speaks.
+    """
+
+@typing.overload
+def idwt(
+    approx: numpy.typing.NDArray[numpy.float32],
+    detail: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: Border,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The inverse of one level.
+    """
+
+@typing.overload
+def idwt(
+    approx: numpy.typing.NDArray[numpy.float64],
+    detail: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: Border,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The inverse of one level.
+    """
+
+@typing.overload
+def idwt2(
+    approx: numpy.typing.NDArray[numpy.float32],
+    horizontal: numpy.typing.NDArray[numpy.float32],
+    vertical: numpy.typing.NDArray[numpy.float32],
+    diagonal: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: Border,
+    shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The inverse of dwt2.
+    """
+
+@typing.overload
+def idwt2(
+    approx: numpy.typing.NDArray[numpy.float64],
+    horizontal: numpy.typing.NDArray[numpy.float64],
+    vertical: numpy.typing.NDArray[numpy.float64],
+    diagonal: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: Border,
+    shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The inverse of dwt2.
+    """
+
+def initial_start(topology: Topology) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Start probabilities, shape (num_states,).
+    """
+
+def initial_transition(
+    topology: Topology, stay: typing.SupportsFloat | typing.SupportsIndex = 0.6
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Row-stochastic start values, shape (num_states, num_states).
+    """
+
+def necessity_of(
+    distribution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    event: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+) -> float:
+    """
+    N(A) = 1 - Pi(not A) (thesis eq. 4.2).
+    """
+
+def orientation_histogram(
+    image: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], options: OrientationHistogramOptions = ...
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Block-normalised histograms, float32.
+    """
+
+def parse_wav(data: bytes, name: str = "bytes") -> Wav: ...
+def possibilities(
+    log_densities: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
+    """
+    Possibility and necessity of every class from log densities (thesis eq. 5.14).
+    """
+
+def possibility_of(
+    distribution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    event: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+) -> float:
+    """
+    Pi(A) = max over the event (thesis eq. 4.1).
+    """
+
+def read_wav(path: str) -> Wav:
+    """
+    Reads PCM or float WAV, averaged to mono; raises FormatError naming file and field.
+    """
+
+def resample(
+    samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    from_hz: typing.SupportsInt | typing.SupportsIndex,
+    to_hz: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Band-limited change of sampling rate.
+    """
+
+@typing.overload
+def wavedec(
+    x: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> list:
+    """
+    Several levels, [approximation, coarsest detail, ..., finest detail].
+    """
+
+@typing.overload
+def wavedec(
+    x: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> list:
+    """
+    Several levels, [approximation, coarsest detail, ..., finest detail].
+    """
+
+def wavelet_names() -> list[str]: ...
+@typing.overload
+def waverec(
+    coefficients: list[numpy.typing.NDArray[numpy.float32]],
+    wavelet: str,
+    border: Border,
+    num_samples: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The inverse of wavedec.
+    """
+
+@typing.overload
+def waverec(
+    coefficients: list[numpy.typing.NDArray[numpy.float64]],
+    wavelet: str,
+    border: Border,
+    num_samples: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The inverse of wavedec.
+    """
+
+def write_wav_pcm16(
+    path: str,
+    samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+) -> None: ...
+
+__version__: str = "0.1.0"

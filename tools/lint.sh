@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Formatters, linters and the type checker, over everything; --fix lets the formatters write. `./run lint` calls it.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+fix=0
+[[ ${1:-} == --fix ]] && fix=1
+python=.venv/bin/python
+failed=()
+
+step() {
+  local name=$1
+  shift
+  printf '\033[1m==> %s\033[0m\n' "$name" >&2
+  "$@" || failed+=("$name")
+}
+
+mapfile -t cpp_files < <(find cpp bindings tests/cpp examples -name '*.cpp' -o -name '*.hpp' | sort)
+python_dirs=(python tests/py benchmarks tools)
+
+if ((fix)); then
+  step clang-format clang-format -i "${cpp_files[@]}"
+  step "ruff format" "$python" -m ruff format --quiet "${python_dirs[@]}"
+  step "ruff check" "$python" -m ruff check --fix --quiet "${python_dirs[@]}"
+else
+  step clang-format clang-format --dry-run -Werror "${cpp_files[@]}"
+  step "ruff format" "$python" -m ruff format --check --quiet "${python_dirs[@]}"
+  step "ruff check" "$python" -m ruff check "${python_dirs[@]}"
+fi
+step mypy "$python" -m mypy
+step "stubs are up to date" "$python" tools/generate_stubs.py --check
+step shellcheck shellcheck run tools/*.sh .ci/run
+step clang-tidy run-clang-tidy -quiet -p build/dev -j "$(nproc)" "$PWD/(cpp/src|bindings)/.*\.cpp$"
+
+if ((${#failed[@]})); then
+  printf 'lint: failed: %s\n' "${failed[*]}" >&2
+  exit 1
+fi
