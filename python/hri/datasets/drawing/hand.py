@@ -70,7 +70,7 @@ def _add_palm(
     for side in (-0.062, 0.0, 0.062):
         limb((side * width, -0.32, 0), (1.15 * side * width, 0.06, 0), 0.094, 0.090)
     for knuckle in knuckles:
-        limb((0.55 * knuckle[0], 0.05, -0.01), (*knuckle, 0, 0.015, -0.012), 0.085, 0.066)
+        limb((0.55 * knuckle[0], 0.05, -0.01), np.add(knuckle, (0, 0.015, -0.012)), 0.085, 0.066)
     for first, second in itertools.pairwise(knuckles):  # the web between fingers
         middle = 0.5 * (first + second) + (0, 0.012, -0.02)
         limb((0.5 * middle[0], 0.1, -0.02), middle, 0.08, 0.058)
