@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from hri.fusion import FusedDecision, fuse
     from hri.media import read_audio, read_frames
     from hri.recognition import Decision, GestureRecognizer, NBest, WordRecognizer
-    from hri.robot import open_robot, render_video
+    from hri.robot import gesture_trajectory, open_robot, render_video
+    from hri.training import train
 
 _HOMES = {
     "CepstraOptions": "hri._native",
@@ -39,10 +40,12 @@ _HOMES = {
     "WordRecognizerOptions": "hri._native",
     "cross_validate": "hri.evaluation",
     "fuse": "hri.fusion",
+    "gesture_trajectory": "hri.robot",
     "open_robot": "hri.robot",
     "read_audio": "hri.media",
     "read_frames": "hri.media",
     "render_video": "hri.robot",
+    "train": "hri.training",
 }
 
 __all__ = [
@@ -59,10 +62,12 @@ __all__ = [
     "__version__",
     "cross_validate",
     "fuse",
+    "gesture_trajectory",
     "open_robot",
     "read_audio",
     "read_frames",
     "render_video",
+    "train",
 ]
 
 
