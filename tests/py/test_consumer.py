@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""An outside C++ project builds against an installed libhri without OpenCV and gives Python's scores to the bit."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hri
+from hri import _native
+from hri.datasets.synthetic_speech import make_speech_corpus
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = os.environ.get("HRI_BUILD_DIR")
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not BUILD, reason="HRI_BUILD_DIR names no CMake build; ./run test --all sets it"),
+]
+
+
+def run(*command: object, **environment: str) -> str:
+    """Standard output of a command that has to succeed."""
+    done = subprocess.run(
+        [str(part) for part in command], env={**os.environ, **environment}, capture_output=True, text=True
+    )
+    assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What `cmake --install` writes, without the Python modules."""
+    prefix = tmp_path_factory.mktemp("installed")
+    run("cmake", "--install", BUILD, "--component", "development", "--prefix", prefix)
+    return prefix
+
+
+@pytest.fixture(scope="module")
+def programs(installed: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The example project, built with OpenCV hidden."""
+    build = tmp_path_factory.mktemp("consumer")
+    run(
+        *("cmake", "-S", ROOT / "examples" / "consumer", "-B", build, "-DCMAKE_BUILD_TYPE=Release"),
+        *(f"-DCMAKE_PREFIX_PATH={installed}", "-DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON"),
+    )
+    run("cmake", "--build", build)
+    return build
+
+
+@pytest.fixture(scope="module")
+def spoken(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A small synthetic corpus of spoken digits."""
+    folder = tmp_path_factory.mktemp("spoken")
+    make_speech_corpus(folder, words={"en": ["one", "two", "three"]}, num_speakers=3, seed=0)
+    return folder
+
+
+@pytest.mark.parametrize("kind", ["hmm", "ptbhmm"])
+def test_cpp_gives_the_scores_of_python_to_the_bit(
+    programs: Path, spoken: Path, tmp_path: Path, kind: str
+) -> None:
+    dataset = hri.Dataset.load(spoken)
+    recognizer = hri.train(dataset, hri.WordRecognizer(models={"model": kind}))
+    assert isinstance(recognizer, hri.WordRecognizer)
+    model = tmp_path / "words.hri"
+    recognizer.save(model)
+    for sample in dataset.samples[::5]:
+        audio = hri.read_audio(sample.path)
+        ours = recognizer.scores(audio.samples, audio.sample_rate_hz)
+        lines = run(programs / "print_scores", model, sample.path).splitlines()
+        labels, texts = zip(*(line.split("\t") for line in lines), strict=True)
+        theirs = np.array([float.fromhex(text) for text in texts], dtype=np.float32)
+        assert list(labels) == list(recognizer.classes_)
+        np.testing.assert_array_equal(theirs.view(np.uint32), ours.view(np.uint32))
+        label, confidence = run(programs / "recognise_word", model, sample.path).split()
+        decision = recognizer.recognise(audio.samples, audio.sample_rate_hz)
+        assert (label, float(confidence)) == (decision.label, pytest.approx(decision.confidence, abs=1e-5))
+
+
+def test_core_knows_no_opencv(installed: Path) -> None:
+    symbols = run("nm", "-C", "--undefined-only", installed / "lib" / "libhri_core.a")
+    assert "hri::" in symbols and "cv::" not in symbols
+    config = run("pkg-config", "--libs", "hri-core", PKG_CONFIG_PATH=str(installed / "lib" / "pkgconfig"))
+    assert "-lhri_core" in config and "opencv" not in config
+
+
+def test_a_program_builds_with_pkg_config_alone(installed: Path, tmp_path: Path) -> None:
+    flags = run(
+        *("pkg-config", "--cflags", "--libs", "hri-core"),
+        PKG_CONFIG_PATH=str(installed / "lib" / "pkgconfig"),
+    ).split()
+    source = tmp_path / "version.cpp"
+    source.write_text(
+        "#include <hri/core/version.hpp>\n#include <hri/signal/wavelet.hpp>\n#include <cstdio>\n"
+        'int main() { std::printf("%s %zu\\n", HRI_VERSION, hri::wavelet("db4").dec_lo.size()); }\n'
+    )
+    run("g++", "-std=c++17", source, "-o", tmp_path / "version", *flags)
+    assert run(tmp_path / "version").split() == [_native.__version__, "8"]
+
+
+def test_missing_component_is_named(installed: Path, tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"
+        "find_package(hri CONFIG REQUIRED COMPONENTS core language)\n"
+    )
+    done = subprocess.run(
+        ["cmake", "-S", str(tmp_path), "-B", str(tmp_path / "build"), f"-DCMAKE_PREFIX_PATH={installed}"],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode != 0
+    assert "language" in done.stderr

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Builds the wheel from a clean copy, installs it into an environment of its own, and uses it away from the sources.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
+git clone --quiet --local . "$work/source"
+
+python=$PWD/.venv/bin/python
+"$python" -m pip wheel --quiet --disable-pip-version-check --no-build-isolation --no-deps \
+  --wheel-dir "$work/wheels" "$work/source"
+"$python" -m venv "$work/venv"
+"$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check "$work"/wheels/libhri-*.whl
+
+cd "$work"
+# The base install needs NumPy only; what is missing is named with its extra.
+venv/bin/python - <<'PYTHON'
+import sys
+import numpy as np
+import hri
+
+assert not {"cv2", "pybullet", "matplotlib", "click"} & set(sys.modules)
+tones = [np.sin(np.arange(8000) * f).astype("f4") * 0.3 for f in (0.2, 0.21, 0.6, 0.62)]
+words = hri.WordRecognizer(trim=False).fit(tones, ["low", "low", "high", "high"], sample_rate_hz=16000)
+assert words.predict(tones, 16000).tolist() == ["low", "low", "high", "high"]
+words.save("words.hri")
+assert (hri.WordRecognizer.load("words.hri").scores(tones[0], 16000) == words.scores(tones[0], 16000)).all()
+try:
+    hri.read_frames("missing.jpg")
+except ImportError as error:
+    assert "libhri[video]" in str(error), error
+else:
+    raise AssertionError("a picture was read without OpenCV")
+PYTHON
+
+"$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check "$(echo wheels/libhri-*.whl)[all]"
+venv/bin/hri --version
+venv/bin/hri study list >/dev/null
+venv/bin/hri robot play --help >/dev/null
+venv/bin/python -c 'import hri.robot; assert len(hri.robot.load_gestures()) >= 10'
+echo "fresh install: fine"
