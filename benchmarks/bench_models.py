@@ -25,9 +25,7 @@ NUM_STATES = 8
 DIM = 39
 
 
-def medians(
-    ours: Callable[[], object], peer: Callable[[], object], repeats: int = 15
-) -> tuple[float, float]:
+def medians(ours: Callable[[], object], peer: Callable[[], object], repeats: int = 15) -> tuple[float, float]:
     """Median seconds of both, run in turns after one warm-up each."""
     seconds: tuple[list[float], list[float]] = ([], [])
     ours()
@@ -49,9 +47,7 @@ def _left_right_pair(seed: int) -> tuple[_native.GaussianMixtureHmm, object]:
     start, transition = _native.initial_start(topology), _native.initial_transition(topology)
     means = rng.normal(size=(NUM_STATES, DIM))
     variances = rng.uniform(0.5, 2.0, (NUM_STATES, DIM))
-    ours = _native.GaussianMixtureHmm(
-        topology, start, transition, np.ones((NUM_STATES, 1)), means, variances
-    )
+    ours = _native.GaussianMixtureHmm(topology, start, transition, np.ones((NUM_STATES, 1)), means, variances)
     peer = GaussianHMM(NUM_STATES, covariance_type="diag")
     peer.startprob_, peer.transmat_ = start, transition
     peer.means_, peer.covars_, peer.n_features = means, variances, DIM
@@ -82,9 +78,7 @@ def hmm_baum_welch() -> tuple[float, float]:
 
     sequences = [_frames(100, seed) for seed in range(20)]
     topology = _native.Topology(kind="left_right", num_states=NUM_STATES)
-    options = _native.GaussianMixtureHmmOptions(
-        topology=topology, max_iterations=10, tolerance=0.0
-    )
+    options = _native.GaussianMixtureHmmOptions(topology=topology, max_iterations=10, tolerance=0.0)
     together, lengths = np.concatenate(sequences), [100] * 20
     first, _ = _left_right_pair(0)
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// NumPy arrays to views and matrices. Contiguous arrays of the right dtype are not copied on the way to a view.
+// NumPy arrays to views and matrices. Contiguous arrays of the right dtype are not copied on the
+// way to a view.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -25,7 +26,8 @@ using ByteArray = py::array_t<std::uint8_t, py::array::c_style>;
 
 inline void require_dimensions(const py::array& a, int dimensions, const char* name) {
   if (a.ndim() != dimensions) {
-    hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must have " + std::to_string(dimensions) +
+    hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must have " +
+                                                    std::to_string(dimensions) +
                                                     " dimensions, got " + std::to_string(a.ndim()));
   }
 }
@@ -42,16 +44,19 @@ Eigen::Map<const hri::Matrix<T>> as_matrix(const py::array_t<T, Flags>& a, const
   return {a.data(), a.shape(0), a.shape(1)};
 }
 
-/// One channel (height, width) or interleaved (height, width, channels); an empty array gives an empty view.
+/// One channel (height, width) or interleaved (height, width, channels); an empty array gives an
+/// empty view.
 inline hri::ImageView as_image(const ByteArray& a, int channels, const char* name) {
   if (a.size() == 0) return {};
   require_dimensions(a, channels == 1 ? 2 : 3, name);
   if (channels != 1 && a.shape(2) != channels) {
-    hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must have " + std::to_string(channels) +
-                                                    " channels, got " + std::to_string(a.shape(2)));
+    hri::fail(hri::ErrorKind::invalid_argument, std::string(name) + " must have " +
+                                                    std::to_string(channels) + " channels, got " +
+                                                    std::to_string(a.shape(2)));
   }
   const auto width = static_cast<int>(a.shape(1));
-  return {a.data(), width, static_cast<int>(a.shape(0)), channels, static_cast<std::ptrdiff_t>(width) * channels};
+  return {a.data(), width, static_cast<int>(a.shape(0)), channels,
+          static_cast<std::ptrdiff_t>(width) * channels};
 }
 
 inline py::array_t<std::uint8_t> to_array(const hri::GreyImage& image) {

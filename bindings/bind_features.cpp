@@ -21,7 +21,8 @@ void bind_features(py::module_& m) {
       .value("mean", hri::Normalisation::mean)
       .value("mean_variance", hri::Normalisation::mean_variance);
 
-  py::class_<hri::FilterBankOptions> bank(m, "FilterBankOptions", "Triangular filters over a power spectrum.");
+  py::class_<hri::FilterBankOptions> bank(m, "FilterBankOptions",
+                                          "Triangular filters over a power spectrum.");
   hri_bind::options(bank)
       .field("kind", &hri::FilterBankOptions::kind)
       .field("num_filters", &hri::FilterBankOptions::num_filters)
@@ -47,7 +48,8 @@ void bind_features(py::module_& m) {
         }
         return hri_bind::to_array(edges);
       },
-      py::arg("options"), py::arg("sample_rate_hz"), "Low, centre and high frequency in Hz, shape (num_filters, 3).");
+      py::arg("options"), py::arg("sample_rate_hz"),
+      "Low, centre and high frequency in Hz, shape (num_filters, 3).");
 
   py::class_<hri::CepstraOptions> cepstra(m, "CepstraOptions", "Cepstra of speech (MFCC, HFCC).");
   hri_bind::options(cepstra)
@@ -83,5 +85,6 @@ void bind_features(py::module_& m) {
             self.compute(samples, rows);
             return out;
           },
-          py::arg("audio"), "Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.");
+          py::arg("audio"),
+          "Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.");
 }

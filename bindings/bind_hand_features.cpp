@@ -16,7 +16,8 @@ using hri_bind::ByteArray;
 using hri_bind::to_array;
 
 void bind_hand_features(py::module_& m) {
-  py::class_<hri::OrientationHistogramOptions> histogram(m, "OrientationHistogramOptions", "Grid of cells and bins.");
+  py::class_<hri::OrientationHistogramOptions> histogram(m, "OrientationHistogramOptions",
+                                                         "Grid of cells and bins.");
   hri_bind::options(histogram)
       .field("num_cells", &hri::OrientationHistogramOptions::num_cells)
       .field("num_bins", &hri::OrientationHistogramOptions::num_bins);
@@ -28,9 +29,11 @@ void bind_hand_features(py::module_& m) {
                                    {out.data(), static_cast<std::size_t>(out.size())});
         return to_array(out);
       },
-      py::arg("image"), py::arg("options") = hri::OrientationHistogramOptions{}, "Block-normalised histograms, float32.");
+      py::arg("image"), py::arg("options") = hri::OrientationHistogramOptions{},
+      "Block-normalised histograms, float32.");
 
-  py::class_<hri::SilhouetteCepstrumOptions> cepstrum(m, "SilhouetteCepstrumOptions", "DWT + MFCC of a silhouette.");
+  py::class_<hri::SilhouetteCepstrumOptions> cepstrum(m, "SilhouetteCepstrumOptions",
+                                                      "DWT + MFCC of a silhouette.");
   hri_bind::options(cepstrum)
       .field("wavelet", &hri::SilhouetteCepstrumOptions::wavelet)
       .field("num_levels", &hri::SilhouetteCepstrumOptions::num_levels)
@@ -38,8 +41,10 @@ void bind_hand_features(py::module_& m) {
       .field("num_points", &hri::SilhouetteCepstrumOptions::num_points)
       .field("num_filters", &hri::SilhouetteCepstrumOptions::num_filters)
       .field("num_cepstra", &hri::SilhouetteCepstrumOptions::num_cepstra);
-  py::class_<hri::SilhouetteCepstrumComputer>(m, "SilhouetteCepstrumComputer", "Cepstrum of a silhouette's contour.")
-      .def(py::init<const hri::SilhouetteCepstrumOptions&>(), py::arg("options") = hri::SilhouetteCepstrumOptions{})
+  py::class_<hri::SilhouetteCepstrumComputer>(m, "SilhouetteCepstrumComputer",
+                                              "Cepstrum of a silhouette's contour.")
+      .def(py::init<const hri::SilhouetteCepstrumOptions&>(),
+           py::arg("options") = hri::SilhouetteCepstrumOptions{})
       .def(
           "contour_signal",
           [](const hri::SilhouetteCepstrumComputer& self, const ByteArray& mask) {
@@ -50,12 +55,14 @@ void bind_hand_features(py::module_& m) {
           "compute",
           [](const hri::SilhouetteCepstrumComputer& self, const ByteArray& mask) {
             hri::VectorF out(self.num_features());
-            self.compute(as_image(mask, 1, "mask"), {out.data(), static_cast<std::size_t>(out.size())});
+            self.compute(as_image(mask, 1, "mask"),
+                         {out.data(), static_cast<std::size_t>(out.size())});
             return to_array(out);
           },
           py::arg("mask"), "c0, c1, ..., float32.");
 
-  py::class_<hri::HandFeatureOptions> options(m, "HandFeatureOptions", "The joined feature of one hand picture.");
+  py::class_<hri::HandFeatureOptions> options(m, "HandFeatureOptions",
+                                              "The joined feature of one hand picture.");
   hri_bind::options(options)
       .field("crop_px", &hri::HandFeatureOptions::crop_px)
       .field("histogram", &hri::HandFeatureOptions::histogram)
@@ -65,7 +72,8 @@ void bind_hand_features(py::module_& m) {
       .field("cepstrum", &hri::HandFeatureOptions::cepstrum)
       .field("cepstrum_weight", &hri::HandFeatureOptions::cepstrum_weight);
   py::class_<hri::HandFeatureComputer>(m, "HandFeatureComputer", "Features of one hand picture.")
-      .def(py::init<const hri::HandFeatureOptions&>(), py::arg("options") = hri::HandFeatureOptions{})
+      .def(py::init<const hri::HandFeatureOptions&>(),
+           py::arg("options") = hri::HandFeatureOptions{})
       .def_property_readonly("num_features", &hri::HandFeatureComputer::num_features)
       .def(
           "compute",
@@ -79,5 +87,6 @@ void bind_hand_features(py::module_& m) {
             }
             return to_array(out);
           },
-          py::arg("grey"), py::arg("mask"), "float32, shape (num_features,); mask is 0 or 255, uint8.");
+          py::arg("grey"), py::arg("mask"),
+          "float32, shape (num_features,); mask is 0 or 255, uint8.");
 }

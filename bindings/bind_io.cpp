@@ -12,11 +12,13 @@
 namespace py = pybind11;
 
 void bind_io(py::module_& m) {
-  py::class_<hri::ModelFile>(m, "ModelFile", "Tensors and metadata in the safetensors layout; strict reader.")
+  py::class_<hri::ModelFile>(m, "ModelFile",
+                             "Tensors and metadata in the safetensors layout; strict reader.")
       .def(py::init<>())
       .def_static("read", &hri::ModelFile::read, py::arg("path"),
                   "Reads a whole file; raises IoError, or FormatError naming file and field.")
-      .def("write", &hri::ModelFile::write, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+      .def("write", &hri::ModelFile::write, py::arg("path"),
+           py::call_guard<py::gil_scoped_release>(),
            "Writes beside the old file, syncs, and renames.")
       .def_property("kind", &hri::ModelFile::kind, &hri::ModelFile::set_kind)
       .def("has", &hri::ModelFile::has, py::arg("name"))
@@ -31,10 +33,16 @@ void bind_io(py::module_& m) {
       .def("metadata", &hri::ModelFile::metadata, "All metadata as a dict of text.")
       .def("tensor_shapes", &hri::ModelFile::tensor_shapes, "Name to (rows, columns).")
       .def(
-          "matrix_d", [](const hri::ModelFile& self, const std::string& name) { return hri_bind::to_array(self.matrix_d(name)); },
+          "matrix_d",
+          [](const hri::ModelFile& self, const std::string& name) {
+            return hri_bind::to_array(self.matrix_d(name));
+          },
           py::arg("name"))
       .def(
-          "matrix_f", [](const hri::ModelFile& self, const std::string& name) { return hri_bind::to_array(self.matrix_f(name)); },
+          "matrix_f",
+          [](const hri::ModelFile& self, const std::string& name) {
+            return hri_bind::to_array(self.matrix_f(name));
+          },
           py::arg("name"))
       .def(
           "set_matrix_d",
@@ -50,7 +58,8 @@ void bind_io(py::module_& m) {
           py::arg("name"), py::arg("values"));
 
   py::class_<hri::Wav>(m, "Wav", "Mono samples of a WAV file.")
-      .def_property_readonly("samples", [](const hri::Wav& self) { return hri_bind::to_array(self.samples); })
+      .def_property_readonly("samples",
+                             [](const hri::Wav& self) { return hri_bind::to_array(self.samples); })
       .def_readonly("sample_rate_hz", &hri::Wav::sample_rate_hz)
       .def_readonly("num_channels", &hri::Wav::num_channels)
       .def_readonly("notes", &hri::Wav::notes);
@@ -60,7 +69,8 @@ void bind_io(py::module_& m) {
       "parse_wav",
       [](const py::bytes& data, const std::string& name) {
         const std::string_view view(data);
-        return hri::parse_wav({reinterpret_cast<const std::uint8_t*>(view.data()), view.size()}, name);
+        return hri::parse_wav({reinterpret_cast<const std::uint8_t*>(view.data()), view.size()},
+                              name);
       },
       py::arg("data"), py::arg("name") = "bytes");
   m.def(

@@ -36,13 +36,15 @@ hri::TrainingProgress with_gil(const std::function<void(int, int)>& progress) {
   };
 }
 
-std::vector<hri::HandImage> as_hand_images(const std::vector<ByteArray>& greys, const std::vector<ByteArray>& masks) {
+std::vector<hri::HandImage> as_hand_images(const std::vector<ByteArray>& greys,
+                                           const std::vector<ByteArray>& masks) {
   hri::require(greys.size() == masks.size(), "greys and masks differ in length");
   std::vector<hri::HandImage> frames;
   for (std::size_t i = 0; i < greys.size(); ++i) {
     frames.push_back({as_image(greys[i], 1, "grey"), as_image(masks[i], 1, "mask")});
     const auto& f = frames.back();
-    hri::require(f.mask.empty() || (f.grey.width_px == f.mask.width_px && f.grey.height_px == f.mask.height_px),
+    hri::require(f.mask.empty() ||
+                     (f.grey.width_px == f.mask.width_px && f.grey.height_px == f.mask.height_px),
                  "grey and mask differ in size");
   }
   return frames;
@@ -66,8 +68,10 @@ void bind_decision(py::module_& m) {
       .def_readonly("notes", &hri::Decision::notes);
 }
 
-hri::WordRecognizer train_words(const std::vector<FloatArray>& samples, const std::vector<int>& sample_rates_hz,
-                                const std::vector<std::string>& labels, const std::vector<std::string>& groups,
+hri::WordRecognizer train_words(const std::vector<FloatArray>& samples,
+                                const std::vector<int>& sample_rates_hz,
+                                const std::vector<std::string>& labels,
+                                const std::vector<std::string>& groups,
                                 const hri::WordRecognizerOptions& options,
                                 const std::function<void(int, int)>& progress) {
   hri::require(samples.size() == labels.size() && samples.size() == groups.size() &&
@@ -83,9 +87,12 @@ hri::WordRecognizer train_words(const std::vector<FloatArray>& samples, const st
 }
 
 void bind_words(py::module_& m) {
-  py::enum_<hri::SequenceModelKind>(m, "SequenceModelKind").value("hmm", hri::SequenceModelKind::hmm).value("ptbhmm", hri::SequenceModelKind::ptbhmm);
+  py::enum_<hri::SequenceModelKind>(m, "SequenceModelKind")
+      .value("hmm", hri::SequenceModelKind::hmm)
+      .value("ptbhmm", hri::SequenceModelKind::ptbhmm);
 
-  py::class_<hri::SequenceModelOptions> stream(m, "SequenceModelOptions", "The models trained on one front end.");
+  py::class_<hri::SequenceModelOptions> stream(m, "SequenceModelOptions",
+                                               "The models trained on one front end.");
   hri_bind::options(stream)
       .field("model", &hri::SequenceModelOptions::model)
       .field("num_states", &hri::SequenceModelOptions::num_states)
@@ -95,7 +102,8 @@ void bind_words(py::module_& m) {
       .field("max_iterations", &hri::SequenceModelOptions::max_iterations)
       .field("seed", &hri::SequenceModelOptions::seed);
 
-  py::class_<hri::WordRecognizerOptions> options(m, "WordRecognizerOptions", "Options of WordRecognizer.");
+  py::class_<hri::WordRecognizerOptions> options(m, "WordRecognizerOptions",
+                                                 "Options of WordRecognizer.");
   hri_bind::options(options)
       .field("cepstra", &hri::WordRecognizerOptions::cepstra)
       .field("activity", &hri::WordRecognizerOptions::activity)
@@ -106,11 +114,14 @@ void bind_words(py::module_& m) {
       .field("warp_step", &hri::WordRecognizerOptions::warp_step)
       .field("false_reject_rate", &hri::WordRecognizerOptions::false_reject_rate);
 
-  py::class_<hri::WordRecognizer>(m, "WordRecognizer", "Isolated words; hri.WordRecognizer wraps it.")
-      .def_static("train", &train_words, py::arg("samples"), py::arg("sample_rates_hz"), py::arg("labels"),
-                  py::arg("groups"), py::arg("options"), py::arg("progress") = nullptr)
+  py::class_<hri::WordRecognizer>(m, "WordRecognizer",
+                                  "Isolated words; hri.WordRecognizer wraps it.")
+      .def_static("train", &train_words, py::arg("samples"), py::arg("sample_rates_hz"),
+                  py::arg("labels"), py::arg("groups"), py::arg("options"),
+                  py::arg("progress") = nullptr)
       .def_static("load", &hri::WordRecognizer::load, py::arg("path"))
-      .def("save", &hri::WordRecognizer::save, py::arg("path"), py::call_guard<py::gil_scoped_release>())
+      .def("save", &hri::WordRecognizer::save, py::arg("path"),
+           py::call_guard<py::gil_scoped_release>())
       .def(
           "recognise",
           [](const hri::WordRecognizer& self, const FloatArray& samples, int sample_rate_hz) {
@@ -135,7 +146,8 @@ void bind_words(py::module_& m) {
       .def_property_readonly("options", &hri::WordRecognizer::options);
 }
 
-hri::GestureRecognizer train_gestures(const std::vector<FloatArray>& features, const std::vector<std::string>& labels,
+hri::GestureRecognizer train_gestures(const std::vector<FloatArray>& features,
+                                      const std::vector<std::string>& labels,
                                       const std::vector<std::string>& groups,
                                       const hri::GestureRecognizerOptions& options,
                                       const std::function<void(int, int)>& progress) {
@@ -150,8 +162,9 @@ hri::GestureRecognizer train_gestures(const std::vector<FloatArray>& features, c
   return hri::GestureRecognizer::train(samples, options, with_gil(progress), python_wants_to_stop);
 }
 
-py::array_t<float> gesture_features(const std::vector<ByteArray>& greys, const std::vector<ByteArray>& masks,
-                              const hri::HandFeatureOptions& options) {
+py::array_t<float> gesture_features(const std::vector<ByteArray>& greys,
+                                    const std::vector<ByteArray>& masks,
+                                    const hri::HandFeatureOptions& options) {
   const auto frames = as_hand_images(greys, masks);
   hri::MatrixF rows;
   {
@@ -169,7 +182,8 @@ void bind_gestures(py::module_& m) {
       .value("hmm", hri::GestureModel::hmm)
       .value("ptbhmm", hri::GestureModel::ptbhmm);
 
-  py::class_<hri::GestureRecognizerOptions> options(m, "GestureRecognizerOptions", "Options of GestureRecognizer.");
+  py::class_<hri::GestureRecognizerOptions> options(m, "GestureRecognizerOptions",
+                                                    "Options of GestureRecognizer.");
   hri_bind::options(options)
       .field("features", &hri::GestureRecognizerOptions::features)
       .field("model", &hri::GestureRecognizerOptions::model)
@@ -182,12 +196,15 @@ void bind_gestures(py::module_& m) {
       .field("false_reject_rate", &hri::GestureRecognizerOptions::false_reject_rate)
       .field("seed", &hri::GestureRecognizerOptions::seed);
 
-  py::class_<hri::GestureRecognizer>(m, "GestureRecognizer", "Signs and gestures; hri.GestureRecognizer wraps it.")
-      .def_static("train", &train_gestures, py::arg("features"), py::arg("labels"), py::arg("groups"),
-                  py::arg("options"), py::arg("progress") = nullptr)
-      .def_static("features", &gesture_features, py::arg("greys"), py::arg("masks"), py::arg("options"))
+  py::class_<hri::GestureRecognizer>(m, "GestureRecognizer",
+                                     "Signs and gestures; hri.GestureRecognizer wraps it.")
+      .def_static("train", &train_gestures, py::arg("features"), py::arg("labels"),
+                  py::arg("groups"), py::arg("options"), py::arg("progress") = nullptr)
+      .def_static("features", &gesture_features, py::arg("greys"), py::arg("masks"),
+                  py::arg("options"))
       .def_static("load", &hri::GestureRecognizer::load, py::arg("path"))
-      .def("save", &hri::GestureRecognizer::save, py::arg("path"), py::call_guard<py::gil_scoped_release>())
+      .def("save", &hri::GestureRecognizer::save, py::arg("path"),
+           py::call_guard<py::gil_scoped_release>())
       .def(
           "recognise_features",
           [](const hri::GestureRecognizer& self, const FloatArray& features) {

@@ -41,18 +41,20 @@ void bind_dwt(py::module_& m) {
       "One level: (approximation, detail), float32 or float64 as x.");
   m.def(
       "idwt",
-      [](const Array<T>& approx, const Array<T>& detail, const std::string& wavelet, hri::Border border) {
+      [](const Array<T>& approx, const Array<T>& detail, const std::string& wavelet,
+         hri::Border border) {
         const hri::Wavelet& w = hri::wavelet(wavelet);
         const auto taps = static_cast<py::ssize_t>(w.rec_lo.size());
-        const py::ssize_t size = border == hri::Border::periodization ? 2 * approx.size() : 2 * approx.size() - taps + 2;
+        const py::ssize_t size =
+            border == hri::Border::periodization ? 2 * approx.size() : 2 * approx.size() - taps + 2;
         hri::require(size > 0, "too few coefficients for this wavelet");
         Array<T> x(size);
         hri::idwt<T>(as_span(approx, "approx"), as_span(detail, "detail"), w, border,
                      {x.mutable_data(), static_cast<std::size_t>(size)});
         return x;
       },
-      py::arg("approx").noconvert(), py::arg("detail").noconvert(), py::arg("wavelet"), py::arg("border"),
-      "The inverse of one level.");
+      py::arg("approx").noconvert(), py::arg("detail").noconvert(), py::arg("wavelet"),
+      py::arg("border"), "The inverse of one level.");
   m.def(
       "wavedec",
       [](const Array<T>& x, const std::string& wavelet, hri::Border border, int num_levels) {
@@ -75,11 +77,12 @@ void bind_dwt(py::module_& m) {
          std::size_t num_samples) {
         hri::WaveletDecomposition<T> d;
         d.num_samples = num_samples;
-        for (const auto& c : coefficients) d.coefficients.emplace_back(c.data(), c.data() + c.size());
+        for (const auto& c : coefficients)
+          d.coefficients.emplace_back(c.data(), c.data() + c.size());
         return to_array(hri::waverec<T>(d, hri::wavelet(wavelet), border));
       },
-      py::arg("coefficients").noconvert(), py::arg("wavelet"), py::arg("border"), py::arg("num_samples"),
-      "The inverse of wavedec.");
+      py::arg("coefficients").noconvert(), py::arg("wavelet"), py::arg("border"),
+      py::arg("num_samples"), "The inverse of wavedec.");
   m.def(
       "dwt2",
       [](const Array<T>& image, const std::string& wavelet, hri::Border border) {
@@ -90,27 +93,32 @@ void bind_dwt(py::module_& m) {
           const py::gil_scoped_release release;
           d = hri::dwt2<T>(pixels, w, border);
         }
-        return py::make_tuple(to_array(d.approx),
-                              py::make_tuple(to_array(d.horizontal), to_array(d.vertical), to_array(d.diagonal)));
+        return py::make_tuple(
+            to_array(d.approx),
+            py::make_tuple(to_array(d.horizontal), to_array(d.vertical), to_array(d.diagonal)));
       },
       py::arg("image").noconvert(), py::arg("wavelet"), py::arg("border"),
       "One level of an image: (approximation, (horizontal, vertical, diagonal)).");
   m.def(
       "idwt2",
-      [](const Array<T>& approx, const Array<T>& horizontal, const Array<T>& vertical, const Array<T>& diagonal,
-         const std::string& wavelet, hri::Border border, std::pair<Eigen::Index, Eigen::Index> shape) {
+      [](const Array<T>& approx, const Array<T>& horizontal, const Array<T>& vertical,
+         const Array<T>& diagonal, const std::string& wavelet, hri::Border border,
+         std::pair<Eigen::Index, Eigen::Index> shape) {
         const hri::Dwt2<T> level{as_matrix(approx, "approx"), as_matrix(horizontal, "horizontal"),
                                  as_matrix(vertical, "vertical"), as_matrix(diagonal, "diagonal")};
-        return to_array(hri::idwt2<T>(level, hri::wavelet(wavelet), border, shape.first, shape.second));
+        return to_array(
+            hri::idwt2<T>(level, hri::wavelet(wavelet), border, shape.first, shape.second));
       },
-      py::arg("approx").noconvert(), py::arg("horizontal").noconvert(), py::arg("vertical").noconvert(),
-      py::arg("diagonal").noconvert(), py::arg("wavelet"), py::arg("border"), py::arg("shape"), "The inverse of dwt2.");
+      py::arg("approx").noconvert(), py::arg("horizontal").noconvert(),
+      py::arg("vertical").noconvert(), py::arg("diagonal").noconvert(), py::arg("wavelet"),
+      py::arg("border"), py::arg("shape"), "The inverse of dwt2.");
 }
 
 }  // namespace
 
 void bind_signal(py::module_& m) {
-  py::enum_<hri::Border>(m, "Border", "What stands beyond the ends of a signal, by PyWavelets' names.")
+  py::enum_<hri::Border>(m, "Border",
+                         "What stands beyond the ends of a signal, by PyWavelets' names.")
       .value("symmetric", hri::Border::symmetric)
       .value("zero", hri::Border::zero)
       .value("constant", hri::Border::constant)
@@ -121,7 +129,8 @@ void bind_signal(py::module_& m) {
   bind_dwt<float>(m);
   bind_dwt<double>(m);
 
-  py::class_<hri::ActivityOptions> options(m, "ActivityOptions", "Where somebody speaks in a clip.");
+  py::class_<hri::ActivityOptions> options(m, "ActivityOptions",
+                                           "Where somebody speaks in a clip.");
   hri_bind::options(options)
       .field("frame_ms", &hri::ActivityOptions::frame_ms)
       .field("shift_ms", &hri::ActivityOptions::shift_ms)
@@ -132,7 +141,8 @@ void bind_signal(py::module_& m) {
       .field("padding_ms", &hri::ActivityOptions::padding_ms);
   m.def(
       "find_speech",
-      [](const hri_bind::FloatArray& audio, int sample_rate_hz, const hri::ActivityOptions& o) -> py::object {
+      [](const hri_bind::FloatArray& audio, int sample_rate_hz,
+         const hri::ActivityOptions& o) -> py::object {
         const hri::SpeechBounds b = hri::find_speech(as_span(audio, "audio"), sample_rate_hz, o);
         if (!b.found) return py::none();
         return py::make_tuple(b.first, b.last);
@@ -144,5 +154,6 @@ void bind_signal(py::module_& m) {
       [](const hri_bind::FloatArray& samples, int from_hz, int to_hz) {
         return to_array(hri::resample(as_span(samples, "samples"), from_hz, to_hz));
       },
-      py::arg("samples"), py::arg("from_hz"), py::arg("to_hz"), "Band-limited change of sampling rate.");
+      py::arg("samples"), py::arg("from_hz"), py::arg("to_hz"),
+      "Band-limited change of sampling rate.");
 }

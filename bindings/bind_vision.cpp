@@ -16,7 +16,8 @@ void bind_vision(py::module_& m) {
       .value("chroma_otsu", hri::SilhouetteMethod::chroma_otsu)
       .value("hsv", hri::SilhouetteMethod::hsv)
       .value("grey_otsu", hri::SilhouetteMethod::grey_otsu);
-  py::class_<hri::SilhouetteOptions> options(m, "SilhouetteOptions", "How the hand is found in a picture.");
+  py::class_<hri::SilhouetteOptions> options(m, "SilhouetteOptions",
+                                             "How the hand is found in a picture.");
   hri_bind::options(options)
       .field("method", &hri::SilhouetteOptions::method)
       .field("max_side_px", &hri::SilhouetteOptions::max_side_px)
@@ -26,10 +27,13 @@ void bind_vision(py::module_& m) {
       .field("max_area", &hri::SilhouetteOptions::max_area)
       .field("remove_face", &hri::SilhouetteOptions::remove_face);
   py::class_<hri::Silhouette>(m, "Silhouette", "What was found in one picture.")
-      .def_property_readonly("grey", [](const hri::Silhouette& s) { return hri_bind::to_array(s.grey); })
-      .def_property_readonly("mask", [](const hri::Silhouette& s) { return hri_bind::to_array(s.mask); })
+      .def_property_readonly("grey",
+                             [](const hri::Silhouette& s) { return hri_bind::to_array(s.grey); })
+      .def_property_readonly("mask",
+                             [](const hri::Silhouette& s) { return hri_bind::to_array(s.mask); })
       .def_readonly("quality", &hri::Silhouette::quality);
-  py::class_<hri::SilhouetteExtractor>(m, "SilhouetteExtractor", "Finds the hand in colour pictures.")
+  py::class_<hri::SilhouetteExtractor>(m, "SilhouetteExtractor",
+                                       "Finds the hand in colour pictures.")
       .def(py::init<const hri::SilhouetteOptions&>(), py::arg("options") = hri::SilhouetteOptions{})
       .def(
           "extract",

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// hri._native: the core without OpenCV. Exception classes are made here and shared with hri._native_vision.
+// hri._native: the core without OpenCV. Exception classes are made here and shared with
+// hri._native_vision.
 #include <pybind11/pybind11.h>
 
 #include "hri/core/error.hpp"
@@ -25,13 +26,16 @@ PyObject* g_format_error = nullptr;
 PyObject* g_io_error = nullptr;
 PyObject* g_interrupted = nullptr;
 
-// Makes the class `name` with the bases (hri Error, a builtin), so that both "except" clauses catch it.
-PyObject* make_error(py::module_& m, const char* name, PyObject* base, PyObject* builtin, const char* doc) {
+// Makes the class `name` with the bases (hri Error, a builtin), so that both "except" clauses catch
+// it.
+PyObject* make_error(py::module_& m, const char* name, PyObject* base, PyObject* builtin,
+                     const char* doc) {
   py::list bases;
   bases.append(py::handle(base));
   if (builtin != nullptr) bases.append(py::handle(builtin));
   const std::string qualified = std::string("hri._native.") + name;
-  PyObject* type = PyErr_NewExceptionWithDoc(qualified.c_str(), doc, py::tuple(bases).ptr(), nullptr);
+  PyObject* type =
+      PyErr_NewExceptionWithDoc(qualified.c_str(), doc, py::tuple(bases).ptr(), nullptr);
   if (type == nullptr) throw py::error_already_set();
   m.attr(name) = py::handle(type);
   return type;
@@ -39,9 +43,12 @@ PyObject* make_error(py::module_& m, const char* name, PyObject* base, PyObject*
 
 void bind_errors(py::module_& m) {
   PyObject* root = make_error(m, "Error", PyExc_Exception, nullptr, "Root of hri's errors.");
-  g_invalid_argument = make_error(m, "InvalidArgument", root, PyExc_ValueError, "A value outside its documented range.");
-  g_format_error = make_error(m, "FormatError", root, PyExc_ValueError, "A file breaks its format.");
-  g_io_error = make_error(m, "IoError", root, PyExc_OSError, "The operating system refused a file operation.");
+  g_invalid_argument = make_error(m, "InvalidArgument", root, PyExc_ValueError,
+                                  "A value outside its documented range.");
+  g_format_error =
+      make_error(m, "FormatError", root, PyExc_ValueError, "A file breaks its format.");
+  g_io_error = make_error(m, "IoError", root, PyExc_OSError,
+                          "The operating system refused a file operation.");
   g_interrupted = make_error(m, "Interrupted", PyExc_KeyboardInterrupt, nullptr,
                              "Training was interrupted; nothing was kept.");
   py::register_exception_translator([](std::exception_ptr p) {

@@ -106,4 +106,4 @@ OptionsBinder<T> options(py::class_<T>& cls) {
   return OptionsBinder<T>(cls);
 }
 
-}  // namespace hri_bind
+}  // namespace gnu::visibility("hidden")]]hri_bind

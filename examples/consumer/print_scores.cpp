@@ -1,10 +1,10 @@
 // Usage: print_scores MODEL FILE.wav
-// The raw score of every label in hexadecimal, so that they can be compared with Python's to the bit.
+// The raw score of every label in hexadecimal, so that they can be compared with Python's to the
+// bit.
+#include <cstdio>
 #include <hri/core/error.hpp>
 #include <hri/io/wav.hpp>
 #include <hri/recognition/word_recognizer.hpp>
-
-#include <cstdio>
 
 int main(int argc, char** argv) {
   if (argc != 3) {

@@ -257,12 +257,7 @@ def test_written_manifest_reads_back_equal(tmp_path: Path) -> None:
 
 
 def people(tmp_path: Path, count: int) -> Dataset:
-    names = [
-        f"{label}_p{person}_{take}.wav"
-        for label in "ab"
-        for person in range(count)
-        for take in "12"
-    ]
+    names = [f"{label}_p{person}_{take}.wav" for label in "ab" for person in range(count) for take in "12"]
     return Dataset.load(touch(tmp_path, *names), pattern="{label}_{person}_{take}.wav")
 
 
@@ -339,8 +334,6 @@ def test_examples_in_the_documentation_run(tmp_path: Path, monkeypatch: pytest.M
     names: dict[str, object] = {}
     for example in examples:
         exec(compile(example, str(page), "exec"), names)
-    for number, text in enumerate(
-        re.findall(r"^```toml\n(.*?)^```", page.read_text(), re.S | re.M)
-    ):
+    for number, text in enumerate(re.findall(r"^```toml\n(.*?)^```", page.read_text(), re.S | re.M)):
         (tmp_path / f"{number}.toml").write_text(text, encoding="utf-8")
         assert read_manifest(tmp_path / f"{number}.toml").kind in ("speech", "gesture")

@@ -21,9 +21,7 @@ from hri.media import iterate_frames, read_audio, read_frames, read_image, write
 cv2 = pytest.importorskip("cv2")
 
 
-def wav_bytes(
-    samples: np.ndarray, rate: int = 8000, channels: int = 1, data_size: int | None = None
-) -> bytes:
+def wav_bytes(samples: np.ndarray, rate: int = 8000, channels: int = 1, data_size: int | None = None) -> bytes:
     """A WAV file, float32 or int16 as `samples`; `data_size` goes before the true size."""
     code = 3 if samples.dtype == np.float32 else 1
     width = samples.dtype.itemsize
@@ -116,9 +114,7 @@ def test_broken_flac_is_refused(tmp_path: Path) -> None:
         read_audio(tmp_path / "a.flac")
 
 
-@pytest.mark.parametrize(
-    ("name", "module", "extra"), [("a.flac", "soundfile", "audio"), ("a.jpg", "cv2", "video")]
-)
+@pytest.mark.parametrize(("name", "module", "extra"), [("a.flac", "soundfile", "audio"), ("a.jpg", "cv2", "video")])
 def test_missing_library_is_named_with_its_extra(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, module: str, extra: str
 ) -> None:

@@ -90,9 +90,7 @@ def test_linear_svm_matches_liblinear(cost: float) -> None:
     peer = LinearSVC(C=cost, tol=1e-8, max_iter=1000000, dual=True, random_state=0).fit(rows, classes)
     np.testing.assert_allclose(ours.weights, peer.coef_, rtol=1e-3, atol=1e-4)
     np.testing.assert_allclose(ours.biases, peer.intercept_, rtol=1e-3, atol=1e-4)
-    np.testing.assert_allclose(
-        ours.decision_values(rows), peer.decision_function(rows), rtol=1e-3, atol=1e-3
-    )
+    np.testing.assert_allclose(ours.decision_values(rows), peer.decision_function(rows), rtol=1e-3, atol=1e-3)
 
 
 @pytest.mark.parametrize("shape", [(200, 12), (9, 30)])
@@ -200,8 +198,6 @@ def test_classifiers_score_the_same_after_a_model_file(model: type) -> None:
     trained = model.train(rows, classes, 3)
     file = _native.ModelFile()
     trained.write(file, "c.")
-    np.testing.assert_array_equal(
-        model.read(file, "c.").decision_values(rows), trained.decision_values(rows)
-    )
+    np.testing.assert_array_equal(model.read(file, "c.").decision_values(rows), trained.decision_values(rows))
     with pytest.raises(FormatError):
         model.read(file, "d.")

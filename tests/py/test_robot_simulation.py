@@ -172,9 +172,7 @@ def test_a_video_is_quick(tmp_path, backend):
     path = tmp_path / "two.mp4"
     progress = []
     begin = time.monotonic()
-    frames = render_video(
-        gesture_trajectory("2"), path, backend, progress=lambda *at: progress.append(at)
-    )
+    frames = render_video(gesture_trajectory("2"), path, backend, progress=lambda *at: progress.append(at))
     assert time.monotonic() - begin < 5.0
     assert frames == 37 and progress[-1] == (37, 37)
     clip = read_frames(path)

@@ -43,9 +43,7 @@ def test_every_digit_is_spoken_with_quiet_margins(language: str) -> None:
 @needs_espeak
 def test_speech_depends_on_its_arguments_alone() -> None:
     first = speak("three", "en", make_speaker(2), take=1, seed=5)
-    np.testing.assert_array_equal(
-        first.samples, speak("three", "en", make_speaker(2), 1, 5).samples
-    )
+    np.testing.assert_array_equal(first.samples, speak("three", "en", make_speaker(2), 1, 5).samples)
     for other in (
         speak("four", "en", make_speaker(2), 1, 5),
         speak("three", "en", make_speaker(3), 1, 5),
@@ -59,9 +57,7 @@ def test_speech_depends_on_its_arguments_alone() -> None:
 def test_speech_corpus_says_that_it_is_synthetic(tmp_path: Path) -> None:
     calls = []
     words = {"en": ["go", "stop"], "hi": {"go": "चलो"}}
-    dataset = make_speech_corpus(
-        tmp_path / "new", words, 2, 2, progress=lambda *done: calls.append(done)
-    )
+    dataset = make_speech_corpus(tmp_path / "new", words, 2, 2, progress=lambda *done: calls.append(done))
     assert dataset == Dataset.load(tmp_path / "new")
     assert dataset.synthetic
     assert dataset.kind == "speech"
@@ -241,9 +237,7 @@ def test_clip_size_is_the_callers() -> None:
 @pytest.mark.parametrize(("kind", "suffix"), [("still", ".jpg"), ("clip", ".mp4")])
 def test_gesture_corpus_says_that_it_is_synthetic(tmp_path: Path, kind: str, suffix: str) -> None:
     calls = []
-    dataset = make_gesture_corpus(
-        tmp_path, ["3", "0"], 2, 1, kind, progress=lambda *done: calls.append(done)
-    )
+    dataset = make_gesture_corpus(tmp_path, ["3", "0"], 2, 1, kind, progress=lambda *done: calls.append(done))
     assert dataset == Dataset.load(tmp_path)
     assert dataset.synthetic
     assert dataset.kind == "gesture"
@@ -270,9 +264,7 @@ def test_second_corpus_in_a_folder_lists_only_its_own(tmp_path: Path) -> None:
         ({"kind": "film"}, "kind is 'film'"),
     ],
 )
-def test_corpus_that_cannot_be_drawn_is_refused(
-    tmp_path: Path, options: dict, message: str
-) -> None:
+def test_corpus_that_cannot_be_drawn_is_refused(tmp_path: Path, options: dict, message: str) -> None:
     with pytest.raises(InvalidArgument, match=message):
         make_gesture_corpus(tmp_path, **options)
     assert list(tmp_path.iterdir()) == []

@@ -29,17 +29,13 @@ def spoken(tmp_path_factory: pytest.TempPathFactory) -> Path:
                 phase = 2 * np.pi * (base_hz * time_s + 0.5 * slope * time_s**2)
                 tone = 0.3 * np.sin(phase) + 0.001 * rng.standard_normal(len(time_s))
                 clip = np.concatenate([0.001 * rng.standard_normal(RATE_HZ // 4), tone, np.zeros(RATE_HZ // 4)])
-                _native.write_wav_pcm16(
-                    str(folder / f"{label}_{person}_{take}.wav"), clip.astype(np.float32), RATE_HZ
-                )
+                _native.write_wav_pcm16(str(folder / f"{label}_{person}_{take}.wav"), clip.astype(np.float32), RATE_HZ)
     return folder
 
 
 def test_train_makes_a_recogniser_of_the_kind_of_the_folder(spoken: Path) -> None:
     seen: list[tuple[str, int, int]] = []
-    recognizer = hri.train(
-        hri.Dataset.load(spoken, "speech"), progress=lambda *step: seen.append(step)
-    )
+    recognizer = hri.train(hri.Dataset.load(spoken, "speech"), progress=lambda *step: seen.append(step))
     assert isinstance(recognizer, hri.WordRecognizer)
     assert list(recognizer.classes_) == ["fall", "rise"]
     audio = hri.read_audio(spoken / "rise_high_0.wav")

@@ -16,15 +16,18 @@ constexpr float kEnergyFloor = 1e-10F;  // keeps the log of digital silence fini
 
 int samples_of(double ms, int rate_hz, const char* field) {
   if (!(ms >= 1 && ms <= 1000)) {
-    fail(ErrorKind::invalid_argument, std::string(field) + " must lie in 1..1000 ms, got " + std::to_string(ms));
+    fail(ErrorKind::invalid_argument,
+         std::string(field) + " must lie in 1..1000 ms, got " + std::to_string(ms));
   }
   return std::max(1, static_cast<int>(std::lround(ms * rate_hz / 1000.0)));
 }
 
 const CepstraOptions& checked(const CepstraOptions& o) {
-  require(o.sample_rate_hz >= 1000 && o.sample_rate_hz <= 384000, "sample_rate_hz must lie in 1000..384000");
+  require(o.sample_rate_hz >= 1000 && o.sample_rate_hz <= 384000,
+          "sample_rate_hz must lie in 1000..384000");
   require(o.pre_emphasis >= 0 && o.pre_emphasis <= 1, "pre_emphasis must lie in 0..1");
-  require(o.num_cepstra >= 1 && o.num_cepstra < o.num_filters, "num_cepstra must lie in 1..num_filters - 1");
+  require(o.num_cepstra >= 1 && o.num_cepstra < o.num_filters,
+          "num_cepstra must lie in 1..num_filters - 1");
   require(o.lifter >= 0, "lifter must not be negative");
   require(o.delta_orders >= 0 && o.delta_orders <= 2, "delta_orders must lie in 0..2");
   require(o.delta_window >= 1 && o.delta_window <= 10, "delta_window must lie in 1..10");
@@ -41,15 +44,18 @@ FilterBankOptions bank_options(const CepstraOptions& o) {
   return {o.filter_bank, o.num_filters, o.low_hz, o.high_hz, o.erb_factor, o.warp};
 }
 
-// Orthonormal DCT-II rows for c0 (if wanted) and c1.., each scaled by HTK's lifter 1 + L/2 sin(pi n / L).
+// Orthonormal DCT-II rows for c0 (if wanted) and c1.., each scaled by HTK's lifter 1 + L/2 sin(pi n
+// / L).
 MatrixF lifted_dct(const CepstraOptions& o) {
   const int first = o.use_c0 ? 0 : 1;
   MatrixF dct(o.num_cepstra + 1 - first, o.num_filters);
   for (int n = first; n <= o.num_cepstra; ++n) {
     const double scale = std::sqrt((n == 0 ? 1.0 : 2.0) / o.num_filters);
-    const double lift = o.lifter > 0 && n > 0 ? 1.0 + 0.5 * o.lifter * std::sin(kPi * n / o.lifter) : 1.0;
+    const double lift =
+        o.lifter > 0 && n > 0 ? 1.0 + 0.5 * o.lifter * std::sin(kPi * n / o.lifter) : 1.0;
     for (int m = 0; m < o.num_filters; ++m) {
-      dct(n - first, m) = static_cast<float>(lift * scale * std::cos(kPi * n * (m + 0.5) / o.num_filters));
+      dct(n - first, m) =
+          static_cast<float>(lift * scale * std::cos(kPi * n * (m + 0.5) / o.num_filters));
     }
   }
   return dct;
@@ -84,7 +90,8 @@ void CepstraComputer::compute(Span<const float> audio, MatrixRefF out) const {
   }
   if (num_frames(audio.size()) == 0) {
     fail(ErrorKind::invalid_argument, "audio is too short: " + std::to_string(audio.size()) +
-                                          " samples, one frame takes " + std::to_string(frame_length_));
+                                          " samples, one frame takes " +
+                                          std::to_string(frame_length_));
   }
   require(out.rows() == num_frames(audio.size()) && out.cols() == num_features(),
           "out must have shape (num_frames, num_features)");
@@ -107,7 +114,8 @@ void CepstraComputer::compute_static(Span<const float> audio, MatrixRefF out) co
     const auto start = static_cast<std::size_t>(t) * static_cast<std::size_t>(frame_shift_);
     const float* x = audio.data() + start;
     frame[0] = window_[0] * (x[0] - alpha * (start == 0 ? x[0] : x[-1]));
-    for (std::size_t n = 1; n < window_.size(); ++n) frame[n] = window_[n] * (x[n] - alpha * x[n - 1]);
+    for (std::size_t n = 1; n < window_.size(); ++n)
+      frame[n] = window_[n] * (x[n] - alpha * x[n - 1]);
     fft_.power_spectrum(frame, power);
     bank_.apply(power, {energies.data(), static_cast<std::size_t>(energies.size())});
     energies = energies.cwiseMax(kEnergyFloor).array().log().matrix();
@@ -124,7 +132,8 @@ void append_deltas(MatrixRefF frames, int first_column, int width, int window) {
     auto delta = frames.row(t).segment(first_column + width, width);
     delta.setZero();
     for (int k = 1; k <= window; ++k) {
-      const auto after = frames.row(std::min<Eigen::Index>(t + k, last)).segment(first_column, width);
+      const auto after =
+          frames.row(std::min<Eigen::Index>(t + k, last)).segment(first_column, width);
       const auto before = frames.row(std::max<Eigen::Index>(t - k, 0)).segment(first_column, width);
       delta += static_cast<float>(k) * scale * (after - before);
     }
@@ -139,7 +148,8 @@ void normalise(MatrixRefF frames, int width, Normalisation kind, int c0_column) 
     const auto mean = static_cast<float>(frames.col(c).cast<double>().mean());
     frames.col(c).array() -= mean;
     if (kind != Normalisation::mean_variance) continue;
-    const double deviation = std::sqrt(frames.col(c).cast<double>().squaredNorm() / static_cast<double>(frames.rows()));
+    const double deviation =
+        std::sqrt(frames.col(c).cast<double>().squaredNorm() / static_cast<double>(frames.rows()));
     if (deviation > 1e-6) {
       frames.col(c) *= static_cast<float>(1.0 / deviation);
     } else {

@@ -17,8 +17,9 @@ constexpr double kErbB = 93.39e-3;
 constexpr double kErbC = 28.52;
 constexpr double kCorner = 700;  // of the mel scale
 
-// The centre between low and high in mel satisfies (700 + fc)^2 = (700 + low)(700 + high); with one edge given and
-// high - low = 2 ERB(fc) that is a quadratic in fc. `sign` is +1 when `edge_hz` is the low edge, -1 when the high one.
+// The centre between low and high in mel satisfies (700 + fc)^2 = (700 + low)(700 + high); with one
+// edge given and high - low = 2 ERB(fc) that is a quadratic in fc. `sign` is +1 when `edge_hz` is
+// the low edge, -1 when the high one.
 double centre_at_edge(double edge_hz, double erb_factor, double sign) {
   const double side = kCorner + edge_hz;
   const double twice = 2.0 * sign * side * erb_factor;
@@ -32,13 +33,15 @@ std::vector<double> equally_spaced_in_mel(double from_hz, double to_hz, int coun
   std::vector<double> result;
   for (int i = 0; i < count; ++i) {
     const double share = count == 1 ? 0.0 : static_cast<double>(i) / (count - 1);
-    result.push_back(mel_to_hz(hz_to_mel(from_hz) + share * (hz_to_mel(to_hz) - hz_to_mel(from_hz))));
+    result.push_back(
+        mel_to_hz(hz_to_mel(from_hz) + share * (hz_to_mel(to_hz) - hz_to_mel(from_hz))));
   }
   return result;
 }
 
 void check(const FilterBankOptions& o, int sample_rate_hz) {
-  require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000, "sample_rate_hz must lie in 1000..384000");
+  require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000,
+          "sample_rate_hz must lie in 1000..384000");
   require(o.num_filters >= 1 && o.num_filters <= 512, "num_filters must lie in 1..512");
   const double high = o.high_hz > 0 ? o.high_hz : sample_rate_hz / 2.0;
   require(o.low_hz >= 0 && o.low_hz < high, "low_hz must lie in 0..high_hz");
@@ -76,14 +79,16 @@ std::vector<FilterTriangle> filter_triangles(const FilterBankOptions& options, i
   const double high = options.high_hz > 0 ? options.high_hz : sample_rate_hz / 2.0;
   std::vector<FilterTriangle> triangles;
   if (options.kind == FilterBankKind::mel) {
-    const std::vector<double> edges = equally_spaced_in_mel(options.low_hz, high, options.num_filters + 2);
-    for (std::size_t i = 1; i + 1 < edges.size(); ++i) triangles.push_back({edges[i - 1], edges[i], edges[i + 1]});
+    const std::vector<double> edges =
+        equally_spaced_in_mel(options.low_hz, high, options.num_filters + 2);
+    for (std::size_t i = 1; i + 1 < edges.size(); ++i)
+      triangles.push_back({edges[i - 1], edges[i], edges[i + 1]});
   } else {
     const double first = centre_at_edge(options.low_hz, options.erb_factor, 1.0);
     const double last = centre_at_edge(high, options.erb_factor, -1.0);
     if (!(first > 0) || !(last > first)) {
-      fail(ErrorKind::invalid_argument,
-           "erb_factor " + std::to_string(options.erb_factor) + ": HFCC filters do not fit between low_hz and high_hz");
+      fail(ErrorKind::invalid_argument, "erb_factor " + std::to_string(options.erb_factor) +
+                                            ": HFCC filters do not fit between low_hz and high_hz");
     }
     for (const double centre : equally_spaced_in_mel(first, last, options.num_filters)) {
       const double erb = equivalent_rectangular_bandwidth(centre, options.erb_factor);

@@ -64,8 +64,10 @@ HandBox hand_box(ImageView mask, float max_aspect, float padding) {
 }
 
 void crop(ImageView image, const HandBox& box, MatrixRefF out) {
-  require(image.channels == 1 && !image.empty(), "image must have one channel and at least one pixel");
-  require(box.side_px > 0 && out.rows() == out.cols() && out.rows() > 0, "box and out must be squares");
+  require(image.channels == 1 && !image.empty(),
+          "image must have one channel and at least one pixel");
+  require(box.side_px > 0 && out.rows() == out.cols() && out.rows() > 0,
+          "box and out must be squares");
   const auto size = static_cast<int>(out.rows());
   const float step = box.side_px / static_cast<float>(size);
   const int samples = std::clamp(static_cast<int>(std::ceil(step)), 1, 8);
@@ -74,11 +76,13 @@ void crop(ImageView image, const HandBox& box, MatrixRefF out) {
     for (int x = 0; x < size; ++x) {
       float sum = 0;
       for (int sy = 0; sy < samples; ++sy) {
-        const float fy =
-            box.top_px + (static_cast<float>(y) + (static_cast<float>(sy) + 0.5F) / static_cast<float>(samples)) * step;
+        const float fy = box.top_px + (static_cast<float>(y) + (static_cast<float>(sy) + 0.5F) /
+                                                                   static_cast<float>(samples)) *
+                                          step;
         for (int sx = 0; sx < samples; ++sx) {
-          const float fx = box.left_px +
-                           (static_cast<float>(x) + (static_cast<float>(sx) + 0.5F) / static_cast<float>(samples)) * step;
+          const float fx = box.left_px + (static_cast<float>(x) + (static_cast<float>(sx) + 0.5F) /
+                                                                      static_cast<float>(samples)) *
+                                             step;
           sum += sample(image, fy - 0.5F, fx - 0.5F);
         }
       }

@@ -10,7 +10,8 @@ namespace hri {
 HandFeatureComputer::HandFeatureComputer(const HandFeatureOptions& options)
     : options_(options), cepstrum_(options.cepstrum) {
   require(options.crop_px >= 16 && options.crop_px <= 256, "crop_px must lie in 16..256");
-  require(options.histogram.num_cells <= options.crop_px, "histogram.num_cells must not exceed crop_px");
+  require(options.histogram.num_cells <= options.crop_px,
+          "histogram.num_cells must not exceed crop_px");
   require(options.cepstrum_weight > 0, "cepstrum_weight must be positive");
   const int histogram = orientation_histogram_size(options.histogram);
   num_features_ = (options.use_grey ? histogram : 0) + (options.use_silhouette ? histogram : 0) +
@@ -19,8 +20,10 @@ HandFeatureComputer::HandFeatureComputer(const HandFeatureOptions& options)
 }
 
 void HandFeatureComputer::compute(ImageView grey, ImageView mask, Span<float> out) const {
-  require(out.size() == static_cast<std::size_t>(num_features_), "out must have num_features() values");
-  require(grey.channels == 1 && mask.channels == 1 && grey.width_px == mask.width_px && grey.height_px == mask.height_px,
+  require(out.size() == static_cast<std::size_t>(num_features_),
+          "out must have num_features() values");
+  require(grey.channels == 1 && mask.channels == 1 && grey.width_px == mask.width_px &&
+              grey.height_px == mask.height_px,
           "grey and mask must have one channel and the same size");
   const HandBox box = hand_box(mask);
   require(box.side_px > 0, "mask is empty");

@@ -48,8 +48,10 @@ class CellHistogram {
       for (int dx = 0; dx < 2; ++dx) {
         const int cx = x.first + dx;
         if (cx < 0 || cx >= num_cells_) continue;
-        const float w = magnitude * (dy == 1 ? y.weight : 1 - y.weight) * (dx == 1 ? x.weight : 1 - x.weight);
-        float* cell = values_->data() + (static_cast<std::ptrdiff_t>(cy) * num_cells_ + cx) * num_bins_;
+        const float w =
+            magnitude * (dy == 1 ? y.weight : 1 - y.weight) * (dx == 1 ? x.weight : 1 - x.weight);
+        float* cell =
+            values_->data() + (static_cast<std::ptrdiff_t>(cy) * num_cells_ + cx) * num_bins_;
         cell[b0] += w * (1 - bin.weight);
         cell[b1] += w * bin.weight;
       }
@@ -84,25 +86,28 @@ int orientation_histogram_size(const OrientationHistogramOptions& options) {
   return (options.num_cells - 1) * (options.num_cells - 1) * 4 * options.num_bins;
 }
 
-void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOptions& options, Span<float> out) {
+void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOptions& options,
+                           Span<float> out) {
   require(out.size() == static_cast<std::size_t>(orientation_histogram_size(options)),
           "out must have orientation_histogram_size() values");
   const int n = options.num_cells;
   const auto rows = static_cast<int>(image.rows());
   const auto cols = static_cast<int>(image.cols());
-  require(rows >= std::max(3, n) && cols >= std::max(3, n), "image must have at least 3 and num_cells rows and columns");
+  require(rows >= std::max(3, n) && cols >= std::max(3, n),
+          "image must have at least 3 and num_cells rows and columns");
   thread_local std::vector<float> cells;
   CellHistogram histogram(n, options.num_bins, &cells);
   for (int y = 1; y + 1 < rows; ++y) {
-    const Share sy = share_of((static_cast<float>(y) + 0.5F) * static_cast<float>(n) / static_cast<float>(rows) - 0.5F);
+    const Share sy = share_of(
+        (static_cast<float>(y) + 0.5F) * static_cast<float>(n) / static_cast<float>(rows) - 0.5F);
     for (int x = 1; x + 1 < cols; ++x) {
       const float gx = image(y, x + 1) - image(y, x - 1);
       const float gy = image(y + 1, x) - image(y - 1, x);
       if (gx == 0 && gy == 0) continue;
       float angle = std::atan2(gy, gx);
       if (angle < 0) angle += kPi;
-      const Share sx =
-          share_of((static_cast<float>(x) + 0.5F) * static_cast<float>(n) / static_cast<float>(cols) - 0.5F);
+      const Share sx = share_of(
+          (static_cast<float>(x) + 0.5F) * static_cast<float>(n) / static_cast<float>(cols) - 0.5F);
       histogram.add(sy, sx, angle, std::sqrt(gx * gx + gy * gy));
     }
   }

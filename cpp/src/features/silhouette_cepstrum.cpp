@@ -12,7 +12,8 @@
 namespace hri {
 namespace {
 
-// The contour has no sampling rate of its own: a point every "millisecond" lets the speech front end be used as it is.
+// The contour has no sampling rate of its own: a point every "millisecond" lets the speech front
+// end be used as it is.
 constexpr int kPointsPerSecond = 1000;
 
 CepstraOptions cepstra_options(const SilhouetteCepstrumOptions& o) {
@@ -67,7 +68,8 @@ std::vector<ContourPoint> trace_contour(ConstMatrixRefF image, float threshold) 
       }
     }
     if (step < 0) break;  // a single pixel
-    at = {at.x_px + kAround[static_cast<std::size_t>(step)].x_px, at.y_px + kAround[static_cast<std::size_t>(step)].y_px};
+    at = {at.x_px + kAround[static_cast<std::size_t>(step)].x_px,
+          at.y_px + kAround[static_cast<std::size_t>(step)].y_px};
     direction = step;
   } while ((at.x_px != start.x_px || at.y_px != start.y_px) && contour.size() < limit);
   return contour;
@@ -75,7 +77,8 @@ std::vector<ContourPoint> trace_contour(ConstMatrixRefF image, float threshold) 
 
 SilhouetteCepstrumComputer::SilhouetteCepstrumComputer(const SilhouetteCepstrumOptions& options)
     : options_(options), cepstra_(cepstra_options(options)) {
-  static_cast<void>(wavelet(options.wavelet));  // refuses an unknown name now rather than at the first mask
+  static_cast<void>(
+      wavelet(options.wavelet));  // refuses an unknown name now rather than at the first mask
 }
 
 std::vector<float> SilhouetteCepstrumComputer::contour_signal(ImageView mask) const {
@@ -110,16 +113,19 @@ std::vector<float> SilhouetteCepstrumComputer::contour_signal(ImageView mask) co
     const double position = static_cast<double>(i) * count / static_cast<double>(signal.size());
     const auto before = static_cast<std::size_t>(position);
     const double share = position - static_cast<double>(before);
-    const double value = radius[before] * (1 - share) + radius[(before + 1) % radius.size()] * share;
+    const double value =
+        radius[before] * (1 - share) + radius[(before + 1) % radius.size()] * share;
     signal[i] = static_cast<float>(value / mean_radius);
   }
   return signal;
 }
 
 void SilhouetteCepstrumComputer::compute(ImageView mask, Span<float> out) const {
-  require(out.size() == static_cast<std::size_t>(num_features()), "out must have num_features() values");
+  require(out.size() == static_cast<std::size_t>(num_features()),
+          "out must have num_features() values");
   const MatrixF frames = cepstra_.compute(contour_signal(mask));
-  for (Eigen::Index c = 0; c < frames.cols(); ++c) out[static_cast<std::size_t>(c)] = frames.col(c).mean();
+  for (Eigen::Index c = 0; c < frames.cols(); ++c)
+    out[static_cast<std::size_t>(c)] = frames.col(c).mean();
 }
 
 }  // namespace hri

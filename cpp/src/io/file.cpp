@@ -63,8 +63,8 @@ std::vector<std::uint8_t> read_file(const std::string& path, std::uint64_t max_b
   if (end < 0) fail_io(path, "cannot read", errno);
   const auto size = static_cast<std::uint64_t>(end);
   if (size > max_bytes) {
-    fail(ErrorKind::format, path + ": has " + std::to_string(size) + " bytes, more than the limit of " +
-                                std::to_string(max_bytes));
+    fail(ErrorKind::format, path + ": has " + std::to_string(size) +
+                                " bytes, more than the limit of " + std::to_string(max_bytes));
   }
   std::rewind(file.get());
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));

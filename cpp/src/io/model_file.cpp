@@ -68,7 +68,8 @@ std::int64_t ModelFile::integer(const std::string& key) const {
   char* end = nullptr;
   errno = 0;
   const long long parsed = std::strtoll(value.c_str(), &end, 10);
-  if (value.empty() || *end != '\0' || errno != 0) refuse(key, "is not an integer: '" + value + "'");
+  if (value.empty() || *end != '\0' || errno != 0)
+    refuse(key, "is not an integer: '" + value + "'");
   return parsed;
 }
 
@@ -76,7 +77,8 @@ double ModelFile::number(const std::string& key) const {
   const std::string& value = text(key);
   char* end = nullptr;
   const double parsed = std::strtod(value.c_str(), &end);
-  if (value.empty() || *end != '\0' || !std::isfinite(parsed)) refuse(key, "is not a finite number: '" + value + "'");
+  if (value.empty() || *end != '\0' || !std::isfinite(parsed))
+    refuse(key, "is not a finite number: '" + value + "'");
   return parsed;
 }
 
@@ -91,9 +93,13 @@ std::vector<std::string> ModelFile::text_list(const std::string& key) const {
   return values;
 }
 
-void ModelFile::set_text(const std::string& key, const std::string& value) { metadata_[key] = value; }
+void ModelFile::set_text(const std::string& key, const std::string& value) {
+  metadata_[key] = value;
+}
 
-void ModelFile::set_integer(const std::string& key, std::int64_t value) { metadata_[key] = std::to_string(value); }
+void ModelFile::set_integer(const std::string& key, std::int64_t value) {
+  metadata_[key] = std::to_string(value);
+}
 
 void ModelFile::set_number(const std::string& key, double value) {
   if (!std::isfinite(value)) fail(ErrorKind::invalid_argument, "field '" + key + "' is not finite");
@@ -110,7 +116,8 @@ void ModelFile::set_text_list(const std::string& key, const std::vector<std::str
 const ModelFile::Tensor& ModelFile::tensor(const std::string& name, bool is_double) const {
   const auto found = tensors_.find(name);
   if (found == tensors_.end()) refuse(name, "is missing");
-  if (found->second.is_double != is_double) refuse(name, is_double ? "is not of dtype F64" : "is not of dtype F32");
+  if (found->second.is_double != is_double)
+    refuse(name, is_double ? "is not of dtype F64" : "is not of dtype F32");
   return found->second;
 }
 
@@ -185,13 +192,16 @@ std::vector<std::uint8_t> ModelFile::serialise() const {
     offset += t.bytes.size();
   }
   std::string text = header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  text.append((8 - text.size() % 8) % 8, ' ');  // tensors start on a multiple of 8, as the layout asks
+  text.append((8 - text.size() % 8) % 8,
+              ' ');  // tensors start on a multiple of 8, as the layout asks
 
   std::vector<std::uint8_t> out;
   out.reserve(8 + text.size() + offset);
-  for (unsigned i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>((std::uint64_t{text.size()} >> (8 * i)) & 0xFFU));
+  for (unsigned i = 0; i < 8; ++i)
+    out.push_back(static_cast<std::uint8_t>((std::uint64_t{text.size()} >> (8 * i)) & 0xFFU));
   out.insert(out.end(), text.begin(), text.end());
-  for (const auto& entry : tensors_) out.insert(out.end(), entry.second.bytes.begin(), entry.second.bytes.end());
+  for (const auto& entry : tensors_)
+    out.insert(out.end(), entry.second.bytes.begin(), entry.second.bytes.end());
   return out;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The strict reader of model files: nothing is believed before it is checked against the bytes that are there.
+// The strict reader of model files: nothing is believed before it is checked against the bytes that
+// are there.
 #include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -40,7 +41,8 @@ json parse_header(Span<const std::uint8_t> text, const std::string& name) {
   return header;
 }
 
-std::uint64_t unsigned_at(const json& list, std::size_t i, const std::string& name, const std::string& field) {
+std::uint64_t unsigned_at(const json& list, std::size_t i, const std::string& name,
+                          const std::string& field) {
   if (!list.is_array() || list.size() != 2 || !list[i].is_number_unsigned()) {
     reject(name, "field '" + field + "' must be two whole numbers");
   }
@@ -50,7 +52,8 @@ std::uint64_t unsigned_at(const json& list, std::size_t i, const std::string& na
 }  // namespace
 
 ModelFile ModelFile::parse(Span<const std::uint8_t> bytes, const std::string& name) {
-  if (bytes.size() < 8) reject(name, "too short for a model file: " + std::to_string(bytes.size()) + " bytes");
+  if (bytes.size() < 8)
+    reject(name, "too short for a model file: " + std::to_string(bytes.size()) + " bytes");
   std::uint64_t header_size = 0;
   for (unsigned i = 0; i < 8; ++i) header_size |= static_cast<std::uint64_t>(bytes[i]) << (8 * i);
   if (header_size > kMaxHeaderBytes || header_size > bytes.size() - 8) {
@@ -63,7 +66,8 @@ ModelFile ModelFile::parse(Span<const std::uint8_t> bytes, const std::string& na
   ModelFile file;
   file.name_ = name;
   const auto metadata = header.find("__metadata__");
-  if (metadata == header.end() || !metadata->is_object()) reject(name, "field '__metadata__' is missing");
+  if (metadata == header.end() || !metadata->is_object())
+    reject(name, "field '__metadata__' is missing");
   for (const auto& [key, value] : metadata->items()) {
     if (!value.is_string()) reject(name, "metadata field '" + key + "' is not a text");
     file.metadata_[key] = value.get<std::string>();
@@ -77,12 +81,13 @@ ModelFile ModelFile::parse(Span<const std::uint8_t> bytes, const std::string& na
   std::map<std::uint64_t, std::uint64_t> ranges;
   for (const auto& [key, value] : header.items()) {
     if (key == "__metadata__") continue;
-    if (!value.is_object() || value.size() != 3 || !value.contains("dtype") || !value.contains("shape") ||
-        !value.contains("data_offsets")) {
+    if (!value.is_object() || value.size() != 3 || !value.contains("dtype") ||
+        !value.contains("shape") || !value.contains("data_offsets")) {
       reject(name, "tensor '" + key + "' needs dtype, shape and data_offsets, and nothing else");
     }
     Tensor t;
-    if (value["dtype"] != "F32" && value["dtype"] != "F64") reject(name, "tensor '" + key + "': dtype must be F32 or F64");
+    if (value["dtype"] != "F32" && value["dtype"] != "F64")
+      reject(name, "tensor '" + key + "': dtype must be F32 or F64");
     t.is_double = value["dtype"] == "F64";
     t.rows = static_cast<std::int64_t>(unsigned_at(value["shape"], 0, name, key + ".shape"));
     t.cols = static_cast<std::int64_t>(unsigned_at(value["shape"], 1, name, key + ".shape"));
@@ -90,24 +95,31 @@ ModelFile ModelFile::parse(Span<const std::uint8_t> bytes, const std::string& na
     const std::uint64_t end = unsigned_at(value["data_offsets"], 1, name, key + ".data_offsets");
     // Sides below 2^28 and 8 bytes a value keep the product within 64 bits.
     if (t.rows > kMaxSide || t.cols > kMaxSide || begin > end || end > data.size() ||
-        static_cast<std::uint64_t>(t.rows) * static_cast<std::uint64_t>(t.cols) * (t.is_double ? 8U : 4U) != end - begin) {
-      reject(name, "tensor '" + key + "': shape and data_offsets do not fit each other or the file");
+        static_cast<std::uint64_t>(t.rows) * static_cast<std::uint64_t>(t.cols) *
+                (t.is_double ? 8U : 4U) !=
+            end - begin) {
+      reject(name,
+             "tensor '" + key + "': shape and data_offsets do not fit each other or the file");
     }
     t.bytes.assign(data.begin() + begin, data.begin() + end);
-    if (end > begin && !ranges.emplace(begin, end).second) reject(name, "tensor '" + key + "' overlaps another");
+    if (end > begin && !ranges.emplace(begin, end).second)
+      reject(name, "tensor '" + key + "' overlaps another");
     file.tensors_[key] = std::move(t);
   }
   std::uint64_t covered = 0;
   for (const auto& [begin, end] : ranges) {
-    if (begin != covered) reject(name, "tensor data have a gap or overlap at byte " + std::to_string(covered));
+    if (begin != covered)
+      reject(name, "tensor data have a gap or overlap at byte " + std::to_string(covered));
     covered = end;
   }
-  if (covered != data.size()) reject(name, "has " + std::to_string(data.size() - covered) + " bytes beyond its tensors");
+  if (covered != data.size())
+    reject(name, "has " + std::to_string(data.size() - covered) + " bytes beyond its tensors");
 
   const std::string stored = file.text("checksum");
   char computed[9];
   std::snprintf(computed, sizeof computed, "%08x", static_cast<unsigned>(file.checksum()));
-  if (stored != computed) reject(name, "checksum is " + stored + " but the content gives " + computed + ": damaged");
+  if (stored != computed)
+    reject(name, "checksum is " + stored + " but the content gives " + computed + ": damaged");
   return file;
 }
 

@@ -30,30 +30,37 @@ std::uint32_t little_endian(const std::uint8_t* p, unsigned num_bytes) {
   return value;
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::string& why) { fail(ErrorKind::format, name + ": " + why); }
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  fail(ErrorKind::format, name + ": " + why);
+}
 
 Format parse_format(Span<const std::uint8_t> chunk, const std::string& name) {
-  if (chunk.size() < 16) refuse(name, "field 'fmt ' has " + std::to_string(chunk.size()) + " bytes, needs 16");
+  if (chunk.size() < 16)
+    refuse(name, "field 'fmt ' has " + std::to_string(chunk.size()) + " bytes, needs 16");
   Format f;
   f.tag = static_cast<std::uint16_t>(little_endian(chunk.data(), 2));
   f.num_channels = static_cast<std::uint16_t>(little_endian(chunk.data() + 2, 2));
   f.sample_rate_hz = little_endian(chunk.data() + 4, 4);
   f.bits = static_cast<std::uint16_t>(little_endian(chunk.data() + 14, 2));
   if (f.tag == kExtensible) {
-    if (chunk.size() < 40) refuse(name, "field 'fmt ' is extensible but has " + std::to_string(chunk.size()) + " bytes");
+    if (chunk.size() < 40)
+      refuse(name, "field 'fmt ' is extensible but has " + std::to_string(chunk.size()) + " bytes");
     f.tag = static_cast<std::uint16_t>(little_endian(chunk.data() + 24, 2));
   }
   if (f.num_channels < 1 || f.num_channels > 64) {
     refuse(name, "field 'channels' must lie in 1..64, is " + std::to_string(f.num_channels));
   }
   if (f.sample_rate_hz < 1000 || f.sample_rate_hz > 384000) {
-    refuse(name, "field 'sample rate' must lie in 1000..384000 Hz, is " + std::to_string(f.sample_rate_hz));
+    refuse(name, "field 'sample rate' must lie in 1000..384000 Hz, is " +
+                     std::to_string(f.sample_rate_hz));
   }
   const bool pcm = f.tag == kPcm && (f.bits == 8 || f.bits == 16 || f.bits == 24 || f.bits == 32);
   const bool floating = f.tag == kFloat && (f.bits == 32 || f.bits == 64);
   if (!pcm && !floating) {
-    refuse(name, "codec " + std::to_string(f.tag) + " with " + std::to_string(f.bits) +
-                     " bits is not supported; PCM (1) with 8, 16, 24, 32 or float (3) with 32, 64 bits is");
+    refuse(
+        name,
+        "codec " + std::to_string(f.tag) + " with " + std::to_string(f.bits) +
+            " bits is not supported; PCM (1) with 8, 16, 24, 32 or float (3) with 32, 64 bits is");
   }
   return f;
 }
@@ -75,9 +82,10 @@ double decode(const std::uint8_t* p, const Format& f) {
   return static_cast<double>(static_cast<std::int32_t>(raw)) / 2147483648.0;
 }
 
-// The bytes of the data chunk that are really there, with a note where that is not what the header says.
-Span<const std::uint8_t> data_bytes(Span<const std::uint8_t> rest, std::uint32_t declared, const Format& f,
-                                    std::vector<std::string>* notes) {
+// The bytes of the data chunk that are really there, with a note where that is not what the header
+// says.
+Span<const std::uint8_t> data_bytes(Span<const std::uint8_t> rest, std::uint32_t declared,
+                                    const Format& f, std::vector<std::string>* notes) {
   const std::size_t frame = static_cast<std::size_t>(f.num_channels) * (f.bits / 8U);
   std::size_t size = declared;
   if (declared == 0 || declared == kUnknownSize) {
@@ -85,19 +93,21 @@ Span<const std::uint8_t> data_bytes(Span<const std::uint8_t> rest, std::uint32_t
     notes->push_back("data size was never filled in: read to the end of the file");
   } else if (declared > rest.size()) {
     size = rest.size();
-    notes->push_back("file ends early: " + std::to_string(rest.size()) + " of " + std::to_string(declared) +
-                     " bytes of sound are there");
+    notes->push_back("file ends early: " + std::to_string(rest.size()) + " of " +
+                     std::to_string(declared) + " bytes of sound are there");
   }
   return rest.subspan(0, size - size % frame);
 }
 
-std::vector<float> to_mono(Span<const std::uint8_t> data, const Format& f, const std::string& name) {
+std::vector<float> to_mono(Span<const std::uint8_t> data, const Format& f,
+                           const std::string& name) {
   const std::size_t width = f.bits / 8U;
   const std::size_t frame = width * f.num_channels;
   std::vector<float> samples(data.size() / frame);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     double sum = 0;
-    for (std::size_t c = 0; c < f.num_channels; ++c) sum += decode(data.data() + i * frame + c * width, f);
+    for (std::size_t c = 0; c < f.num_channels; ++c)
+      sum += decode(data.data() + i * frame + c * width, f);
     const auto value = static_cast<float>(sum / f.num_channels);
     if (!std::isfinite(value)) refuse(name, "sample " + std::to_string(i) + " is not finite");
     samples[i] = value;
@@ -110,7 +120,8 @@ std::vector<float> to_mono(Span<const std::uint8_t> data, const Format& f, const
 Wav read_wav(const std::string& path) { return parse_wav(read_file(path), path); }
 
 Wav parse_wav(Span<const std::uint8_t> bytes, const std::string& name) {
-  if (bytes.size() < 12 || std::memcmp(bytes.data(), "RIFF", 4) != 0 || std::memcmp(bytes.data() + 8, "WAVE", 4) != 0) {
+  if (bytes.size() < 12 || std::memcmp(bytes.data(), "RIFF", 4) != 0 ||
+      std::memcmp(bytes.data() + 8, "WAVE", 4) != 0) {
     refuse(name, "not a WAV file: no RIFF WAVE header");
   }
   Format format;
@@ -131,7 +142,8 @@ Wav parse_wav(Span<const std::uint8_t> bytes, const std::string& name) {
       wav.num_channels = format.num_channels;
       wav.samples = to_mono(data_bytes(rest, declared, format, &wav.notes), format, name);
       if (wav.samples.empty()) refuse(name, "too short: holds no samples");
-      if (wav.num_channels > 1) wav.notes.push_back(std::to_string(wav.num_channels) + " channels averaged to mono");
+      if (wav.num_channels > 1)
+        wav.notes.push_back(std::to_string(wav.num_channels) + " channels averaged to mono");
       return wav;
     }
     if (declared > rest.size()) break;
@@ -141,14 +153,16 @@ Wav parse_wav(Span<const std::uint8_t> bytes, const std::string& name) {
 }
 
 void write_wav_pcm16(const std::string& path, Span<const float> samples, int sample_rate_hz) {
-  require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000, "sample_rate_hz must lie in 1000..384000");
+  require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000,
+          "sample_rate_hz must lie in 1000..384000");
   require(samples.size() < (std::size_t{1} << 30U), "too many samples for a WAV file");
   const auto data_size = static_cast<std::uint32_t>(2 * samples.size());
   std::vector<std::uint8_t> out;
   out.reserve(44 + data_size);
   const auto text = [&](const char* s) { out.insert(out.end(), s, s + 4); };
   const auto number = [&](std::uint32_t value, unsigned num_bytes) {
-    for (unsigned i = 0; i < num_bytes; ++i) out.push_back(static_cast<std::uint8_t>((value >> (8 * i)) & 0xFFU));
+    for (unsigned i = 0; i < num_bytes; ++i)
+      out.push_back(static_cast<std::uint8_t>((value >> (8 * i)) & 0xFFU));
   };
   const auto rate = static_cast<std::uint32_t>(sample_rate_hz);
   text("RIFF");
@@ -165,7 +179,8 @@ void write_wav_pcm16(const std::string& path, Span<const float> samples, int sam
   text("data");
   number(data_size, 4);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (!std::isfinite(samples[i])) fail(ErrorKind::invalid_argument, "sample " + std::to_string(i) + " is not finite");
+    if (!std::isfinite(samples[i]))
+      fail(ErrorKind::invalid_argument, "sample " + std::to_string(i) + " is not finite");
     const float scaled = std::round(std::clamp(samples[i], -1.0F, 1.0F) * 32767.0F);
     number(static_cast<std::uint32_t>(static_cast<std::int32_t>(scaled)), 2);
   }

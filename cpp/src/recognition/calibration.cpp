@@ -23,7 +23,8 @@ double mean_nll(const std::vector<HeldOut>& held_out, double scale) {
   return sum / static_cast<double>(held_out.size());
 }
 
-// Golden-section search on log10(scale); the negative log-likelihood of a temperature is unimodal in it.
+// Golden-section search on log10(scale); the negative log-likelihood of a temperature is unimodal
+// in it.
 double best_scale(const std::vector<HeldOut>& held_out) {
   constexpr double kRatio = 0.6180339887498949;
   double low = -4;
@@ -61,7 +62,8 @@ const char* status_name(DecisionStatus status) {
 }
 
 Calibration Calibration::fit(const std::vector<HeldOut>& held_out, double false_reject_rate) {
-  require(false_reject_rate >= 0 && false_reject_rate <= 0.5, "false_reject_rate must lie in 0..0.5");
+  require(false_reject_rate >= 0 && false_reject_rate <= 0.5,
+          "false_reject_rate must lie in 0..0.5");
   Calibration result;
   std::vector<float> right;
   for (const HeldOut& h : held_out) {
@@ -81,13 +83,16 @@ VectorF Calibration::posterior(const VectorF& scores) const {
   return p / p.sum();
 }
 
-Decision Calibration::decide(const VectorF& scores, float evidence, const std::vector<std::string>& labels) const {
+Decision Calibration::decide(const VectorF& scores, float evidence,
+                             const std::vector<std::string>& labels) const {
   const VectorF p = posterior(scores);
   std::vector<Eigen::Index> order(labels.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return scores[a] > scores[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return scores[a] > scores[b]; });
   Decision d;
-  for (const Eigen::Index c : order) d.nbest.push_back({labels[static_cast<std::size_t>(c)], p[c], scores[c]});
+  for (const Eigen::Index c : order)
+    d.nbest.push_back({labels[static_cast<std::size_t>(c)], p[c], scores[c]});
   const bool accepted = evidence >= static_cast<float>(threshold_);
   d.status = accepted ? DecisionStatus::recognised : DecisionStatus::unknown;
   d.label = accepted ? d.nbest.front().label : status_name(d.status);

@@ -26,15 +26,18 @@ ModelFile GestureRecognizer::to_model_file() const {
 
 GestureRecognizer GestureRecognizer::from_model_file(const ModelFile& file) {
   if (file.kind() != kKind) {
-    fail(ErrorKind::format, file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
+    fail(ErrorKind::format,
+         file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
   }
   GestureRecognizer result;
   detail::visit_gesture(detail::FieldReader{file}, result.options_);
   static_cast<void>(HandFeatureComputer(result.options_.features));  // refuses options out of range
   result.labels_ = sorted_labels(file.text_list("labels"));
-  if (result.labels_ != file.text_list("labels")) fail(ErrorKind::format, file.name() + ": labels are not sorted");
+  if (result.labels_ != file.text_list("labels"))
+    fail(ErrorKind::format, file.name() + ": labels are not sorted");
   result.calibration_ = Calibration::read(file);
-  result.scorer_ = read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
+  result.scorer_ =
+      read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
   return result;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Movements: principal components of the hand's shape, its track from where it began, and their changes, scored whole
-// by one sequence model a gesture.
+// Movements: principal components of the hand's shape, its track from where it began, and their
+// changes, scored whole by one sequence model a gesture.
 #include "gesture_scorer.hpp"
 #include "hri/core/error.hpp"
 #include "hri/features/cepstra.hpp"
@@ -19,7 +19,8 @@ constexpr float kTrackScale = 10.0F;  // a tenth of the picture counts as much a
 MatrixF movement_rows(ConstMatrixRefF rows, const Pca& pca) {
   const int track = detail::kNumTrackColumns;
   const int width = pca.num_components() + track;
-  require(rows.cols() == pca.dim() + track, "features do not have as many columns as the model was trained on");
+  require(rows.cols() == pca.dim() + track,
+          "features do not have as many columns as the model was trained on");
   MatrixF result(rows.rows(), 2 * width);
   result.leftCols(pca.num_components()) = pca.transform(rows.leftCols(pca.dim()));
   const MatrixF path = rows.rightCols(track);
@@ -41,13 +42,15 @@ SequenceModelOptions model_options(const GestureRecognizerOptions& options) {
 
 class MovementScorer : public GestureScorer {
  public:
-  MovementScorer(Pca pca, SequenceModels models) : pca_(std::move(pca)), models_(std::move(models)) {}
+  MovementScorer(Pca pca, SequenceModels models)
+      : pca_(std::move(pca)), models_(std::move(models)) {}
 
   [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
     return models_.scores(movement_rows(rows, pca_));
   }
   [[nodiscard]] float evidence(ConstMatrixRefF rows, const VectorF& scores) const override {
-    return (scores.maxCoeff() - models_.garbage_score(movement_rows(rows, pca_))) / static_cast<float>(rows.rows());
+    return (scores.maxCoeff() - models_.garbage_score(movement_rows(rows, pca_))) /
+           static_cast<float>(rows.rows());
   }
   void write(ModelFile& file) const override {
     pca_.write(file, "pca.");
@@ -63,12 +66,13 @@ class MovementScorer : public GestureScorer {
 
 namespace detail {
 
-std::shared_ptr<const GestureScorer> train_movement_scorer(const std::vector<std::vector<MatrixF>>& per_class,
-                                                           const GestureRecognizerOptions& options,
-                                                           const StopCheck& should_stop) {
+std::shared_ptr<const GestureScorer> train_movement_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop) {
   const StackedRows all = stack_rows(per_class);
   require(all.rows.cols() > kNumTrackColumns, "features need columns besides the hand's track");
-  Pca pca = Pca::train(all.rows.leftCols(all.rows.cols() - kNumTrackColumns), options.num_components);
+  Pca pca =
+      Pca::train(all.rows.leftCols(all.rows.cols() - kNumTrackColumns), options.num_components);
   std::vector<std::vector<MatrixF>> movements(per_class.size());
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     for (const MatrixF& g : per_class[c]) movements[c].push_back(movement_rows(g, pca));
@@ -79,7 +83,8 @@ std::shared_ptr<const GestureScorer> train_movement_scorer(const std::vector<std
 }
 
 std::shared_ptr<const GestureScorer> read_movement_scorer(const ModelFile& file,
-                                                          const GestureRecognizerOptions& options, int num_classes) {
+                                                          const GestureRecognizerOptions& options,
+                                                          int num_classes) {
   Pca pca = Pca::read(file, "pca.");
   SequenceModels models(model_options(options));
   models.read(file, "movement.", num_classes, 2 * (pca.num_components() + kNumTrackColumns));

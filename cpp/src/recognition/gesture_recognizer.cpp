@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kMaxFolds = 5;
 
-// Centre (0..1 of the frame) and log of the share of the frame that the mask covers; false for an empty mask.
+// Centre (0..1 of the frame) and log of the share of the frame that the mask covers; false for an
+// empty mask.
 bool track_point(ImageView mask, float* out) {
   double sum = 0;
   double sum_x = 0;
@@ -33,7 +34,8 @@ bool track_point(ImageView mask, float* out) {
   if (sum == 0) return false;
   out[0] = static_cast<float>((sum_x / sum + 0.5) / mask.width_px);
   out[1] = static_cast<float>((sum_y / sum + 0.5) / mask.height_px);
-  out[2] = static_cast<float>(std::log(sum / (static_cast<double>(mask.width_px) * mask.height_px)));
+  out[2] =
+      static_cast<float>(std::log(sum / (static_cast<double>(mask.width_px) * mask.height_px)));
   return true;
 }
 
@@ -41,8 +43,9 @@ void require_finite(const MatrixF& rows, std::size_t sample) {
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     for (Eigen::Index c = 0; c < rows.cols(); ++c) {
       if (std::isfinite(rows(r, c))) continue;
-      fail(ErrorKind::invalid_argument, "sample " + std::to_string(sample) + ": feature is not finite at row " +
-                                            std::to_string(r) + ", column " + std::to_string(c));
+      fail(ErrorKind::invalid_argument, "sample " + std::to_string(sample) +
+                                            ": feature is not finite at row " + std::to_string(r) +
+                                            ", column " + std::to_string(c));
     }
   }
 }
@@ -55,8 +58,10 @@ std::vector<std::string> labels_of(const std::vector<GestureSample>& samples) {
 }
 
 // The rows of every class outside fold `left_out`; -1 leaves nothing out.
-std::vector<std::vector<MatrixF>> by_class(const std::vector<GestureSample>& samples, const std::vector<int>& classes,
-                                           const std::vector<int>& folds, std::size_t num_classes, int left_out) {
+std::vector<std::vector<MatrixF>> by_class(const std::vector<GestureSample>& samples,
+                                           const std::vector<int>& classes,
+                                           const std::vector<int>& folds, std::size_t num_classes,
+                                           int left_out) {
   std::vector<std::vector<MatrixF>> result(num_classes);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (folds[i] == left_out || samples[i].features.rows() == 0) continue;
@@ -66,12 +71,14 @@ std::vector<std::vector<MatrixF>> by_class(const std::vector<GestureSample>& sam
 }
 
 bool any_empty(const std::vector<std::vector<MatrixF>>& per_class) {
-  return std::any_of(per_class.begin(), per_class.end(), [](const auto& list) { return list.empty(); });
+  return std::any_of(per_class.begin(), per_class.end(),
+                     [](const auto& list) { return list.empty(); });
 }
 
 }  // namespace
 
-MatrixF GestureRecognizer::features(const std::vector<HandImage>& frames, const HandFeatureOptions& options) {
+MatrixF GestureRecognizer::features(const std::vector<HandImage>& frames,
+                                    const HandFeatureOptions& options) {
   const HandFeatureComputer computer(options);
   const auto shape_columns = static_cast<std::size_t>(computer.num_features());
   MatrixF rows(static_cast<Eigen::Index>(frames.size()),
@@ -88,7 +95,8 @@ MatrixF GestureRecognizer::features(const std::vector<HandImage>& frames, const 
 }
 
 GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& samples,
-                                           const GestureRecognizerOptions& options, const TrainingProgress& progress,
+                                           const GestureRecognizerOptions& options,
+                                           const TrainingProgress& progress,
                                            const StopCheck& should_stop) {
   GestureRecognizer result;
   result.options_ = options;
@@ -144,6 +152,8 @@ Decision GestureRecognizer::recognise(const std::vector<HandImage>& frames) cons
 
 void GestureRecognizer::save(const std::string& path) const { to_model_file().write(path); }
 
-GestureRecognizer GestureRecognizer::load(const std::string& path) { return from_model_file(ModelFile::read(path)); }
+GestureRecognizer GestureRecognizer::load(const std::string& path) {
+  return from_model_file(ModelFile::read(path));
+}
 
 }  // namespace hri

@@ -7,7 +7,9 @@
 namespace hri {
 namespace {
 
-bool is_movement(GestureModel model) { return model == GestureModel::hmm || model == GestureModel::ptbhmm; }
+bool is_movement(GestureModel model) {
+  return model == GestureModel::hmm || model == GestureModel::ptbhmm;
+}
 
 }  // namespace
 
@@ -25,7 +27,8 @@ StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class) {
     for (const MatrixF& g : per_class[c]) {
       require(g.cols() == all.rows.cols(), "all gestures need the same number of features");
       all.rows.middleRows(at, g.rows()) = g;
-      all.classes.insert(all.classes.end(), static_cast<std::size_t>(g.rows()), static_cast<int>(c));
+      all.classes.insert(all.classes.end(), static_cast<std::size_t>(g.rows()),
+                         static_cast<int>(c));
       at += g.rows();
     }
   }
@@ -34,15 +37,16 @@ StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class) {
 
 }  // namespace detail
 
-std::shared_ptr<const GestureScorer> train_gesture_scorer(const std::vector<std::vector<MatrixF>>& per_class,
-                                                          const GestureRecognizerOptions& options,
-                                                          const StopCheck& should_stop) {
+std::shared_ptr<const GestureScorer> train_gesture_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop) {
   return is_movement(options.model) ? detail::train_movement_scorer(per_class, options, should_stop)
                                     : detail::train_vote_scorer(per_class, options, should_stop);
 }
 
 std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
-                                                         const GestureRecognizerOptions& options, int num_classes) {
+                                                         const GestureRecognizerOptions& options,
+                                                         int num_classes) {
   return is_movement(options.model) ? detail::read_movement_scorer(file, options, num_classes)
                                     : detail::read_vote_scorer(file, options, num_classes);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How GestureRecognizer scores the feature rows of one gesture. Two families: frames that vote (still signs) and
-// sequence models (movements).
+// How GestureRecognizer scores the feature rows of one gesture. Two families: frames that vote
+// (still signs) and sequence models (movements).
 #pragma once
 
 #include <memory>
@@ -30,24 +30,27 @@ class GestureScorer {
 };
 
 /// `per_class[c]` holds the rows of every gesture of class c; no class is empty.
-std::shared_ptr<const GestureScorer> train_gesture_scorer(const std::vector<std::vector<MatrixF>>& per_class,
-                                                          const GestureRecognizerOptions& options,
-                                                          const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> train_gesture_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop);
 std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
-                                                         const GestureRecognizerOptions& options, int num_classes);
+                                                         const GestureRecognizerOptions& options,
+                                                         int num_classes);
 
 namespace detail {
 
-std::shared_ptr<const GestureScorer> train_vote_scorer(const std::vector<std::vector<MatrixF>>& per_class,
-                                                       const GestureRecognizerOptions& options,
-                                                       const StopCheck& should_stop);
-std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file, const GestureRecognizerOptions& options,
+std::shared_ptr<const GestureScorer> train_vote_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file,
+                                                      const GestureRecognizerOptions& options,
                                                       int num_classes);
-std::shared_ptr<const GestureScorer> train_movement_scorer(const std::vector<std::vector<MatrixF>>& per_class,
-                                                           const GestureRecognizerOptions& options,
-                                                           const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> train_movement_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop);
 std::shared_ptr<const GestureScorer> read_movement_scorer(const ModelFile& file,
-                                                          const GestureRecognizerOptions& options, int num_classes);
+                                                          const GestureRecognizerOptions& options,
+                                                          int num_classes);
 
 /// Columns of GestureRecognizer::features behind the hand's shape: centre x, centre y, log area.
 constexpr int kNumTrackColumns = 3;

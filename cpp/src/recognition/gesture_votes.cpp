@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Still signs: every frame is classified by itself and the scores are averaged. The last columns (the hand's track in
-// the picture) are left out, so that it does not matter where a sign is shown.
+// Still signs: every frame is classified by itself and the scores are averaged. The last columns
+// (the hand's track in the picture) are left out, so that it does not matter where a sign is shown.
 #include <optional>
 
 #include "gesture_scorer.hpp"
@@ -34,7 +34,8 @@ class VoteScorer : public GestureScorer {
     if (!knn) return scores.maxCoeff();
     const MatrixF shapes = shape_rows(rows);
     float sum = 0;
-    for (Eigen::Index t = 0; t < shapes.rows(); ++t) sum -= knn->nearest_distance(row_span(shapes, t));
+    for (Eigen::Index t = 0; t < shapes.rows(); ++t)
+      sum -= knn->nearest_distance(row_span(shapes, t));
     return sum / static_cast<float>(shapes.rows());
   }
 
@@ -57,7 +58,8 @@ class VoteScorer : public GestureScorer {
 
  private:
   [[nodiscard]] MatrixF shape_rows(ConstMatrixRefF rows) const {
-    require(rows.cols() >= num_shape_columns, "features have fewer columns than the model was trained on");
+    require(rows.cols() >= num_shape_columns,
+            "features have fewer columns than the model was trained on");
     const MatrixF shapes = rows.leftCols(num_shape_columns);
     return pca ? pca->transform(shapes) : shapes;
   }
@@ -71,9 +73,9 @@ class VoteScorer : public GestureScorer {
 
 namespace detail {
 
-std::shared_ptr<const GestureScorer> train_vote_scorer(const std::vector<std::vector<MatrixF>>& per_class,
-                                                       const GestureRecognizerOptions& options,
-                                                       const StopCheck& should_stop) {
+std::shared_ptr<const GestureScorer> train_vote_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop) {
   auto scorer = std::make_shared<VoteScorer>();
   StackedRows all = stack_rows(per_class);
   require(all.rows.cols() > kNumTrackColumns, "features need columns besides the hand's track");
@@ -100,7 +102,8 @@ std::shared_ptr<const GestureScorer> train_vote_scorer(const std::vector<std::ve
   return scorer;
 }
 
-std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file, const GestureRecognizerOptions& options,
+std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file,
+                                                      const GestureRecognizerOptions& options,
                                                       int num_classes) {
   auto scorer = std::make_shared<VoteScorer>();
   scorer->num_shape_columns = file.integer("num_shape_columns");
@@ -109,9 +112,13 @@ std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file, con
   if (options.model == GestureModel::bayes) scorer->bayes = GaussianBayes::read(file, "bayes.");
   if (options.model == GestureModel::knn) scorer->knn = Knn::read(file, "knn.");
   const int reduced = scorer->pca ? scorer->pca->num_components() : 0;
-  const bool fits = scorer->num_classes() == num_classes && scorer->input_dim() == scorer->num_shape_columns &&
-                    (!scorer->bayes || scorer->bayes->dim() == reduced) && (!scorer->knn || scorer->knn->dim() == reduced);
-  if (!fits) fail(ErrorKind::format, file.name() + ": the classifier does not fit the labels or the features");
+  const bool fits = scorer->num_classes() == num_classes &&
+                    scorer->input_dim() == scorer->num_shape_columns &&
+                    (!scorer->bayes || scorer->bayes->dim() == reduced) &&
+                    (!scorer->knn || scorer->knn->dim() == reduced);
+  if (!fits)
+    fail(ErrorKind::format,
+         file.name() + ": the classifier does not fit the labels or the features");
   return scorer;
 }
 

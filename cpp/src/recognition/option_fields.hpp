@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The fields of the options structs, each named once, so that writing and reading a model file cannot drift apart.
-// `visit(v, options)` calls v("name", field) for every field; nested structs are visited by visit_nested.
+// The fields of the options structs, each named once, so that writing and reading a model file
+// cannot drift apart. `visit(v, options)` calls v("name", field) for every field; nested structs
+// are visited by visit_nested.
 #pragma once
 
 #include <cstdint>
@@ -119,7 +120,8 @@ struct FieldReader {
     } else {
       const std::int64_t value = file.integer(name);
       field = static_cast<T>(value);
-      if (static_cast<std::int64_t>(field) != value || (std::is_enum_v<T> && (value < 0 || value > 7))) {
+      if (static_cast<std::int64_t>(field) != value ||
+          (std::is_enum_v<T> && (value < 0 || value > 7))) {
         fail(ErrorKind::format,
              file.name() + ": field '" + name + "' is out of range: " + std::to_string(value));
       }

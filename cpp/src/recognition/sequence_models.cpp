@@ -36,13 +36,18 @@ Topology left_right(int num_states) {
 
 SequenceModels::SequenceModels(const SequenceModelOptions& options) : options_(options) {
   require(options.num_states >= 1 && options.num_states <= 64, "num_states must lie in 1..64");
-  require(options.num_mixtures >= 1 && options.num_mixtures <= 64, "num_mixtures must lie in 1..64");
-  require(options.num_codewords >= 2 && options.num_codewords <= 4096, "num_codewords must lie in 2..4096");
-  require(options.garbage_mixtures >= 1 && options.garbage_mixtures <= 256, "garbage_mixtures must lie in 1..256");
-  require(options.max_iterations >= 1 && options.max_iterations <= 1000, "max_iterations must lie in 1..1000");
+  require(options.num_mixtures >= 1 && options.num_mixtures <= 64,
+          "num_mixtures must lie in 1..64");
+  require(options.num_codewords >= 2 && options.num_codewords <= 4096,
+          "num_codewords must lie in 2..4096");
+  require(options.garbage_mixtures >= 1 && options.garbage_mixtures <= 256,
+          "garbage_mixtures must lie in 1..256");
+  require(options.max_iterations >= 1 && options.max_iterations <= 1000,
+          "max_iterations must lie in 1..1000");
 }
 
-void SequenceModels::train(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop) {
+void SequenceModels::train(const std::vector<std::vector<MatrixF>>& per_label,
+                           const StopCheck& should_stop) {
   if (options_.model == SequenceModelKind::ptbhmm) {
     train_ptbhmm(per_label, should_stop);
   } else {
@@ -50,7 +55,8 @@ void SequenceModels::train(const std::vector<std::vector<MatrixF>>& per_label, c
   }
 }
 
-void SequenceModels::train_hmms(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop) {
+void SequenceModels::train_hmms(const std::vector<std::vector<MatrixF>>& per_label,
+                                const StopCheck& should_stop) {
   GaussianMixtureHmmOptions options;
   options.topology = left_right(options_.num_states);
   options.num_mixtures = options_.num_mixtures;
@@ -58,7 +64,8 @@ void SequenceModels::train_hmms(const std::vector<std::vector<MatrixF>>& per_lab
   options.seed = options_.seed;
   options.should_stop = should_stop;
   hmms_.clear();
-  for (const auto& sequences : per_label) hmms_.push_back(GaussianMixtureHmm::train(sequences, options));
+  for (const auto& sequences : per_label)
+    hmms_.push_back(GaussianMixtureHmm::train(sequences, options));
   GaussianMixtureOptions garbage;
   garbage.num_mixtures = options_.garbage_mixtures;
   garbage.seed = options_.seed;
@@ -66,7 +73,8 @@ void SequenceModels::train_hmms(const std::vector<std::vector<MatrixF>>& per_lab
   garbage_ = {GaussianMixture::train(stacked(per_label), garbage)};
 }
 
-void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop) {
+void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label,
+                                  const StopCheck& should_stop) {
   CodebookOptions book;
   book.num_codewords = options_.num_codewords;
   codebook_ = {Codebook::train_lbg(stacked(per_label), book)};
@@ -84,7 +92,9 @@ void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_l
 
 VectorF SequenceModels::scores(ConstMatrixRefF frames) const {
   if (options_.model == SequenceModelKind::ptbhmm) {
-    return ptbhmm_.front().log_possibilities(codebook_.front().quantise(frames)).cwiseMax(kImpossible);
+    return ptbhmm_.front()
+        .log_possibilities(codebook_.front().quantise(frames))
+        .cwiseMax(kImpossible);
   }
   VectorF result(static_cast<Eigen::Index>(hmms_.size()));
   for (std::size_t c = 0; c < hmms_.size(); ++c) {
@@ -105,11 +115,13 @@ void SequenceModels::write(ModelFile& file, const std::string& prefix) const {
     ptbhmm_.front().write(file, prefix + "ptbhmm.");
     return;
   }
-  for (std::size_t c = 0; c < hmms_.size(); ++c) hmms_[c].write(file, prefix + "hmm." + std::to_string(c) + ".");
+  for (std::size_t c = 0; c < hmms_.size(); ++c)
+    hmms_[c].write(file, prefix + "hmm." + std::to_string(c) + ".");
   garbage_.front().write(file, prefix + "garbage.");
 }
 
-void SequenceModels::read(const ModelFile& file, const std::string& prefix, int num_classes, int dim) {
+void SequenceModels::read(const ModelFile& file, const std::string& prefix, int num_classes,
+                          int dim) {
   const auto check_width = [&](Eigen::Index width, const std::string& what) {
     if (width != dim) {
       fail(ErrorKind::format, file.name() + ": field '" + what + "': has " + std::to_string(width) +
@@ -120,7 +132,8 @@ void SequenceModels::read(const ModelFile& file, const std::string& prefix, int 
     codebook_ = {Codebook::read(file, prefix + "codebook.")};
     ptbhmm_ = {PossibilisticHmmSet::read(file, prefix + "ptbhmm.")};
     check_width(codebook_.front().dim(), prefix + "codebook");
-    if (ptbhmm_.front().num_classes() != num_classes || ptbhmm_.front().num_symbols() != codebook_.front().size()) {
+    if (ptbhmm_.front().num_classes() != num_classes ||
+        ptbhmm_.front().num_symbols() != codebook_.front().size()) {
       fail(ErrorKind::format, prefix + "ptbhmm: does not fit the labels or the codebook");
     }
     return;

@@ -15,12 +15,13 @@ std::vector<std::string> sorted_labels(const std::vector<std::string>& labels) {
   for (const std::string& label : distinct) {
     if (label.empty()) fail(ErrorKind::invalid_argument, "labels: a label is empty");
     if (label == "unknown" || label == "no_input") {
-      fail(ErrorKind::invalid_argument, "labels: '" + label + "' is a result of its own and cannot be trained");
+      fail(ErrorKind::invalid_argument,
+           "labels: '" + label + "' is a result of its own and cannot be trained");
     }
   }
   if (distinct.size() < 2) {
-    fail(ErrorKind::invalid_argument,
-         "labels: training needs at least 2 different labels, got " + std::to_string(distinct.size()));
+    fail(ErrorKind::invalid_argument, "labels: training needs at least 2 different labels, got " +
+                                          std::to_string(distinct.size()));
   }
   return {distinct.begin(), distinct.end()};
 }
@@ -29,8 +30,8 @@ int label_index(const std::vector<std::string>& labels, const std::string& label
   return static_cast<int>(std::lower_bound(labels.begin(), labels.end(), label) - labels.begin());
 }
 
-std::vector<int> held_out_folds(const std::vector<int>& classes, const std::vector<std::string>& groups,
-                                int max_folds) {
+std::vector<int> held_out_folds(const std::vector<int>& classes,
+                                const std::vector<std::string>& groups, int max_folds) {
   const std::set<std::string> distinct(groups.begin(), groups.end());
   std::vector<int> folds;
   folds.reserve(groups.size());
@@ -41,7 +42,8 @@ std::vector<int> held_out_folds(const std::vector<int>& classes, const std::vect
   }
   const int num_folds = std::min(max_folds, static_cast<int>(distinct.size()));
   for (const std::string& group : groups) {
-    folds.push_back(static_cast<int>(std::distance(distinct.begin(), distinct.find(group))) % num_folds);
+    folds.push_back(static_cast<int>(std::distance(distinct.begin(), distinct.find(group))) %
+                    num_folds);
   }
   return folds;
 }

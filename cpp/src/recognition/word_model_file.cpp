@@ -21,22 +21,26 @@ ModelFile WordRecognizer::to_model_file() const {
   file.set_text_list("labels", labels_);
   detail::visit_word(detail::FieldWriter{file}, options_);
   calibration_.write(file);
-  for (std::size_t s = 0; s < streams_.size(); ++s) streams_[s].models.write(file, stream_prefix(s));
+  for (std::size_t s = 0; s < streams_.size(); ++s)
+    streams_[s].models.write(file, stream_prefix(s));
   return file;
 }
 
 WordRecognizer WordRecognizer::from_model_file(const ModelFile& file) {
   if (file.kind() != kKind) {
-    fail(ErrorKind::format, file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
+    fail(ErrorKind::format,
+         file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
   }
   WordRecognizerOptions options;
   detail::visit_word(detail::FieldReader{file}, options);
   WordRecognizer result(options, sorted_labels(file.text_list("labels")));
-  if (result.labels_ != file.text_list("labels")) fail(ErrorKind::format, file.name() + ": labels are not sorted");
+  if (result.labels_ != file.text_list("labels"))
+    fail(ErrorKind::format, file.name() + ": labels are not sorted");
   result.calibration_ = Calibration::read(file);
   for (std::size_t s = 0; s < result.streams_.size(); ++s) {
     WordStream& stream = result.streams_[s];
-    stream.models.read(file, stream_prefix(s), static_cast<int>(result.labels_.size()), stream.cepstra.num_features());
+    stream.models.read(file, stream_prefix(s), static_cast<int>(result.labels_.size()),
+                       stream.cepstra.num_features());
   }
   return result;
 }

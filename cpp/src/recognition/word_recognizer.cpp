@@ -9,7 +9,8 @@
 
 namespace hri {
 
-WordRecognizer::WordRecognizer(const WordRecognizerOptions& options, std::vector<std::string> labels)
+WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
+                               std::vector<std::string> labels)
     : options_(options), labels_(std::move(labels)) {
   streams_.push_back({CepstraComputer(options.cepstra), SequenceModels(options.models)});
   if (options.level_stream) {
@@ -28,7 +29,8 @@ std::vector<float> WordRecognizer::locate(Span<const float> samples, int sample_
   } else {
     word = resample(samples, sample_rate_hz, rate);
     if (notes != nullptr) {
-      notes->push_back("resampled from " + std::to_string(sample_rate_hz) + " to " + std::to_string(rate) + " Hz");
+      notes->push_back("resampled from " + std::to_string(sample_rate_hz) + " to " +
+                       std::to_string(rate) + " Hz");
     }
   }
   const SpeechBounds bounds = find_speech(word, rate, options_.activity);
@@ -55,7 +57,8 @@ VectorF WordRecognizer::score(const std::vector<MatrixF>& frames) const {
 
 float WordRecognizer::evidence(const std::vector<MatrixF>& frames, const VectorF& scores) const {
   float garbage = 0;
-  for (std::size_t s = 0; s < streams_.size(); ++s) garbage += streams_[s].models.garbage_score(frames[s]);
+  for (std::size_t s = 0; s < streams_.size(); ++s)
+    garbage += streams_[s].models.garbage_score(frames[s]);
   return (scores.maxCoeff() - garbage) / static_cast<float>(frames.front().rows());
 }
 
@@ -80,6 +83,8 @@ Decision WordRecognizer::recognise(Span<const float> samples, int sample_rate_hz
 
 void WordRecognizer::save(const std::string& path) const { to_model_file().write(path); }
 
-WordRecognizer WordRecognizer::load(const std::string& path) { return from_model_file(ModelFile::read(path)); }
+WordRecognizer WordRecognizer::load(const std::string& path) {
+  return from_model_file(ModelFile::read(path));
+}
 
 }  // namespace hri

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Training of WordRecognizer: frames of every sample and of its frequency-warped copies, models without each fold of
-// speakers for the calibration, then the models that are kept.
+// Training of WordRecognizer: frames of every sample and of its frequency-warped copies, models
+// without each fold of speakers for the calibration, then the models that are kept.
 #include <algorithm>
 #include <utility>
 
@@ -43,7 +43,8 @@ std::vector<std::string> labels_of(const std::vector<WordSample>& samples) {
 
 class WordTrainer {
  public:
-  WordTrainer(const std::vector<WordSample>& samples, const WordRecognizerOptions& options, StopCheck should_stop)
+  WordTrainer(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
+              StopCheck should_stop)
       : result_(options, labels_of(samples)), should_stop_(std::move(should_stop)) {
     for (const double factor : warp_factors(options)) {
       WordRecognizerOptions warped = options;
@@ -81,12 +82,14 @@ class WordTrainer {
     if (should_stop_ && should_stop_()) fail(ErrorKind::interrupted, "training interrupted");
     for (std::size_t i = 0; i < sample.samples.size(); ++i) {
       if (!(sample.samples[i] - sample.samples[i] == 0)) {
-        fail(ErrorKind::invalid_argument,
-             "sample " + std::to_string(index) + ": audio is not finite at index " + std::to_string(i));
+        fail(ErrorKind::invalid_argument, "sample " + std::to_string(index) +
+                                              ": audio is not finite at index " +
+                                              std::to_string(i));
       }
     }
     const std::vector<float> word = result_.locate(sample.samples, sample.sample_rate_hz, nullptr);
-    if (word.empty()) return;  // nobody speaks; a label without any word is refused in train_without
+    if (word.empty())
+      return;  // nobody speaks; a label without any word is refused in train_without
     Prepared p;
     p.label = label_index(result_.labels_, sample.label);
     p.group = sample.group;
@@ -110,18 +113,21 @@ class WordTrainer {
     return num_folds;
   }
 
-  // Trains every stream on all folds but `left_out` (-1 leaves nothing out). False when a class would be empty.
+  // Trains every stream on all folds but `left_out` (-1 leaves nothing out). False when a class
+  // would be empty.
   bool train_without(int left_out) {
     for (std::size_t s = 0; s < result_.streams_.size(); ++s) {
       std::vector<std::vector<MatrixF>> per_label(result_.labels_.size());
       for (const Prepared& p : prepared_) {
         if (p.fold == left_out) continue;
-        for (const auto& streams : p.warped) per_label[static_cast<std::size_t>(p.label)].push_back(streams[s]);
+        for (const auto& streams : p.warped)
+          per_label[static_cast<std::size_t>(p.label)].push_back(streams[s]);
       }
       for (std::size_t c = 0; c < per_label.size(); ++c) {
         if (!per_label[c].empty()) continue;
         if (left_out >= 0) return false;
-        fail(ErrorKind::invalid_argument, "label '" + result_.labels_[c] + "': no sample with speech in it");
+        fail(ErrorKind::invalid_argument,
+             "label '" + result_.labels_[c] + "': no sample with speech in it");
       }
       result_.streams_[s].models.train(per_label, should_stop_);
     }
@@ -143,11 +149,15 @@ class WordTrainer {
   std::vector<Prepared> prepared_;
 };
 
-WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
-                                     const TrainingProgress& progress, const StopCheck& should_stop) {
-  require(options.num_warps == 1 || options.num_warps == 3 || options.num_warps == 5, "num_warps must be 1, 3 or 5");
+WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
+                                     const WordRecognizerOptions& options,
+                                     const TrainingProgress& progress,
+                                     const StopCheck& should_stop) {
+  require(options.num_warps == 1 || options.num_warps == 3 || options.num_warps == 5,
+          "num_warps must be 1, 3 or 5");
   require(options.warp_step >= 0 && options.warp_step <= 0.2, "warp_step must lie in 0..0.2");
-  require(options.false_reject_rate >= 0 && options.false_reject_rate <= 0.5, "false_reject_rate must lie in 0..0.5");
+  require(options.false_reject_rate >= 0 && options.false_reject_rate <= 0.5,
+          "false_reject_rate must lie in 0..0.5");
   WordRecognizerOptions used = options;
   used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);
   return WordTrainer(samples, used, should_stop).run(samples, progress);

@@ -41,9 +41,10 @@ std::ptrdiff_t extended_index(std::ptrdiff_t i, std::ptrdiff_t n, Border border)
 
 // out[k] = sum_j taps[j] x[2 k + offset - j] for both filters at once.
 template <class T>
-inline void convolve_pairs(const T* x, const T* low, const T* high, std::size_t num_taps, std::size_t count, T* approx,
-                           T* detail) {
-  // Eight outputs side by side: the inner loops run over outputs, which vectorises for every filter length.
+inline void convolve_pairs(const T* x, const T* low, const T* high, std::size_t num_taps,
+                           std::size_t count, T* approx, T* detail) {
+  // Eight outputs side by side: the inner loops run over outputs, which vectorises for every filter
+  // length.
   constexpr std::size_t kBlock = 8;
   std::size_t k = 0;
   for (; k + kBlock <= count; k += kBlock) {
@@ -73,23 +74,23 @@ inline void convolve_pairs(const T* x, const T* low, const T* high, std::size_t 
 }
 
 HRI_SIMD_CLONES
-void convolve_float(const float* x, const float* low, const float* high, std::size_t num_taps, std::size_t count,
-                    float* approx, float* detail) {
+void convolve_float(const float* x, const float* low, const float* high, std::size_t num_taps,
+                    std::size_t count, float* approx, float* detail) {
   convolve_pairs(x, low, high, num_taps, count, approx, detail);
 }
 
 HRI_SIMD_CLONES
-void convolve_double(const double* x, const double* low, const double* high, std::size_t num_taps, std::size_t count,
-                     double* approx, double* detail) {
+void convolve_double(const double* x, const double* low, const double* high, std::size_t num_taps,
+                     std::size_t count, double* approx, double* detail) {
   convolve_pairs(x, low, high, num_taps, count, approx, detail);
 }
 
-void convolve(const float* x, const float* low, const float* high, std::size_t num_taps, std::size_t count,
-              float* approx, float* detail) {
+void convolve(const float* x, const float* low, const float* high, std::size_t num_taps,
+              std::size_t count, float* approx, float* detail) {
   convolve_float(x, low, high, num_taps, count, approx, detail);
 }
-void convolve(const double* x, const double* low, const double* high, std::size_t num_taps, std::size_t count,
-              double* approx, double* detail) {
+void convolve(const double* x, const double* low, const double* high, std::size_t num_taps,
+              std::size_t count, double* approx, double* detail) {
   convolve_double(x, low, high, num_taps, count, approx, detail);
 }
 
@@ -110,9 +111,11 @@ void dwt(Span<const T> x, const Wavelet& wavelet, Border border, Span<T> approx,
   const std::size_t taps = wavelet.dec_lo.size();
   const std::size_t count = dwt_length(x.size(), taps, border);
   require(!x.empty(), "signal must not be empty");
-  require(approx.size() == count && detail.size() == count, "approx and detail must have dwt_length() values");
+  require(approx.size() == count && detail.size() == count,
+          "approx and detail must have dwt_length() values");
   // Output k reads positions 2 k + shift - (taps - 1) .. 2 k + shift of the signal.
-  const std::ptrdiff_t shift = border == Border::periodization ? static_cast<std::ptrdiff_t>(taps / 2) : 1;
+  const std::ptrdiff_t shift =
+      border == Border::periodization ? static_cast<std::ptrdiff_t>(taps / 2) : 1;
   const std::ptrdiff_t first = shift - static_cast<std::ptrdiff_t>(taps) + 1;
   const auto n = static_cast<std::ptrdiff_t>(x.size());
   thread_local std::vector<T> extended;
@@ -135,14 +138,17 @@ void dwt(Span<const T> x, const Wavelet& wavelet, Border border, Span<T> approx,
 }
 
 template <class T>
-void idwt(Span<const T> approx, Span<const T> detail, const Wavelet& wavelet, Border border, Span<T> x) {
+void idwt(Span<const T> approx, Span<const T> detail, const Wavelet& wavelet, Border border,
+          Span<T> x) {
   const auto taps = static_cast<std::ptrdiff_t>(wavelet.rec_lo.size());
   const auto count = static_cast<std::ptrdiff_t>(approx.size());
-  require(count > 0 && detail.size() == approx.size(), "approx and detail must have the same size, at least 1");
+  require(count > 0 && detail.size() == approx.size(),
+          "approx and detail must have the same size, at least 1");
   const bool wrap = border == Border::periodization;
   const std::ptrdiff_t full = wrap ? 2 * count : 2 * count - taps + 2;
   const auto size = static_cast<std::ptrdiff_t>(x.size());
-  require(full > 0 && (size == full || size == full - 1), "x does not fit the number of coefficients");
+  require(full > 0 && (size == full || size == full - 1),
+          "x does not fit the number of coefficients");
   const std::ptrdiff_t shift = wrap ? taps / 2 - 1 : taps - 2;
   std::fill(x.begin(), x.end(), T(0));
   // x[i] collects rec[j] c[k] where 2 k + j - shift = i, around the end for periodization.
@@ -151,16 +157,18 @@ void idwt(Span<const T> approx, Span<const T> detail, const Wavelet& wavelet, Bo
       std::ptrdiff_t i = 2 * k + j - shift;
       if (wrap) i = ((i % full) + full) % full;
       if (i < 0 || i >= size) continue;
-      x[static_cast<std::size_t>(i)] += static_cast<T>(wavelet.rec_lo[static_cast<std::size_t>(j)]) *
-                                            approx[static_cast<std::size_t>(k)] +
-                                        static_cast<T>(wavelet.rec_hi[static_cast<std::size_t>(j)]) *
-                                            detail[static_cast<std::size_t>(k)];
+      x[static_cast<std::size_t>(i)] +=
+          static_cast<T>(wavelet.rec_lo[static_cast<std::size_t>(j)]) *
+              approx[static_cast<std::size_t>(k)] +
+          static_cast<T>(wavelet.rec_hi[static_cast<std::size_t>(j)]) *
+              detail[static_cast<std::size_t>(k)];
     }
   }
 }
 
 template <class T>
-WaveletDecomposition<T> wavedec(Span<const T> x, const Wavelet& wavelet, Border border, int num_levels) {
+WaveletDecomposition<T> wavedec(Span<const T> x, const Wavelet& wavelet, Border border,
+                                int num_levels) {
   require(num_levels >= 1 && num_levels <= 62, "num_levels must lie in 1..62");
   WaveletDecomposition<T> result;
   result.num_samples = x.size();
@@ -178,7 +186,8 @@ WaveletDecomposition<T> wavedec(Span<const T> x, const Wavelet& wavelet, Border 
 }
 
 template <class T>
-std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavelet& wavelet, Border border) {
+std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavelet& wavelet,
+                       Border border) {
   const auto& c = decomposition.coefficients;
   require(c.size() >= 2, "a decomposition needs an approximation and at least one detail");
   std::vector<T> approx = c.front();
@@ -186,7 +195,8 @@ std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavel
   for (std::size_t level = 1; level < c.size(); ++level) {
     const std::vector<T>& detail = c[level];
     approx.resize(detail.size());  // one coefficient too many where the signal above had odd length
-    const std::size_t full = border == Border::periodization ? 2 * detail.size() : 2 * detail.size() + 2 - taps;
+    const std::size_t full =
+        border == Border::periodization ? 2 * detail.size() : 2 * detail.size() + 2 - taps;
     std::vector<T> above(full);
     idwt<T>(Span<const T>(approx), Span<const T>(detail), wavelet, border, Span<T>(above));
     approx = std::move(above);
@@ -195,10 +205,10 @@ std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavel
   return approx;
 }
 
-#define HRI_INSTANTIATE_DWT(T)                                                                        \
-  template void dwt<T>(Span<const T>, const Wavelet&, Border, Span<T>, Span<T>);                       \
-  template void idwt<T>(Span<const T>, Span<const T>, const Wavelet&, Border, Span<T>);                \
-  template WaveletDecomposition<T> wavedec<T>(Span<const T>, const Wavelet&, Border, int);             \
+#define HRI_INSTANTIATE_DWT(T)                                                             \
+  template void dwt<T>(Span<const T>, const Wavelet&, Border, Span<T>, Span<T>);           \
+  template void idwt<T>(Span<const T>, Span<const T>, const Wavelet&, Border, Span<T>);    \
+  template WaveletDecomposition<T> wavedec<T>(Span<const T>, const Wavelet&, Border, int); \
   template std::vector<T> waverec<T>(const WaveletDecomposition<T>&, const Wavelet&, Border);
 HRI_INSTANTIATE_DWT(float)
 HRI_INSTANTIATE_DWT(double)

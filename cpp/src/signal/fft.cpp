@@ -28,7 +28,8 @@ RealFft::RealFft(int size) : size_(size) {
 }
 
 void RealFft::forward(Span<const float> in, Span<std::complex<float>> out) const {
-  require(in.size() == static_cast<std::size_t>(size_) && out.size() == static_cast<std::size_t>(num_bins()),
+  require(in.size() == static_cast<std::size_t>(size_) &&
+              out.size() == static_cast<std::size_t>(num_bins()),
           "FFT input must have size() values, output num_bins()");
   workspace().fft.fwd(out.data(), in.data(), size_);
 }

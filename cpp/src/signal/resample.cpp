@@ -12,9 +12,9 @@ namespace hri {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kKaiserBeta = 7.0;    // about 70 dB of stop band
-constexpr int kZeroCrossings = 32;     // on each side, at the lower rate
-constexpr double kPassBand = 0.95;     // cut-off as a share of the lower Nyquist rate
+constexpr double kKaiserBeta = 7.0;  // about 70 dB of stop band
+constexpr int kZeroCrossings = 32;   // on each side, at the lower rate
+constexpr double kPassBand = 0.95;   // cut-off as a share of the lower Nyquist rate
 
 // Modified Bessel function of the first kind, order 0, by its power series.
 double bessel_i0(double x) {
@@ -39,15 +39,18 @@ double kernel(double t, double half_width, double cutoff) {
 
 std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz) {
   if (from_hz < 1000 || from_hz > 384000 || to_hz < 1000 || to_hz > 384000) {
-    fail(ErrorKind::invalid_argument, "sample rates must lie in 1000..384000 Hz, got " + std::to_string(from_hz) +
-                                          " and " + std::to_string(to_hz));
+    fail(ErrorKind::invalid_argument, "sample rates must lie in 1000..384000 Hz, got " +
+                                          std::to_string(from_hz) + " and " +
+                                          std::to_string(to_hz));
   }
   if (from_hz == to_hz) return {samples.begin(), samples.end()};
   const std::int64_t common = std::gcd(from_hz, to_hz);
   const std::int64_t up = to_hz / common;
   const std::int64_t down = from_hz / common;
-  // Time is counted in input samples; the cut-off falls with the output rate when that is the lower one.
-  const double cutoff = kPassBand * std::min(1.0, static_cast<double>(up) / static_cast<double>(down));
+  // Time is counted in input samples; the cut-off falls with the output rate when that is the lower
+  // one.
+  const double cutoff =
+      kPassBand * std::min(1.0, static_cast<double>(up) / static_cast<double>(down));
   const double half_width = kZeroCrossings / cutoff;
   const auto reach = static_cast<std::int64_t>(half_width);
   const std::int64_t taps = 2 * reach + 2;
@@ -71,7 +74,8 @@ std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz) {
     const std::int64_t begin = std::max<std::int64_t>(0, -first);
     const std::int64_t end = std::min(taps, num_in - first);
     float sum = 0;
-    for (std::int64_t k = begin; k < end; ++k) sum += row[k] * samples[static_cast<std::size_t>(first + k)];
+    for (std::int64_t k = begin; k < end; ++k)
+      sum += row[k] * samples[static_cast<std::size_t>(first + k)];
     out[static_cast<std::size_t>(n)] = sum;
   }
   return out;

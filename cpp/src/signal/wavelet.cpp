@@ -43,7 +43,8 @@ const Wavelet& wavelet(std::string_view name) {
     if (w.name == name) return w;
     known += (known.empty() ? "" : ", ") + w.name;
   }
-  fail(ErrorKind::invalid_argument, "unknown wavelet '" + std::string(name) + "'; there are: " + known);
+  fail(ErrorKind::invalid_argument,
+       "unknown wavelet '" + std::string(name) + "'; there are: " + known);
 }
 
 std::vector<std::string> wavelet_names() {

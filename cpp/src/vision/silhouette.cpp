@@ -21,7 +21,8 @@ struct Split {
 
 Split split_by_otsu(const cv::Mat& channel, bool bright_is_hand) {
   Split s;
-  cv::threshold(channel, s.mask, 0, 255, cv::THRESH_OTSU | (bright_is_hand ? cv::THRESH_BINARY : cv::THRESH_BINARY_INV));
+  cv::threshold(channel, s.mask, 0, 255,
+                cv::THRESH_OTSU | (bright_is_hand ? cv::THRESH_BINARY : cv::THRESH_BINARY_INV));
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(channel, mean, deviation);
@@ -65,7 +66,8 @@ Split split(const cv::Mat& bgr, SilhouetteMethod method) {
   return split_by_otsu(grey, false);
 }
 
-// How well a region fills the ellipse that has its moments: 1 for an ellipse, less for a hand with fingers.
+// How well a region fills the ellipse that has its moments: 1 for an ellipse, less for a hand with
+// fingers.
 double ellipticity(const cv::Mat& labels, int label, const cv::Rect& box) {
   const cv::Mat region = labels(box) == label;
   const cv::Moments m = cv::moments(region, true);
@@ -78,9 +80,11 @@ double ellipticity(const cv::Mat& labels, int label, const cv::Rect& box) {
   const double minor = 2 * std::sqrt(std::max(0.0, (a + c - root) / 2));
   const double angle = 0.5 * std::atan2(2 * b, a - c) * 180.0 / CV_PI;
   cv::Mat ellipse = cv::Mat::zeros(region.size(), CV_8U);
-  cv::ellipse(ellipse, cv::RotatedRect(cv::Point2f(static_cast<float>(m.m10 / m.m00), static_cast<float>(m.m01 / m.m00)),
-                                       cv::Size2f(static_cast<float>(2 * major), static_cast<float>(2 * minor)),
-                                       static_cast<float>(angle)),
+  cv::ellipse(ellipse,
+              cv::RotatedRect(
+                  cv::Point2f(static_cast<float>(m.m10 / m.m00), static_cast<float>(m.m01 / m.m00)),
+                  cv::Size2f(static_cast<float>(2 * major), static_cast<float>(2 * minor)),
+                  static_cast<float>(angle)),
               cv::Scalar(255), cv::FILLED);
   const double both = cv::countNonZero(region & ellipse);
   const double any = cv::countNonZero(region | ellipse);
@@ -109,7 +113,8 @@ int hand_label(const cv::Mat& labels, const cv::Mat& stats, const SilhouetteOpti
   double best = -1;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const int* s = stats.ptr<int>(candidates[i]);
-    const cv::Rect box(s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]);
+    const cv::Rect box(s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH],
+                       s[cv::CC_STAT_HEIGHT]);
     const double likeness = ellipticity(labels, candidates[i], box);
     if (likeness > best) {
       best = likeness;
@@ -129,20 +134,25 @@ GreyImage copy_of(const cv::Mat& m) {
 }  // namespace
 
 SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options) : options_(options) {
-  require(options.max_side_px >= 32 && options.max_side_px <= 4096, "max_side_px must lie in 32..4096");
-  require(options.blur_px >= 1 && options.blur_px <= 31 && options.blur_px % 2 == 1, "blur_px must be odd, 1..31");
-  require(options.min_contrast >= 0 && options.min_contrast <= 255, "min_contrast must lie in 0..255");
+  require(options.max_side_px >= 32 && options.max_side_px <= 4096,
+          "max_side_px must lie in 32..4096");
+  require(options.blur_px >= 1 && options.blur_px <= 31 && options.blur_px % 2 == 1,
+          "blur_px must be odd, 1..31");
+  require(options.min_contrast >= 0 && options.min_contrast <= 255,
+          "min_contrast must lie in 0..255");
   require(options.min_area >= 0 && options.min_area <= options.max_area && options.max_area <= 1,
           "min_area and max_area must lie in 0..1, min_area not above max_area");
 }
 
 Silhouette SilhouetteExtractor::extract(ImageView bgr) const {
-  require(!bgr.empty() && bgr.channels == 3, "picture must have three channels and at least one pixel");
+  require(!bgr.empty() && bgr.channels == 3,
+          "picture must have three channels and at least one pixel");
   // OpenCV has no read-only header; the pixels are only read.
   const cv::Mat source(bgr.height_px, bgr.width_px, CV_8UC3, const_cast<std::uint8_t*>(bgr.data),
                        static_cast<std::size_t>(bgr.stride_bytes));
   cv::Mat small;
-  const double scale = options_.max_side_px / static_cast<double>(std::max(bgr.width_px, bgr.height_px));
+  const double scale =
+      options_.max_side_px / static_cast<double>(std::max(bgr.width_px, bgr.height_px));
   if (scale < 1) {
     cv::resize(source, small, cv::Size(), scale, scale, cv::INTER_AREA);
   } else {

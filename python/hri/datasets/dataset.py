@@ -112,9 +112,7 @@ class Dataset:
         """All persons, each once, in natural order; empty when they are not known."""
         return sorted({s.person for s in self.samples if s.person}, key=natural_key)
 
-    def select(
-        self, labels: Collection[str] | None = None, persons: Collection[str] | None = None
-    ) -> Dataset:
+    def select(self, labels: Collection[str] | None = None, persons: Collection[str] | None = None) -> Dataset:
         """The part with these labels and these persons (None: all).
 
         Raises
@@ -129,8 +127,7 @@ class Dataset:
             samples=[
                 sample
                 for sample in self.samples
-                if (labels is None or sample.label in labels)
-                and (persons is None or sample.person in persons)
+                if (labels is None or sample.label in labels) and (persons is None or sample.person in persons)
             ],
         )
 
@@ -159,9 +156,7 @@ def _load_pattern(root: Path, kind: str, pattern: Pattern) -> Dataset:
             samples.append(Sample(path, fields.label, fields.person, fields.take))
     if not samples:
         example = f", for example {ignored[0].relative_to(root).as_posix()}" if ignored else ""
-        raise FormatError(
-            f"{root}: none of its {len(ignored)} {kind} files fits {pattern.text!r}{example}"
-        )
+        raise FormatError(f"{root}: none of its {len(ignored)} {kind} files fits {pattern.text!r}{example}")
     return Dataset(root, kind, samples, pattern.text, ignored=ignored)
 
 
@@ -178,9 +173,7 @@ def _load_manifest(root: Path, kind: str | None, path: Path) -> Dataset:
     if manifest.labels:
         for place, sample in zip(places, dataset.samples, strict=True):
             if sample.label not in manifest.labels:
-                raise FormatError(
-                    f"{path}: {place}: label {sample.label!r} is not in labels {manifest.labels}"
-                )
+                raise FormatError(f"{path}: {place}: label {sample.label!r} is not in labels {manifest.labels}")
     return replace(dataset, synthetic=manifest.synthetic)
 
 

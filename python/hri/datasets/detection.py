@@ -27,9 +27,7 @@ COMMON_PATTERNS = (
     "{person}/{label}",
     "{label}/{take}",
 )
-_PERSON_NAME = re.compile(
-    r"(person|speaker|signer|subject|user|actor|participant|p|s)[-_]?\d+", re.I
-)
+_PERSON_NAME = re.compile(r"(person|speaker|signer|subject|user|actor|participant|p|s)[-_]?\d+", re.I)
 _TAKE_NAME = re.compile(r"(take|t|sample|clip|img|image|frame|rec)?[-_]?\d+", re.I)
 
 
@@ -48,9 +46,7 @@ def media_files(root: Path, kind: str) -> list[Path]:
 def natural_key(text: str) -> list[tuple[int, int, str]]:
     """Sort key that counts numbers as numbers."""
     return [
-        (0, int(piece), piece) if piece.isdecimal() else (1, 0, piece)
-        for piece in re.split(r"(\d+)", text)
-        if piece
+        (0, int(piece), piece) if piece.isdecimal() else (1, 0, piece) for piece in re.split(r"(\d+)", text) if piece
     ]
 
 
@@ -140,6 +136,4 @@ def _refuse_ambiguous(root: Path, pattern: Pattern, names: Sequence[str]) -> Non
     numbered = all(re.fullmatch(r"[^\W\d]+[-_]?\d+", take) for take in next(iter(takes.values())))
     if same_everywhere and not numbered:
         other = pattern.text.replace("{label}/{take}", "{person}/{label}")
-        raise FormatError(
-            f"{root}: {names[0]} may be {pattern.text} or {other}; say which by pattern='...'"
-        )
+        raise FormatError(f"{root}: {names[0]} may be {pattern.text} or {other}; say which by pattern='...'")

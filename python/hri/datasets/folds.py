@@ -55,9 +55,7 @@ def split_by_person(persons: Sequence[str], num_folds: int | None, seed: int) ->
     if num_folds is None:
         return [_fold(name, persons, {name}) for name in names]
     if not 2 <= num_folds <= len(names):
-        raise InvalidArgument(
-            f"num_folds is {num_folds}, must be 2..{len(names)} (the number of persons)"
-        )
+        raise InvalidArgument(f"num_folds is {num_folds}, must be 2..{len(names)} (the number of persons)")
     order = np.random.default_rng(seed).permutation(len(names))
     groups = [sorted(names[i] for i in order[start::num_folds]) for start in range(num_folds)]
     return [_fold(_group_name(group, part, num_folds), persons, set(group)) for part, group in enumerate(groups)]
@@ -77,9 +75,7 @@ def split_stratified(labels: Sequence[str], num_folds: int, seed: int) -> list[F
     for label in sorted(set(labels)):
         members = np.flatnonzero([other == label for other in labels])
         if not 2 <= num_folds <= len(members):
-            raise InvalidArgument(
-                f"num_folds is {num_folds}, must be 2..{len(members)} (samples of label {label!r})"
-            )
+            raise InvalidArgument(f"num_folds is {num_folds}, must be 2..{len(members)} (samples of label {label!r})")
         fold_of[rng.permutation(members)] = (next_fold + np.arange(len(members))) % num_folds
         next_fold = (next_fold + len(members)) % num_folds
     return [

@@ -95,9 +95,7 @@ def read_manifest(path: Path) -> Manifest:
         _require_type(value, _TOP_KEYS[key], f"{path}: {key}")
     version = data.get("format_version", FORMAT_VERSION)
     if not 1 <= version <= FORMAT_VERSION:
-        raise FormatError(
-            f"{path}: format_version is {version}, this program reads up to {FORMAT_VERSION}"
-        )
+        raise FormatError(f"{path}: format_version is {version}, this program reads up to {FORMAT_VERSION}")
     if data.get("kind") not in KINDS:
         raise FormatError(f"{path}: kind is {data.get('kind')!r}, must be one of {KINDS}")
     for index, label in enumerate(data.get("labels", []), start=1):
@@ -181,9 +179,7 @@ def write_manifest(path: Path, manifest: Manifest) -> None:
         lines += [f"{_toml(key)} = {_toml(value)}" for key, value in manifest.made_by.items()]
     for row in manifest.rows:
         lines += ["", "[[samples]]"]
-        lines += [
-            f"{key} = {_toml(getattr(row, key))}" for key in _SAMPLE_KEYS if getattr(row, key)
-        ]
+        lines += [f"{key} = {_toml(getattr(row, key))}" for key in _SAMPLE_KEYS if getattr(row, key)]
     part = path.with_name(f".{path.name}.part")
     try:
         part.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -67,9 +67,7 @@ def _compile(text: str) -> re.Pattern[str]:
     for name in names:
         if name not in PLACEHOLDERS:
             known = ", ".join("{" + known + "}" for known in PLACEHOLDERS)
-            raise InvalidArgument(
-                f"pattern {text!r}: unknown placeholder {{{name}}}; known are {known}"
-            )
+            raise InvalidArgument(f"pattern {text!r}: unknown placeholder {{{name}}}; known are {known}")
     if "label" not in names:
         raise InvalidArgument(f"pattern {text!r}: needs a {{label}} placeholder")
     if any(brace in literal for literal in literals for brace in "{}"):
@@ -84,9 +82,7 @@ def _compile(text: str) -> re.Pattern[str]:
     for index, name in enumerate(names):
         following = literals[index + 1]
         if following == "" and index + 1 < len(names):
-            raise InvalidArgument(
-                f"pattern {text!r}: nothing between {{{name}}} and {{{names[index + 1]}}}"
-            )
+            raise InvalidArgument(f"pattern {text!r}: nothing between {{{name}}} and {{{names[index + 1]}}}")
         expression += re.escape(body[index])
         if name in seen:
             expression += f"(?P={name})"

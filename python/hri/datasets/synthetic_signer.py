@@ -119,9 +119,7 @@ def draw_clip(
     """
     width, height = size_px
     if width < 64 or height < 64 or num_frames < 3:
-        raise InvalidArgument(
-            f"size_px is {size_px} and num_frames {num_frames}, must be at least (64, 64) and 3"
-        )
+        raise InvalidArgument(f"size_px is {size_px} and num_frames {num_frames}, must be at least (64, 64) and 3")
     cv2 = import_opencv("to draw signs")
     rng = _generator(signer, label, take, seed, 2)
     sharp = 2 if height <= 300 else 1
@@ -187,9 +185,7 @@ def make_gesture_corpus(
     """
     labels = list(dict.fromkeys(labels))
     if not labels or num_persons < 1 or takes < 1:
-        raise InvalidArgument(
-            f"labels is {labels}, num_persons {num_persons}, takes {takes}; need at least one each"
-        )
+        raise InvalidArgument(f"labels is {labels}, num_persons {num_persons}, takes {takes}; need at least one each")
     if kind not in ("still", "clip"):
         raise InvalidArgument(f"kind is {kind!r}, must be 'still' or 'clip'")
     for label in labels:

@@ -92,9 +92,7 @@ def make_speaker(index: int, seed: int = 0) -> Speaker:
     )
 
 
-def speak(
-    text: str, language: str = "en", speaker: Speaker | None = None, take: int = 0, seed: int = 0
-) -> Audio:
+def speak(text: str, language: str = "en", speaker: Speaker | None = None, take: int = 0, seed: int = 0) -> Audio:
     """Say a word; the same arguments and the same espeak-ng give the same samples.
 
     Parameters
@@ -208,15 +206,11 @@ def make_speech_corpus(
         When espeak-ng is not installed or a file cannot be written.
     """
     if num_speakers < 1 or takes < 1:
-        raise InvalidArgument(
-            f"num_speakers is {num_speakers} and takes {takes}, both must be at least 1"
-        )
+        raise InvalidArgument(f"num_speakers is {num_speakers} and takes {takes}, both must be at least 1")
     spoken = [
         (label, language, text)
         for language, table in (DIGIT_WORDS if words is None else words).items()
-        for label, text in (
-            table if isinstance(table, Mapping) else {word: word for word in table}
-        ).items()
+        for label, text in (table if isinstance(table, Mapping) else {word: word for word in table}).items()
     ]
     if not spoken:
         raise InvalidArgument("words is empty")

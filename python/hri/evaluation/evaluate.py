@@ -196,7 +196,5 @@ class _GestureRunner:
             progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
         )
         tested = self._exposed or self._plain
-        trials = tuple(
-            Trial(i, self._samples[i].label, recognizer.recognise_features(tested[i])) for i in fold.test
-        )
+        trials = tuple(Trial(i, self._samples[i].label, recognizer.recognise_features(tested[i])) for i in fold.test)
         return FoldResult(fold.name, trials)

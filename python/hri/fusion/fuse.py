@@ -68,12 +68,8 @@ def _has_input(decision: Decision | None) -> bool:
     return decision is not None and decision.status != NO_INPUT and len(decision.nbest) > 0
 
 
-def _as_decided(
-    decision: Decision, rule: str, speech: Decision | None, gesture: Decision | None
-) -> FusedDecision:
-    return FusedDecision(
-        decision.label, decision.status, decision.confidence, rule, decision.nbest, speech, gesture
-    )
+def _as_decided(decision: Decision, rule: str, speech: Decision | None, gesture: Decision | None) -> FusedDecision:
+    return FusedDecision(decision.label, decision.status, decision.confidence, rule, decision.nbest, speech, gesture)
 
 
 def _winner(decision: Decision, rule: str, speech: Decision, gesture: Decision) -> FusedDecision:
@@ -105,9 +101,7 @@ def _table_6_9(speech: Decision, gesture: Decision, options: FusionOptions) -> F
 
 def _by_vectors(speech: Decision, gesture: Decision, rule: str, options: FusionOptions) -> FusedDecision:
     labels = sorted({n.label for n in speech.nbest} | {n.label for n in gesture.nbest})
-    fused = _VECTOR_RULES[rule](
-        vectors.probabilities(speech, labels), vectors.probabilities(gesture, labels), options
-    )
+    fused = _VECTOR_RULES[rule](vectors.probabilities(speech, labels), vectors.probabilities(gesture, labels), options)
     nbest = vectors.ranked(fused)
     name = rule.replace("_", " ") + " of both score vectors"
     return FusedDecision(nbest[0].label, RECOGNISED, nbest[0].probability, name, nbest, speech, gesture)

@@ -48,9 +48,7 @@ class FusionOptions:
             if not getattr(self, name) > 0:
                 raise InvalidArgument(f"FusionOptions.{name} must be positive, got {getattr(self, name)}")
         if not 0 <= self.probability_floor <= 0.1:
-            raise InvalidArgument(
-                f"FusionOptions.probability_floor must lie in 0..0.1, got {self.probability_floor}"
-            )
+            raise InvalidArgument(f"FusionOptions.probability_floor must lie in 0..0.1, got {self.probability_floor}")
 
 
 @dataclass(frozen=True)

@@ -20,9 +20,7 @@ def probabilities(decision: Decision, labels: list[str]) -> Probabilities:
 
 def weighted_sum(speech: Probabilities, gesture: Probabilities, options: FusionOptions) -> Probabilities:
     """w_s P_s(c) + w_g P_g(c), scaled to sum 1."""
-    return _scaled(
-        {c: options.weight_speech * speech[c] + options.weight_gesture * gesture[c] for c in speech}
-    )
+    return _scaled({c: options.weight_speech * speech[c] + options.weight_gesture * gesture[c] for c in speech})
 
 
 def product(speech: Probabilities, gesture: Probabilities, options: FusionOptions) -> Probabilities:
@@ -37,9 +35,7 @@ def product(speech: Probabilities, gesture: Probabilities, options: FusionOption
     return _scaled({c: math.exp(v - top) for c, v in logs.items()})
 
 
-def dempster_shafer(
-    speech: Probabilities, gesture: Probabilities, options: FusionOptions
-) -> Probabilities:
+def dempster_shafer(speech: Probabilities, gesture: Probabilities, options: FusionOptions) -> Probabilities:
     """Dempster's rule on singletons and ignorance, by pignistic probability.
 
     A mode of reliability r gives mass r P(c) to each class and 1 - r to "any class". Masses of agreeing classes are
@@ -47,9 +43,7 @@ def dempster_shafer(
     """
     r_s, r_g = options.reliability_speech, options.reliability_gesture
     mass = {
-        c: r_s * speech[c] * r_g * gesture[c]
-        + r_s * speech[c] * (1 - r_g)
-        + (1 - r_s) * r_g * gesture[c]
+        c: r_s * speech[c] * r_g * gesture[c] + r_s * speech[c] * (1 - r_g) + (1 - r_s) * r_g * gesture[c]
         for c in speech
     }
     ignorance = (1 - r_s) * (1 - r_g)

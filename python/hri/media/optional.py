@@ -24,9 +24,7 @@ def import_optional(module: str, extra: str, purpose: str) -> Any:
     try:
         return import_module(module)
     except ImportError as error:
-        raise ImportError(
-            f"{module} is needed {purpose}: pip install libhri[{extra}] ({error})"
-        ) from error
+        raise ImportError(f"{module} is needed {purpose}: pip install libhri[{extra}] ({error})") from error
 
 
 def import_opencv(purpose: str) -> Any:

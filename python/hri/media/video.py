@@ -112,8 +112,7 @@ def _captured(capture: Any, path: Path, time_property: int) -> Iterator[tuple[Fr
         time_s = capture.get(time_property) / 1000.0
         if not time_s >= last_s:
             raise FormatError(
-                f"{path}: time runs backwards: frame {count} is at {time_s:g} s, "
-                f"the one before at {last_s:g} s"
+                f"{path}: time runs backwards: frame {count} is at {time_s:g} s, the one before at {last_s:g} s"
             )
         yield np.asarray(frame, dtype=np.uint8), time_s
         last_s = time_s

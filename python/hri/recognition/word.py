@@ -79,8 +79,7 @@ class WordRecognizer(Recognizer):
         speakers = [""] * len(X) if groups is None else [str(g) for g in groups]
         if not len(X) == len(y) == len(rates) == len(speakers):
             raise _native.InvalidArgument(
-                f"X, y, sample_rate_hz and groups differ in length: "
-                f"{len(X)}, {len(y)}, {len(rates)}, {len(speakers)}"
+                f"X, y, sample_rate_hz and groups differ in length: {len(X)}, {len(y)}, {len(rates)}, {len(speakers)}"
             )
         clips = [_as_audio(x, f"X[{i}]") for i, x in enumerate(X)]
         self._native = self._native_class.train(
@@ -97,9 +96,7 @@ class WordRecognizer(Recognizer):
         sample_rate_hz : int
             Another rate than the model's is resampled, and said so in ``Decision.notes``.
         """
-        return Decision.from_native(
-            self.mode, self._trained.recognise(_as_audio(audio, "audio"), sample_rate_hz)
-        )
+        return Decision.from_native(self.mode, self._trained.recognise(_as_audio(audio, "audio"), sample_rate_hz))
 
     def scores(self, audio: Audio, sample_rate_hz: int) -> NDArray[np.float32]:
         """Raw score of every class (natural log), shape (num_classes,), in the order of `classes_`."""

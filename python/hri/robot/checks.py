@@ -62,9 +62,7 @@ def require_safe(trajectory: Trajectory, table: JointTable = HOAP2) -> list[Find
     return findings
 
 
-def _check_joint(
-    joint: Joint, positions: NDArray[np.float64], period_s: float, max_speed: float
-) -> list[Finding]:
+def _check_joint(joint: Joint, positions: NDArray[np.float64], period_s: float, max_speed: float) -> list[Finding]:
     findings: list[Finding] = []
 
     def report(rows: NDArray[np.bool_], values: NDArray[np.float64], unit: str, text: str) -> None:
@@ -77,12 +75,8 @@ def _check_joint(
     finite = np.isfinite(positions)
     report(~finite, np.where(finite, 0.0, 1.0), "", "the position is not known")
     low, high = np.degrees((joint.lower_rad, joint.upper_rad))
-    beyond = (positions < joint.lower_rad - LIMIT_TOLERANCE_RAD) | (
-        positions > joint.upper_rad + LIMIT_TOLERANCE_RAD
-    )
-    report(
-        beyond, np.degrees(positions), "deg", f"{{value}} is outside {low:.1f} to {high:.1f} deg"
-    )
+    beyond = (positions < joint.lower_rad - LIMIT_TOLERANCE_RAD) | (positions > joint.upper_rad + LIMIT_TOLERANCE_RAD)
+    report(beyond, np.degrees(positions), "deg", f"{{value}} is outside {low:.1f} to {high:.1f} deg")
 
     window = max(1, round(SPEED_WINDOW_S / period_s))
     window = min(window, max(1, len(positions) - 1))
@@ -98,9 +92,7 @@ def _check_joint(
         for row in np.flatnonzero((np.abs(jumps) > max_speed) & ~in_fast[: len(jumps)]):
             value = f"{jumps[row]:.1f} rad/s"
             message = f"a jump of {value} to this row alone is {limit}"
-            findings.append(
-                Finding(int(row) + 2, joint.column, joint.name, value, message, "warning")
-            )
+            findings.append(Finding(int(row) + 2, joint.column, joint.name, value, message, "warning"))
     return findings
 
 

@@ -23,9 +23,7 @@ _SHADOW = 0.90  # of the floor's brightness
 Quads = NDArray[np.float64]  # (faces, 4 corners, 3), corners anticlockwise from outside
 
 
-def draw_robot(
-    poses: dict[str, Pose], table: JointTable, width: int, height: int
-) -> NDArray[np.uint8]:
+def draw_robot(poses: dict[str, Pose], table: JointTable, width: int, height: int) -> NDArray[np.uint8]:
     """Draw a robot from the front on its floor.
 
     Parameters
@@ -75,9 +73,7 @@ def draw_robot(
     return np.asarray(small, dtype=np.uint8)
 
 
-def _world_faces(
-    poses: dict[str, Pose], table: JointTable
-) -> tuple[Quads, NDArray[np.float64], NDArray[np.float64]]:
+def _world_faces(poses: dict[str, Pose], table: JointTable) -> tuple[Quads, NDArray[np.float64], NDArray[np.float64]]:
     """Faces of all links, their colours, and by how much to take them for nearer in the order."""
     quads, colours, nearer = [], [], []
     for link in (table.base, *(joint.link for joint in table.joints)):
@@ -128,9 +124,7 @@ def _capsule_faces(start: NDArray[np.float64], end: NDArray[np.float64], radius:
     profile = [(start, angle) for angle in angles[:half]]
     profile += [(start, 0.0), (end, 0.0)] if length > 0.0 else []
     profile += [(end, angle) for angle in angles[len(angles) - half :]]
-    rows = np.array(
-        [centre + radius * (np.cos(a) * ring + np.sin(a) * axis) for centre, a in profile]
-    )
+    rows = np.array([centre + radius * (np.cos(a) * ring + np.sin(a) * axis) for centre, a in profile])
     low, high = rows[:-1], rows[1:]
     faces = np.stack((low[:, :-1], low[:, 1:], high[:, 1:], high[:, :-1]), axis=2)
     return faces.reshape(-1, 4, 3)

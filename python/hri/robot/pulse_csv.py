@@ -55,9 +55,7 @@ def read_pulse_csv(path: str | PathLike[str], table: JointTable = HOAP2) -> Traj
     return trajectory_from_counts(period_s, counts, table)
 
 
-def write_pulse_csv(
-    path: str | PathLike[str], trajectory: Trajectory, table: JointTable = HOAP2
-) -> tuple[str, ...]:
+def write_pulse_csv(path: str | PathLike[str], trajectory: Trajectory, table: JointTable = HOAP2) -> tuple[str, ...]:
     """Write a motion; between whole milliseconds it is resampled to 1 ms rows by straight lines.
 
     Returns
@@ -137,9 +135,7 @@ def parse_pulse_csv(
     return float(period) / 1000.0 if not findings else 1.0, counts, findings[:_MOST_FINDINGS]
 
 
-def trajectory_from_counts(
-    period_s: float, counts: NDArray[np.float64], table: JointTable = HOAP2
-) -> Trajectory:
+def trajectory_from_counts(period_s: float, counts: NDArray[np.float64], table: JointTable = HOAP2) -> Trajectory:
     """Turn counts of `parse_pulse_csv` into radians; a joint without a command keeps its last."""
     first, _ = _counted_range(table)
     names, columns = [], []

@@ -60,15 +60,11 @@ class PyBulletRobot(Robot):
 
     def reset(self, positions_rad: Mapping[str, float]) -> None:
         for name, position in positions_rad.items():
-            self._bullet.resetJointState(
-                self._body, self._joints[name], position, physicsClientId=self._client
-            )
+            self._bullet.resetJointState(self._body, self._joints[name], position, physicsClientId=self._client)
         self._targets.update(positions_rad)
 
     def joint_positions_rad(self) -> dict[str, float]:
-        states = self._bullet.getJointStates(
-            self._body, list(self._joints.values()), physicsClientId=self._client
-        )
+        states = self._bullet.getJointStates(self._body, list(self._joints.values()), physicsClientId=self._client)
         return {name: state[0] for name, state in zip(self._joints, states, strict=True)}
 
     def link_positions_m(self) -> dict[str, tuple[float, float, float]]:
@@ -84,9 +80,7 @@ class PyBulletRobot(Robot):
     def self_contacts(self, margin_m: float = 0.0) -> list[tuple[str, str]]:
         """Pairs of solid links nearer than a margin that no joint, or joint with a dummy, joins."""
         names = {index: name for name, index in self._joints.items()}
-        points = self._bullet.getClosestPoints(
-            self._body, self._body, margin_m, physicsClientId=self._client
-        )
+        points = self._bullet.getClosestPoints(self._body, self._body, margin_m, physicsClientId=self._client)
         pairs = set()
         for point in points:
             first, second = sorted((point[3], point[4]))
@@ -98,9 +92,7 @@ class PyBulletRobot(Robot):
         scene.check_size(width, height)
         bullet = self._bullet
         view = bullet.computeViewMatrix(scene.EYE_M, scene.TARGET_M, scene.UP)
-        projection = bullet.computeProjectionMatrixFOV(
-            scene.FIELD_OF_VIEW_DEG, width / height, 0.1, 5.0
-        )
+        projection = bullet.computeProjectionMatrixFOV(scene.FIELD_OF_VIEW_DEG, width / height, 0.1, 5.0)
         _, _, pixels, _, mask = bullet.getCameraImage(
             width,
             height,

@@ -38,9 +38,7 @@ class Trajectory:
     period_s: float
     positions_rad: NDArray[np.float64]
 
-    def __init__(
-        self, joint_names: Sequence[str], period_s: float, positions_rad: ArrayLike
-    ) -> None:
+    def __init__(self, joint_names: Sequence[str], period_s: float, positions_rad: ArrayLike) -> None:
         self.joint_names = tuple(joint_names)
         self.period_s = float(period_s)
         self.positions_rad = np.array(positions_rad, dtype=np.float64)
@@ -52,8 +50,7 @@ class Trajectory:
         shape = self.positions_rad.shape
         if len(shape) != 2 or shape[0] == 0 or shape[1] != len(self.joint_names):
             raise InvalidArgument(
-                f"positions_rad has shape {shape}, must be (rows, {len(self.joint_names)}), "
-                "with at least one row"
+                f"positions_rad has shape {shape}, must be (rows, {len(self.joint_names)}), with at least one row"
             )
 
     def __len__(self) -> int:

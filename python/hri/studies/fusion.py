@@ -75,9 +75,7 @@ def _run(data_dir: Path, progress: Progress) -> dict[str, Any]:
         ("clean", None, None, None),
         ("white noise at 10 dB, half exposure", "white", 10.0, 0.5),
     ):
-        speech = cross_validate(
-            spoken, WordRecognizer, seed=SEED, noise=noise, snr_db=snr_db, progress=progress
-        )
+        speech = cross_validate(spoken, WordRecognizer, seed=SEED, noise=noise, snr_db=snr_db, progress=progress)
         signs = cross_validate(
             signed,
             GestureRecognizer,

@@ -19,9 +19,7 @@ NUM_FOLDS = 5
 def _run(data_dir: Path, progress: Progress) -> dict[str, Any]:
     dataset = Dataset.load(data_dir / "sign_digits", "gesture")
     result = cross_validate(dataset, GestureRecognizer, num_folds=NUM_FOLDS, progress=progress)
-    dark = cross_validate(
-        dataset, GestureRecognizer, num_folds=NUM_FOLDS, exposure=0.5, progress=progress
-    )
+    dark = cross_validate(dataset, GestureRecognizer, num_folds=NUM_FOLDS, exposure=0.5, progress=progress)
     return {
         **result.to_dict(),
         "half_exposure": dark.to_dict(),

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Errors. Bad input from a caller is an InvalidArgument, bad outside data a FormatError; both are raised through one
-// function each, so that the core also builds without exceptions (installable handler, then abort).
+// Errors. Bad input from a caller is an InvalidArgument, bad outside data a FormatError; both are
+// raised through one function each, so that the core also builds without exceptions (installable
+// handler, then abort).
 #pragma once
 
 #include <cstdint>
@@ -23,19 +24,22 @@ class InvalidArgument : public Error {
   using Error::Error;
 };
 
-/// A file or byte stream breaks its format; the message names the file and the field (Python: also a ValueError).
+/// A file or byte stream breaks its format; the message names the file and the field (Python: also
+/// a ValueError).
 class FormatError : public Error {
  public:
   using Error::Error;
 };
 
-/// The operating system refused a file operation; the message names the path (Python: also an OSError).
+/// The operating system refused a file operation; the message names the path (Python: also an
+/// OSError).
 class IoError : public Error {
  public:
   using Error::Error;
 };
 
-/// Training was interrupted by its `should_stop` callback; nothing was kept (Python: KeyboardInterrupt).
+/// Training was interrupted by its `should_stop` callback; nothing was kept (Python:
+/// KeyboardInterrupt).
 class Interrupted : public Error {
  public:
   using Error::Error;
@@ -46,10 +50,12 @@ enum class ErrorKind : std::uint8_t { invalid_argument, format, io, interrupted 
 /// Called instead of `throw` when the library is built with -fno-exceptions; must not return.
 using FailureHandler = void (*)(ErrorKind kind, const char* message);
 
-/// Installs `handler` (nullptr restores the default, which prints to stderr and aborts). Not thread-safe.
+/// Installs `handler` (nullptr restores the default, which prints to stderr and aborts). Not
+/// thread-safe.
 void set_failure_handler(FailureHandler handler) noexcept;
 
-/// The one way out for errors: throws the class that belongs to `kind`, or calls the failure handler.
+/// The one way out for errors: throws the class that belongs to `kind`, or calls the failure
+/// handler.
 [[noreturn]] void fail(ErrorKind kind, const std::string& message);
 
 /// fail(invalid_argument, message) unless `condition`.

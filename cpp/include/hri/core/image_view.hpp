@@ -10,7 +10,8 @@
 
 namespace hri {
 
-/// Non-owning view of an 8-bit image with interleaved channels (1 = grey or mask, 3 = BGR as OpenCV orders them).
+/// Non-owning view of an 8-bit image with interleaved channels (1 = grey or mask, 3 = BGR as OpenCV
+/// orders them).
 struct ImageView {
   const std::uint8_t* data = nullptr;
   int width_px = 0;
@@ -31,7 +32,9 @@ struct GreyImage {
 
   GreyImage() = default;
   GreyImage(int width, int height)
-      : pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), width_px(width), height_px(height) {}
+      : pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+        width_px(width),
+        height_px(height) {}
   [[nodiscard]] ImageView view() const { return {pixels.data(), width_px, height_px, 1, width_px}; }
 };
 

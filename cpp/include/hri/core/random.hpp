@@ -23,8 +23,11 @@ class Random {
   /// Uniform in [0, 1), 53 bits.
   double uniform() { return static_cast<double>(next_u64() >> 11) * 0x1.0p-53; }
   /// Uniform integer in [0, n), n >= 1 (bias below 2^-32 for n < 2^32).
-  std::uint64_t below(std::uint64_t n) { return static_cast<std::uint64_t>(uniform() * static_cast<double>(n)); }
-  /// Standard normal by Box and Muller; always uses two uniforms, so that the stream has no hidden state.
+  std::uint64_t below(std::uint64_t n) {
+    return static_cast<std::uint64_t>(uniform() * static_cast<double>(n));
+  }
+  /// Standard normal by Box and Muller; always uses two uniforms, so that the stream has no hidden
+  /// state.
   double normal() {
     const double u = 1.0 - uniform();
     const double v = uniform();

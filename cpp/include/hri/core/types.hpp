@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Matrices and views used by every public header. Matrices are row-major with rows = time (or samples).
-// No fixed-size Eigen type appears by value in a public header: alignment would make the ABI depend on flags.
+// Matrices and views used by every public header. Matrices are row-major with rows = time (or
+// samples). No fixed-size Eigen type appears by value in a public header: alignment would make the
+// ABI depend on flags.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,11 +34,14 @@ class Span {
  public:
   constexpr Span() = default;
   constexpr Span(T* data, std::size_t size) : data_(data), size_(size) {}
-  template <class U, class A,
-            class = std::enable_if_t<std::is_same_v<std::remove_const_t<T>, U> && std::is_const_v<T>>>
-  Span(const std::vector<U, A>& v) : data_(v.data()), size_(v.size()) {}  // NOLINT(google-explicit-constructor)
+  template <
+      class U, class A,
+      class = std::enable_if_t<std::is_same_v<std::remove_const_t<T>, U> && std::is_const_v<T>>>
+  Span(const std::vector<U, A>& v)
+      : data_(v.data()), size_(v.size()) {}  // NOLINT(google-explicit-constructor)
   template <class U, class A, class = std::enable_if_t<std::is_same_v<std::remove_const_t<T>, U>>>
-  Span(std::vector<U, A>& v) : data_(v.data()), size_(v.size()) {}  // NOLINT(google-explicit-constructor)
+  Span(std::vector<U, A>& v)
+      : data_(v.data()), size_(v.size()) {}  // NOLINT(google-explicit-constructor)
   template <class U, class = std::enable_if_t<std::is_same_v<const U, T> && !std::is_const_v<U>>>
   constexpr Span(Span<U> other)  // NOLINT(google-explicit-constructor)
       : data_(other.data()), size_(other.size()) {}

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangular filter banks over a power spectrum: mel (thesis eq. 3.30-3.31) and HFCC with the bandwidth factor E
-// (Skowronski and Harris, JASA 116(3), 2004).
+// Triangular filter banks over a power spectrum: mel (thesis eq. 3.30-3.31) and HFCC with the
+// bandwidth factor E (Skowronski and Harris, JASA 116(3), 2004).
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,12 @@ enum class FilterBankKind : std::uint8_t { mel, hfcc };
 
 struct FilterBankOptions {
   FilterBankKind kind = FilterBankKind::mel;
-  int num_filters = 26;    ///< 1..512
-  double low_hz = 100;     ///< lower edge of the first filter, 0 <= low_hz < high_hz
-  double high_hz = 0;      ///< upper edge of the last filter; 0 means the Nyquist rate
-  double erb_factor = 1;   ///< E of HFCC-E, 0.1..10: filters E times as wide as an ear's; ignored by mel
-  double warp = 1;         ///< vocal-tract-length factor on all filter frequencies, 0.5..2
+  int num_filters = 26;  ///< 1..512
+  double low_hz = 100;   ///< lower edge of the first filter, 0 <= low_hz < high_hz
+  double high_hz = 0;    ///< upper edge of the last filter; 0 means the Nyquist rate
+  double erb_factor =
+      1;            ///< E of HFCC-E, 0.1..10: filters E times as wide as an ear's; ignored by mel
+  double warp = 1;  ///< vocal-tract-length factor on all filter frequencies, 0.5..2
 };
 
 /// Edges and centre of one triangle, Hz: 0 at low, 1 at centre, 0 at high.
@@ -30,12 +31,14 @@ struct FilterTriangle {
   double high_hz = 0;
 };
 
-double hz_to_mel(double hz);   ///< 2595 log10(1 + f / 700)
+double hz_to_mel(double hz);  ///< 2595 log10(1 + f / 700)
 double mel_to_hz(double mel);
-/// Equivalent rectangular bandwidth in Hz at `centre_hz` (thesis eq. 6.10 with its units put right).
+/// Equivalent rectangular bandwidth in Hz at `centre_hz` (thesis eq. 6.10 with its units put
+/// right).
 double equivalent_rectangular_bandwidth(double centre_hz, double erb_factor);
 
-/// The triangles before they are sampled. Throws InvalidArgument where they do not fit below the Nyquist rate.
+/// The triangles before they are sampled. Throws InvalidArgument where they do not fit below the
+/// Nyquist rate.
 std::vector<FilterTriangle> filter_triangles(const FilterBankOptions& options, int sample_rate_hz);
 
 /// Immutable; const calls are safe from several threads.

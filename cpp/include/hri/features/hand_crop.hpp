@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The hand cut out of its picture: a square around the mask, scaled to a fixed size, so that place and size of the hand
-// in the picture do not matter.
+// The hand cut out of its picture: a square around the mask, scaled to a fixed size, so that place
+// and size of the hand in the picture do not matter.
 #pragma once
 
 #include "hri/core/image_view.hpp"
@@ -17,12 +17,12 @@ struct HandBox {
   float side_px = 0;  ///< 0: the mask is empty
 };
 
-/// The square around the mask. A forearm that makes the mask more than `max_aspect` times as high as wide is cut off
-/// at the bottom; `padding` (share of the side) is left free on every side.
+/// The square around the mask. A forearm that makes the mask more than `max_aspect` times as high
+/// as wide is cut off at the bottom; `padding` (share of the side) is left free on every side.
 HandBox hand_box(ImageView mask, float max_aspect = 1.6F, float padding = 0.08F);
 
-/// Samples `image` (one channel) inside `box` into `out` (square), 0..1; pixels average what they cover, and what lies
-/// outside the image repeats its border.
+/// Samples `image` (one channel) inside `box` into `out` (square), 0..1; pixels average what they
+/// cover, and what lies outside the image repeats its border.
 void crop(ImageView image, const HandBox& box, MatrixRefF out);
 
 }  // namespace hri

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The joined feature of one hand picture: orientation histograms of the grey crop and of its silhouette, and the silhouette
-// cepstrum (DWT + MFCC, thesis chapter 3). Works on plain pixels, without OpenCV.
+// The joined feature of one hand picture: orientation histograms of the grey crop and of its
+// silhouette, and the silhouette cepstrum (DWT + MFCC, thesis chapter 3). Works on plain pixels,
+// without OpenCV.
 #pragma once
 
 #include "hri/core/image_view.hpp"
@@ -13,25 +14,28 @@
 namespace hri {
 
 struct HandFeatureOptions {
-  int crop_px = 64;                        ///< side of the square the hand is scaled to, 16..256
-  OrientationHistogramOptions histogram;   ///< grid of cells and bins
-  bool use_grey = true;                    ///< histogram of the grey crop (square root of grey against uneven light)
-  bool use_silhouette = true;              ///< histogram of the mask crop
-  bool use_cepstrum = true;                ///< silhouette cepstrum
+  int crop_px = 64;                       ///< side of the square the hand is scaled to, 16..256
+  OrientationHistogramOptions histogram;  ///< grid of cells and bins
+  bool use_grey = true;  ///< histogram of the grey crop (square root of grey against uneven light)
+  bool use_silhouette = true;  ///< histogram of the mask crop
+  bool use_cepstrum = true;    ///< silhouette cepstrum
   SilhouetteCepstrumOptions cepstrum;
-  double cepstrum_weight = 0.1;            ///< scale of the cepstrum beside the histograms (blocks of length 1), > 0
+  double cepstrum_weight =
+      0.1;  ///< scale of the cepstrum beside the histograms (blocks of length 1), > 0
 };
 
 /// Immutable; const calls are safe from several threads.
 class HandFeatureComputer {
  public:
-  /// Throws InvalidArgument naming the field that is out of range, or when every part is turned off.
+  /// Throws InvalidArgument naming the field that is out of range, or when every part is turned
+  /// off.
   explicit HandFeatureComputer(const HandFeatureOptions& options);
 
   [[nodiscard]] int num_features() const { return num_features_; }
   [[nodiscard]] const HandFeatureOptions& options() const { return options_; }
 
-  /// `grey` and `mask` (0 or 255) are one-channel images of one size. Throws InvalidArgument for an empty mask.
+  /// `grey` and `mask` (0 or 255) are one-channel images of one size. Throws InvalidArgument for an
+  /// empty mask.
   void compute(ImageView grey, ImageView mask, Span<float> out) const;
   [[nodiscard]] VectorF compute(ImageView grey, ImageView mask) const;
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Orientation histograms of an image (Freeman and Roth, 1995; thesis section 4.6.4), over a grid of cells with
-// overlapping blocks normalised as by Dalal and Triggs (CVPR 2005).
+// Orientation histograms of an image (Freeman and Roth, 1995; thesis section 4.6.4), over a grid of
+// cells with overlapping blocks normalised as by Dalal and Triggs (CVPR 2005).
 #pragma once
 
 #include "hri/core/types.hpp"
@@ -14,12 +14,15 @@ struct OrientationHistogramOptions {
   int num_bins = 9;   ///< orientations over 180 degrees, 2..72 (18 bins are 10 degrees each)
 };
 
-/// Values it gives: blocks of 2 x 2 cells, each (2 * 2 * num_bins) long; num_bins where there is one cell.
+/// Values it gives: blocks of 2 x 2 cells, each (2 * 2 * num_bins) long; num_bins where there is
+/// one cell.
 int orientation_histogram_size(const OrientationHistogramOptions& options);
 
-/// Histograms of `image` (any size of at least num_cells a side, values of any scale): central differences, angle
-/// modulo 180 degrees, magnitude shared out linearly among neighbouring bins and cells, blocks scaled to length 1,
-/// clipped at 0.2 and scaled again. A flat image gives zeros. Throws InvalidArgument for sizes that do not fit.
-void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOptions& options, Span<float> out);
+/// Histograms of `image` (any size of at least num_cells a side, values of any scale): central
+/// differences, angle modulo 180 degrees, magnitude shared out linearly among neighbouring bins and
+/// cells, blocks scaled to length 1, clipped at 0.2 and scaled again. A flat image gives zeros.
+/// Throws InvalidArgument for sizes that do not fit.
+void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOptions& options,
+                           Span<float> out);
 
 }  // namespace hri

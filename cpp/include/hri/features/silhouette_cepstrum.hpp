@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cepstrum of a silhouette (thesis chapter 3): 2-D DWT of the mask, contour of its approximation, distance from the
-// centroid along the contour as a signal, Hamming frames, power spectrum, mel filter bank, log, DCT.
+// Cepstrum of a silhouette (thesis chapter 3): 2-D DWT of the mask, contour of its approximation,
+// distance from the centroid along the contour as a signal, Hamming frames, power spectrum, mel
+// filter bank, log, DCT.
 #pragma once
 
 #include <string>
@@ -16,11 +17,11 @@ namespace hri {
 
 struct SilhouetteCepstrumOptions {
   std::string wavelet = "db2";
-  int num_levels = 3;      ///< of the DWT, 1..4
-  int mask_px = 256;       ///< side of the square the mask is scaled to before the DWT, 64..1024
-  int num_points = 256;    ///< samples along the contour, 64..4096
-  int num_filters = 20;    ///< 2..64
-  int num_cepstra = 13;    ///< 1..num_filters - 1
+  int num_levels = 3;    ///< of the DWT, 1..4
+  int mask_px = 256;     ///< side of the square the mask is scaled to before the DWT, 64..1024
+  int num_points = 256;  ///< samples along the contour, 64..4096
+  int num_filters = 20;  ///< 2..64
+  int num_cepstra = 13;  ///< 1..num_filters - 1
 };
 
 /// A closed outline, clockwise in image axes, one pixel a step.
@@ -29,8 +30,8 @@ struct ContourPoint {
   int y_px = 0;
 };
 
-/// Outer outline of the first region (in reading order) of values above `threshold`, by Moore's neighbour tracing.
-/// Empty where no value is above.
+/// Outer outline of the first region (in reading order) of values above `threshold`, by Moore's
+/// neighbour tracing. Empty where no value is above.
 std::vector<ContourPoint> trace_contour(ConstMatrixRefF image, float threshold);
 
 /// Immutable; const calls are safe from several threads.
@@ -41,8 +42,9 @@ class SilhouetteCepstrumComputer {
 
   [[nodiscard]] int num_features() const { return options_.num_cepstra + 1; }
 
-  /// Distance from the centroid along the contour, scaled by its mean, num_points values (all 1 for a mask too small to
-  /// have an outline). Starts at the topmost point, so that it does not turn with the order of tracing.
+  /// Distance from the centroid along the contour, scaled by its mean, num_points values (all 1 for
+  /// a mask too small to have an outline). Starts at the topmost point, so that it does not turn
+  /// with the order of tracing.
   [[nodiscard]] std::vector<float> contour_signal(ImageView mask) const;
 
   /// c0 .. c_num_cepstra, averaged over the frames of the contour signal. `mask` must not be empty.

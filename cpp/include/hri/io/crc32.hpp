@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// CRC-32 as in zlib, PNG and Ethernet (reflected polynomial 0xEDB88320), to find damaged model files.
+// CRC-32 as in zlib, PNG and Ethernet (reflected polynomial 0xEDB88320), to find damaged model
+// files.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,8 @@
 
 namespace hri {
 
-/// The checksum of `bytes`, continuing from `previous` (0 to begin): crc32(b, crc32(a)) == crc32(a + b).
+/// The checksum of `bytes`, continuing from `previous` (0 to begin): crc32(b, crc32(a)) == crc32(a
+/// + b).
 std::uint32_t crc32(Span<const std::uint8_t> bytes, std::uint32_t previous = 0);
 
 }  // namespace hri

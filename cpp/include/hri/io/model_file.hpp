@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Model files in the safetensors layout: 8-byte little-endian header length, a JSON header that names every tensor
-// (dtype, shape, byte range) and holds text metadata, then the tensor bytes.
-// The format has its own version (newer files are refused) and a CRC-32 of the tensor bytes and the metadata.
+// Model files in the safetensors layout: 8-byte little-endian header length, a JSON header that
+// names every tensor (dtype, shape, byte range) and holds text metadata, then the tensor bytes. The
+// format has its own version (newer files are refused) and a CRC-32 of the tensor bytes and the
+// metadata.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +17,21 @@
 
 namespace hri {
 
-/// A named set of matrices and metadata. Getters throw FormatError that names the file and the field; every number
-/// they give is finite. Not thread-safe while being changed.
+/// A named set of matrices and metadata. Getters throw FormatError that names the file and the
+/// field; every number they give is finite. Not thread-safe while being changed.
 class ModelFile {
  public:
   static constexpr int kFormatVersion = 1;
 
-  /// Reads a whole file. Throws IoError where it cannot be read and FormatError for anything but a sound model:
-  /// sizes are bounded by the real file size before memory is taken, tensors must fill the data without gap or overlap.
+  /// Reads a whole file. Throws IoError where it cannot be read and FormatError for anything but a
+  /// sound model: sizes are bounded by the real file size before memory is taken, tensors must fill
+  /// the data without gap or overlap.
   static ModelFile read(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   static ModelFile parse(Span<const std::uint8_t> bytes, const std::string& name);
 
-  /// Writes to a temporary file in the same folder, syncs, and renames: an old file stays whole if anything fails.
+  /// Writes to a temporary file in the same folder, syncs, and renames: an old file stays whole if
+  /// anything fails.
   void write(const std::string& path) const;
   [[nodiscard]] std::vector<std::uint8_t> serialise() const;
 
@@ -48,7 +51,8 @@ class ModelFile {
   [[nodiscard]] std::vector<std::string> text_list(const std::string& key) const;
   void set_text(const std::string& key, const std::string& value);
   void set_integer(const std::string& key, std::int64_t value);
-  void set_number(const std::string& key, double value);  ///< 17 digits: reads back equal to the bit
+  void set_number(const std::string& key,
+                  double value);  ///< 17 digits: reads back equal to the bit
   void set_text_list(const std::string& key, const std::vector<std::string>& values);
 
   [[nodiscard]] MatrixD matrix_d(const std::string& name) const;

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From raw scores to probabilities and to rejection, learned on held-out people.
-// Posterior by temperature scaling, P(c) = softmax(a s_c) (Guo et al., "On calibration of modern neural networks",
-// ICML 2017); rejection by a quantile of the evidence of correct held-out decisions.
+// Posterior by temperature scaling, P(c) = softmax(a s_c) (Guo et al., "On calibration of modern
+// neural networks", ICML 2017); rejection by a quantile of the evidence of correct held-out
+// decisions.
 #pragma once
 
 #include <string>
@@ -26,16 +27,17 @@ class Calibration {
  public:
   Calibration() = default;
 
-  /// Fits the scale to the least negative log-likelihood of `held_out`, and the threshold to the quantile
-  /// `false_reject_rate` (0..1) of the evidence of its correct decisions. Falls back to scale 1 and no threshold
-  /// where `held_out` is empty or never right.
+  /// Fits the scale to the least negative log-likelihood of `held_out`, and the threshold to the
+  /// quantile `false_reject_rate` (0..1) of the evidence of its correct decisions. Falls back to
+  /// scale 1 and no threshold where `held_out` is empty or never right.
   static Calibration fit(const std::vector<HeldOut>& held_out, double false_reject_rate);
 
   /// softmax(scale * scores), computed in float.
   [[nodiscard]] VectorF posterior(const VectorF& scores) const;
 
   /// The decision for `scores` (one per label) and `evidence`.
-  [[nodiscard]] Decision decide(const VectorF& scores, float evidence, const std::vector<std::string>& labels) const;
+  [[nodiscard]] Decision decide(const VectorF& scores, float evidence,
+                                const std::vector<std::string>& labels) const;
 
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] double threshold() const { return threshold_; }

@@ -23,15 +23,16 @@ const char* status_name(DecisionStatus status);
 struct NBest {
   std::string label;
   float probability = 0;  ///< calibrated posterior, 0..1; sums to 1 over the list
-  float log_score = 0;    ///< the model's own score (log-likelihood, log-possibility or margin), uncalibrated
+  float log_score =
+      0;  ///< the model's own score (log-likelihood, log-possibility or margin), uncalibrated
 };
 
 struct Decision {
   DecisionStatus status = DecisionStatus::no_input;
   std::string label = "no_input";  ///< class name, or "unknown" or "no_input"
   float confidence = 0;            ///< probability of the best class, 0..1; 0 without input
-  float evidence = 0;              ///< what the rejection threshold is compared with (see the recogniser)
-  std::vector<NBest> nbest;        ///< every class in falling order; empty without input
+  float evidence = 0;        ///< what the rejection threshold is compared with (see the recogniser)
+  std::vector<NBest> nbest;  ///< every class in falling order; empty without input
   std::vector<std::string> notes;  ///< what was converted or assumed on the way
 };
 

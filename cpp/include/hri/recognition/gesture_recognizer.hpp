@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Isolated signs and gestures: grey images with hand masks -> hand features -> classifier -> Decision (thesis ch. 3).
-// Still signs are classified frame by frame and the frames vote; movements are scored whole by sequence models.
+// Isolated signs and gestures: grey images with hand masks -> hand features -> classifier ->
+// Decision (thesis ch. 3). Still signs are classified frame by frame and the frames vote; movements
+// are scored whole by sequence models.
 #pragma once
 
 #include <cstdint>
@@ -32,23 +33,26 @@ enum class GestureModel : std::uint8_t {
 struct GestureRecognizerOptions {
   HandFeatureOptions features;
   GestureModel model = GestureModel::svm;
-  double svm_cost = 1.0;           ///< C of the linear SVM, > 0
-  int num_components = 40;         ///< principal components (bayes, knn, hmm, ptbhmm), 1..1000
-  int num_neighbours = 5;          ///< k of knn, 1..1000
-  int num_states = 6;              ///< left-right states a gesture (hmm, ptbhmm), 1..64
-  int num_codewords = 64;          ///< codebook size (ptbhmm), 2..4096
-  int max_iterations = 12;         ///< Baum-Welch iterations, 1..1000
-  double false_reject_rate = 0.02; ///< share of correct held-out gestures that the threshold may reject, 0..0.5
+  double svm_cost = 1.0;    ///< C of the linear SVM, > 0
+  int num_components = 40;  ///< principal components (bayes, knn, hmm, ptbhmm), 1..1000
+  int num_neighbours = 5;   ///< k of knn, 1..1000
+  int num_states = 6;       ///< left-right states a gesture (hmm, ptbhmm), 1..64
+  int num_codewords = 64;   ///< codebook size (ptbhmm), 2..4096
+  int max_iterations = 12;  ///< Baum-Welch iterations, 1..1000
+  double false_reject_rate =
+      0.02;  ///< share of correct held-out gestures that the threshold may reject, 0..0.5
   std::uint64_t seed = 0;
 };
 
-/// A frame: the grey image and the hand's mask (255 = hand), of one size. An empty mask is a frame without a hand.
+/// A frame: the grey image and the hand's mask (255 = hand), of one size. An empty mask is a frame
+/// without a hand.
 struct HandImage {
   ImageView grey;
   ImageView mask;
 };
 
-/// One training gesture: a row of features a frame, as GestureRecognizer::features gives them. `group` is the signer.
+/// One training gesture: a row of features a frame, as GestureRecognizer::features gives them.
+/// `group` is the signer.
 struct GestureSample {
   MatrixF features;
   std::string label;
@@ -61,18 +65,20 @@ class GestureScorer;
 /// Immutable once made; const calls are safe from several threads.
 class GestureRecognizer {
  public:
-  /// Trains on the features of labelled gestures. Throws InvalidArgument for NaN, a label without a frame that shows
-  /// a hand, fewer than two labels; Interrupted when `should_stop` says so.
-  static GestureRecognizer train(const std::vector<GestureSample>& samples, const GestureRecognizerOptions& options,
-                                 const TrainingProgress& progress = {}, const StopCheck& should_stop = {});
+  /// Trains on the features of labelled gestures. Throws InvalidArgument for NaN, a label without a
+  /// frame that shows a hand, fewer than two labels; Interrupted when `should_stop` says so.
+  static GestureRecognizer train(const std::vector<GestureSample>& samples,
+                                 const GestureRecognizerOptions& options,
+                                 const TrainingProgress& progress = {},
+                                 const StopCheck& should_stop = {});
 
   static GestureRecognizer load(const std::string& path);
   void save(const std::string& path) const;
   [[nodiscard]] ModelFile to_model_file() const;
   static GestureRecognizer from_model_file(const ModelFile& file);
 
-  /// The rows of `frames` that show a hand: hand features, then centre x, centre y and log area of the mask in units
-  /// of the frame (0..1). Frames without a hand give no row.
+  /// The rows of `frames` that show a hand: hand features, then centre x, centre y and log area of
+  /// the mask in units of the frame (0..1). Frames without a hand give no row.
   static MatrixF features(const std::vector<HandImage>& frames, const HandFeatureOptions& options);
 
   /// Recognises one gesture (a still is one frame). No hand in any frame gives no_input.

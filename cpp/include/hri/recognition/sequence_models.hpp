@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One sequence model a class over one stream of frames, and a garbage model of all classes: what words and movements
-// share.
+// One sequence model a class over one stream of frames, and a garbage model of all classes: what
+// words and movements share.
 #pragma once
 
 #include <cstdint>
@@ -26,11 +26,12 @@ enum class SequenceModelKind : std::uint8_t {
 
 struct SequenceModelOptions {
   SequenceModelKind model = SequenceModelKind::hmm;
-  int num_states = 8;         ///< left-right states a class, 1..64
-  int num_mixtures = 1;       ///< Gaussians a state (hmm), 1..64
-  int num_codewords = 128;    ///< codebook size (ptbhmm), 2..4096
-  int garbage_mixtures = 16;  ///< Gaussians of the garbage model that rejection compares with (hmm), 1..256
-  int max_iterations = 12;    ///< Baum-Welch iterations, 1..1000
+  int num_states = 8;       ///< left-right states a class, 1..64
+  int num_mixtures = 1;     ///< Gaussians a state (hmm), 1..64
+  int num_codewords = 128;  ///< codebook size (ptbhmm), 2..4096
+  int garbage_mixtures =
+      16;  ///< Gaussians of the garbage model that rejection compares with (hmm), 1..256
+  int max_iterations = 12;  ///< Baum-Welch iterations, 1..1000
   std::uint64_t seed = 0;
 };
 
@@ -55,13 +56,14 @@ class SequenceModels {
 
  private:
   void train_hmms(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop);
-  void train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop);
+  void train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label,
+                    const StopCheck& should_stop);
 
   SequenceModelOptions options_;
-  std::vector<GaussianMixtureHmm> hmms_;       // one a class, model == hmm
-  std::vector<GaussianMixture> garbage_;       // one, model == hmm
-  std::vector<Codebook> codebook_;             // one, model == ptbhmm
-  std::vector<PossibilisticHmmSet> ptbhmm_;    // one, model == ptbhmm
+  std::vector<GaussianMixtureHmm> hmms_;     // one a class, model == hmm
+  std::vector<GaussianMixture> garbage_;     // one, model == hmm
+  std::vector<Codebook> codebook_;           // one, model == ptbhmm
+  std::vector<PossibilisticHmmSet> ptbhmm_;  // one, model == ptbhmm
 };
 
 }  // namespace hri

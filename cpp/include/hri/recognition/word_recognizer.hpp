@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Isolated words: audio -> end points -> cepstra -> one sequence model a word -> Decision (thesis section 6.2).
+// Isolated words: audio -> end points -> cepstra -> one sequence model a word -> Decision (thesis
+// section 6.2).
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@
 #include "hri/io/model_file.hpp"
 #include "hri/recognition/calibration.hpp"
 #include "hri/recognition/decision.hpp"
-#include "hri/recognition/training.hpp"
 #include "hri/recognition/sequence_models.hpp"
+#include "hri/recognition/training.hpp"
 #include "hri/signal/activity.hpp"
 
 namespace hri {
@@ -22,14 +23,16 @@ namespace hri {
 struct WordRecognizerOptions {
   WordRecognizerOptions() { cepstra.sample_rate_hz = 0; }
 
-  CepstraOptions cepstra;           ///< sample_rate_hz 0 (default) takes the lowest training rate, at most 16000
-  ActivityOptions activity;         ///< how the word is found in the clip
-  SequenceModelOptions models;         ///< the models trained on each stream
-  bool trim = true;                 ///< cut silence before and after the word
-  bool level_stream = true;         ///< a second stream votes, whose cepstra are normalised in level only
-  int num_warps = 3;                ///< training copies with warped frequency axis: 1 (none), 3 or 5
-  double warp_step = 0.08;          ///< step of the warp factor between copies, 0..0.2
-  double false_reject_rate = 0.02;  ///< share of correct held-out words that the threshold may reject, 0..0.5
+  CepstraOptions
+      cepstra;  ///< sample_rate_hz 0 (default) takes the lowest training rate, at most 16000
+  ActivityOptions activity;     ///< how the word is found in the clip
+  SequenceModelOptions models;  ///< the models trained on each stream
+  bool trim = true;             ///< cut silence before and after the word
+  bool level_stream = true;  ///< a second stream votes, whose cepstra are normalised in level only
+  int num_warps = 3;         ///< training copies with warped frequency axis: 1 (none), 3 or 5
+  double warp_step = 0.08;   ///< step of the warp factor between copies, 0..0.2
+  double false_reject_rate =
+      0.02;  ///< share of correct held-out words that the threshold may reject, 0..0.5
 };
 
 /// A front end and the models trained on it; several vote by adding their log scores.
@@ -49,10 +52,13 @@ struct WordSample {
 /// Immutable once made; const calls are safe from several threads.
 class WordRecognizer {
  public:
-  /// Trains one model a label. Throws InvalidArgument for NaN (with sample index), audio without a word, a label with
-  /// no usable sample; Interrupted when `should_stop` says so. Labels are kept in sorted order.
-  static WordRecognizer train(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
-                              const TrainingProgress& progress = {}, const StopCheck& should_stop = {});
+  /// Trains one model a label. Throws InvalidArgument for NaN (with sample index), audio without a
+  /// word, a label with no usable sample; Interrupted when `should_stop` says so. Labels are kept
+  /// in sorted order.
+  static WordRecognizer train(const std::vector<WordSample>& samples,
+                              const WordRecognizerOptions& options,
+                              const TrainingProgress& progress = {},
+                              const StopCheck& should_stop = {});
 
   static WordRecognizer load(const std::string& path);
   void save(const std::string& path) const;
@@ -63,8 +69,8 @@ class WordRecognizer {
   /// Evidence is the log-likelihood ratio per frame of the best word against the garbage model.
   [[nodiscard]] Decision recognise(Span<const float> samples, int sample_rate_hz) const;
 
-  /// Raw score of every label for one utterance (log-likelihood or log-possibility), without end points or rejection
-  /// beyond `trim`. Throws InvalidArgument "too short" for less than one frame.
+  /// Raw score of every label for one utterance (log-likelihood or log-possibility), without end
+  /// points or rejection beyond `trim`. Throws InvalidArgument "too short" for less than one frame.
   [[nodiscard]] VectorF scores(Span<const float> samples, int sample_rate_hz) const;
 
   [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }

@@ -11,7 +11,8 @@
 
 namespace hri {
 
-/// Real-input FFT of one fixed size. Const calls are safe from several threads (the plan is kept per thread).
+/// Real-input FFT of one fixed size. Const calls are safe from several threads (the plan is kept
+/// per thread).
 class RealFft {
  public:
   /// `size` even, 2..2^24. Throws InvalidArgument otherwise.

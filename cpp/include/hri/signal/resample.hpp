@@ -10,8 +10,9 @@
 
 namespace hri {
 
-/// `samples` at `from_hz` as ceil(size * to_hz / from_hz) samples at `to_hz`; rates 1000..384000 Hz. The pass band ends
-/// at 0.9 of the lower Nyquist rate, the stop band is 70 dB down. Throws InvalidArgument for rates out of range.
+/// `samples` at `from_hz` as ceil(size * to_hz / from_hz) samples at `to_hz`; rates 1000..384000
+/// Hz. The pass band ends at 0.9 of the lower Nyquist rate, the stop band is 70 dB down. Throws
+/// InvalidArgument for rates out of range.
 std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz);
 
 }  // namespace hri

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Orthogonal wavelet filters by PyWavelets' names: haar, db1..db20, sym2..sym20, coif1..coif5, dmey.
-// The thesis's "Daubechies-6" is ambiguous: db6 has 12 taps, D6 = db3 has 6.
+// Orthogonal wavelet filters by PyWavelets' names: haar, db1..db20, sym2..sym20, coif1..coif5,
+// dmey. The thesis's "Daubechies-6" is ambiguous: db6 has 12 taps, D6 = db3 has 6.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace hri {
 
-/// Analysis (dec) and synthesis (rec) filters of one length. dec_hi is the quadrature mirror of dec_lo,
-/// dec_hi[k] = (-1)^(k+1) rec_lo[k] with rec_lo the reverse of dec_lo; for db2 that is the (c3, -c2, c1, -c0) which the
-/// thesis prints without its c1.
+/// Analysis (dec) and synthesis (rec) filters of one length. dec_hi is the quadrature mirror of
+/// dec_lo, dec_hi[k] = (-1)^(k+1) rec_lo[k] with rec_lo the reverse of dec_lo; for db2 that is the
+/// (c3, -c2, c1, -c0) which the thesis prints without its c1.
 struct Wavelet {
   std::string name;
   std::vector<double> dec_lo;
@@ -22,7 +22,8 @@ struct Wavelet {
   std::vector<double> rec_hi;
 };
 
-/// Throws InvalidArgument that lists the names for an unknown one. The reference lives as long as the program.
+/// Throws InvalidArgument that lists the names for an unknown one. The reference lives as long as
+/// the program.
 const Wavelet& wavelet(std::string_view name);
 
 std::vector<std::string> wavelet_names();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The hand's silhouette in a colour picture (thesis sections 4.6.2 and 5.1.1), by fixed HSV bounds as in the thesis or,
-// by default, by a chroma threshold that adapts to each picture's light.
+// The hand's silhouette in a colour picture (thesis sections 4.6.2 and 5.1.1), by fixed HSV bounds
+// as in the thesis or, by default, by a chroma threshold that adapts to each picture's light.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,25 @@
 namespace hri {
 
 enum class SilhouetteMethod : std::uint8_t {
-  chroma_otsu,  ///< Otsu's threshold on Cr - Cb: skin is redder than what is behind it, in any light that has colour
-  hsv,          ///< the thesis's fixed bounds of hue and saturation; fails in coloured or poor light
-  grey_otsu,    ///< Otsu's threshold on grey, for a dark hand before a plain bright background
+  chroma_otsu,  ///< Otsu's threshold on Cr - Cb: skin is redder than what is behind it, in any
+                ///< light that has colour
+  hsv,        ///< the thesis's fixed bounds of hue and saturation; fails in coloured or poor light
+  grey_otsu,  ///< Otsu's threshold on grey, for a dark hand before a plain bright background
 };
 
 struct SilhouetteOptions {
   SilhouetteMethod method = SilhouetteMethod::chroma_otsu;
-  int max_side_px = 320;           ///< larger pictures are scaled down to this first, 32..4096
-  int blur_px = 5;                 ///< Gaussian blur before and median after the threshold, odd, 1..31
-  double min_contrast = 5;         ///< least difference of the two classes' means, in grey levels, 0..255
-  double min_area = 0.005;         ///< smallest share of the picture a hand covers, 0..1
-  double max_area = 0.8;           ///< largest, 0..1
-  bool remove_face = true;         ///< of several skin regions the one most like an ellipse is a face, not a hand
+  int max_side_px = 320;    ///< larger pictures are scaled down to this first, 32..4096
+  int blur_px = 5;          ///< Gaussian blur before and median after the threshold, odd, 1..31
+  double min_contrast = 5;  ///< least difference of the two classes' means, in grey levels, 0..255
+  double min_area = 0.005;  ///< smallest share of the picture a hand covers, 0..1
+  double max_area = 0.8;    ///< largest, 0..1
+  bool remove_face =
+      true;  ///< of several skin regions the one most like an ellipse is a face, not a hand
 };
 
-/// What was found in one picture, at the working scale. `mask` has the size of `grey`; without a hand it is all 0.
+/// What was found in one picture, at the working scale. `mask` has the size of `grey`; without a
+/// hand it is all 0.
 struct Silhouette {
   GreyImage grey;
   GreyImage mask;
@@ -40,7 +43,8 @@ class SilhouetteExtractor {
   /// Throws InvalidArgument naming the field that is out of range.
   explicit SilhouetteExtractor(const SilhouetteOptions& options);
 
-  /// `bgr` has 3 channels (blue, green, red). Throws InvalidArgument for another layout or an empty picture.
+  /// `bgr` has 3 channels (blue, green, red). Throws InvalidArgument for another layout or an empty
+  /// picture.
   [[nodiscard]] Silhouette extract(ImageView bgr) const;
 
  private:

@@ -23,9 +23,7 @@ class _Pencil:
     def __init__(self, field: HeightField, view: View) -> None:
         self.field, self.view = field, view
 
-    def limb(
-        self, start: Point, end: Point, radius: float, end_radius: float, colour: Colour, part: int
-    ) -> None:
+    def limb(self, start: Point, end: Point, radius: float, end_radius: float, colour: Colour, part: int) -> None:
         a, b = (self.view.project(np.array(point)) for point in (start, end))
         scale = self.view.scale
         self.field.add_limb(a, b, radius * scale, end_radius * scale, colour, part)
@@ -69,10 +67,7 @@ def _draw_torso(field: HeightField, view: View, signer: Signer, cv2: Any) -> Non
     if signer.hair_style == "scarf":
         return
     collar = tinted(clothes, 0.82)
-    ring = [
-        (0.31 * np.sin(a), -0.83 - 0.16 * np.cos(a), 0.12 + 0.28 * np.cos(a))
-        for a in np.linspace(-1.45, 1.45, 15)
-    ]
+    ring = [(0.31 * np.sin(a), -0.83 - 0.16 * np.cos(a), 0.12 + 0.28 * np.cos(a)) for a in np.linspace(-1.45, 1.45, 15)]
     with field.merged(cv2, 0.012 * view.scale) as layer:
         for start, end in itertools.pairwise(ring):
             _Pencil(layer, view).limb(start, end, 0.062, 0.062, collar, BODY)
@@ -85,9 +80,7 @@ def _draw_head(field: HeightField, view: View, signer: Signer, cv2: Any) -> None
         pencil.ball((0, 0.10, 0), (0.42, 0.52, 0.48), skin, FACE)
         pencil.ball((0, -0.20, 0.06), (0.345, 0.42, 0.42), skin, FACE)
         for side in (-1, 1):
-            pencil.ball(
-                (side * 0.19, -0.16, 0.30), (0.13, 0.12, 0.16), tinted(skin, 1, amount=0.10), FACE
-            )
+            pencil.ball((side * 0.19, -0.16, 0.30), (0.13, 0.12, 0.16), tinted(skin, 1, amount=0.10), FACE)
     with field.merged(cv2, 0.02 * view.scale) as layer:
         pencil = _Pencil(layer, view)
         for side in (-1, 1):
@@ -136,9 +129,7 @@ def _draw_hair(field: HeightField, view: View, signer: Signer, cv2: Any) -> None
             for side in (-1, 1):
                 top, end = (side * 0.41, 0.30, 0.04), (side * 0.45, reach, -0.12)
                 pencil.limb(top, end, 0.12, 0.16, hair, HAIR)
-                pencil.limb(
-                    (side * 0.3, 0.2, -0.3), (side * 0.3, reach, -0.4), 0.2, 0.2, hair, HAIR
-                )
+                pencil.limb((side * 0.3, 0.2, -0.3), (side * 0.3, reach, -0.4), 0.2, 0.2, hair, HAIR)
         if style == "bun":
             pencil.ball((0, 0.74, -0.05), (0.22, 0.20, 0.22), hair, HAIR)
         if style == "scarf":
@@ -156,10 +147,7 @@ def _draw_hair(field: HeightField, view: View, signer: Signer, cv2: Any) -> None
 
 def _add_scarf(pencil: _Pencil, colour: Colour) -> None:
     """Round the face and under the chin, falling on the chest."""
-    rim = [
-        (0.40 * np.sin(a), -0.02 - 0.58 * np.cos(a), 0.16 + 0.10 * np.cos(a))
-        for a in np.linspace(-2.4, 2.4, 25)
-    ]
+    rim = [(0.40 * np.sin(a), -0.02 - 0.58 * np.cos(a), 0.16 + 0.10 * np.cos(a)) for a in np.linspace(-2.4, 2.4, 25)]
     for start, end in itertools.pairwise(rim):
         pencil.limb(start, end, 0.10, 0.10, colour, HAIR)
     for x in (-0.20, 0.0, 0.20):

@@ -30,17 +30,13 @@ class HandLook:
     sleeve_width: float = 1.0
 
 
-def tinted(
-    colour: Colour, factor: float, towards: Colour = (96.0, 96.0, 216.0), amount: float = 0.0
-) -> Colour:
+def tinted(colour: Colour, factor: float, towards: Colour = (96.0, 96.0, 216.0), amount: float = 0.0) -> Colour:
     """Lighter or darker, and mixed with another colour."""
     mixed = np.clip((1 - amount) * np.array(colour) * factor + amount * np.array(towards), 0, 255)
     return float(mixed[0]), float(mixed[1]), float(mixed[2])
 
 
-def draw_hand(
-    field: HeightField, view: View, skeleton: Skeleton, shape: HandShape, look: HandLook, cv2: Any
-) -> None:
+def draw_hand(field: HeightField, view: View, skeleton: Skeleton, shape: HandShape, look: HandLook, cv2: Any) -> None:
     """Draw hand, forearm and sleeve; the wrist is at the view's origin."""
     scale = view.scale
     palm_colour = tinted(look.skin, 1.04, amount=0.05)
@@ -58,9 +54,7 @@ def draw_hand(
     _draw_nails(field, view, skeleton, shape, look, cv2)
 
 
-def _add_palm(
-    field: HeightField, view: View, skeleton: Skeleton, shape: HandShape, colour: Colour
-) -> None:
+def _add_palm(field: HeightField, view: View, skeleton: Skeleton, shape: HandShape, colour: Colour) -> None:
     def limb(a: Any, b: Any, ra: float, rb: float) -> None:
         a, b = (view.project(skeleton.turn @ np.asarray(point, float)) for point in (a, b))
         field.add_limb(a, b, ra * view.scale, rb * view.scale, colour, PALM)
@@ -96,9 +90,7 @@ def _add_arm(field: HeightField, view: View, skeleton: Skeleton, look: HandLook,
                 layer.add_limb(a, b, *radii, colour, SLEEVE)
 
 
-def _add_chain(
-    field: HeightField, view: View, joints: Array, radii: Array, colour: Colour, part: int
-) -> None:
+def _add_chain(field: HeightField, view: View, joints: Array, radii: Array, colour: Colour, part: int) -> None:
     points = view.project(joints)
     last = len(points) - 2
     for bone in range(len(points) - 1):
@@ -108,14 +100,10 @@ def _add_chain(
             axis = axis / (np.linalg.norm(axis) + 1e-9)
             end = view.project(joints[bone + 1] - axis * 0.5 * radii[bone + 1])
         red = tinted(colour, 1.0, amount=0.05 + 0.05 * (bone == last))
-        field.add_limb(
-            start, end, radii[bone] * view.scale, radii[bone + 1] * view.scale, red, part
-        )
+        field.add_limb(start, end, radii[bone] * view.scale, radii[bone + 1] * view.scale, red, part)
 
 
-def _draw_creases(
-    field: HeightField, view: View, skeleton: Skeleton, shape: HandShape, cv2: Any
-) -> None:
+def _draw_creases(field: HeightField, view: View, skeleton: Skeleton, shape: HandShape, cv2: Any) -> None:
     """Darken the lines of the palm and the folds of the fingers where they can be seen."""
     marks = np.zeros((*field.shape, 1), dtype=np.uint8)
     thickness = max(1, round(0.010 * view.scale))
@@ -140,9 +128,7 @@ def _draw_creases(
             ends = np.stack([place + across * f * radii[joint] for f in (-0.75, 0.75)])
             ends = ends + side * 0.75 * radii[joint]
             if side[2] > 0.35:
-                _polyline(
-                    marks, view.project(ends), 70, thickness, cv2, field.part == FINGER + finger
-                )
+                _polyline(marks, view.project(ends), 70, thickness, cv2, field.part == FINGER + finger)
     shade = cv2.GaussianBlur(marks, (0, 0), 0.006 * view.scale + 0.3).astype(np.float32) / 255.0
     field.colour *= 1.0 - shade[..., None] * np.array([1.0, 0.85, 0.6], dtype=np.float32)
 

@@ -76,9 +76,7 @@ def over(background: Image, drawn: Image, mask: NDArray[np.bool_]) -> Image:
     return np.where(mask[..., None], drawn, background).astype(np.float32)
 
 
-def cast_shadow(
-    background: Image, mask: NDArray[np.bool_], offset_px: tuple[float, float], cv2: Any
-) -> Image:
+def cast_shadow(background: Image, mask: NDArray[np.bool_], offset_px: tuple[float, float], cv2: Any) -> Image:
     """The background with a soft shadow of the mask on it."""
     height, width = mask.shape
     move = np.array([[1, 0, offset_px[0]], [0, 1, offset_px[1]]], dtype=np.float32)

@@ -20,9 +20,7 @@ def draw_wall(height: int, width: int, colour: Colour, rng: np.random.Generator)
     return np.asarray(level[..., None] * np.array(colour, dtype=np.float32), dtype=np.float32)
 
 
-def draw_room(
-    height: int, width: int, colour: Colour, background: str, rng: np.random.Generator, cv2: Any
-) -> Image:
+def draw_room(height: int, width: int, colour: Colour, background: str, rng: np.random.Generator, cv2: Any) -> Image:
     """A wall with a window, a picture or a board on it (`background`), a little out of focus."""
     image = draw_wall(height, width, colour, rng)
     unit = height / 24.0

@@ -24,14 +24,10 @@ _HAND_SCALE = 1.12  # the hand is nearer to the camera than the head
 class Scene:
     """A signer in a room, drawn once; only the columns in which the arm moves are redrawn."""
 
-    def __init__(
-        self, signer: Signer, height: int, width: int, rng: np.random.Generator, cv2: Any
-    ) -> None:
+    def __init__(self, signer: Signer, height: int, width: int, rng: np.random.Generator, cv2: Any) -> None:
         self._signer, self._cv2 = signer, cv2
         self._scale = height / 3.25
-        self._view = View(
-            (width * rng.uniform(0.54, 0.58), height * rng.uniform(0.33, 0.36)), self._scale
-        )
+        self._view = View((width * rng.uniform(0.54, 0.58), height * rng.uniform(0.33, 0.36)), self._scale)
         self._body = HeightField(height, width)
         draw_body(self._body, self._view, signer, cv2)
         self._room = draw_room(height, width, signer.wall, signer.background, rng, cv2)
@@ -52,9 +48,7 @@ class Scene:
             rows = field.shape[0] - max(top, -field.shape[0])
             hand = HeightField(rows, int(1.7 * scale))
             view = View((float(column - left), float(row - top)), scale)
-            draw_hand(
-                hand, view, skeleton, self._signer.hand_shape, arm_look(self._signer), self._cv2
-            )
+            draw_hand(hand, view, skeleton, self._signer.hand_shape, arm_look(self._signer), self._cv2)
             field.add_field(hand, top, left, float(depth))
         picture = self._still.copy()
         lit = self._lit(field, self._room[:, : field.shape[1]])
