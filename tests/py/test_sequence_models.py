@@ -92,7 +92,7 @@ def test_discrete_forward_and_viterbi_match_hmmlearn(fields: dict) -> None:
         score, path = ours.viterbi(symbols)
         peer_score, _ = peer.decode(symbols[:, None])
         assert score == pytest.approx(peer_score, rel=1e-9)
-        # Symbols repeat, so several paths can be equally good: the path has to be worth its score, not to be the peer's.
+        # Symbols repeat, so several paths can be equally good: ours has to be worth its score.
         along_path = np.log(start[path[0]]) + np.log(transition[path[:-1], path[1:]]).sum()
         assert along_path + np.log(emission[path, symbols]).sum() == pytest.approx(score, rel=1e-9)
 

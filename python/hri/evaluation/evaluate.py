@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,7 @@ def cross_validate(
     make_recognizer: Callable[[], Recognizer],
     *,
     num_folds: int | None = None,
+    train_persons: int | None = None,
     seed: int = 0,
     noise: str | None = None,
     snr_db: float | None = None,
@@ -42,8 +44,10 @@ def cross_validate(
     num_folds : int, optional
         Folds by person; None holds out one person at a time (for gestures with more than 10 persons: 5 folds). Where
         persons are not known, folds are stratified by label, and the result says so.
+    train_persons : int, optional
+        Train on this many persons of each fold's training part, drawn at random; None takes all.
     seed : int
-        Of folds and noise.
+        Of folds, of the persons drawn, and of noise.
     noise, snr_db : str and float, optional
         Added to the test clips: see `make_noise`.
     train_noise : bool
@@ -59,6 +63,11 @@ def cross_validate(
             num_folds = 5
         folds = dataset.folds_by_person(num_folds, seed)
         conditions["folds"] = "by person"
+        if train_persons is not None:
+            folds = [_with_fewer_persons(fold, dataset, train_persons, seed) for fold in folds]
+            conditions["train_persons"] = train_persons
+    elif train_persons is not None:
+        raise InvalidArgument("train_persons needs a data set that names the person of every recording")
     else:
         folds = dataset.folds_stratified(num_folds or 5, seed)
         conditions["folds"] = "stratified by label: persons are not known, so test people may have been met"
@@ -95,6 +104,14 @@ def evaluate_split(
     fold = Fold(str(test.root.name), list(range(len(train))), list(range(len(train), len(both))))
     runner = _runner(both, make_recognizer, conditions, progress)
     return EvaluationResult(train.labels, [runner.run(fold)], conditions)
+
+
+def _with_fewer_persons(fold: Fold, dataset: Dataset, num_persons: int, seed: int) -> Fold:
+    persons = sorted({dataset.samples[i].person for i in fold.train})
+    if not 1 <= num_persons <= len(persons):
+        raise InvalidArgument(f"train_persons is {num_persons}, must be 1..{len(persons)}")
+    drawn = set(np.random.default_rng(seed).choice(persons, num_persons, replace=False))
+    return replace(fold, train=[i for i in fold.train if dataset.samples[i].person in drawn])
 
 
 def _conditions(

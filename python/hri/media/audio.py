@@ -84,7 +84,9 @@ def _read_with_soundfile(path: Path) -> Audio:
     except OSError as error:
         raise IoError(f"{path}: {error.strerror or error}") from error
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
-        raise FormatError(f"{path}: not a sound file that soundfile reads: {error}") from error
+        raise FormatError(
+            f"{path}: not a sound file that soundfile reads: {getattr(error, 'error_string', error)}"
+        ) from error
     num_channels = samples.shape[1]
     notes = [f"averaged {num_channels} channels to mono"] if num_channels > 1 else []
     mono = np.ascontiguousarray(samples.mean(axis=1, dtype=np.float32))

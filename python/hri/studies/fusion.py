@@ -16,6 +16,8 @@ from hri.recognition import GestureRecognizer, WordRecognizer
 from hri.studies.registry import Progress, Study
 
 NUM_FOLDS = 5
+FEW_PERSONS = 5
+"""Learned from a hundred persons, signs alone are above the ceiling; a laboratory has a handful."""
 SEED = 0
 GAIN = 0.03
 """What fusion has to add to the better single mode ..."""
@@ -70,21 +72,20 @@ def _condition(speech: EvaluationResult, signs: EvaluationResult) -> dict[str, A
 def _run(data_dir: Path, progress: Progress) -> dict[str, Any]:
     spoken = Dataset.load(data_dir / "fsdd" / "recordings", "speech")
     signed = Dataset.load(data_dir / "sign_digits", "gesture")
-    conditions = {}
-    for name, noise, snr_db, exposure in (
-        ("clean", None, None, None),
-        ("white noise at 10 dB, half exposure", "white", 10.0, 0.5),
-    ):
-        speech = cross_validate(spoken, WordRecognizer, seed=SEED, noise=noise, snr_db=snr_db, progress=progress)
-        signs = cross_validate(
-            signed,
-            GestureRecognizer,
-            num_folds=NUM_FOLDS,
-            seed=SEED,
-            exposure=exposure,
-            progress=progress,
-        )
-        conditions[name] = _condition(speech, signs)
+    common: dict[str, Any] = {"seed": SEED, "progress": progress}
+    clean = cross_validate(spoken, WordRecognizer, **common)
+    noisy = cross_validate(spoken, WordRecognizer, noise="white", snr_db=10.0, **common)
+    bright = cross_validate(signed, GestureRecognizer, num_folds=NUM_FOLDS, **common)
+    dark, few = (
+        cross_validate(signed, GestureRecognizer, num_folds=NUM_FOLDS, exposure=0.5, train_persons=persons, **common)
+        for persons in (None, FEW_PERSONS)
+    )
+    hard = "white noise at 10 dB, half exposure"
+    conditions = {
+        "clean": _condition(clean, bright),
+        hard: _condition(noisy, dark),
+        f"{hard}, signs learned from {FEW_PERSONS} persons": _condition(noisy, few),
+    }
     passed = {rule: all(c[rule]["passed"] for c in conditions.values()) for rule in RULES}
     return {
         "seed": SEED,
@@ -97,7 +98,8 @@ def _run(data_dir: Path, progress: Progress) -> dict[str, Any]:
 STUDIES = (
     Study(
         "fusion-digits",
-        "spoken digits of unseen speakers with signed digits of unseen persons, clean, and in noise and poor light",
+        "spoken digits of unseen speakers with signed digits of unseen persons: clean, in noise and poor light, and "
+        "with few persons to learn signs from",
         ("fsdd/recordings", "sign_digits"),
         f"a fusion rule beats the better mode by {100 * GAIN:.0f} points wherever that is below {100 * CEILING:.0f} %",
         _run,

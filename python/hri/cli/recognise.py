@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri recognise``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hri.cli.output import json_option, say, write_json
+from hri.cli.progress import progress_bars
+from hri.cli.recognizers import default_model
+from hri.errors import InvalidArgument
+from hri.fusion import RULES, FusedDecision, fuse
+from hri.media import read_audio, read_frames, write_image
+from hri.recognition import Decision, GestureRecognizer, WordRecognizer
+from hri.recognition.decision import RECOGNISED
+
+PICTURES = (".png", ".jpg", ".jpeg")
+
+_file = click.Path(exists=True, dir_okay=False)
+
+
+@click.command()
+@click.option("--speech", type=_file, help="A recording of one spoken word.")
+@click.option("--gesture", type=_file, help="A picture or clip of one sign.")
+@click.option(
+    "--speech-model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user."
+)
+@click.option("--gesture-model", type=_file, help="The same for gestures.")
+@click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
+@click.option("--robot", "robot_path", type=click.Path(dir_okay=False, path_type=Path), help="Film the robot's answer.")
+@click.option("--backend", type=click.Choice(["pybullet", "kinematic"]), default="pybullet", show_default=True)
+@click.option("--gui", is_flag=True, help="Show the robot in a window (pybullet).")
+@click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to list.")
+@json_option
+def recognise(
+    speech: str | None,
+    gesture: str | None,
+    speech_model: str | None,
+    gesture_model: str | None,
+    rule: str,
+    robot_path: Path | None,
+    backend: str,
+    gui: bool,
+    top: int,
+    json_path: str | None,
+) -> None:
+    """Recognise a spoken word, a sign, or both together; print label, confidence and the rule that fired.
+
+    "unknown" and "no_input" are answers too: the robot then does not move.
+
+    \b
+    Examples:
+      hri recognise --speech seven.wav
+      hri recognise --speech seven.wav --gesture seven.jpg --robot robot.webm
+      hri recognise --gesture clip.mp4 --gui
+      hri recognise --speech seven.wav --gesture seven.jpg --rule product --json -
+    """
+    if speech is None and gesture is None:
+        raise click.UsageError("give --speech FILE, --gesture FILE, or both")
+    heard = seen = None
+    if speech is not None:
+        words = WordRecognizer.load(speech_model or _kept("speech"))
+        audio = read_audio(speech)
+        heard = words.recognise(audio.samples, audio.sample_rate_hz)
+        _describe(heard, speech, [*audio.notes, *heard.notes], top)
+    if gesture is not None:
+        signs = GestureRecognizer.load(gesture_model or _kept("gesture"))
+        seen = signs.recognise(read_frames(gesture).frames)
+        _describe(seen, gesture, seen.notes, top)
+    decision = fuse(heard, seen, rule=rule)
+    say(f"{decision.label}\t{decision.confidence:.3f}\t{decision.rule}", json_path)
+    answer = _answer(decision, robot_path, backend, gui) if robot_path is not None or gui else None
+    write_json(json_path, {**decision.to_dict(), "robot": answer})
+
+
+def _kept(mode: str) -> Path:
+    path = default_model(mode)
+    if not path.is_file():
+        raise InvalidArgument(
+            f"there is no {mode} model yet: run 'hri train {mode} --data DIR', or give --{mode}-model FILE"
+        )
+    return path
+
+
+def _describe(decision: Decision, path: str, notes: Any, top: int) -> None:
+    """What one mode found, on standard error."""
+    best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in decision.nbest[:top])
+    click.echo(f"{decision.mode}: {decision.label} ({best or decision.status}) {path}", err=True)
+    for note in notes:
+        click.echo(f"{decision.mode}: note: {note}", err=True)
+
+
+def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool) -> dict[str, Any]:
+    """Let the robot show the label, on film, in a window, or both; what it did."""
+    from hri.robot import gesture_trajectory, load_gestures, open_robot, render_video
+
+    if decision.status != RECOGNISED:
+        click.echo(f"robot: not moved, because the answer is {decision.label}", err=True)
+        return {"moved": False, "reason": decision.label}
+    if decision.label not in load_gestures():
+        raise InvalidArgument(
+            f"the robot has no gesture named {decision.label!r}; 'hri robot gestures' lists those it has"
+        )
+    trajectory = gesture_trajectory(decision.label)
+    if gui:
+        with open_robot(backend, gui=True) as robot:
+            robot.perform(trajectory)
+    if path is not None and path.suffix.lower() in PICTURES:
+        with open_robot(backend) as robot:
+            robot.perform(trajectory)
+            write_image(path, robot.render(640, 480)[:, :, ::-1])
+    elif path is not None:
+        with progress_bars() as progress:
+            render_video(trajectory, path, backend, progress=lambda done, total: progress("filming", done, total))
+    if path is not None:
+        click.echo(f"robot: {path}", err=True)
+    return {"moved": True, "gesture": decision.label, "film": None if path is None else str(path)}

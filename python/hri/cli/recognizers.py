@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Recognisers as the command line names them: their mode, their options, where their models are kept."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hri.errors import InvalidArgument
+from hri.recognition import GestureRecognizer, WordRecognizer
+
+CLASSES: dict[str, type[WordRecognizer] | type[GestureRecognizer]] = {
+    "speech": WordRecognizer,
+    "gesture": GestureRecognizer,
+}
+
+mode_argument = click.argument("mode", type=click.Choice(list(CLASSES)))
+
+pattern_option = click.option(
+    "--pattern",
+    help="How paths under DIR name label, person and take, such as '{label}_{person}_{take}.wav'. Without it, the "
+    "folder's dataset.toml is read, or common patterns are tried.",
+)
+
+options_option = click.option(
+    "--option",
+    "options",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="An option of the recogniser, such as models.num_states=8; may be given several times. 'hri info' with a "
+    "model lists them all.",
+)
+
+
+def default_model(mode: str) -> Path:
+    """Where ``hri train`` puts a model, and ``hri recognise`` looks for it, unless told otherwise."""
+    from platformdirs import user_data_path
+
+    return user_data_path("hri") / f"{mode}.hri"
+
+
+def recognizer_factory(mode: str, options: tuple[str, ...]) -> Callable[[], WordRecognizer | GestureRecognizer]:
+    """Makes untrained recognisers with the given NAME=VALUE options; the options are checked here and now."""
+    fields = parse_options(options)
+    recognizer_class = CLASSES[mode]
+
+    def make() -> WordRecognizer | GestureRecognizer:
+        return recognizer_class(**fields)
+
+    try:
+        make()
+    except TypeError as error:  # an unknown name, or a value of another type
+        raise InvalidArgument(f"--option: {error}") from error
+    return make
+
+
+def parse_options(options: tuple[str, ...]) -> dict[str, Any]:
+    """NAME=VALUE texts as nested keywords: "models.num_states=8" is {"models": {"num_states": 8}}.
+
+    Values are TOML values; what is none is taken as text.
+
+    Raises
+    ------
+    InvalidArgument
+        For text without "=", or a name that is both an option and a group of options.
+    """
+    fields: dict[str, Any] = {}
+    for option in options:
+        name, equals, text = option.partition("=")
+        if not equals or not name:
+            raise InvalidArgument(f"--option {option!r} is not NAME=VALUE")
+        *groups, last = name.split(".")
+        place = fields
+        for group in groups:
+            place = place.setdefault(group, {})
+            if not isinstance(place, dict):
+                raise InvalidArgument(f"--option {name}: {group} has a value already")
+        place[last] = _value(text)
+    return fields
+
+
+def _value(text: str) -> Any:
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except (tomllib.TOMLDecodeError, KeyError):
+        return text

@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Small synthetic corpora that several test files use."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.datasets.synthetic_signer import make_gesture_corpus
+
+RATE_HZ = 16000
+PERSONS = {"low": 500.0, "middle": 550.0, "high": 600.0}
+
+
+def tone_word(base_hz: float, slope_hz_per_s: float, seed: int) -> NDArray[np.float32]:
+    """A gliding tone between pauses, with a little noise: the shortest thing that is recognised as a word."""
+    rng = np.random.default_rng(seed)
+    time_s = np.arange(RATE_HZ // 2) / RATE_HZ
+    tone = 0.3 * np.sin(2 * np.pi * (base_hz * time_s + 0.5 * slope_hz_per_s * time_s**2))
+    pause = np.zeros(RATE_HZ // 4)
+    clip = np.concatenate([pause, tone, pause])
+    return (clip + 0.001 * rng.standard_normal(len(clip))).astype(np.float32)
+
+
+@pytest.fixture(scope="session")
+def spoken(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of tones that stand for the words 1 (rising) and 2 (falling), three persons, three takes."""
+    folder = tmp_path_factory.mktemp("spoken")
+    for number, (person, base_hz) in enumerate(PERSONS.items()):
+        for take in range(3):
+            for label, slope in (("1", 800.0), ("2", -350.0)):
+                path = folder / f"{label}_{person}_{take}.wav"
+                _native.write_wav_pcm16(str(path), tone_word(base_hz, slope, 10 * number + take), RATE_HZ)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def signed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of drawn stills of the signs 1 and 2 by four persons."""
+    folder = tmp_path_factory.mktemp("signed")
+    make_gesture_corpus(folder, labels=("1", "2"), num_persons=4, seed=1)
+    return folder

@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The command line: results on stdout, messages on stderr, exit codes, no traceback."""
+
+from __future__ import annotations
+
+import json
+import signal
+from contextlib import contextmanager
+from pathlib import Path
+
+import cv2
+import pytest
+
+from conftest import RATE_HZ, tone_word
+from hri import _native
+from hri.cli.main import COMMANDS, main
+from hri.cli.recognizers import parse_options
+from hri.datasets import Dataset
+from hri.errors import InvalidArgument
+
+
+class Result:
+    """What a run of the command line gave."""
+
+    def __init__(self, code: int, out: str, err: str) -> None:
+        self.code, self.out, self.err = code, out, err
+
+
+@pytest.fixture
+def hri(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    """Runs the command line in this process; the user's data folder is a temporary one."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    monkeypatch.delenv("HRI_DATA", raising=False)
+
+    def run(*arguments: object) -> Result:
+        capfd.readouterr()
+        code = main([str(argument) for argument in arguments])
+        out, err = capfd.readouterr()
+        assert "Traceback" not in err
+        return Result(code, out, err)
+
+    return run
+
+
+def test_train_then_recognise_with_the_models_kept_per_user(hri, spoken: Path, signed: Path, tmp_path: Path):
+    trained = hri("train", "speech", "--data", spoken)
+    assert (trained.code, trained.out) == (0, f"{tmp_path / 'data' / 'hri' / 'speech.hri'}\n")
+    assert "2 labels: 1 2" in trained.err
+    assert hri("train", "gesture", "--data", signed).code == 0
+
+    sign = next(sample.path for sample in Dataset.load(signed).samples if sample.label == "2")
+    both = hri("recognise", "--speech", spoken / "2_low_0.wav", "--gesture", sign, "--json", "-")
+    assert both.code == 0
+    result = json.loads(both.out)
+    assert (result["label"], result["status"]) == ("2", "recognised")
+    assert result["rule"].startswith("table 6.9")
+    assert {result["speech"]["label"], result["gesture"]["label"]} == {"2"}
+
+    alone = hri("recognise", "--speech", spoken / "1_high_1.wav")
+    label, confidence, rule = alone.out.strip().split("\t")
+    assert label == "1" and 0.5 < float(confidence) <= 1 and rule.startswith("speech alone")
+    assert "speech: 1 (1 " in alone.err
+
+
+def test_robot_answers_on_film_and_rests_when_nothing_was_said(hri, spoken: Path, tmp_path: Path):
+    hri("train", "speech", "--data", spoken)
+    film, still = tmp_path / "answer.mp4", tmp_path / "answer.png"
+    said = ("recognise", "--speech", spoken / "1_low_0.wav", "--backend", "kinematic", "--robot")
+    assert hri(*said, film).code == 0
+    assert cv2.VideoCapture(str(film)).read()[0]
+    assert hri(*said, still).code == 0
+    assert cv2.imread(str(still)).shape == (480, 640, 3)
+
+    silence = tmp_path / "silence.wav"
+    _native.write_wav_pcm16(str(silence), 0 * tone_word(500, 0, 0), RATE_HZ)
+    rests = hri("recognise", "--speech", silence, "--robot", tmp_path / "none.mp4", "--json", tmp_path / "r.json")
+    assert rests.code == 0 and rests.out.startswith("no_input\t")
+    assert "robot: not moved" in rests.err and not (tmp_path / "none.mp4").exists()
+    assert json.loads((tmp_path / "r.json").read_text())["robot"] == {"moved": False, "reason": "no_input"}
+
+
+def test_evaluate_by_person_and_by_folders(hri, spoken: Path, tmp_path: Path):
+    picture, report = tmp_path / "confusion.png", tmp_path / "new" / "report.json"
+    result = hri(
+        *("evaluate", "speech", "--data", spoken, "--confusion", picture, "--json", report),
+        *("--noise", "white", "--snr", "20"),
+    )
+    assert result.code == 0 and "%" not in result.err
+    rows = [line.split("\t") for line in result.out.splitlines()]
+    assert [row[0] for row in rows] == ["held out", "high", "low", "middle", "all"]
+    assert rows[-1][2].startswith("100.0 % ± 0.0")
+    assert cv2.imread(str(picture)) is not None
+    written = json.loads(report.read_text())
+    assert written["conditions"]["snr_db"] == 20 and written["num_samples"] == 18
+    assert written["options"]["models"]["num_states"] > 0
+
+    split = hri("evaluate", "speech", "--train", spoken, "--test", spoken, "--option", "models.num_states=4")
+    assert split.code == 0 and split.out.splitlines()[-1].startswith("all\t18\t100.0 %")
+
+
+def test_evaluate_gestures_of_unseen_persons(hri, signed: Path):
+    result = hri("evaluate", "gesture", "--data", signed, "--folds", "2", "--exposure", "0.5", "--json", "-")
+    assert json.loads(result.out)["conditions"]["exposure"] == 0.5
+    assert json.loads(result.out)["accuracy_mean"] >= 0.75
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["recognise"], "give --speech FILE, --gesture FILE, or both"),
+        (["evaluate", "speech"], "give either --data DIR, or --train DIR and --test DIR"),
+        (["evaluate", "speech", "--data", ".", "--noise", "white"], "--noise and --snr go together"),
+        (["evaluate", "speech", "--data", ".", "--exposure", "0.5"], "--exposure is for gestures"),
+        (["evaluate", "gesture", "--data", ".", "--noise", "pink", "--snr", "3"], "--noise is for speech"),
+        (["train", "smell", "--data", "."], "'smell' is not one of 'speech', 'gesture'"),
+        (["nonsense"], "No such command 'nonsense'"),
+    ],
+)
+def test_wrong_usage_ends_with_2(hri, arguments: list[str], message: str):
+    result = hri(*arguments)
+    assert (result.code, result.out) == (2, "")
+    assert message in result.err
+
+
+def test_bad_data_ends_with_3_and_one_line(hri, tmp_path: Path, spoken: Path):
+    broken = tmp_path / "broken.wav"
+    broken.write_bytes(b"RIFF but no more")
+    hri("train", "speech", "--data", spoken)
+    for arguments, message in (
+        (("recognise", "--speech", broken), "broken.wav"),
+        (("recognise", "--gesture", broken), "run 'hri train gesture --data DIR'"),
+        (("recognise", "--speech", spoken / "1_low_0.wav", "--speech-model", broken), "broken.wav"),
+        (("train", "speech", "--data", tmp_path / "data"), "data"),
+        (("train", "speech", "--data", spoken, "--option", "models.num_stats=4"), "num_states"),
+        (("train", "speech", "--data", spoken, "--option", "models.num_states=few"), "num_states"),
+        (("train", "speech", "--data", spoken, "--option", "models.num_states"), "NAME=VALUE"),
+        (("study", "nonsense"), "fusion-digits"),
+        (("study", "fsdd"), "HRI_DATA"),
+        (("study", "fsdd", "--data", tmp_path), "fsdd/recordings"),
+        (("info", broken), "broken.wav"),
+    ):
+        result = hri(*arguments)
+        assert (result.code, result.out) == (3, ""), arguments
+        assert result.err.startswith("hri: error: ") and result.err.count("\n") == 1, result.err
+        assert message in result.err
+
+
+def test_study_list_names_every_study(hri):
+    result = hri("study", "list")
+    names = [line.split("\t")[0] for line in result.out.splitlines()]
+    assert names == ["fsdd", "hindi-digits", "hindi-words", "sign-digits", "fusion-digits"]
+    assert all("target: " in line for line in result.out.splitlines())
+    assert [study["name"] for study in json.loads(hri("study", "list", "--json", "-").out)] == names
+
+
+def test_info_tells_of_the_installation_and_of_models(hri, spoken: Path, tmp_path: Path):
+    assert f"version\t{_native.__version__}" in hri("info").out
+    model = tmp_path / "words.hri"
+    hri("train", "speech", "--data", spoken, "--out", model, "--option", "models.num_states=5")
+    told = hri("info", model).out.splitlines()
+    assert "labels\t1 2" in told and "options.models.num_states\t5" in told
+
+
+@pytest.mark.parametrize("name", [name for name in COMMANDS if name != "robot"])
+def test_help_teaches_by_example(hri, name: str):
+    result = hri(name, "--help")
+    assert result.code == 0
+    assert f"hri {name}" in result.out.split("Usage:")[1].split("\n", 1)[1]
+
+
+def test_version_and_bare_call(hri):
+    assert hri("--version").out.strip().endswith(_native.__version__)
+    assert all(name in hri("--help").out for name in COMMANDS)
+
+
+def test_options_are_nested_and_typed():
+    assert parse_options(("models.model=ptbhmm", "models.num_states=4", "trim=false", "warp_step=0.1")) == {
+        "models": {"model": "ptbhmm", "num_states": 4},
+        "trim": False,
+        "warp_step": 0.1,
+    }
+    with pytest.raises(InvalidArgument, match="models has a value"):
+        parse_options(("models=3", "models.num_states=4"))
+
+
+def test_ctrl_c_while_training_ends_with_130_and_writes_nothing(
+    hri, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    told = []
+
+    @contextmanager
+    def interrupt_in_training():
+        def report(what: str, done: int, total: int) -> None:
+            told.append(what)
+            if what == "training" and told.count("training") == 1:
+                signal.raise_signal(signal.SIGINT)
+
+        yield report
+
+    monkeypatch.setattr("hri.cli.train.progress_bars", interrupt_in_training)
+    model = tmp_path / "words.hri"
+    result = hri("train", "speech", "--data", spoken, "--out", model)
+    assert (result.code, result.out, result.err.strip()) == (130, "", "hri: interrupted")
+    assert told.count("training") == 1
+    assert list(tmp_path.glob("*.hri*")) == []
