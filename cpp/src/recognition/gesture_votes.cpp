@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Still signs: every frame is classified by itself and the scores are averaged. The last columns
-// (the hand's track in the picture) are left out, so that it does not matter where a sign is shown.
+// Still signs: every frame in which the sign is held is classified by itself, and the scores are
+// averaged. The last columns (the hand's track in the picture) are left out, so that it does not
+// matter where a sign is shown.
 #include <optional>
 
 #include "gesture_scorer.hpp"
@@ -11,9 +12,15 @@
 #include "hri/models/knn.hpp"
 #include "hri/models/linear_svm.hpp"
 #include "hri/models/pca.hpp"
+#include "hri/recognition/key_frames.hpp"
 
 namespace hri {
 namespace {
+
+MatrixF held_rows(ConstMatrixRefF rows) {
+  const FrameRange held = key_frames(rows, detail::kNumTrackColumns);
+  return rows.middleRows(held.first, held.last - held.first);
+}
 
 class VoteScorer : public GestureScorer {
  public:
@@ -60,7 +67,7 @@ class VoteScorer : public GestureScorer {
   [[nodiscard]] MatrixF shape_rows(ConstMatrixRefF rows) const {
     require(rows.cols() >= num_shape_columns,
             "features have fewer columns than the model was trained on");
-    const MatrixF shapes = rows.leftCols(num_shape_columns);
+    const MatrixF shapes = held_rows(rows).leftCols(num_shape_columns);
     return pca ? pca->transform(shapes) : shapes;
   }
   [[nodiscard]] VectorF frame_scores(Span<const float> row) const {
@@ -77,7 +84,11 @@ std::shared_ptr<const GestureScorer> train_vote_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop) {
   auto scorer = std::make_shared<VoteScorer>();
-  StackedRows all = stack_rows(per_class);
+  std::vector<std::vector<MatrixF>> held(per_class.size());
+  for (std::size_t c = 0; c < per_class.size(); ++c) {
+    for (const MatrixF& rows : per_class[c]) held[c].push_back(held_rows(rows));
+  }
+  const StackedRows all = stack_rows(held);
   require(all.rows.cols() > kNumTrackColumns, "features need columns besides the hand's track");
   scorer->num_shape_columns = all.rows.cols() - kNumTrackColumns;
   MatrixF shapes = all.rows.leftCols(scorer->num_shape_columns);

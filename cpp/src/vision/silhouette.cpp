@@ -36,6 +36,35 @@ Split split_by_otsu(const cv::Mat& channel, bool bright_is_hand) {
   return s;
 }
 
+// A hand does not reach three corners of the picture: then the wall was taken for skin, because
+// something else, such as a blue shirt, lies further from both.
+bool holds_background(const cv::Mat& mask) {
+  const int right = mask.cols - 1;
+  const int bottom = mask.rows - 1;
+  const int corners = (mask.at<uchar>(0, 0) != 0) + (mask.at<uchar>(0, right) != 0) +
+                      (mask.at<uchar>(bottom, 0) != 0) + (mask.at<uchar>(bottom, right) != 0);
+  return corners >= 3 ||
+         (corners == 2 && mask.at<uchar>(0, 0) != 0 && mask.at<uchar>(0, right) != 0);
+}
+
+// Splits again what lies inside `coarse`, as an image of its own.
+Split split_inside(const cv::Mat& channel, const Split& coarse) {
+  std::vector<uchar> values;
+  values.reserve(channel.total());
+  for (int y = 0; y < channel.rows; ++y) {
+    const auto* value = channel.ptr<uchar>(y);
+    const auto* inside = coarse.mask.ptr<uchar>(y);
+    for (int x = 0; x < channel.cols; ++x) {
+      if (inside[x] != 0) values.push_back(value[x]);
+    }
+  }
+  cv::Mat row(1, static_cast<int>(values.size()), CV_8U, values.data());
+  Split fine = split_by_otsu(row, true);
+  const double threshold = cv::threshold(row, row, 0, 255, cv::THRESH_OTSU | cv::THRESH_BINARY);
+  cv::threshold(channel, fine.mask, threshold, 255, cv::THRESH_BINARY);
+  return fine;
+}
+
 // Cr - Cb, shifted to 0..255.
 cv::Mat redness(const cv::Mat& bgr) {
   cv::Mat ycrcb;
@@ -60,7 +89,12 @@ Split split_by_hsv(const cv::Mat& bgr) {
 
 Split split(const cv::Mat& bgr, SilhouetteMethod method) {
   if (method == SilhouetteMethod::hsv) return split_by_hsv(bgr);
-  if (method == SilhouetteMethod::chroma_otsu) return split_by_otsu(redness(bgr), true);
+  if (method == SilhouetteMethod::chroma_otsu) {
+    const cv::Mat channel = redness(bgr);
+    Split found = split_by_otsu(channel, true);
+    if (holds_background(found.mask)) found = split_inside(channel, found);
+    return found;
+  }
   cv::Mat grey;
   cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
   return split_by_otsu(grey, false);
@@ -69,7 +103,11 @@ Split split(const cv::Mat& bgr, SilhouetteMethod method) {
 // How well a region fills the ellipse that has its moments: 1 for an ellipse, less for a hand with
 // fingers.
 double ellipticity(const cv::Mat& labels, int label, const cv::Rect& box) {
-  const cv::Mat region = labels(box) == label;
+  cv::Mat region = labels(box) == label;
+  // Eyes, glasses and a mouth are holes in a face.
+  std::vector<std::vector<cv::Point>> outline;
+  cv::findContours(region.clone(), outline, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  cv::drawContours(region, outline, -1, cv::Scalar(255), cv::FILLED);
   const cv::Moments m = cv::moments(region, true);
   if (!(m.m00 > 0)) return 0;
   const double a = m.mu20 / m.m00;
