@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The demo's own recordings: synthetic voices and drawn signers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from hri.datasets import Dataset
+from hri.datasets.synthetic_signer import make_gesture_corpus
+from hri.datasets.synthetic_speech import DIGIT_WORDS, make_speech_corpus
+
+Progress = Callable[[str, int, int], None]
+
+WORDS = {
+    "en": {**DIGIT_WORDS["en"], "stop": "stop"},
+    "hi": {**DIGIT_WORDS["hi"], "stop": "रुको"},
+}
+"""What is spoken: digits and "stop", in English and Hindi under common labels."""
+
+
+@dataclass(frozen=True)
+class CorpusSize:
+    """How much is made."""
+
+    num_speakers: int = 6
+    num_signers: int = 10
+    takes: int = 2
+
+
+FULL = CorpusSize()
+QUICK = CorpusSize(num_speakers=3, num_signers=4, takes=1)
+
+
+@dataclass(frozen=True)
+class Corpus:
+    """Spoken words and still signs, each of several made-up people."""
+
+    spoken: Dataset
+    signed: Dataset
+
+
+def make_corpus(directory: Path, size: CorpusSize, seed: int, progress: Progress) -> Corpus:
+    """Write both corpora below `directory`, each with a manifest that says it is synthetic."""
+    return Corpus(
+        make_speech_corpus(
+            directory / "spoken",
+            WORDS,
+            num_speakers=size.num_speakers,
+            takes=size.takes,
+            seed=seed,
+            progress=lambda done, total: progress("speaking words", done, total),
+        ),
+        make_gesture_corpus(
+            directory / "signed",
+            num_persons=size.num_signers,
+            takes=1,
+            seed=seed,
+            progress=lambda done, total: progress("drawing signs", done, total),
+        ),
+    )

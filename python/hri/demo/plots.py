@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Plots of the demo, as PNG bytes."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+import numpy as np
+
+from hri import _native
+from hri.demo.scenes import Scene
+from hri.evaluation import EvaluationResult
+from hri.media.optional import import_optional
+
+_BLUE, _ORANGE, _GREEN = "#3b6fb6", "#d9822b", "#3f8f5f"
+
+
+def plot_scene(scene: Scene) -> bytes:
+    """What was heard (waveform and cepstra), what was seen (picture and silhouette), and the candidates."""
+    from hri import _native_vision
+
+    figure = _figure(10.5, 4.6)
+    grid = figure.add_gridspec(2, 3, width_ratios=(1.25, 1.0, 1.1))
+    samples, rate_hz = scene.audio.samples, scene.audio.sample_rate_hz
+    wave = figure.add_subplot(grid[0, 0])
+    wave.plot(np.arange(len(samples)) / rate_hz, samples, color=_BLUE, linewidth=0.5)
+    bounds = _native.find_speech(samples, rate_hz)
+    if bounds is not None:
+        wave.axvspan(bounds[0] / rate_hz, bounds[1] / rate_hz, color=_BLUE, alpha=0.12, linewidth=0)
+    wave.set(title="heard: waveform and end points", xlabel="s", ylim=(-1, 1), xlim=(0, len(samples) / rate_hz))
+
+    cepstra = _native.CepstraComputer(_native.CepstraOptions(sample_rate_hz=rate_hz, delta_orders=0)).compute(samples)
+    image = figure.add_subplot(grid[1, 0])
+    image.imshow(np.asarray(cepstra).T, aspect="auto", origin="lower", cmap="magma", interpolation="nearest")
+    image.set(title="mel cepstra", xlabel="frame (10 ms)", ylabel="coefficient")
+
+    frame = scene.frames[len(scene.frames) // 2]
+    silhouette = _native_vision.SilhouetteExtractor(_native_vision.SilhouetteOptions()).extract(frame)
+    for row, (title, picture, cmap) in enumerate(
+        (("seen: held frame", frame[:, :, ::-1], None), ("silhouette of the hand", silhouette.mask, "gray"))
+    ):
+        axes = figure.add_subplot(grid[row, 1])
+        axes.imshow(picture, cmap=cmap)
+        axes.set_title(title)
+        axes.set_axis_off()
+
+    axes = figure.add_subplot(grid[:, 2])
+    _bars(axes, scene)
+    return _png(figure)
+
+
+def _bars(axes: Any, scene: Scene) -> None:
+    """Probabilities of the best candidates in each mode and by the product of both."""
+    product = scene.by_rule["product"]
+    lists = [
+        ("heard", scene.decision.speech.nbest if scene.decision.speech else (), _BLUE),
+        ("seen", scene.decision.gesture.nbest if scene.decision.gesture else (), _ORANGE),
+        ("product of both", product.nbest, _GREEN),
+    ]
+    labels = list(dict.fromkeys(entry.label for _, nbest, _ in lists for entry in nbest[:3]))[:6]
+    for place, (name, nbest, colour) in enumerate(lists):
+        known = {entry.label: entry.probability for entry in nbest}
+        rows = np.arange(len(labels)) + 0.27 * (place - 1)
+        axes.barh(rows, [known.get(label, 0.0) for label in labels], height=0.25, color=colour, label=name)
+    axes.set_yticks(range(len(labels)), labels)
+    axes.invert_yaxis()
+    axes.set(title="candidates", xlabel="calibrated probability", xlim=(0, 1))
+    axes.legend(loc="lower right", frameon=False, fontsize=8)
+
+
+def plot_confusions(words: EvaluationResult, signs: EvaluationResult) -> bytes:
+    """Confusion matrices of both modes side by side."""
+    figure = _figure(9.5, 4.6)
+    for place, (title, result) in enumerate((("spoken words", words), ("signs", signs))):
+        axes = figure.add_subplot(1, 2, place + 1)
+        counts = result.confusion()
+        columns = [*result.labels, "none"]
+        axes.imshow(counts / np.maximum(counts.sum(axis=1, keepdims=True), 1), cmap="Blues", vmin=0, vmax=1)
+        for (row, column), count in np.ndenumerate(counts):
+            if count:
+                axes.text(column, row, str(count), ha="center", va="center", color="white", fontsize=8)
+        axes.set_xticks(range(len(columns)), columns, rotation=60, ha="right", fontsize=8)
+        axes.set_yticks(range(len(result.labels)), result.labels, fontsize=8)
+        axes.set(xlabel="recognised as", ylabel="truth")
+        axes.set_title(f"{title}, unseen synthetic people: {100 * result.mean:.0f} %")
+    return _png(figure)
+
+
+def _figure(width: float, height: float) -> Any:
+    import_optional("matplotlib", "plots", "to draw plots")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _png(figure: Any) -> bytes:
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=110)
+    return buffer.getvalue()

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What happens in the demo: people who were not trained on say and show something, and it is decided."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.datasets.drawing.signer import make_signer
+from hri.datasets.synthetic_signer import CLIP_FPS, draw_clip
+from hri.datasets.synthetic_speech import make_speaker, speak
+from hri.demo.corpus import WORDS
+from hri.evaluation import make_noise, mix_noise
+from hri.fusion import RULES, FusedDecision, fuse
+from hri.media import Audio
+from hri.recognition import GestureRecognizer, WordRecognizer
+
+UNSEEN = 40
+"""Number of the first voice and signer that the scenes take: far beyond those trained on."""
+CLIP_SIZE_PX = (320, 240)
+_NUM_FRAMES = 30
+_SNR_DB = 0.0
+
+
+@dataclass(frozen=True)
+class Script:
+    """What one scene shows.
+
+    Attributes
+    ----------
+    title, text : str
+        For the page.
+    word : str
+        Label of the spoken word.
+    language : str
+        "en" or "hi".
+    sign : str
+        Label of the signed digit.
+    noisy : bool
+        White noise as loud as the voice.
+    """
+
+    title: str
+    text: str
+    word: str
+    language: str
+    sign: str
+    noisy: bool = False
+
+
+SCRIPTS = (
+    Script(
+        "Word and sign agree",
+        "A voice says <i>saat</i>, Hindi for seven, while the signer shows 7.",
+        *("7", "hi", "7"),
+    ),
+    Script(
+        "Noise",
+        "White noise is as loud as the voice (SNR 0 dB). The sign is clear.",
+        *("3", "en", "3"),
+        noisy=True,
+    ),
+    Script(
+        "STOP wins",
+        "The signer shows 5, the voice says <i>stop</i>. Whatever the other mode says, the robot does not move.",
+        *("stop", "en", "5"),
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A script as played: what was heard and seen, and all decisions."""
+
+    script: Script
+    audio: Audio
+    frames: list[NDArray[np.uint8]]
+    fps: float
+    decision: FusedDecision
+    by_rule: dict[str, FusedDecision]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain values that can be written as JSON."""
+        return {
+            "title": self.script.title,
+            "said": self.script.word,
+            "language": self.script.language,
+            "signed": self.script.sign,
+            "noise": f"white, {_SNR_DB:g} dB" if self.script.noisy else None,
+            "decision": self.decision.to_dict(),
+            "other_rules": {name: {"label": d.label, "confidence": d.confidence} for name, d in self.by_rule.items()},
+        }
+
+
+def play(number: int, script: Script, words: WordRecognizer, signs: GestureRecognizer, seed: int) -> Scene:
+    """Speak and draw `script` by people of its own, and decide."""
+    person = UNSEEN + number
+    audio = speak(WORDS[script.language][script.word], script.language, make_speaker(person, seed), seed=seed)
+    if script.noisy:
+        noise = make_noise("white", len(audio.samples), audio.sample_rate_hz, np.random.default_rng(seed))
+        samples = mix_noise(audio.samples, noise, _SNR_DB)
+        audio = Audio(samples / np.abs(samples).max(), audio.sample_rate_hz, audio.notes)
+    frames = draw_clip(make_signer(person, seed), script.sign, seed=seed, size_px=CLIP_SIZE_PX, num_frames=_NUM_FRAMES)
+    heard = words.recognise(audio.samples, audio.sample_rate_hz)
+    seen = signs.recognise(frames)
+    by_rule = {rule: fuse(heard, seen, rule=rule) for rule in RULES}
+    return Scene(script, audio, frames, CLIP_FPS, by_rule[RULES[0]], by_rule)
+
+
+def save(scene: Scene, directory: Path, number: int) -> None:
+    """Write what was heard and seen, so that ``hri recognise`` can be tried on it."""
+    from hri import _native
+    from hri.media import write_video
+
+    _native.write_wav_pcm16(str(directory / f"scene{number + 1}.wav"), scene.audio.samples, scene.audio.sample_rate_hz)
+    write_video(directory / f"scene{number + 1}.mp4", scene.frames, scene.fps)
