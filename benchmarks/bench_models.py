@@ -1,41 +1,16 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Speed of the models against their peers: same process, same input, one thread, alternated repeats.
-
-Each bench returns the medians (ours_seconds, peer_seconds). Set the peers' thread pools to one before NumPy is
-imported (OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1), as `python benchmarks/bench_models.py` does by itself.
-"""
+"""Models against hmmlearn and scikit-learn."""
 
 from __future__ import annotations
-
-import os
-
-for _pool in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(_pool, "1")
-
-import statistics
-import time
-from collections.abc import Callable
 
 import numpy as np
 
 from hri import _native
+from timing import Bench, Timed, medians
 
 NUM_STATES = 8
 DIM = 39
-
-
-def medians(ours: Callable[[], object], peer: Callable[[], object], repeats: int = 15) -> tuple[float, float]:
-    """Median seconds of both, run in turns after one warm-up each."""
-    seconds: tuple[list[float], list[float]] = ([], [])
-    ours()
-    peer()
-    for _ in range(repeats):
-        for run, times in zip((ours, peer), seconds):
-            start = time.perf_counter()
-            run()
-            times.append(time.perf_counter() - start)
-    return statistics.median(seconds[0]), statistics.median(seconds[1])
 
 
 def _left_right_pair(seed: int) -> tuple[_native.GaussianMixtureHmm, object]:
@@ -58,29 +33,37 @@ def _frames(num_frames: int, seed: int) -> np.ndarray:
     return np.random.default_rng(seed).normal(size=(num_frames, DIM)).astype(np.float32)
 
 
-def hmm_forward() -> tuple[float, float]:
+def hmm_forward() -> Timed:
     """Log-likelihood of 2000 frames, 39 features, 8 left-right states, one Gaussian a state."""
     ours, peer = _left_right_pair(0)
     frames = _frames(2000, 1)
+    assert np.isclose(ours.log_likelihood(frames), peer.score(frames), rtol=1e-5)
     return medians(lambda: ours.log_likelihood(frames), lambda: peer.score(frames))
 
 
-def hmm_viterbi() -> tuple[float, float]:
+def hmm_viterbi() -> Timed:
     """Best path of the same 2000 frames."""
     ours, peer = _left_right_pair(0)
     frames = _frames(2000, 1)
+    assert np.array_equal(ours.viterbi(frames)[1], peer.decode(frames)[1])
     return medians(lambda: ours.viterbi(frames), lambda: peer.decode(frames))
 
 
-def hmm_baum_welch() -> tuple[float, float]:
+def hmm_baum_welch() -> Timed:
     """Ten Baum-Welch iterations over 20 sequences of 100 frames."""
     from hmmlearn.hmm import GaussianHMM
 
-    sequences = [_frames(100, seed) for seed in range(20)]
+    first, _ = _left_right_pair(0)
+    states = np.repeat(np.arange(NUM_STATES), 13)[:100]
+    sequences = [
+        (first.means[states] + np.sqrt(first.variances[states]) * _frames(100, seed))
+        .astype(np.float32)
+        .reshape(100, DIM)
+        for seed in range(20)
+    ]
     topology = _native.Topology(kind="left_right", num_states=NUM_STATES)
     options = _native.GaussianMixtureHmmOptions(topology=topology, max_iterations=10, tolerance=0.0)
     together, lengths = np.concatenate(sequences), [100] * 20
-    first, _ = _left_right_pair(0)
 
     def peer() -> None:
         model = GaussianHMM(NUM_STATES, covariance_type="diag", n_iter=10, tol=-np.inf, init_params="")
@@ -91,7 +74,7 @@ def hmm_baum_welch() -> tuple[float, float]:
     return medians(lambda: _native.GaussianMixtureHmm.train(sequences, options), peer, repeats=5)
 
 
-def hmm_word() -> tuple[float, float]:
+def hmm_word() -> Timed:
     """One spoken word of 80 frames scored by ten word models."""
     pairs = [_left_right_pair(seed) for seed in range(10)]
     frames = _frames(80, 1)
@@ -102,7 +85,7 @@ def hmm_word() -> tuple[float, float]:
     )
 
 
-def lbg() -> tuple[float, float]:
+def lbg() -> Timed:
     """A codebook of 64 codewords from 10000 frames; scikit-learn's k-means with one start."""
     from sklearn.cluster import KMeans
 
@@ -115,30 +98,22 @@ def lbg() -> tuple[float, float]:
     )
 
 
-def quantise() -> tuple[float, float]:
+def quantise() -> Timed:
     """The nearest of 64 codewords for 10000 frames."""
     from sklearn.cluster import KMeans
 
     frames = _frames(10000, 3)
     peer = KMeans(64, n_init=1, max_iter=5, random_state=0).fit(frames)
     ours = _native.Codebook(peer.cluster_centers_)
+    assert np.mean(ours.quantise(frames) == peer.predict(frames)) > 0.999  # rounding may break ties
     return medians(lambda: ours.quantise(frames), lambda: peer.predict(frames))
 
 
-BENCHES: dict[str, tuple[Callable[[], tuple[float, float]], str]] = {
-    "hmm_forward": (hmm_forward, "hmmlearn"),
-    "hmm_viterbi": (hmm_viterbi, "hmmlearn"),
-    "hmm_baum_welch": (hmm_baum_welch, "hmmlearn"),
-    "hmm_word": (hmm_word, "hmmlearn"),
-    "lbg": (lbg, "scikit-learn"),
-    "quantise": (quantise, "scikit-learn"),
-}
-
-
-if __name__ == "__main__":
-    for name, (bench, peer_name) in BENCHES.items():
-        ours_seconds, peer_seconds = bench()
-        print(
-            f"{name:16s} ours {1e3 * ours_seconds:9.3f} ms  {peer_name} {1e3 * peer_seconds:9.3f} ms  "
-            f"{peer_seconds / ours_seconds:6.2f}x"
-        )
+BENCHES = [
+    Bench("hmm_forward", hmm_forward, "hmmlearn"),
+    Bench("hmm_viterbi", hmm_viterbi, "hmmlearn"),
+    Bench("hmm_baum_welch", hmm_baum_welch, "hmmlearn"),
+    Bench("hmm_word", hmm_word, "hmmlearn"),
+    Bench("lbg", lbg, "scikit-learn"),
+    Bench("quantise", quantise, "scikit-learn"),
+]

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hri/core/dot.hpp"
 #include "hri/core/error.hpp"
-#include "hri/core/simd.hpp"
 
 namespace hri {
 namespace {
@@ -48,20 +48,6 @@ void check(const FilterBankOptions& o, int sample_rate_hz) {
   require(high <= sample_rate_hz / 2.0, "high_hz must not exceed half the sample rate");
   require(o.erb_factor >= 0.1 && o.erb_factor <= 10, "erb_factor must lie in 0.1..10");
   require(o.warp >= 0.5 && o.warp <= 2, "warp must lie in 0.5..2");
-}
-
-HRI_SIMD_CLONES
-float dot(const float* a, const float* b, int count) {
-  constexpr int kLanes = 8;
-  float lanes[kLanes] = {};
-  int i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    for (int l = 0; l < kLanes; ++l) lanes[l] += a[i + l] * b[i + l];
-  }
-  float sum = 0;
-  for (; i < count; ++i) sum += a[i] * b[i];
-  for (const float lane : lanes) sum += lane;
-  return sum;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "hri/core/dot.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri {
@@ -20,7 +21,7 @@ constexpr double kPassBand = 0.95;   // cut-off as a share of the lower Nyquist 
 double bessel_i0(double x) {
   double sum = 1;
   double term = 1;
-  for (int k = 1; k < 60; ++k) {
+  for (int k = 1; term > 1e-16 * sum; ++k) {
     term *= (x / (2.0 * k)) * (x / (2.0 * k));
     sum += term;
   }
@@ -32,7 +33,8 @@ double kernel(double t, double half_width, double cutoff) {
   const double r = t / half_width;
   const double x = kPi * cutoff * t;
   const double sinc = std::abs(x) < 1e-9 ? 1.0 : std::sin(x) / x;
-  return cutoff * sinc * bessel_i0(kKaiserBeta * std::sqrt(1 - r * r)) / bessel_i0(kKaiserBeta);
+  static const double scale = 1.0 / bessel_i0(kKaiserBeta);
+  return cutoff * sinc * scale * bessel_i0(kKaiserBeta * std::sqrt(1 - r * r));
 }
 
 }  // namespace
@@ -73,10 +75,9 @@ std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz) {
     const float* row = weights.data() + (position % up) * taps;
     const std::int64_t begin = std::max<std::int64_t>(0, -first);
     const std::int64_t end = std::min(taps, num_in - first);
-    float sum = 0;
-    for (std::int64_t k = begin; k < end; ++k)
-      sum += row[k] * samples[static_cast<std::size_t>(first + k)];
-    out[static_cast<std::size_t>(n)] = sum;
+    if (begin >= end) continue;
+    out[static_cast<std::size_t>(n)] =
+        dot(row + begin, samples.data() + first + begin, static_cast<int>(end - begin));
   }
   return out;
 }

@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Speed against named peers: the same process, the same input, one thread, medians of runs in turns.
+
+ratio is the peer's time over ours: above 1 we are faster.
+"""
+
+from __future__ import annotations
+
+import timing  # isort: skip  # first: it sets thread pools to one
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import bench_models
+import bench_signal
+import bench_vision
+
+ALL = {bench.name: bench for module in (bench_signal, bench_models, bench_vision) for bench in module.BENCHES}
+
+
+def measure(bench: timing.Bench) -> dict[str, object]:
+    """One entry of the report."""
+    ours, peer = bench.run()
+    return {
+        "name": bench.name,
+        "what": bench.what,
+        "ours": ours,
+        "peer": peer,
+        "unit": "s",
+        "peer_name": bench.peer_name,
+        "ratio": peer / ours,
+    }
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(prog="./run bench", description=__doc__)
+    parser.add_argument("--only", nargs="+", choices=ALL, metavar="NAME", help="run these only")
+    parser.add_argument("--list", action="store_true", help="list the benches and end")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="also write the entries as JSON")
+    arguments = parser.parse_args()
+    if arguments.list:
+        for bench in ALL.values():
+            print(f"{bench.name}\t{bench.peer_name}\t{bench.what}")
+        return
+    entries = []
+    print(f"{'bench':22} {'ours':>12} {'peer':>12}  {'ratio':>7}  peer")
+    for name in arguments.only or ALL:
+        if sys.stderr.isatty():
+            print(f"{name} ...", end="\r", file=sys.stderr)
+        entry = measure(ALL[name])
+        entries.append(entry)
+        print(
+            f"{name:22} {1e3 * entry['ours']:9.3f} ms {1e3 * entry['peer']:9.3f} ms  {entry['ratio']:6.2f}x  "
+            f"{entry['peer_name']}",
+            flush=True,
+        )
+    if arguments.json:
+        arguments.json.write_text(json.dumps(entries, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()

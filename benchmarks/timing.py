@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""How benches are timed: one process, one thread, the same input, in turns."""
+
+from __future__ import annotations
+
+import os
+
+# Thread pools read these when their library is loaded, so this module comes first.
+for _pool in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+    os.environ[_pool] = "1"
+
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+Timed = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Bench:
+    """One comparison.
+
+    Attributes
+    ----------
+    name : str
+    run : callable
+        Gives the medians (ours, peer's) in seconds, after checking that both give the same answer where they should.
+    peer_name : str
+    """
+
+    name: str
+    run: Callable[[], Timed]
+    peer_name: str
+
+    @property
+    def what(self) -> str:
+        """What is timed, in a sentence."""
+        return " ".join((self.run.__doc__ or "").split())
+
+
+def medians(ours: Callable[[], object], peer: Callable[[], object], repeats: int = 15) -> Timed:
+    """Median seconds of both, run in turns after one warm-up each."""
+    seconds: tuple[list[float], list[float]] = ([], [])
+    ours()
+    peer()
+    for _ in range(repeats):
+        for run, times in zip((ours, peer), seconds, strict=True):
+            start = time.perf_counter()
+            run()
+            times.append(time.perf_counter() - start)
+    return statistics.median(seconds[0]), statistics.median(seconds[1])
