@@ -1,0 +1,152 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Dependence runs one way: signal -> features -> models -> recognition -> fusion -> robot."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+INCLUDE_ROOT, SOURCE_ROOT, PYTHON_ROOT = ROOT / "cpp/include/hri", ROOT / "cpp/src", ROOT / "python/hri"
+
+# Each folder may use those named; what is not here may not exist.
+CPP = {
+    "core": set(),
+    "io": {"core"},
+    "signal": {"core"},
+    "features": {"core", "signal"},
+    "models": {"core", "io"},
+    "recognition": {"core", "io", "signal", "features", "models"},
+    "vision": {"core", "signal", "features"},
+}
+PYTHON = {
+    "errors": set(),
+    "media": {"errors"},
+    "datasets": {"errors", "media"},
+    "recognition": {"errors"},
+    "training": {"errors", "media", "datasets", "recognition"},
+    "evaluation": {"errors", "media", "datasets", "recognition"},
+    "fusion": {"errors", "recognition.decision"},
+    "robot": {"errors", "media"},
+    "studies": {"errors", "datasets", "evaluation", "fusion", "recognition"},
+    "cli": {
+        "errors",
+        "media",
+        "datasets",
+        "recognition",
+        "training",
+        "evaluation",
+        "fusion",
+        "robot",
+        "studies",
+        "demo",
+    },
+    "demo": {"errors", "media", "datasets", "recognition", "training", "evaluation", "fusion", "robot", "cli"},
+}
+ONLY_IN = {"pybullet": {"robot/pybullet_backend.py"}}
+MAX_LINES = 450
+
+
+def cpp_violations(folder: str, text: str) -> Iterator[str]:
+    """What a C++ file of `folder` includes that it may not."""
+    for included in re.findall(r'^\s*#include\s+[<"]([^>"]+)[>"]', text, re.MULTILINE):
+        ours = re.match(r"hri/(\w+)/", included)
+        if ours and ours[1] != folder and ours[1] not in CPP[folder]:
+            yield f"{folder} includes {included}"
+        if included.startswith("opencv2/") and folder != "vision":
+            yield f"{folder} includes {included}"
+
+
+def python_violations(module: str, text: str) -> Iterator[str]:
+    """What a Python file, "package/file.py" or "file.py", imports that it may not."""
+    package = Path(module).parts[0].removesuffix(".py")
+    for imported in re.findall(r"^\s*(?:from|import)\s+([\w.]+)", text, re.MULTILINE):
+        parts = imported.split(".")
+        if parts[0] == "hri" and len(parts) > 1 and not parts[1].startswith("_") and package != "__init__":
+            used = ".".join(parts[1:])
+            allowed = {package, *PYTHON[package]}
+            if not any(used == name or used.startswith(f"{name}.") for name in allowed):
+                yield f"{module} imports {imported}"
+        if parts[0] in ONLY_IN and module not in ONLY_IN[parts[0]]:
+            yield f"{module} imports {imported}"
+
+
+def cpp_files() -> list[Path]:
+    return [p for root in (INCLUDE_ROOT, SOURCE_ROOT) for p in sorted(root.rglob("*")) if p.suffix in (".hpp", ".cpp")]
+
+
+def python_files() -> list[Path]:
+    return sorted(PYTHON_ROOT.rglob("*.py"))
+
+
+def test_cpp_folders_depend_one_way() -> None:
+    found = []
+    for path in cpp_files():
+        folder = path.relative_to(INCLUDE_ROOT if INCLUDE_ROOT in path.parents else SOURCE_ROOT).parts[0]
+        found += cpp_violations(folder, path.read_text())
+    assert found == []
+
+
+def test_python_packages_depend_one_way() -> None:
+    found = []
+    for path in python_files():
+        found += python_violations(path.relative_to(PYTHON_ROOT).as_posix(), path.read_text())
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    ("folder", "text"),
+    [
+        ("signal", '#include "hri/models/pca.hpp"\n'),
+        ("core", "  #include <hri/io/file.hpp>\n"),
+        ("features", "#include <opencv2/imgproc.hpp>\n"),
+    ],
+)
+def test_a_wrong_include_is_seen(folder: str, text: str) -> None:
+    assert len(list(cpp_violations(folder, text))) == 1
+
+
+@pytest.mark.parametrize(
+    ("module", "text"),
+    [
+        ("fusion/fuse.py", "from hri.recognition.word import WordRecognizer\n"),
+        ("robot/joints.py", "    import hri.fusion\n"),
+        ("robot/joints.py", "import pybullet\n"),
+        ("media/audio.py", "from hri.datasets import Dataset\n"),
+    ],
+)
+def test_a_wrong_import_is_seen(module: str, text: str) -> None:
+    assert len(list(python_violations(module, text))) == 1
+    assert list(python_violations("fusion/fuse.py", "from hri.recognition.decision import Decision\n")) == []
+
+
+def test_public_headers_hold_no_fixed_size_eigen_types() -> None:
+    pattern = re.compile(r"Eigen::(?:Vector|Matrix|Array|RowVector)[1-9]\w*|Matrix<\s*\w+\s*,\s*[1-9]")
+    found = [str(p.relative_to(ROOT)) for p in INCLUDE_ROOT.rglob("*.hpp") if pattern.search(p.read_text())]
+    assert found == []
+
+
+def test_every_source_mirrors_a_folder_of_headers() -> None:
+    assert {p.name for p in SOURCE_ROOT.iterdir()} == {p.name for p in INCLUDE_ROOT.iterdir()} == set(CPP)
+
+
+def source_files() -> list[Path]:
+    roots = ("cpp", "bindings", "tests", "python", "benchmarks", "tools")
+    files = [p for root in roots for p in (ROOT / root).rglob("*") if p.suffix in (".hpp", ".cpp", ".py")]
+    return sorted(p for p in files if "__pycache__" not in p.parts)
+
+
+def test_no_file_is_too_long_to_read() -> None:
+    found = {str(p.relative_to(ROOT)): n for p in source_files() if (n := len(p.read_text().splitlines())) > MAX_LINES}
+    assert found == {}
+
+
+def test_every_file_names_its_licence() -> None:
+    found = [
+        str(p.relative_to(ROOT)) for p in source_files() if "SPDX-License-Identifier: Apache-2.0" not in p.read_text()
+    ]
+    assert found == []
