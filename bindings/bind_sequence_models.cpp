@@ -91,6 +91,7 @@ void bind_gaussian_mixture(py::module_& m) {
       .field("max_iterations", &hri::GaussianMixtureOptions::max_iterations)
       .field("tolerance", &hri::GaussianMixtureOptions::tolerance)
       .field("variance_floor", &hri::GaussianMixtureOptions::variance_floor)
+      .field("wide_weight", &hri::GaussianMixtureOptions::wide_weight)
       .field("seed", &hri::GaussianMixtureOptions::seed);
   py::class_<hri::GaussianMixture> cls(m, "GaussianMixture",
                                        "Gaussian mixture with diagonal covariance.");

@@ -8,6 +8,23 @@
 #include "hri/core/error.hpp"
 
 namespace hri {
+namespace {
+
+constexpr double kWideVariance = 25;  // times the variance of all rows
+
+MixtureBank with_wide_component(const MixtureBank& bank, const GlobalStatistics& all,
+                                double weight) {
+  const Eigen::Index count = bank.num_mixtures();
+  MatrixD weights(1, count + 1);
+  MatrixD means(count + 1, bank.dim());
+  MatrixD variances(count + 1, bank.dim());
+  weights << (1 - weight) * bank.weights(), weight;
+  means << bank.means(), all.mean.transpose();
+  variances << bank.variances(), kWideVariance * all.variance.cwiseMax(1e-10).transpose();
+  return {std::move(weights), std::move(means), std::move(variances)};
+}
+
+}  // namespace
 
 GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtureOptions& options,
                                        TrainingReport* report) {
@@ -17,10 +34,11 @@ GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtu
           "max_iterations must lie in 1..100000");
   require(options.tolerance >= 0, "tolerance must not be negative");
   require(options.variance_floor > 0, "variance_floor must be positive");
+  require(options.wide_weight >= 0 && options.wide_weight <= 0.5, "wide_weight must lie in 0..0.5");
   require(rows.rows() > 0, "training needs at least one row");
   const std::vector<MatrixF> sequence{rows};
-  const VectorD floor =
-      (global_statistics(sequence).variance * options.variance_floor).cwiseMax(1e-10);
+  const GlobalStatistics all = global_statistics(sequence);
+  const VectorD floor = (all.variance * options.variance_floor).cwiseMax(1e-10);
   MixtureBank bank =
       initial_bank(sequence, {std::vector<int>(static_cast<std::size_t>(rows.rows()), 0)}, 1,
                    options.num_mixtures, floor, options.seed);
@@ -42,6 +60,7 @@ GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtu
     bank = accumulator.estimate(bank, floor, 0.0);
   }
   if (report != nullptr) *report = std::move(local);
+  if (options.wide_weight > 0) bank = with_wide_component(bank, all, options.wide_weight);
   return GaussianMixture(std::move(bank));
 }
 

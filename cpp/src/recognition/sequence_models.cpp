@@ -68,6 +68,7 @@ void SequenceModels::train_hmms(const std::vector<std::vector<MatrixF>>& per_lab
     hmms_.push_back(GaussianMixtureHmm::train(sequences, options));
   GaussianMixtureOptions garbage;
   garbage.num_mixtures = options_.garbage_mixtures;
+  garbage.wide_weight = 0.01;
   garbage.seed = options_.seed;
   garbage.should_stop = should_stop;
   garbage_ = {GaussianMixture::train(stacked(per_label), garbage)};

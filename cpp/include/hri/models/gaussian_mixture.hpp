@@ -21,7 +21,10 @@ struct GaussianMixtureOptions {
   int max_iterations = 15;       ///< EM iterations, 1..100000
   double tolerance = 1e-3;       ///< stop when the log-likelihood a frame gains less, >= 0
   double variance_floor = 0.01;  ///< share of the global variance, > 0
-  std::uint64_t seed = 0;        ///< of the k-means start
+  /// Weight of one more component, as wide as five deviations of all rows, 0..0.5: as a background
+  /// model the mixture then explains also what lies far from its training data.
+  double wide_weight = 0;
+  std::uint64_t seed = 0;  ///< of the k-means start
   StopCheck should_stop;
 };
 
