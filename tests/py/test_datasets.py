@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import os
-import re
 from pathlib import Path
 
 import pytest
@@ -323,17 +322,3 @@ def test_real_data_sets_are_recognised(
     assert dataset.pattern == pattern
     found = len(dataset), len(dataset.labels), len(dataset.persons)
     assert found == (count, num_labels, num_persons)
-
-
-def test_examples_in_the_documentation_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("cv2")
-    page = Path(__file__).parents[2] / "docs" / "datasets.md"
-    examples = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.S | re.M)
-    assert len(examples) == 4
-    monkeypatch.chdir(tmp_path)
-    names: dict[str, object] = {}
-    for example in examples:
-        exec(compile(example, str(page), "exec"), names)
-    for number, text in enumerate(re.findall(r"^```toml\n(.*?)^```", page.read_text(), re.S | re.M)):
-        (tmp_path / f"{number}.toml").write_text(text, encoding="utf-8")
-        assert read_manifest(tmp_path / f"{number}.toml").kind in ("speech", "gesture")

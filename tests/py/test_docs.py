@@ -1,0 +1,90 @@
+"""What the documentation shows works: Python blocks run, links lead somewhere, the C++ block is the built example."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import hri
+from hri.datasets.synthetic_signer import draw_still, make_gesture_corpus, make_signer
+from hri.datasets.synthetic_speech import make_speaker, make_speech_corpus, speak
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def blocks(page: Path, language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if page.name != "README.md" and blocks(page, "python")], ids=lambda page: page.name
+)
+def test_python_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The blocks of a page follow on one another, in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    for block in blocks(page, "python"):
+        exec(compile(block, str(page), "exec"), names)
+
+
+def test_readme_runs_on_folders_as_it_names_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    words = {"en": {"1": "one", "7": "seven"}}
+    make_speech_corpus(tmp_path / "spoken", words, num_speakers=3, takes=1)
+    make_gesture_corpus(tmp_path / "signed", labels=["1", "7"], num_persons=4)
+    audio = speak("seven", "en", make_speaker(9))
+    hri._native.write_wav_pcm16("seven.wav", audio.samples, audio.sample_rate_hz)
+    hri.media.write_image("seven.jpg", draw_still(make_signer(20), "7"))
+    (block,) = blocks(ROOT / "README.md", "python")
+    # The kinematic robot films sooner; everything else is as printed.
+    exec(compile(block.replace('"robot.webm")', '"robot.webm", "kinematic")'), "README.md", "exec"), {})
+    assert capsys.readouterr().out.startswith("7 ")
+    assert Path("speech.hri").is_file() and len(hri.read_frames("robot.webm").frames) > 10
+    assert len(block.strip().splitlines()) <= 12
+
+
+def test_cpp_of_the_readme_is_the_example_that_is_built() -> None:
+    (block,) = blocks(ROOT / "README.md", "cpp")
+    assert (ROOT / "examples" / "consumer" / "recognise_word.cpp").read_text().endswith(block)
+
+
+def test_manifests_shown_are_read(tmp_path: Path) -> None:
+    from hri.datasets.manifest import read_manifest
+
+    shown = blocks(ROOT / "docs" / "datasets.md", "toml")
+    assert shown
+    for number, text in enumerate(shown):
+        (tmp_path / f"{number}.toml").write_text(text, encoding="utf-8")
+        assert read_manifest(tmp_path / f"{number}.toml").kind in ("speech", "gesture")
+
+
+@pytest.mark.parametrize("page", [*PAGES, ROOT / "CONTRIBUTING.md"], ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    targets = re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8"))
+    missing = [t for t in targets if "://" not in t and not (page.parent / t).exists()]
+    assert missing == []
+
+
+def test_commands_shown_exist() -> None:
+    """Every hri command in a console block is one that the command line has, with options that it knows."""
+    import click
+
+    from hri.cli.main import hri as group
+
+    for page in PAGES:
+        for line in re.findall(
+            r"^(?:\$ |\./run )?(?:\w+=\S+ )?hri ([a-z].*)$", "\n".join(blocks(page, "console")), re.MULTILINE
+        ):
+            words = line.split()
+            command = group.get_command(click.Context(group), words[0])
+            assert command is not None, f"{page.name}: hri {line}"
+            if isinstance(command, click.Group):
+                command = command.get_command(click.Context(command), words[1])
+                assert command is not None, f"{page.name}: hri {line}"
+            known = {option for parameter in command.params for option in parameter.opts}
+            assert {word for word in words if word.startswith("--")} <= known, f"{page.name}: hri {line}"

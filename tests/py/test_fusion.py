@@ -1,0 +1,152 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Table 6.9 case by case, the rules on whole score vectors, and STOP."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+from hri.errors import InvalidArgument
+from hri.fusion import RULES, FusionOptions, fuse
+from hri.recognition import Decision, NBest
+
+
+def decided(mode: str, status: str = "recognised", **probabilities: float) -> Decision:
+    """A decision with these probabilities (labels as keywords), the best first."""
+    ranked = sorted(probabilities.items(), key=lambda item: -item[1])
+    nbest = tuple(NBest(label, p, math.log(p)) for label, p in ranked)
+    label = nbest[0].label if status == "recognised" else status
+    return Decision(mode, label, status, nbest[0].probability if nbest else 0.0, nbest=nbest)
+
+
+def heard(status: str = "recognised", **probabilities: float) -> Decision:
+    return decided("speech", status, **probabilities)
+
+
+def seen(status: str = "recognised", **probabilities: float) -> Decision:
+    return decided("gesture", status, **probabilities)
+
+
+@pytest.mark.parametrize(
+    ("speech", "gesture", "label", "rule"),
+    [
+        (heard(a=0.95, b=0.05), seen(b=0.9, a=0.1), "a", "both above, speech surer"),
+        (heard(a=0.9, b=0.1), seen(b=0.95, a=0.05), "b", "both above, gesture at least as sure"),
+        (heard(a=0.9, b=0.1), seen(b=0.9, a=0.1), "b", "both above, gesture at least as sure"),
+        (heard(a=0.86, b=0.14), seen(b=0.79, a=0.21), "a", "only speech above"),
+        (heard(a=0.84, b=0.16), seen(b=0.8, a=0.2), "b", "only gesture above"),
+        (heard(a=0.6, b=0.4), seen(b=0.7, a=0.3), "b", "both below, weighted gesture"),
+        (heard(a=0.75, b=0.25), seen(b=0.7, a=0.3), "a", "both below, weighted speech"),
+        (heard(a=0.7, b=0.3), seen(b=0.7, a=0.3), "b", "both below, weighted gesture"),
+        # A mode that rejected its input is below its threshold, however sure its best class was.
+        (heard("unknown", a=0.99, b=0.01), seen(b=0.85, a=0.15), "b", "only gesture above"),
+    ],
+)
+def test_table_6_9(speech: Decision, gesture: Decision, label: str, rule: str) -> None:
+    fused = fuse(speech, gesture)
+    assert (fused.label, fused.status) == (label, "recognised")
+    assert fused.rule.startswith(f"table 6.9: {rule}")
+    winner = speech if fused.rule.split(": ")[1].count("speech") else gesture
+    assert fused.nbest == winner.nbest and fused.confidence == winner.nbest[0].probability
+    assert (fused.speech, fused.gesture) == (speech, gesture)
+
+
+def test_weights_decide_where_both_are_below() -> None:
+    speech, gesture = heard(a=0.6, b=0.4), seen(b=0.7, a=0.3)
+    assert fuse(speech, gesture, options=FusionOptions(weight_speech=2.0)).label == "a"
+    assert fuse(speech, gesture, options=FusionOptions(weight_gesture=2.0)).label == "b"
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_stop_wins_from_either_mode(rule: str) -> None:
+    stop, go = {"stop": 0.4, "a": 0.3, "b": 0.3}, {"a": 0.999, "b": 0.001}
+    for speech, gesture in ((heard(**stop), seen(**go)), (heard(**go), seen(**stop)), (heard(**stop), None)):
+        fused = fuse(speech, gesture, rule=rule)
+        assert (fused.label, fused.status) == ("stop", "recognised")
+        assert fused.rule.startswith("stop: recognised in ")
+    halt = FusionOptions(stop_labels=("halt",))
+    assert fuse(heard(**stop), seen(**go), rule=rule, options=halt).rule.startswith("stop") is False
+    rejected = fuse(heard("unknown", **stop), seen(**go), rule=rule)
+    assert not rejected.rule.startswith("stop")
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_one_mode_alone_decides_and_none_is_no_input(rule: str) -> None:
+    speech, nothing = heard(a=0.5, b=0.3, c=0.2), Decision("gesture", "no_input", "no_input", 0.0)
+    for gesture in (None, nothing):
+        fused = fuse(speech, gesture, rule=rule)
+        assert (fused.label, fused.confidence) == ("a", 0.5) and fused.rule.startswith("speech alone")
+    alone = fuse(None, seen("unknown", a=0.5, b=0.5), rule=rule)
+    assert (alone.label, alone.status) == ("unknown", "unknown")
+    for pair in ((None, None), (None, nothing), (Decision("speech", "no_input", "no_input", 0.0), nothing)):
+        fused = fuse(*pair, rule=rule)
+        assert (fused.label, fused.status, fused.confidence) == ("no_input", "no_input", 0.0)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_two_rejections_are_unknown(rule: str) -> None:
+    fused = fuse(heard("unknown", a=0.9, b=0.1), seen("unknown", a=0.9, b=0.1), rule=rule)
+    assert (fused.label, fused.status) == ("unknown", "unknown")
+
+
+SPEECH, GESTURE = heard(a=0.5, b=0.4, c=0.1), seen(c=0.5, b=0.4, a=0.1)
+"""Both put b second: alone each is wrong where b is right."""
+
+
+@pytest.mark.parametrize("rule", ["weighted_sum", "product", "dempster_shafer"])
+def test_vectors_can_be_right_where_both_modes_are_wrong(rule: str) -> None:
+    fused = fuse(SPEECH, GESTURE, rule=rule)
+    assert fused.label == "b" and fuse(SPEECH, GESTURE).label in "ac"
+    assert sum(entry.probability for entry in fused.nbest) == pytest.approx(1)
+    assert [e.probability for e in fused.nbest] == sorted((e.probability for e in fused.nbest), reverse=True)
+    assert fused.confidence == fused.nbest[0].probability
+
+
+def test_sums_and_products_by_hand() -> None:
+    by_sum = {e.label: e.probability for e in fuse(SPEECH, GESTURE, rule="weighted_sum").nbest}
+    assert by_sum == pytest.approx({"a": 0.3, "b": 0.4, "c": 0.3})
+    by_product = {e.label: e.probability for e in fuse(SPEECH, GESTURE, rule="product").nbest}
+    assert by_product == pytest.approx({"a": 0.05 / 0.26, "b": 0.16 / 0.26, "c": 0.05 / 0.26})
+
+
+def test_dempster_shafer_by_hand() -> None:
+    options = FusionOptions(reliability_speech=0.8, reliability_gesture=0.6)
+    fused = {e.label: e.probability for e in fuse(SPEECH, GESTURE, rule="dempster_shafer", options=options).nbest}
+    mass = {
+        label: 0.8 * s * 0.6 * g + 0.8 * s * 0.4 + 0.2 * 0.6 * g + 0.2 * 0.4 / 3
+        for label, s, g in (("a", 0.5, 0.1), ("b", 0.4, 0.4), ("c", 0.1, 0.5))
+    }
+    assert fused == pytest.approx({label: m / sum(mass.values()) for label, m in mass.items()})
+
+
+def test_unreliable_mode_says_nothing() -> None:
+    options = FusionOptions(reliability_speech=0.0)
+    fused = fuse(heard(a=0.99, b=0.01), seen(b=0.6, a=0.4), rule="dempster_shafer", options=options)
+    assert fused.label == "b"
+
+
+@pytest.mark.parametrize("rule", ["product", "dempster_shafer"])
+def test_agreement_makes_surer(rule: str) -> None:
+    assert fuse(heard(a=0.7, b=0.3), seen(a=0.7, b=0.3), rule=rule).confidence > 0.7
+
+
+def test_label_that_one_mode_does_not_know_is_not_vetoed() -> None:
+    fused = fuse(heard(a=0.9, b=0.1), seen(c=0.6, b=0.4), rule="product")
+    assert {e.label for e in fused.nbest} == {"a", "b", "c"}
+    assert all(e.probability > 0 for e in fused.nbest)
+
+
+def test_wrong_rules_and_options_are_named() -> None:
+    with pytest.raises(InvalidArgument, match="table_6_9, weighted_sum"):
+        fuse(SPEECH, GESTURE, rule="majority")
+    for field, value in (("threshold_speech", 1.5), ("weight_gesture", 0.0), ("probability_floor", 0.5)):
+        with pytest.raises(InvalidArgument, match=field):
+            FusionOptions(**{field: value})
+
+
+def test_result_can_be_written_as_json() -> None:
+    told = json.loads(json.dumps(fuse(SPEECH, GESTURE, rule="product").to_dict()))
+    assert told["label"] == "b" and told["speech"]["nbest"][0]["label"] == "a"
