@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
 """What the documentation shows works: Python blocks run, links lead somewhere, the C++ block is the built example."""
 
 from __future__ import annotations

@@ -140,13 +140,13 @@ def test_damage_is_named(tmp_path: Path) -> None:
     header, tensors = taken_apart(path)
     assert stamped(header, tensors) == header
     refused(header, bytes([tensors[0] ^ 1]) + tensors[1:], "checksum")
-    refused(header, tensors + b"more", "")
+    refused(header, tensors + b"more", "data")
     newer = json.loads(json.dumps(header))
     newer["__metadata__"]["format_version"] = "99"
     refused(stamped(newer, tensors), tensors, "99")
     gap = json.loads(json.dumps(header))
     gap["b"]["data_offsets"] = [offset + 4 for offset in gap["b"]["data_offsets"]]
-    refused(gap, tensors + b"\0\0\0\0", "")
+    refused(gap, tensors + b"\0\0\0\0", "b")
     strange = json.loads(json.dumps(header))
     strange["a"]["dtype"] = "F8_E4M3"
     refused(strange, tensors, "a")
