@@ -65,12 +65,16 @@ def hmm_baum_welch() -> Timed:
     options = _native.GaussianMixtureHmmOptions(topology=topology, max_iterations=10, tolerance=0.0)
     together, lengths = np.concatenate(sequences), [100] * 20
 
-    def peer() -> None:
+    def peer() -> GaussianHMM:
         model = GaussianHMM(NUM_STATES, covariance_type="diag", n_iter=10, tol=-np.inf, init_params="")
         model.startprob_, model.transmat_ = first.start, first.transition
         model.means_, model.covars_ = first.means, first.variances
-        model.fit(together, lengths)
+        return model.fit(together, lengths)
 
+    trained = _native.GaussianMixtureHmm.train(sequences, options)
+    # Each starts in its own way, so that the models may differ, but not in how well they explain the sequences.
+    reached = sum(trained.log_likelihood(sequence) for sequence in sequences)
+    assert np.isclose(reached, peer().score(together, lengths), rtol=1e-2)
     return medians(lambda: _native.GaussianMixtureHmm.train(sequences, options), peer, repeats=5)
 
 
@@ -78,6 +82,7 @@ def hmm_word() -> Timed:
     """One spoken word of 80 frames scored by ten word models."""
     pairs = [_left_right_pair(seed) for seed in range(10)]
     frames = _frames(80, 1)
+    assert all(np.isclose(ours.log_likelihood(frames), peer.score(frames), rtol=1e-5) for ours, peer in pairs)
     return medians(
         lambda: [ours.log_likelihood(frames) for ours, _ in pairs],
         lambda: [peer.score(frames) for _, peer in pairs],
@@ -91,11 +96,13 @@ def lbg() -> Timed:
 
     frames = _frames(10000, 2)
     options = _native.CodebookOptions(num_codewords=64)
-    return medians(
-        lambda: _native.Codebook.train_lbg(frames, options),
-        lambda: KMeans(64, n_init=1, max_iter=options.max_iterations, random_state=0).fit(frames),
-        repeats=5,
-    )
+
+    def peer() -> KMeans:
+        return KMeans(64, n_init=1, max_iter=options.max_iterations, random_state=0).fit(frames)
+
+    distortion = _native.Codebook.train_lbg(frames, options).distortion(frames)
+    assert np.isclose(distortion, peer().inertia_ / len(frames), rtol=0.02)
+    return medians(lambda: _native.Codebook.train_lbg(frames, options), peer, repeats=5)
 
 
 def quantise() -> Timed:

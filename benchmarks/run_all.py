@@ -14,11 +14,13 @@ import json
 import sys
 from pathlib import Path
 
+import bench_classifiers
 import bench_models
 import bench_signal
 import bench_vision
 
-ALL = {bench.name: bench for module in (bench_signal, bench_models, bench_vision) for bench in module.BENCHES}
+MODULES = (bench_signal, bench_models, bench_classifiers, bench_vision)
+ALL = {bench.name: bench for module in MODULES for bench in module.BENCHES}
 
 
 def measure(bench: timing.Bench) -> dict[str, object]:

@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Classifiers of hand features against scikit-learn."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hri import _native
+from timing import Bench, Timed, medians
+
+NUM_CLASSES = 10
+DIM = 200
+
+
+def _rows(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows around ten centres, as the features of ten signs lie, float32, and their classes."""
+    rng = np.random.default_rng(seed)
+    centres = np.random.default_rng(0).normal(0, 0.5, (NUM_CLASSES, DIM))
+    classes = rng.integers(0, NUM_CLASSES, count)
+    return (centres[classes] + rng.normal(size=(count, DIM))).astype(np.float32), classes
+
+
+def svm_train() -> Timed:
+    """Ten linear machines from 500 rows of 200 features, cost 1, default tolerances."""
+    from sklearn.svm import LinearSVC
+
+    rows, classes = _rows(500, 1)
+    options = _native.LinearSvmOptions(cost=1.0)
+    ours = _native.LinearSvm.train(rows, classes, NUM_CLASSES, options)
+
+    def peer() -> LinearSVC:
+        return LinearSVC(C=1.0, dual=True, random_state=0).fit(rows, classes)
+
+    def cost(weights: np.ndarray, biases: np.ndarray) -> float:
+        signs = np.where(classes[:, None] == np.arange(NUM_CLASSES), 1, -1)
+        slack = np.maximum(0, 1 - signs * (rows @ weights.T + biases))
+        return 0.5 * (np.sum(weights**2) + np.sum(biases**2)) + np.sum(slack**2)
+
+    theirs = peer()
+    # Each has its own tolerance: what they reach has to be the same.
+    assert np.isclose(cost(ours.weights, ours.biases), cost(theirs.coef_, theirs.intercept_), rtol=1e-4)
+    return medians(lambda: _native.LinearSvm.train(rows, classes, NUM_CLASSES, options), peer, 7)
+
+
+def _svms() -> tuple[_native.LinearSvm, object]:
+    from sklearn.svm import LinearSVC
+
+    rows, classes = _rows(500, 1)
+    ours = _native.LinearSvm.train(rows, classes, NUM_CLASSES)
+    peer = LinearSVC(random_state=0).fit(rows, classes)
+    peer.coef_, peer.intercept_ = np.array(ours.weights), np.array(ours.biases)
+    return ours, peer
+
+
+def svm_picture() -> Timed:
+    """The scores of one row of 200 features by ten linear machines with equal weights, as for each picture."""
+    ours, peer = _svms()
+    row = _rows(1, 2)[0]
+    assert np.allclose(ours.decision_values(row), peer.decision_function(row), atol=1e-3)
+    return medians(lambda: ours.decision_values(row), lambda: peer.decision_function(row), 501)
+
+
+def svm_batch() -> Timed:
+    """The same for 1000 rows at once."""
+    ours, peer = _svms()
+    rows, _ = _rows(1000, 2)
+    assert np.allclose(ours.decision_values(rows), peer.decision_function(rows), atol=1e-3)
+    return medians(lambda: ours.decision_values(rows), lambda: peer.decision_function(rows), 51)
+
+
+def _knn(num_tested: int) -> Timed:
+    from sklearn.neighbors import KNeighborsClassifier
+
+    (rows, classes), (test, _) = _rows(1000, 1), _rows(num_tested, 2)
+    ours = _native.Knn.train(rows, classes, NUM_CLASSES, _native.KnnOptions(num_neighbours=5))
+    peer = KNeighborsClassifier(5, algorithm="brute").fit(rows, classes)
+    # Ours adds up to 2e-3 to tell classes with as many neighbours apart.
+    assert np.allclose(ours.decision_values(test), peer.predict_proba(test), atol=2e-3)
+    return medians(lambda: ours.decision_values(test), lambda: peer.predict_proba(test), 31)
+
+
+def knn_picture() -> Timed:
+    """The five nearest of 1000 rows for one row of 200 features, brute force, as for each picture."""
+    return _knn(1)
+
+
+def knn_batch() -> Timed:
+    """The same for 200 rows at once."""
+    return _knn(200)
+
+
+def bayes_batch() -> Timed:
+    """The densities of 500 rows of 40 features under ten Gaussians with full covariances."""
+    from sklearn.discriminant_analysis import QuadraticDiscriminantAnalysis
+
+    (rows, classes), (test, _) = _rows(2000, 1), _rows(500, 2)
+    rows, test = np.ascontiguousarray(rows[:, :40]), np.ascontiguousarray(test[:, :40])
+    options = _native.GaussianBayesOptions(covariance="full", shrinkage=0.0)
+    ours = _native.GaussianBayes.train(rows, classes, NUM_CLASSES, options)
+    peer = QuadraticDiscriminantAnalysis().fit(rows, classes)
+    # The covariances are divided by n in ours and by n - 1 in the peer.
+    assert np.mean(ours.decision_values(test).argmax(1) == peer.predict(test)) > 0.99
+    return medians(lambda: ours.decision_values(test), lambda: peer.decision_function(test))
+
+
+BENCHES = [
+    Bench(run.__name__, run, "scikit-learn")
+    for run in (svm_train, svm_picture, svm_batch, knn_picture, knn_batch, bayes_batch)
+]
