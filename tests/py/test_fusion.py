@@ -13,11 +13,14 @@ from hri.errors import InvalidArgument
 from hri.fusion import RULES, FusionOptions, fuse
 from hri.recognition import Decision, NBest
 
+MODES = ("speech", "gesture")
+NAN = math.nan
+
 
 def decided(mode: str, status: str = "recognised", **probabilities: float) -> Decision:
     """A decision with these probabilities (labels as keywords), the best first."""
     ranked = sorted(probabilities.items(), key=lambda item: -item[1])
-    nbest = tuple(NBest(label, p, math.log(p)) for label, p in ranked)
+    nbest = tuple(NBest(label, p, math.log(p) if p > 0 else -math.inf) for label, p in ranked)
     label = nbest[0].label if status == "recognised" else status
     return Decision(mode, label, status, nbest[0].probability if nbest else 0.0, nbest=nbest)
 
@@ -37,6 +40,7 @@ def seen(status: str = "recognised", **probabilities: float) -> Decision:
         (heard(a=0.9, b=0.1), seen(b=0.95, a=0.05), "b", "both above, gesture at least as sure"),
         (heard(a=0.9, b=0.1), seen(b=0.9, a=0.1), "b", "both above, gesture at least as sure"),
         (heard(a=0.86, b=0.14), seen(b=0.79, a=0.21), "a", "only speech above"),
+        (heard(a=0.85, b=0.15), seen(b=0.79, a=0.21), "a", "only speech above"),
         (heard(a=0.84, b=0.16), seen(b=0.8, a=0.2), "b", "only gesture above"),
         (heard(a=0.6, b=0.4), seen(b=0.7, a=0.3), "b", "both below, weighted gesture"),
         (heard(a=0.75, b=0.25), seen(b=0.7, a=0.3), "a", "both below, weighted speech"),
@@ -139,14 +143,51 @@ def test_label_that_one_mode_does_not_know_is_not_vetoed() -> None:
     assert all(e.probability > 0 for e in fused.nbest)
 
 
-def test_wrong_rules_and_options_are_named() -> None:
-    with pytest.raises(InvalidArgument, match="table_6_9, weighted_sum"):
+@pytest.mark.parametrize("rule", ["weighted_sum", "product", "dempster_shafer"])
+def test_vector_rules_do_not_mind_which_mode_said_what(rule: str) -> None:
+    """Probabilities, weights and reliabilities exchanged between the modes give the same answer."""
+    a, b = {"a": 0.6, "b": 0.3, "c": 0.1}, {"a": 0.2, "b": 0.5, "c": 0.3}
+    one = FusionOptions(weight_speech=2.0, weight_gesture=0.5, reliability_speech=0.7, reliability_gesture=0.9)
+    other = FusionOptions(weight_speech=0.5, weight_gesture=2.0, reliability_speech=0.9, reliability_gesture=0.7)
+    fused = {e.label: e.probability for e in fuse(heard(**a), seen(**b), rule=rule, options=one).nbest}
+    exchanged = {e.label: e.probability for e in fuse(heard(**b), seen(**a), rule=rule, options=other).nbest}
+    assert fused == pytest.approx(exchanged) and sum(fused.values()) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("rule", ["weighted_sum", "product", "dempster_shafer"])
+def test_equal_classes_come_in_the_order_of_their_labels(rule: str) -> None:
+    fused = fuse(heard(b=0.5, a=0.5), seen(b=0.5, a=0.5), rule=rule)
+    assert [e.label for e in fused.nbest] == ["a", "b"] and fused.confidence == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        *((f"{name}_{mode}", v) for name in ("threshold", "reliability") for mode in MODES for v in (-0.1, 1.1, NAN)),
+        *((f"weight_{mode}", v) for mode in MODES for v in (0.0, -1.0, NAN, math.inf)),
+        *(("probability_floor", v) for v in (-0.1, 0.5, NAN)),
+        ("stop_labels", "stop"),  # every letter of it would be a label
+    ],
+)
+def test_impossible_options_are_named(field: str, value: object) -> None:
+    with pytest.raises(InvalidArgument, match=rf"FusionOptions\.{field} must .* got"):
+        FusionOptions(**{field: value})
+
+
+def test_unknown_rule_lists_those_there_are() -> None:
+    with pytest.raises(InvalidArgument, match=", ".join(RULES)):
         fuse(SPEECH, GESTURE, rule="majority")
-    for field, value in (("threshold_speech", 1.5), ("weight_gesture", 0.0), ("probability_floor", 0.5)):
-        with pytest.raises(InvalidArgument, match=field):
-            FusionOptions(**{field: value})
 
 
 def test_result_can_be_written_as_json() -> None:
     told = json.loads(json.dumps(fuse(SPEECH, GESTURE, rule="product").to_dict()))
     assert told["label"] == "b" and told["speech"]["nbest"][0]["label"] == "a"
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_json_holds_numbers_that_every_reader_knows(rule: str) -> None:
+    """The logarithm of 0 is no JSON."""
+    fused = fuse(heard(a=1.0, b=0.0), seen(a=1.0, b=0.0), rule=rule)
+    told = json.loads(json.dumps(fused.to_dict(), allow_nan=False))
+    assert told["speech"]["nbest"][1] == {"label": "b", "probability": 0.0, "log_score": None}
+    assert json.dumps(heard(a=1.0, b=0.0).to_dict(), allow_nan=False)

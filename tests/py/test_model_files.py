@@ -140,7 +140,7 @@ def test_damage_is_named(tmp_path: Path) -> None:
     header, tensors = taken_apart(path)
     assert stamped(header, tensors) == header
     refused(header, bytes([tensors[0] ^ 1]) + tensors[1:], "checksum")
-    refused(header, tensors + b"more", "data")
+    refused(header, tensors + b"more", "4 bytes beyond")
     newer = json.loads(json.dumps(header))
     newer["__metadata__"]["format_version"] = "99"
     refused(stamped(newer, tensors), tensors, "99")

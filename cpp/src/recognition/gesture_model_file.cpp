@@ -6,6 +6,7 @@
 #include "hri/core/error.hpp"
 #include "hri/recognition/gesture_recognizer.hpp"
 #include "option_fields.hpp"
+#include "reading.hpp"
 
 namespace hri {
 namespace {
@@ -29,6 +30,10 @@ GestureRecognizer GestureRecognizer::from_model_file(const ModelFile& file) {
     fail(ErrorKind::format,
          file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
   }
+  return detail::blaming(file, [&] { return read(file); });
+}
+
+GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
   GestureRecognizer result;
   detail::visit_gesture(detail::FieldReader{file}, result.options_);
   static_cast<void>(HandFeatureComputer(result.options_.features));  // refuses options out of range

@@ -5,6 +5,7 @@
 #include "hri/core/error.hpp"
 #include "hri/recognition/word_recognizer.hpp"
 #include "option_fields.hpp"
+#include "reading.hpp"
 
 namespace hri {
 namespace {
@@ -31,6 +32,10 @@ WordRecognizer WordRecognizer::from_model_file(const ModelFile& file) {
     fail(ErrorKind::format,
          file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
   }
+  return detail::blaming(file, [&] { return read(file); });
+}
+
+WordRecognizer WordRecognizer::read(const ModelFile& file) {
   WordRecognizerOptions options;
   detail::visit_word(detail::FieldReader{file}, options);
   WordRecognizer result(options, sorted_labels(file.text_list("labels")));

@@ -94,6 +94,7 @@ class GestureRecognizer {
 
  private:
   GestureRecognizer() = default;
+  static GestureRecognizer read(const ModelFile& file);
 
   GestureRecognizerOptions options_;
   std::vector<std::string> labels_;

@@ -79,6 +79,7 @@ class WordRecognizer {
 
  private:
   WordRecognizer(const WordRecognizerOptions& options, std::vector<std::string> labels);
+  static WordRecognizer read(const ModelFile& file);
 
   /// The word in the clip at the model's rate; empty when nobody speaks.
   [[nodiscard]] std::vector<float> locate(Span<const float> samples, int sample_rate_hz,

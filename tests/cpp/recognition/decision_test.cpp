@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "hri/core/error.hpp"
+#include "hri/core/random.hpp"
+#include "hri/recognition/calibration.hpp"
+#include "hri/recognition/key_frames.hpp"
+#include "hri/recognition/training.hpp"
+
+namespace hri {
+namespace {
+
+// Scores that are `sharpness` times too sure of themselves, and evidence that grows with them.
+std::vector<HeldOut> held_out(double sharpness, int count) {
+  Random random(3);
+  std::vector<HeldOut> result;
+  for (int i = 0; i < count; ++i) {
+    VectorF scores(3);
+    for (float& s : scores) s = static_cast<float>(random.normal());
+    // The truth is drawn from the softmax of the plain scores: those would be calibrated.
+    double u = random.uniform() * scores.array().exp().sum();
+    int truth = 0;
+    while (truth < 2 && (u -= std::exp(static_cast<double>(scores[truth]))) > 0) ++truth;
+    scores *= static_cast<float>(sharpness);
+    result.push_back({scores, truth, scores.maxCoeff()});
+  }
+  return result;
+}
+
+TEST(Calibration, FindsHowMuchTooSureScoresAre) {
+  for (const double sharpness : {0.2, 1.0, 20.0}) {
+    const Calibration c = Calibration::fit(held_out(sharpness, 3000), 0.02);
+    EXPECT_NEAR(c.scale() * sharpness, 1.0, 0.15) << sharpness;
+  }
+}
+
+TEST(Calibration, RejectsTheShareOfRightAnswersItWasAllowed) {
+  const auto samples = held_out(1.0, 3000);
+  for (const double rate : {0.0, 0.1, 0.3}) {
+    const Calibration c = Calibration::fit(samples, rate);
+    int right = 0;
+    int rejected = 0;
+    for (const HeldOut& s : samples) {
+      Eigen::Index best = 0;
+      s.scores.maxCoeff(&best);
+      if (best != s.truth) continue;
+      ++right;
+      if (c.decide(s.scores, s.evidence, {"a", "b", "c"}).status == DecisionStatus::unknown)
+        ++rejected;
+    }
+    EXPECT_NEAR(static_cast<double>(rejected) / right, rate, 0.01);
+  }
+  EXPECT_THROW(Calibration::fit(samples, 0.9), InvalidArgument);
+}
+
+TEST(Calibration, DecidesWithAnNBestListThatFallsAndSumsToOne) {
+  VectorF scores(3);
+  scores << 1, 3, 2;
+  const Decision d = Calibration().decide(scores, 0, {"a", "b", "c"});
+  EXPECT_EQ(d.label, "b");
+  EXPECT_EQ(d.nbest[1].label, "c");
+  EXPECT_EQ(d.nbest[2].label, "a");
+  EXPECT_NEAR(d.nbest[0].probability + d.nbest[1].probability + d.nbest[2].probability, 1, 1e-6);
+  EXPECT_EQ(d.confidence, d.nbest[0].probability);
+  const Calibration untrained = Calibration::fit({}, 0.02);
+  EXPECT_EQ(untrained.scale(), 1.0);
+  EXPECT_EQ(untrained.decide(scores, -1e20F, {"a", "b", "c"}).status, DecisionStatus::recognised);
+}
+
+TEST(Training, LabelsAreSortedAndTwoAtLeast) {
+  EXPECT_EQ(sorted_labels({"b", "a", "b"}), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(label_index({"a", "b"}, "b"), 1);
+  EXPECT_THROW(sorted_labels({"a", "a"}), InvalidArgument);
+  EXPECT_THROW(sorted_labels({"a", ""}), InvalidArgument);
+  EXPECT_THROW(sorted_labels({"a", "unknown"}), InvalidArgument);
+  EXPECT_THROW(sorted_labels({"a", "no_input"}), InvalidArgument);
+}
+
+TEST(Training, FoldsShareNoGroup) {
+  const std::vector<int> classes{0, 1, 0, 1, 0, 1, 0, 1};
+  const std::vector<std::string> groups{"p", "p", "q", "q", "r", "r", "s", "s"};
+  const std::vector<int> folds = held_out_folds(classes, groups, 3);
+  std::map<std::string, std::set<int>> of_group;
+  for (std::size_t i = 0; i < folds.size(); ++i) of_group[groups[i]].insert(folds[i]);
+  for (const auto& [group, set] : of_group) EXPECT_EQ(set.size(), 1U) << group;
+  EXPECT_EQ(std::set<int>(folds.begin(), folds.end()), (std::set<int>{0, 1, 2}));
+  // Without groups every label is dealt out.
+  const std::vector<int> dealt = held_out_folds(classes, std::vector<std::string>(8, ""), 2);
+  for (const int label : {0, 1}) {
+    std::set<int> seen;
+    for (std::size_t i = 0; i < dealt.size(); ++i) {
+      if (classes[i] == label) seen.insert(dealt[i]);
+    }
+    EXPECT_EQ(seen, (std::set<int>{0, 1}));
+  }
+}
+
+// A hand that moves for 12 frames, is held for 16, and moves again for 12.
+MatrixF raised_and_lowered() {
+  Random random(1);
+  MatrixF rows(40, 6);
+  for (int t = 0; t < 40; ++t) {
+    const int moved = t < 12 ? t : (t < 28 ? 12 : t - 16);
+    for (int c = 0; c < 6; ++c) {
+      rows(t, c) = static_cast<float>(moved * (c + 1) + 0.05 * random.normal());
+    }
+  }
+  return rows;
+}
+
+TEST(KeyFrames, AreWhereTheHandIsHeld) {
+  const FrameRange held = key_frames(raised_and_lowered(), 3);
+  EXPECT_NEAR(static_cast<double>(held.first), 12, 3);
+  EXPECT_NEAR(static_cast<double>(held.last), 29, 3);
+}
+
+TEST(KeyFrames, AreAllOfAShortOrSteadyClip) {
+  const MatrixF rows = raised_and_lowered();
+  EXPECT_EQ(key_frames(rows.topRows(5), 3).last, 5);
+  EXPECT_EQ(key_frames(MatrixF::Constant(30, 4, 2), 3).last, 30);
+  EXPECT_EQ(key_frames(MatrixF(0, 4), 3).last, 0);
+  EXPECT_THROW(key_frames(rows, 9), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hri

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/gesture_recognizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "features/hand_testing.hpp"
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+using hand_testing::hand;
+
+// Stills of hands with one, three and five fingers by three signers, four takes each.
+std::vector<GestureSample> stills() {
+  std::vector<GestureSample> result;
+  for (const int signer : {0, 1, 2}) {
+    for (const int fingers : {1, 3, 5}) {
+      for (int take = 0; take < 4; ++take) {
+        const GreyImage mask =
+            hand(fingers, 95 + 3 * take + signer, 115 + 2 * take, 0.85 + 0.07 * signer);
+        const GreyImage image = hand_testing::grey(mask);
+        result.push_back({GestureRecognizer::features({{image.view(), mask.view()}}, {}),
+                          std::to_string(fingers), "signer" + std::to_string(signer)});
+      }
+    }
+  }
+  return result;
+}
+
+// A hand that goes right or down.
+GestureSample movement(bool right, int take) {
+  std::vector<GreyImage> masks;
+  std::vector<GreyImage> images;
+  for (int t = 0; t < 12; ++t) {
+    const double way = 4.0 * t + take;
+    masks.push_back(hand(2, right ? 70 + way : 100, right ? 120 : 95 + way));
+    images.push_back(hand_testing::grey(masks.back()));
+  }
+  std::vector<HandImage> frames;
+  for (std::size_t i = 0; i < masks.size(); ++i)
+    frames.push_back({images[i].view(), masks[i].view()});
+  return {GestureRecognizer::features(frames, {}), right ? "right" : "down",
+          "signer" + std::to_string(take % 2)};
+}
+
+class GestureRecognizerOf : public ::testing::TestWithParam<GestureModel> {
+ protected:
+  static GestureRecognizerOptions options() {
+    GestureRecognizerOptions o;
+    o.model = GetParam();
+    o.num_components = 8;
+    o.num_states = 3;
+    o.num_codewords = 8;
+    return o;
+  }
+  static bool of_movements() {
+    return GetParam() == GestureModel::hmm || GetParam() == GestureModel::ptbhmm;
+  }
+  static std::vector<GestureSample> samples() {
+    if (!of_movements()) return stills();
+    std::vector<GestureSample> result;
+    for (int take = 0; take < 6; ++take) {
+      result.push_back(movement(true, take));
+      result.push_back(movement(false, take));
+    }
+    return result;
+  }
+};
+
+TEST_P(GestureRecognizerOf, RecognisesASignerItHasNotSeen) {
+  std::vector<GestureSample> train;
+  for (const GestureSample& s : samples()) {
+    if (s.group != "signer1") train.push_back(s);
+  }
+  const GestureRecognizer recognizer = GestureRecognizer::train(train, options());
+  int right = 0;
+  int tested = 0;
+  for (const GestureSample& s : samples()) {
+    const Decision d = recognizer.recognise_features(s.features);
+    ASSERT_EQ(d.nbest.size(), recognizer.labels().size());
+    if (s.group != "signer1") continue;
+    ++tested;
+    right += d.nbest[0].label == s.label ? 1 : 0;
+  }
+  EXPECT_EQ(right, tested);
+}
+
+TEST_P(GestureRecognizerOf, LoadsWhatItSavedToTheBit) {
+  const GestureRecognizer recognizer = GestureRecognizer::train(samples(), options());
+  const ModelFile file = recognizer.to_model_file();
+  const GestureRecognizer again =
+      GestureRecognizer::from_model_file(ModelFile::parse(file.serialise(), "x"));
+  for (const GestureSample& s : samples()) {
+    EXPECT_EQ(again.scores(s.features), recognizer.scores(s.features));
+  }
+  EXPECT_EQ(again.to_model_file().serialise(), file.serialise());
+}
+
+TEST_P(GestureRecognizerOf, RefusesAModelThatWasDamaged) {
+  const std::vector<std::uint8_t> bytes =
+      GestureRecognizer::train(samples(), options()).to_model_file().serialise();
+  std::vector<std::uint8_t> broken = bytes;
+  broken.back() ^= 1U;
+  EXPECT_THROW(ModelFile::parse(broken, "x"), FormatError);
+  ModelFile file = ModelFile::parse(bytes, "x");
+  file.set_text_list("labels", {"a", "b", "c", "d", "e", "f"});
+  EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, GestureRecognizerOf,
+                         ::testing::Values(GestureModel::svm, GestureModel::bayes,
+                                           GestureModel::knn, GestureModel::hmm,
+                                           GestureModel::ptbhmm));
+
+TEST(GestureRecognizer, SeesNothingWithoutAHand) {
+  const GestureRecognizer recognizer = GestureRecognizer::train(stills(), {});
+  const GreyImage empty(200, 200);
+  EXPECT_EQ(recognizer.recognise({{empty.view(), empty.view()}}).status, DecisionStatus::no_input);
+  EXPECT_EQ(recognizer.recognise({}).status, DecisionStatus::no_input);
+  EXPECT_THROW((void)recognizer.scores(MatrixF(0, 10)), InvalidArgument);
+}
+
+TEST(GestureRecognizer, RefusesBadSets) {
+  std::vector<GestureSample> samples = stills();
+  samples[3].features(0, 5) = std::nanf("");
+  EXPECT_THROW(GestureRecognizer::train(samples, {}), InvalidArgument);
+  samples = stills();
+  samples.push_back({MatrixF(0, samples[0].features.cols()), "nobody", "signer0"});
+  try {
+    GestureRecognizer::train(samples, {});
+    FAIL();
+  } catch (const InvalidArgument& error) {
+    EXPECT_NE(std::string(error.what()).find("nobody"), std::string::npos);
+  }
+  EXPECT_THROW(GestureRecognizer::train({}, {}), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hri

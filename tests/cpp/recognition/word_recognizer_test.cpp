@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/word_recognizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "hri/core/error.hpp"
+#include "hri/core/random.hpp"
+#include "hri/io/wav.hpp"
+
+namespace hri {
+namespace {
+
+constexpr int kRateHz = 16000;
+
+// A gliding tone between pauses.
+std::vector<float> tone(double base_hz, double slope_hz_per_s, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<float> x(kRateHz);
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const double t = static_cast<double>(n) / kRateHz - 0.25;
+    const bool sounds = t >= 0 && t < 0.5;
+    const double phase = 6.283185307 * (base_hz * t + 0.5 * slope_hz_per_s * t * t);
+    x[n] = static_cast<float>((sounds ? 0.3 * std::sin(phase) : 0.0) + 0.001 * random.normal());
+  }
+  return x;
+}
+
+struct Clips {
+  std::vector<std::vector<float>> audio;
+  std::vector<WordSample> samples;
+};
+
+// Rising and falling tones by three persons, three takes each.
+Clips clips() {
+  Clips result;
+  result.audio.reserve(18);
+  std::uint64_t seed = 0;
+  for (const char* person : {"low", "middle", "high"}) {
+    const double base_hz = 500 + 50.0 * static_cast<double>(seed / 6);
+    for (int take = 0; take < 3; ++take) {
+      for (const bool rises : {true, false}) {
+        result.audio.push_back(tone(base_hz, rises ? 800 : -350, seed++));
+        result.samples.push_back({result.audio.back(), kRateHz, rises ? "rise" : "fall", person});
+      }
+    }
+  }
+  return result;
+}
+
+class WordRecognizerOf : public ::testing::TestWithParam<SequenceModelKind> {
+ protected:
+  static WordRecognizerOptions options() {
+    WordRecognizerOptions o;
+    o.models.model = GetParam();
+    return o;
+  }
+};
+
+TEST_P(WordRecognizerOf, RecognisesSomebodyItHasNotHeard) {
+  const Clips all = clips();
+  std::vector<WordSample> train;
+  for (const WordSample& s : all.samples) {
+    if (s.group != "middle") train.push_back(s);
+  }
+  const WordRecognizer recognizer = WordRecognizer::train(train, options());
+  EXPECT_EQ(recognizer.labels(), (std::vector<std::string>{"fall", "rise"}));
+  for (const WordSample& s : all.samples) {
+    const Decision d = recognizer.recognise(s.samples, kRateHz);
+    ASSERT_EQ(d.nbest.size(), 2U);
+    EXPECT_EQ(d.nbest[0].label, s.label) << s.group;
+    EXPECT_NEAR(d.nbest[0].probability + d.nbest[1].probability, 1, 1e-5);
+  }
+}
+
+TEST_P(WordRecognizerOf, LoadsWhatItSavedToTheBit) {
+  const Clips all = clips();
+  const WordRecognizer recognizer = WordRecognizer::train(all.samples, options());
+  const ModelFile file = recognizer.to_model_file();
+  const WordRecognizer again =
+      WordRecognizer::from_model_file(ModelFile::parse(file.serialise(), "x"));
+  for (const WordSample& s : all.samples) {
+    EXPECT_EQ(again.scores(s.samples, kRateHz), recognizer.scores(s.samples, kRateHz));
+    EXPECT_EQ(again.recognise(s.samples, kRateHz).confidence,
+              recognizer.recognise(s.samples, kRateHz).confidence);
+  }
+  EXPECT_EQ(again.to_model_file().serialise(), file.serialise());
+}
+
+TEST_P(WordRecognizerOf, StopsWhenAsked) {
+  const Clips all = clips();
+  int polls = 0;
+  EXPECT_THROW(WordRecognizer::train(all.samples, options(), {}, [&] { return ++polls == 3; }),
+               Interrupted);
+  EXPECT_EQ(polls, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, WordRecognizerOf,
+                         ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm));
+
+TEST(WordRecognizer, HearsNothingInSilence) {
+  const Clips all = clips();
+  const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});
+  for (const float level : {0.0F, 0.3F}) {
+    const Decision d = recognizer.recognise(std::vector<float>(8000, level), kRateHz);
+    EXPECT_EQ(d.status, DecisionStatus::no_input);
+    EXPECT_TRUE(d.nbest.empty());
+  }
+}
+
+TEST(WordRecognizer, RefusesBadAudioAndBadSets) {
+  const Clips all = clips();
+  const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});
+  std::vector<float> broken = all.audio[0];
+  broken[123] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW((void)recognizer.recognise(broken, kRateHz), InvalidArgument);
+  EXPECT_THROW((void)recognizer.recognise(std::vector<float>(5), kRateHz), InvalidArgument);
+  EXPECT_THROW((void)recognizer.recognise(all.audio[0], 10), InvalidArgument);
+  EXPECT_THROW(WordRecognizer::train({}, {}), InvalidArgument);
+  EXPECT_THROW(WordRecognizer::train({all.samples[0]}, {}), InvalidArgument);
+  std::vector<WordSample> with_silence = all.samples;
+  const std::vector<float> silence(8000, 0.0F);
+  with_silence.push_back({silence, kRateHz, "quiet", "low"});
+  try {
+    WordRecognizer::train(with_silence, {});
+    FAIL();
+  } catch (const InvalidArgument& error) {
+    EXPECT_NE(std::string(error.what()).find("quiet"), std::string::npos);
+  }
+}
+
+TEST(WordRecognizer, RefusesModelsOfAnotherKindOrWithHoles) {
+  const Clips all = clips();
+  ModelFile file = WordRecognizer::train(all.samples, {}).to_model_file();
+  ModelFile other = file;
+  other.set_kind("gesture_recognizer");
+  EXPECT_THROW(WordRecognizer::from_model_file(other), FormatError);
+  ModelFile fewer = file;
+  fewer.set_text_list("labels", {"only one"});
+  EXPECT_THROW(WordRecognizer::from_model_file(fewer), FormatError);
+  file.set_integer("cepstra.num_filters", -3);
+  EXPECT_THROW(WordRecognizer::from_model_file(file), FormatError);
+}
+
+TEST(WordRecognizer, AnswersTheSameInEveryThread) {
+  const Clips all = clips();
+  const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});
+  const VectorF expected = recognizer.scores(all.audio[0], kRateHz);
+  std::vector<VectorF> found(4);
+  std::vector<std::thread> threads;
+  for (VectorF& f : found)
+    threads.emplace_back([&] { f = recognizer.scores(all.audio[0], kRateHz); });
+  for (std::thread& t : threads) t.join();
+  for (const VectorF& f : found) EXPECT_EQ(f, expected);
+}
+
+}  // namespace
+}  // namespace hri
