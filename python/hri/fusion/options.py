@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from hri.errors import InvalidArgument
-from hri.recognition.decision import Decision, NBest
+from hri.recognition.decision import Decision, NBest, plain
 
 RULES = ("table_6_9", "weighted_sum", "product", "dempster_shafer")
 
@@ -45,10 +46,13 @@ class FusionOptions:
             if not 0 <= getattr(self, name) <= 1:
                 raise InvalidArgument(f"FusionOptions.{name} must lie in 0..1, got {getattr(self, name)}")
         for name in ("weight_gesture", "weight_speech"):
-            if not getattr(self, name) > 0:
-                raise InvalidArgument(f"FusionOptions.{name} must be positive, got {getattr(self, name)}")
+            if not 0 < getattr(self, name) < math.inf:
+                raise InvalidArgument(f"FusionOptions.{name} must be positive and finite, got {getattr(self, name)}")
         if not 0 <= self.probability_floor <= 0.1:
             raise InvalidArgument(f"FusionOptions.probability_floor must lie in 0..0.1, got {self.probability_floor}")
+        labels: object = self.stop_labels
+        if isinstance(labels, str):
+            raise InvalidArgument(f"FusionOptions.stop_labels must be a tuple of labels, got {labels!r}")
 
 
 @dataclass(frozen=True)
@@ -76,5 +80,6 @@ class FusedDecision:
     gesture: Decision | None = None
 
     def to_dict(self) -> dict[str, Any]:
-        """As plain values that can be written as JSON."""
-        return asdict(self)
+        """As plain values that can be written as JSON; a score that is not finite is None."""
+        result: dict[str, Any] = plain(asdict(self))
+        return result

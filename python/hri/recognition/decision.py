@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -65,5 +66,15 @@ class Decision:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """As plain values that can be written as JSON."""
-        return asdict(self)
+        """As plain values that can be written as JSON; a score that is not finite is None."""
+        result: dict[str, Any] = plain(asdict(self))
+        return result
+
+
+def plain(value: Any) -> Any:
+    """`value` with None for numbers that JSON cannot hold."""
+    if isinstance(value, dict):
+        return {key: plain(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
