@@ -14,17 +14,20 @@ import pytest
 
 import hri
 from hri.errors import InvalidArgument
-from hri.evaluation import cross_validate, evaluate_split, expose, make_noise, mix_noise
-from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.evaluation import EvaluationResult, cross_validate, evaluate_split, expose, make_noise, mix_noise
+from hri.evaluation.result import FoldResult, Trial
+from hri.recognition import Decision, GestureRecognizer, NBest, WordRecognizer
 
 
 class Spy(WordRecognizer):
-    """Remembers whom each fold was trained on."""
+    """Remembers whom each fold was trained on, and with which clips."""
 
     trained_on: ClassVar[list[set[str]]] = []
+    clips: ClassVar[list[list[np.ndarray]]] = []
 
     def fit(self, X, y, *, groups=None, **rest):
         Spy.trained_on.append(set(groups))
+        Spy.clips.append(list(X))
         return super().fit(X, y, groups=groups, **rest)
 
 
@@ -51,8 +54,9 @@ def test_fewer_people_can_be_trained_on(spoken: Path) -> None:
 
 def test_results_repeat_and_add_up(spoken: Path, tmp_path: Path) -> None:
     dataset = hri.Dataset.load(spoken)
-    results = [cross_validate(dataset, WordRecognizer, noise="white", snr_db=0.0, seed=5) for _ in range(2)]
+    results = [cross_validate(dataset, WordRecognizer, noise="white", snr_db=20.0, seed=5) for _ in range(2)]
     assert results[0] == results[1]
+    assert any(trial.decision.nbest for trial in results[0].trials)
     result = results[0]
     assert result.mean == pytest.approx(np.mean([fold.accuracy for fold in result.folds]))
     assert result.std == pytest.approx(np.std([fold.accuracy for fold in result.folds]))
@@ -61,9 +65,34 @@ def test_results_repeat_and_add_up(spoken: Path, tmp_path: Path) -> None:
     right = sum(trial.best == trial.truth for trial in result.trials)
     assert np.trace(confusion) == right
     told = json.loads(json.dumps(result.to_dict()))
-    assert told["conditions"] | {"noise": "white", "snr_db": 0.0, "seed": 5} == told["conditions"]
+    assert told["conditions"] | {"noise": "white", "snr_db": 20.0, "seed": 5} == told["conditions"]
     result.plot_confusion(tmp_path / "c.png")
     assert cv2.imread(str(tmp_path / "c.png")) is not None
+
+
+def test_another_seed_is_another_noise(spoken: Path) -> None:
+    dataset = hri.Dataset.load(spoken)
+    first, second = (cross_validate(dataset, WordRecognizer, noise="white", snr_db=20.0, seed=seed) for seed in (1, 2))
+    assert [t.decision.confidence for t in first.trials] != [t.decision.confidence for t in second.trials]
+
+
+def test_noise_is_in_the_test_clips_and_in_training_only_when_asked(spoken: Path) -> None:
+    dataset = hri.Dataset.load(spoken)
+    clean = [hri.read_audio(sample.path).samples for sample in dataset.samples]
+    Spy.clips = []
+    plain = cross_validate(dataset, Spy)
+    noisy = cross_validate(dataset, Spy, noise="pink", snr_db=5.0)
+    cross_validate(dataset, Spy, noise="pink", snr_db=5.0, train_noise=True)
+    assert [t.decision for t in plain.trials] != [t.decision for t in noisy.trials]
+    for fold, (without, tested_only, both) in enumerate(zip(*(Spy.clips[i : i + 3] for i in (0, 3, 6)), strict=True)):
+        persons = {s.person for s in dataset.samples} - {plain.folds[fold].name}
+        expected = [c for c, s in zip(clean, dataset.samples, strict=True) if s.person in persons]
+        for clips in (without, tested_only, both[: len(expected)]):
+            assert all(np.array_equal(a, b) for a, b in zip(clips, expected, strict=True))
+        assert len(both) == 2 * len(expected)
+        for noise_too, alone in zip(both[len(expected) :], expected, strict=True):
+            added = noise_too.astype("f8") - alone
+            assert 10 * np.log10(np.mean(alone.astype("f8") ** 2) / np.mean(added**2)) == pytest.approx(5, abs=1e-3)
 
 
 def test_training_on_one_folder_and_testing_on_another(spoken: Path) -> None:
@@ -77,10 +106,39 @@ def test_training_on_one_folder_and_testing_on_another(spoken: Path) -> None:
 
 def test_gestures_get_darker_in_the_test_only(signed: Path) -> None:
     dataset = hri.Dataset.load(signed)
-    result = cross_validate(dataset, GestureRecognizer, num_folds=2, exposure=0.5)
-    assert result.conditions["exposure"] == 0.5 and result.mean >= 0.75
+    bright, dark = (cross_validate(dataset, GestureRecognizer, num_folds=2, exposure=e) for e in (None, 0.5))
+    assert dark.conditions["exposure"] == 0.5 and dark.mean >= 0.75
+    fold = dataset.folds_by_person(2, 0)[0]
+    frames = [hri.read_frames(sample.path).frames for sample in dataset.samples]
+    by_hand = GestureRecognizer().fit(
+        [frames[i] for i in fold.train],
+        [dataset.samples[i].label for i in fold.train],
+        groups=[dataset.samples[i].person for i in fold.train],
+    )
+    for result, factor in ((bright, 1.0), (dark, 0.5)):
+        expected = [by_hand.recognise(expose(frames[i], factor)) for i in fold.test]
+        assert [trial.decision for trial in result.folds[0].trials] == expected
+    assert bright.trials != dark.trials
+
+
+def test_modes_are_not_mixed(signed: Path) -> None:
+    dataset = hri.Dataset.load(signed)
     with pytest.raises(InvalidArgument, match="is gesture, test is speech"):
         evaluate_split(dataset, hri.Dataset(dataset.root, "speech", []), GestureRecognizer)
+    with pytest.raises(InvalidArgument, match="noise is for speech"):
+        cross_validate(dataset, GestureRecognizer, noise="white", snr_db=3.0)
+
+
+def test_confusion_counts_every_trial_at_its_place(tmp_path: Path) -> None:
+    def trial(index: int, truth: str, best: str | None, status: str = "recognised") -> Trial:
+        nbest = () if best is None else (NBest(best, 0.9, -1.0),)
+        return Trial(index, truth, Decision("speech", best or status, status, 0.9, nbest=nbest))
+
+    trials = [trial(0, "a", "a"), trial(1, "a", "b"), trial(2, "b", "b", "unknown"), trial(3, "b", None, "no_input")]
+    result = EvaluationResult(["a", "b"], [FoldResult("x", tuple(trials[:3])), FoldResult("y", tuple(trials[3:]))])
+    assert result.confusion().tolist() == [[1, 1, 0], [0, 1, 1]]
+    assert (result.mean, result.std) == (pytest.approx(1 / 3), pytest.approx(1 / 3))
+    assert [fold.rejected for fold in result.folds] == [pytest.approx(1 / 3), 1.0]
 
 
 @pytest.mark.parametrize("name", ["white", "pink"])
@@ -120,5 +178,9 @@ def test_conditions_out_of_range_are_refused(spoken: Path) -> None:
         expose([np.zeros((2, 2, 3), np.uint8)], 0.0)
     with pytest.raises(InvalidArgument, match="go together"):
         cross_validate(hri.Dataset.load(spoken), WordRecognizer, noise="white")
+    with pytest.raises(InvalidArgument, match="train_noise needs"):
+        cross_validate(hri.Dataset.load(spoken), WordRecognizer, train_noise=True)
+    with pytest.raises(InvalidArgument, match="exposure is for gestures"):
+        cross_validate(hri.Dataset.load(spoken), WordRecognizer, exposure=0.5)
     bright = expose([np.full((2, 2, 3), 200, np.uint8)], 2.0)
     assert bright[0].dtype == np.uint8 and (bright[0] == 255).all()

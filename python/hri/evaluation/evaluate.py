@@ -57,7 +57,7 @@ def cross_validate(
     progress : callable, optional
         Called with (what, done, total).
     """
-    conditions = _conditions(seed, noise, snr_db, train_noise, exposure)
+    conditions = _conditions(dataset.kind, seed, noise, snr_db, train_noise, exposure)
     if dataset.persons:
         if num_folds is None and dataset.kind == "gesture" and len(dataset.persons) > 10:
             num_folds = 5
@@ -99,7 +99,7 @@ def evaluate_split(
     unknown = sorted(set(test.labels) - set(train.labels))
     if unknown:
         raise InvalidArgument(f"test has labels that train has not: {', '.join(unknown)}")
-    conditions = _conditions(seed, noise, snr_db, train_noise, exposure)
+    conditions = _conditions(train.kind, seed, noise, snr_db, train_noise, exposure)
     both = Dataset(train.root, train.kind, [*train.samples, *test.samples])
     fold = Fold(str(test.root.name), list(range(len(train))), list(range(len(train), len(both))))
     runner = _runner(both, make_recognizer, conditions, progress)
@@ -115,10 +115,17 @@ def _with_fewer_persons(fold: Fold, dataset: Dataset, num_persons: int, seed: in
 
 
 def _conditions(
-    seed: int, noise: str | None, snr_db: float | None, train_noise: bool, exposure: float | None
+    kind: str, seed: int, noise: str | None, snr_db: float | None, train_noise: bool, exposure: float | None
 ) -> dict[str, Any]:
     if (noise is None) != (snr_db is None):
         raise InvalidArgument("noise and snr_db go together")
+    if train_noise and noise is None:
+        raise InvalidArgument("train_noise needs noise and snr_db")
+    # A condition that is not applied must not stand in the result.
+    if kind == "gesture" and noise is not None:
+        raise InvalidArgument("noise is for speech, the data set is gesture")
+    if kind == "speech" and exposure is not None:
+        raise InvalidArgument("exposure is for gestures, the data set is speech")
     return {
         "seed": seed,
         "noise": noise,
