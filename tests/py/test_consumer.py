@@ -114,3 +114,27 @@ def test_missing_component_is_named(installed: Path, tmp_path: Path) -> None:
     )
     assert done.returncode != 0
     assert "language" in done.stderr
+
+
+def test_core_reports_errors_without_exceptions(tmp_path: Path) -> None:
+    """Built with -fno-exceptions -fno-rtti, the core calls the handler that was installed."""
+    build = tmp_path / "build"
+    off = [f"-DHRI_{name}=OFF" for name in ("BUILD_VISION", "BUILD_TESTS", "BUILD_PYTHON", "EXCEPTIONS")]
+    run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", *off)
+    run("cmake", "--build", build)
+    run("cmake", "--install", build, "--component", "development", "--prefix", tmp_path / "prefix")
+    source = tmp_path / "handler.cpp"
+    source.write_text(
+        "#include <hri/core/error.hpp>\n#include <hri/io/model_file.hpp>\n#include <cstdio>\n#include <cstdlib>\n"
+        "int main() {\n"
+        '  hri::set_failure_handler([](hri::ErrorKind, const char* m) { std::puts(m); std::_Exit(7); });\n'
+        '  hri::ModelFile::parse({}, "empty.hri");\n}\n'
+    )
+    flags = run(
+        *("pkg-config", "--cflags", "--libs", "hri-core"),
+        PKG_CONFIG_PATH=str(tmp_path / "prefix" / "lib" / "pkgconfig"),
+    ).split()
+    program = tmp_path / "handler"
+    run("g++", "-std=c++17", "-fno-exceptions", "-fno-rtti", source, "-o", program, *flags)
+    done = subprocess.run([str(program)], capture_output=True, text=True)
+    assert done.returncode == 7 and "empty.hri" in done.stdout
