@@ -159,10 +159,10 @@ def test_info_tells_of_the_installation_and_of_models(hri, spoken: Path, tmp_pat
     model = tmp_path / "words.hri"
     hri("train", "speech", "--data", spoken, "--out", model, "--option", "models.num_states=5")
     told = hri("info", model).out.splitlines()
-    assert "labels\t1 2" in told and "options.models.num_states\t5" in told
+    assert "labels\t1 2" in told and "option\tmodels.num_states=5" in told and "option\ttrim=true" in told
 
 
-@pytest.mark.parametrize("name", [name for name in COMMANDS if name != "robot"])
+@pytest.mark.parametrize("name", list(COMMANDS))
 def test_help_teaches_by_example(hri, name: str):
     result = hri(name, "--help")
     assert result.code == 0

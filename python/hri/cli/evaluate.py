@@ -4,15 +4,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
 
-from hri.cli.output import json_option, say, write_json
+from hri.cli.output import OutputFile, json_option, say_table, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import mode_argument, options_option, pattern_option, recognizer_factory
+from hri.cli.recognizers import load_dataset, mode_argument, options_option, pattern_option, recognizer_factory
 from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, cross_validate, evaluate_split
+from hri.media.optional import import_optional
 
 _folder = click.Path(exists=True, file_okay=False)
 
@@ -30,8 +32,13 @@ _folder = click.Path(exists=True, file_okay=False)
 @click.option("--train-noise", is_flag=True, help="Train on a noisy copy of every clip too.")
 @click.option("--exposure", type=click.FloatRange(0.05, 20), help="Factor on the brightness of the test pictures.")
 @options_option
-@click.option("--seed", type=int, default=0, show_default=True, help="Of folds and noise.")
-@click.option("--confusion", type=click.Path(dir_okay=False), help="Draw the confusion matrix as .png, .svg or .pdf.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of folds, training and noise.")
+@click.option(
+    "--confusion",
+    type=OutputFile((".png", ".svg", ".pdf")),
+    metavar="FILE",
+    help="Draw the confusion matrix as .png, .svg or .pdf.",
+)
 @json_option
 def evaluate(
     mode: str,
@@ -64,13 +71,17 @@ def evaluate(
         raise click.UsageError("give either --data DIR, or --train DIR and --test DIR")
     if (noise is None) != (snr is None):
         raise click.UsageError("--noise and --snr go together")
+    if train_noise and noise is None:
+        raise click.UsageError("--train-noise needs --noise and --snr")
     if mode == "gesture" and noise is not None:
         raise click.UsageError("--noise is for speech; pictures have --exposure")
     if mode == "speech" and exposure is not None:
         raise click.UsageError("--exposure is for gestures; speech has --noise")
     if data is None and (folds is not None or train_persons is not None):
         raise click.UsageError("--folds and --train-persons need --data")
-    make = recognizer_factory(mode, options)
+    if confusion is not None:
+        import_optional("matplotlib", "plots", "to draw the confusion matrix")
+    make = recognizer_factory(mode, options, seed)
     conditions: dict[str, Any] = {
         "seed": seed,
         "noise": noise,
@@ -81,28 +92,34 @@ def evaluate(
     with progress_bars() as progress:
         conditions["progress"] = progress
         if data is not None:
-            dataset = Dataset.load(data, mode, pattern)
+            dataset = load_dataset(data, mode, pattern)
             result = cross_validate(dataset, make, num_folds=folds, train_persons=train_persons, **conditions)
         else:
             assert train_dir is not None and test_dir is not None
-            parts = [Dataset.load(folder, mode, pattern) for folder in (train_dir, test_dir)]
+            parts = [load_dataset(folder, mode, pattern) for folder in (train_dir, test_dir)]
+            _warn_of_shared_persons(*parts)
             result = evaluate_split(parts[0], parts[1], make, **conditions)
-    for line in _table(result):
-        say(line, json_path)
+    say_table(_table(result), json_path)
+    if "stratified" in str(result.conditions.get("folds", "")):
+        click.echo(f"folds are {result.conditions['folds']}", err=True)
     if confusion is not None:
+        Path(confusion).parent.mkdir(parents=True, exist_ok=True)
         result.plot_confusion(confusion)
         click.echo(f"confusion matrix: {confusion}", err=True)
     write_json(json_path, {"mode": mode, **result.to_dict(), "options": make().get_params()})
 
 
-def _table(result: EvaluationResult) -> list[str]:
-    """Tab-separated: a line a fold, then mean and spread."""
-    lines = ["held out\trecordings\taccuracy\trejected"]
-    lines += [
-        f"{fold.name}\t{len(fold.trials)}\t{100 * fold.accuracy:.1f} %\t{100 * fold.rejected:.1f} %"
-        for fold in result.folds
-    ]
-    lines.append(f"all\t{len(result.trials)}\t{100 * result.mean:.1f} % ± {100 * result.std:.1f}")
-    if "stratified" in str(result.conditions.get("folds", "")):
-        lines.append(f"note\t{result.conditions['folds']}")
-    return lines
+def _warn_of_shared_persons(train: Dataset, test: Dataset) -> None:
+    shared = [person for person in test.persons if person in train.persons]
+    if shared:
+        click.echo(f"in both folders: {' '.join(shared)}; if they are the same people, they were met before", err=True)
+
+
+def _table(result: EvaluationResult) -> list[tuple[str, ...]]:
+    """A row a fold, then mean and spread."""
+    rows = [("held out", "recordings", "accuracy", "rejected")]
+    for fold in result.folds:
+        rows.append((fold.name, str(len(fold.trials)), f"{100 * fold.accuracy:.1f} %", f"{100 * fold.rejected:.1f} %"))
+    rejected = sum(fold.rejected * len(fold.trials) for fold in result.folds) / len(result.trials)
+    accuracy = f"{100 * result.mean:.1f} % ± {100 * result.std:.1f}"
+    return [*rows, ("all", str(len(result.trials)), accuracy, f"{100 * rejected:.1f} %")]

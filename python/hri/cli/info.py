@@ -4,14 +4,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from importlib import import_module
 from importlib.util import find_spec
+from platform import python_version
 from typing import Any
 
 import click
 
-from hri import __version__
+from hri import __version__, _native
 from hri.cli.output import json_option, say, write_json
 from hri.cli.recognizers import CLASSES, default_model
+from hri.datasets.detection import natural_key
 from hri.errors import FormatError
 
 EXTRAS = {
@@ -21,6 +25,10 @@ EXTRAS = {
     "robot": ("pybullet",),
     "video": ("cv2",),
 }
+
+
+KINDS = {"word_recognizer": "speech", "gesture_recognizer": "gesture"}
+"""What a model file says it is, and the mode it is for."""
 
 
 @click.command()
@@ -43,33 +51,53 @@ def info(model: str | None, json_path: str | None) -> None:
 def _installation() -> dict[str, Any]:
     return {
         "version": __version__,
-        "vision": find_spec("hri._native_vision") is not None,
+        "python": python_version(),
+        "native": {name: _loads(f"hri.{name}") for name in ("_native", "_native_vision")},
         "extras": {name: all(map(find_spec, modules)) for name, modules in EXTRAS.items()},
         "models": {mode: str(default_model(mode)) for mode in CLASSES if default_model(mode).is_file()},
     }
 
 
+def _loads(module: str) -> bool:
+    try:
+        import_module(module)
+    except ImportError:
+        return False
+    return True
+
+
 def _model(path: str) -> dict[str, Any]:
-    errors = []
-    for mode, recognizer_class in CLASSES.items():
-        try:
-            recognizer = recognizer_class.load(path)
-        except FormatError as error:
-            errors.append(str(error))
-            continue
-        labels = [str(label) for label in recognizer.classes_]
-        return {"mode": mode, "labels": labels, "options": recognizer.get_params()}
-    raise FormatError(f"{path} is no model of this version: {'; '.join(errors)}")
+    kind = _native.ModelFile.read(path).kind
+    if kind not in KINDS:
+        raise FormatError(f"{path}: holds a {kind!r}, neither {' nor '.join(KINDS)}")
+    recognizer = CLASSES[KINDS[kind]].load(path)
+    labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
+    return {"mode": KINDS[kind], "labels": labels, "options": recognizer.get_params()}
 
 
-def _lines(value: dict[str, Any], prefix: str = "") -> list[str]:
+def _lines(found: dict[str, Any]) -> list[str]:
+    """Tab-separated; the options of a model as ``--option`` takes them."""
     lines = []
-    for key, entry in value.items():
-        if hasattr(entry, "as_dict"):
-            entry = entry.as_dict()
-        if isinstance(entry, dict):
-            lines += _lines(entry, f"{prefix}{key}.")
+    for key, entry in found.items():
+        if key == "options":
+            lines += [f"option\t{name}={_text(value)}" for name, value in _flat(entry)]
+        elif key == "extras":
+            hints = {name: "yes" if there else f"no: pip install libhri[{name}]" for name, there in entry.items()}
+            lines += [f"extra {name}\t{hint}" for name, hint in hints.items()]
+        elif isinstance(entry, dict):
+            lines += [f"{key} {name}\t{_text(value)}" for name, value in entry.items()]
         else:
-            text = " ".join(map(str, entry)) if isinstance(entry, list) else str(entry)
-            lines.append(f"{prefix}{key}\t{text}")
+            lines.append(f"{key}\t{' '.join(entry) if isinstance(entry, list) else entry}")
     return lines
+
+
+def _flat(options: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    for name, value in options.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", value
+
+
+def _text(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -11,12 +13,17 @@ from importlib import import_module
 try:
     import click
 except ImportError:  # the base install has no command line
-    sys.exit("hri: the command line needs click: pip install libhri[cli]")
+    sys.exit("hri: error: the command line needs click: pip install libhri[cli]")
 
-from hri import __version__
-from hri.errors import FormatError, Interrupted, InvalidArgument, IoError
+try:
+    from hri import __version__
+    from hri.errors import Error
+except ImportError as broken:
+    sys.exit(f"hri: error: the compiled library does not load: {broken}")
 
+EXIT_USAGE = 2
 EXIT_BAD_DATA = 3
+EXIT_UNEXPECTED = 70
 EXIT_INTERRUPTED = 130
 
 COMMANDS = {
@@ -62,7 +69,8 @@ def hri() -> None:
       hri recognise --speech seven.wav --gesture seven.jpg --robot robot.webm
       hri evaluate speech --data spoken/
 
-    Exit codes: 0 done (also for "unknown"), 1 a target was missed, 2 wrong usage, 3 bad data, 130 interrupted.
+    Exit codes: 0 done (also for "unknown"), 1 a target was missed, 2 wrong usage, 3 bad data, 70 a fault
+    of hri itself, 130 interrupted.
     """
 
 
@@ -71,23 +79,39 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         result = hri.main(args=arguments, prog_name="hri", standalone_mode=False)
         return result if isinstance(result, int) else 0
-    except click.UsageError as error:
+    except click.exceptions.NoArgsIsHelpError as error:
         error.show()
-        return error.exit_code
+        return EXIT_USAGE
+    except click.UsageError as error:
+        place = error.ctx.command_path if error.ctx else "hri"
+        return _fail(f"{error.format_message()} (see '{place} --help')", EXIT_USAGE)
     except click.exceptions.Exit as error:
         return error.exit_code
-    except (click.Abort, KeyboardInterrupt, Interrupted):
+    except SystemExit as error:
+        return error.code if isinstance(error.code, int) else EXIT_BAD_DATA
+    except (click.Abort, KeyboardInterrupt):  # which hri.errors.Interrupted is too
         click.echo("hri: interrupted", err=True)
         return EXIT_INTERRUPTED
-    except (InvalidArgument, FormatError, IoError, ImportError, OSError) as error:
-        click.echo(f"hri: error: {' '.join(str(error).split())}", err=True)
-        return EXIT_BAD_DATA
+    except click.ClickException as error:
+        return _fail(error.format_message(), EXIT_BAD_DATA)
+    except (Error, ImportError) as error:
+        return _fail(str(error), EXIT_BAD_DATA)
+    except OSError as error:
+        return _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), EXIT_BAD_DATA)
+    except Exception as error:
+        if os.environ.get("HRI_TRACEBACK"):
+            raise
+        return _fail(f"unexpected {type(error).__name__}: {error} (HRI_TRACEBACK=1 shows where)", EXIT_UNEXPECTED)
+
+
+def _fail(message: str, exit_code: int) -> int:
+    click.echo(f"hri: error: {' '.join(message.split())}", err=True)
+    return exit_code
 
 
 def run() -> None:
     """The console script."""
-    try:
-        sys.exit(main())
-    except BrokenPipeError:  # standard output went to a program that has ended, such as head
-        sys.stderr.close()
-        sys.exit(0)
+    if hasattr(signal, "SIGPIPE"):
+        # Standard output may go to a program that ends early, such as head: then end as other tools do, silently.
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    sys.exit(main())

@@ -1,21 +1,55 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Results as JSON."""
+"""What commands write: tables, JSON, and files whose place is checked before the work begins."""
 
 from __future__ import annotations
 
 import json
 import os
+import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
+
+class OutputFile(click.Path):
+    """A file to write; a wrong suffix or a folder that cannot be written is said at once, not after the work.
+
+    Parameters
+    ----------
+    suffixes : sequence of str
+        Those allowed, such as (".png",); any if empty.
+    allow_dash : bool
+        Whether "-" means standard output.
+    """
+
+    def __init__(self, suffixes: Sequence[str] = (), allow_dash: bool = False) -> None:
+        super().__init__(dir_okay=False, allow_dash=allow_dash)
+        self._suffixes = tuple(suffixes)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        text = os.fsdecode(super().convert(value, param, ctx))
+        if text == "-" and self.allow_dash:
+            return text
+        path = Path(text)
+        if self._suffixes and path.suffix.lower() not in self._suffixes:
+            self.fail(f"'{path}' must end in one of {' '.join(self._suffixes)}", param, ctx)
+        folder = path.absolute().parent
+        while not folder.exists():
+            folder = folder.parent
+        if not folder.is_dir() or not os.access(folder, os.W_OK):
+            self.fail(f"'{path}' cannot be written: '{folder}' is not a folder where you may write", param, ctx)
+        return text
+
+
 json_option = click.option(
     "--json",
     "json_path",
-    type=click.Path(dir_okay=False, allow_dash=True),
+    type=OutputFile(allow_dash=True),
+    metavar="FILE",
     help="Also write everything as JSON to this file; - is standard output, and then nothing else goes there.",
 )
 
@@ -45,3 +79,14 @@ def say(text: str, json_path: str | None) -> None:
     """Print `text` for people, unless standard output is taken by JSON."""
     if json_path != "-":
         click.echo(text)
+
+
+def say_table(rows: Sequence[Sequence[str]], json_path: str | None) -> None:
+    """Print rows of equal length: columns aligned on a terminal, tab-separated for programs."""
+    if not sys.stdout.isatty():
+        lines = ["\t".join(row) for row in rows]
+    else:
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        lines = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+    for line in lines:
+        say(line, json_path)

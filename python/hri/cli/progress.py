@@ -14,7 +14,7 @@ Progress = Callable[[str, int, int], None]
 
 @contextmanager
 def progress_bars() -> Iterator[Progress]:
-    """Gives a callback that draws one bar for everything it is told of; silent where nobody watches."""
+    """Gives a callback that draws a bar for what is being done now; silent where nobody watches."""
     if not sys.stderr.isatty():
         yield lambda what, done, total: None
         return
@@ -23,12 +23,16 @@ def progress_bars() -> Iterator[Progress]:
     from rich.progress import Progress as Bars
 
     columns = (TextColumn("{task.description:<28}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Bars(*columns, console=Console(stderr=True)) as bars:
-        tasks: dict[str, int] = {}
+    with Bars(*columns, console=Console(stderr=True), transient=True) as bars:
+        shown = ""
 
         def report(what: str, done: int, total: int) -> None:
-            if what not in tasks:
-                tasks[what] = bars.add_task(what, total=total)
-            bars.update(bars.task_ids[tasks[what]], completed=done, total=total)
+            nonlocal shown
+            if what != shown:  # one bar at a time: many folds would fill the terminal
+                for old in bars.task_ids:
+                    bars.remove_task(old)
+                bars.add_task(what, total=total)
+                shown = what
+            bars.update(bars.task_ids[0], completed=done, total=total)
 
         yield report

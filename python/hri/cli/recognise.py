@@ -9,16 +9,14 @@ from typing import Any
 
 import click
 
-from hri.cli.output import json_option, say, write_json
+from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import default_model
-from hri.errors import InvalidArgument
+from hri.errors import Error, InvalidArgument
 from hri.fusion import RULES, FusedDecision, fuse
-from hri.media import read_audio, read_frames, write_image
+from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, read_audio, read_frames, write_image
 from hri.recognition import Decision, GestureRecognizer, WordRecognizer
 from hri.recognition.decision import RECOGNISED
-
-PICTURES = (".png", ".jpg", ".jpeg")
 
 _file = click.Path(exists=True, dir_okay=False)
 
@@ -31,10 +29,22 @@ _file = click.Path(exists=True, dir_okay=False)
 )
 @click.option("--gesture-model", type=_file, help="The same for gestures.")
 @click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
-@click.option("--robot", "robot_path", type=click.Path(dir_okay=False, path_type=Path), help="Film the robot's answer.")
-@click.option("--backend", type=click.Choice(["pybullet", "kinematic"]), default="pybullet", show_default=True)
+@click.option(
+    "--robot",
+    "robot_path",
+    type=OutputFile((*VIDEO_SUFFIXES, *IMAGE_SUFFIXES)),
+    metavar="FILE",
+    help="Film the robot's answer (.mp4, .webm, ...), or picture its end (.png, .jpg).",
+)
+@click.option(
+    "--backend",
+    type=click.Choice(["pybullet", "kinematic"]),
+    default="pybullet",
+    show_default=True,
+    help="The robot with physics, or without.",
+)
 @click.option("--gui", is_flag=True, help="Show the robot in a window (pybullet).")
-@click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to list.")
+@click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to list of each mode.")
 @json_option
 def recognise(
     speech: str | None,
@@ -42,7 +52,7 @@ def recognise(
     speech_model: str | None,
     gesture_model: str | None,
     rule: str,
-    robot_path: Path | None,
+    robot_path: str | None,
     backend: str,
     gui: bool,
     top: int,
@@ -61,6 +71,8 @@ def recognise(
     """
     if speech is None and gesture is None:
         raise click.UsageError("give --speech FILE, --gesture FILE, or both")
+    if gui and backend != "pybullet":
+        raise click.UsageError("--gui needs --backend pybullet")
     heard = seen = None
     if speech is not None:
         words = WordRecognizer.load(speech_model or _kept("speech"))
@@ -73,8 +85,15 @@ def recognise(
         _describe(seen, gesture, seen.notes, top)
     decision = fuse(heard, seen, rule=rule)
     say(f"{decision.label}\t{decision.confidence:.3f}\t{decision.rule}", json_path)
-    answer = _answer(decision, robot_path, backend, gui) if robot_path is not None or gui else None
-    write_json(json_path, {**decision.to_dict(), "robot": answer})
+    answer = None
+    try:
+        if robot_path is not None or gui:
+            answer = _answer(decision, None if robot_path is None else Path(robot_path), backend, gui)
+    except (Error, ImportError, OSError) as error:
+        answer = {"moved": False, "reason": str(error)}
+        raise
+    finally:
+        write_json(json_path, {**decision.to_dict(), "robot": answer})
 
 
 def _kept(mode: str) -> Path:
@@ -109,7 +128,9 @@ def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool)
     if gui:
         with open_robot(backend, gui=True) as robot:
             robot.perform(trajectory)
-    if path is not None and path.suffix.lower() in PICTURES:
+    if path is not None:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    if path is not None and path.suffix.lower() in IMAGE_SUFFIXES:
         with open_robot(backend) as robot:
             robot.perform(trajectory)
             write_image(path, robot.render(640, 480)[:, :, ::-1])

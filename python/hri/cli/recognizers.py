@@ -11,6 +11,7 @@ from typing import Any
 
 import click
 
+from hri.datasets import Dataset
 from hri.errors import InvalidArgument
 from hri.recognition import GestureRecognizer, WordRecognizer
 
@@ -18,6 +19,8 @@ CLASSES: dict[str, type[WordRecognizer] | type[GestureRecognizer]] = {
     "speech": WordRecognizer,
     "gesture": GestureRecognizer,
 }
+
+_SEED_OPTION = {"speech": "models.seed", "gesture": "seed"}
 
 mode_argument = click.argument("mode", type=click.Choice(list(CLASSES)))
 
@@ -44,9 +47,20 @@ def default_model(mode: str) -> Path:
     return user_data_path("hri") / f"{mode}.hri"
 
 
-def recognizer_factory(mode: str, options: tuple[str, ...]) -> Callable[[], WordRecognizer | GestureRecognizer]:
-    """Makes untrained recognisers with the given NAME=VALUE options; the options are checked here and now."""
-    fields = parse_options(options)
+def load_dataset(directory: str, mode: str, pattern: str | None) -> Dataset:
+    """`Dataset.load`; recordings that do not fit the pattern are told of on standard error."""
+    dataset = Dataset.load(directory, mode, pattern)
+    if dataset.ignored:
+        example = dataset.ignored[0].relative_to(dataset.root)
+        click.echo(f"{len(dataset.ignored)} recordings do not fit the pattern, such as {example}", err=True)
+    return dataset
+
+
+def recognizer_factory(
+    mode: str, options: tuple[str, ...], seed: int
+) -> Callable[[], WordRecognizer | GestureRecognizer]:
+    """Makes untrained recognisers; NAME=VALUE options are checked here and now, and go before the seed."""
+    fields = parse_options((f"{_SEED_OPTION[mode]}={seed}", *options))
     recognizer_class = CLASSES[mode]
 
     def make() -> WordRecognizer | GestureRecognizer:
@@ -54,7 +68,7 @@ def recognizer_factory(mode: str, options: tuple[str, ...]) -> Callable[[], Word
 
     try:
         make()
-    except TypeError as error:  # an unknown name, or a value of another type
+    except (TypeError, ValueError) as error:  # an unknown name, or a value of another type
         raise InvalidArgument(f"--option: {error}") from error
     return make
 
@@ -85,6 +99,8 @@ def parse_options(options: tuple[str, ...]) -> dict[str, Any]:
 
 
 def _value(text: str) -> Any:
+    if text in ("True", "False"):  # as Python prints them
+        return text == "True"
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except (tomllib.TOMLDecodeError, KeyError):

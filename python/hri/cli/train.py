@@ -8,10 +8,16 @@ from pathlib import Path
 
 import click
 
-from hri.cli.output import json_option, say, write_json
+from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import default_model, mode_argument, options_option, pattern_option, recognizer_factory
-from hri.datasets import Dataset
+from hri.cli.recognizers import (
+    default_model,
+    load_dataset,
+    mode_argument,
+    options_option,
+    pattern_option,
+    recognizer_factory,
+)
 from hri.training import train as train_recognizer
 
 
@@ -19,13 +25,18 @@ from hri.training import train as train_recognizer
 @mode_argument
 @click.option("--data", required=True, type=click.Path(exists=True, file_okay=False), help="Folder of recordings.")
 @pattern_option
-@click.option(
-    "--out", type=click.Path(dir_okay=False, path_type=Path), help="Model file; the default is kept per user."
-)
+@click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
 @options_option
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train(
-    mode: str, data: str, pattern: str | None, out: Path | None, options: tuple[str, ...], json_path: str | None
+    mode: str,
+    data: str,
+    pattern: str | None,
+    out: str | None,
+    options: tuple[str, ...],
+    seed: int,
+    json_path: str | None,
 ) -> None:
     """Train a recogniser of MODE on every recording in a folder, and print where the model is.
 
@@ -35,17 +46,18 @@ def train(
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
       hri train speech --data spoken/ --out digits.hri --option models.model=ptbhmm
     """
-    make = recognizer_factory(mode, options)
-    dataset = Dataset.load(data, mode, pattern)
-    path = default_model(mode) if out is None else out
+    make = recognizer_factory(mode, options, seed)
+    dataset = load_dataset(data, mode, pattern)
+    path = default_model(mode) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
         recognizer = train_recognizer(dataset, make(), progress=progress)
     recognizer.save(path)
-    labels = [str(label) for label in recognizer.classes_]
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
-    click.echo(f"{len(dataset)} recordings{persons}, {len(labels)} labels: {' '.join(labels)}", err=True)
+    click.echo(
+        f"{len(dataset)} recordings{persons}, {len(dataset.labels)} labels: {' '.join(dataset.labels)}", err=True
+    )
     if len(dataset.persons) < 2:
         click.echo("confidences are calibrated best with two persons or more", err=True)
     write_json(
@@ -53,7 +65,7 @@ def train(
         {
             "model": str(path),
             "mode": mode,
-            "labels": labels,
+            "labels": dataset.labels,
             "num_recordings": len(dataset),
             "persons": dataset.persons,
             "synthetic": dataset.synthetic,

@@ -39,7 +39,7 @@ def demo(out: Path, seed: int, backend: str, quick: bool) -> None:
     \b
     Examples:
       hri demo
-      hri demo --out /tmp/demo --backend kinematic --quick
+      hri demo --out show --backend kinematic --quick
     """
     from hri.demo.corpus import FULL, QUICK, make_corpus
     from hri.demo.film import make_film

@@ -31,13 +31,24 @@ _backend = click.option(
 
 @click.group()
 def robot() -> None:
-    """Check motions of the robot HOAP-2, carry them out in simulation and film them."""
+    """Check motions of the robot HOAP-2, carry them out in simulation and film them.
+
+    \b
+    Examples:
+      hri robot gestures
+      hri robot render 7 seven.mp4
+    """
 
 
-@robot.command()
+@robot.command(short_help="Look over a pulse CSV file; exit code 3 for errors.")
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 def check(file: Path) -> None:
-    """Look over a pulse CSV FILE; tab-separated findings go to stdout, exit code 3 for errors."""
+    """Look over a pulse CSV FILE; tab-separated findings go to stdout, exit code 3 for errors.
+
+    \b
+    Example:
+      hri robot check motion.csv
+    """
     findings = check_pulse_csv(file)
     for finding in findings:
         place = (finding.severity, str(finding.row), finding.column, finding.joint)
@@ -48,13 +59,18 @@ def check(file: Path) -> None:
         sys.exit(EXIT_BAD_DATA)
 
 
-@robot.command()
+@robot.command(short_help="Carry out a motion; print where the joints end.")
 @click.argument("motion")
 @_backend
 @click.option("--gui", is_flag=True, help="Show a window and move in real time (pybullet).")
 @click.option("--stand", is_flag=True, help="Stand on the feet instead of holding the torso.")
 def play(motion: str, backend: str, gui: bool, stand: bool) -> None:
-    """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end."""
+    """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
+
+    \b
+    Example:
+      hri robot play namaste --gui
+    """
     trajectory = _motion(motion)
     with open_robot(backend, gui=gui, fixed_base=not stand) as opened:
         opened.perform(trajectory)
@@ -62,14 +78,20 @@ def play(motion: str, backend: str, gui: bool, stand: bool) -> None:
             click.echo(f"{name}\t{position:.4f}")
 
 
-@robot.command()
+@robot.command(short_help="Film a motion.")
 @click.argument("motion")
 @click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
 @_backend
 @click.option("--fps", type=click.FloatRange(1, 120), default=12.0, show_default=True)
 @click.option("--size", type=(int, int), default=(480, 360), show_default=True, help="Pixels.")
 def render(motion: str, out: Path, backend: str, fps: float, size: tuple[int, int]) -> None:
-    """Film MOTION, the name of a gesture or a pulse CSV file, as the video OUT."""
+    """Film MOTION, the name of a gesture or a pulse CSV file, as the video OUT.
+
+    \b
+    Example:
+      hri robot render 7 seven.mp4
+      hri robot render motion.csv motion.webm --backend kinematic --size 640 480
+    """
     trajectory = _motion(motion)
     if sys.stderr.isatty():
         with click.progressbar(length=1000, label="Filming", file=sys.stderr) as bar:
@@ -83,13 +105,18 @@ def render(motion: str, out: Path, backend: str, fps: float, size: tuple[int, in
     click.echo(str(out))
 
 
-@robot.command()
+@robot.command(short_help="Write a motion as pulses or degrees.")
 @click.argument("motion")
 @click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
 def convert(motion: str, out: Path) -> None:
     """Write MOTION as OUT: pulses with .csv, else times and degrees, tab-separated (.tsv).
 
     MOTION is the name of a gesture or a pulse CSV file.
+
+    \b
+    Example:
+      hri robot convert namaste namaste.csv
+      hri robot convert motion.csv motion.tsv
     """
     trajectory = _motion(motion)
     if out.suffix.lower() == ".csv":
@@ -103,10 +130,15 @@ def convert(motion: str, out: Path) -> None:
     click.echo(str(out))
 
 
-@robot.command()
+@robot.command(short_help="List the joints with limits, CSV columns and pulses.")
 @click.option("--markdown", is_flag=True, help="As a table for a Markdown page.")
 def joints(markdown: bool) -> None:
-    """List the joints with limits in degrees, CSV column and pulses per degree."""
+    """List the joints with limits in degrees, CSV column and pulses per degree.
+
+    \b
+    Example:
+      hri robot joints --markdown
+    """
     rows = [("joint", "meaning", "lower deg", "upper deg", "column", "pulses/deg")]
     for joint, limits in zip(HOAP2.joints, np.degrees(HOAP2.limits_rad), strict=True):
         pulses = "" if joint.pulses_per_degree is None else str(joint.pulses_per_degree)
@@ -118,9 +150,14 @@ def joints(markdown: bool) -> None:
         click.echo(f"| {' | '.join(row)} |" if markdown else "\t".join(row))
 
 
-@robot.command()
+@robot.command(short_help="List the gestures by name.")
 def gestures() -> None:
-    """List the gestures: name, seconds and what it looks like."""
+    """List the gestures: name, seconds and what it looks like.
+
+    \b
+    Example:
+      hri robot gestures
+    """
     for gesture in load_gestures().values():
         click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
 

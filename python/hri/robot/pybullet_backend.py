@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import tempfile
 import time
 from collections.abc import Mapping
@@ -41,11 +43,15 @@ class PyBulletRobot(Robot):
     ------
     ImportError
         When PyBullet is not installed; the message says how to get it.
+    InvalidArgument
+        For a window where there is no display.
     """
 
     def __init__(self, gui: bool = False, fixed_base: bool = True) -> None:
         super().__init__()
         self._bullet = import_optional("pybullet", "robot", "to simulate the robot")
+        if gui and sys.platform == "linux" and not os.environ.get("DISPLAY"):
+            raise InvalidArgument("there is no display for the robot's window: DISPLAY is not set")  # else it exits
         self._client = self._bullet.connect(self._bullet.GUI if gui else self._bullet.DIRECT)
         if self._client < 0:
             raise Error("PyBullet gives no simulation")
