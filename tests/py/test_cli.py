@@ -14,33 +14,10 @@ import pytest
 
 from conftest import RATE_HZ, tone_word
 from hri import _native
-from hri.cli.main import COMMANDS, main
+from hri.cli.main import COMMANDS
 from hri.cli.recognizers import parse_options
 from hri.datasets import Dataset
 from hri.errors import InvalidArgument
-
-
-class Result:
-    """What a run of the command line gave."""
-
-    def __init__(self, code: int, out: str, err: str) -> None:
-        self.code, self.out, self.err = code, out, err
-
-
-@pytest.fixture
-def hri(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
-    """Runs the command line in this process; the user's data folder is a temporary one."""
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
-    monkeypatch.delenv("HRI_DATA", raising=False)
-
-    def run(*arguments: object) -> Result:
-        capfd.readouterr()
-        code = main([str(argument) for argument in arguments])
-        out, err = capfd.readouterr()
-        assert "Traceback" not in err
-        return Result(code, out, err)
-
-    return run
 
 
 def test_train_then_recognise_with_the_models_kept_per_user(hri, spoken: Path, signed: Path, tmp_path: Path):

@@ -1,0 +1,197 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The command line when something is wrong: one line on stderr, the right exit code, and no work done in vain."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from hri import _native, studies
+from hri.cli import main as cli_main
+from hri.cli.output import say_table
+from hri.cli.progress import progress_bars
+from hri.cli.recognizers import recognizer_factory
+
+
+class Terminal(io.StringIO):
+    """A stream that says it is a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def run_python(code: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=os.environ, check=False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "option"),
+    [
+        (("evaluate", "speech", "--confusion", "c.xyz"), "--confusion"),
+        (("evaluate", "speech", "--confusion", "{file}/c.png"), "--confusion"),
+        (("evaluate", "speech", "--json", "{file}/result.json"), "--json"),
+        (("train", "speech", "--out", "{file}/words.hri"), "--out"),
+        (("train", "speech", "--out", "{folder}"), "--out"),
+    ],
+)
+def test_places_that_cannot_be_written_are_refused_before_the_work(
+    hri, monkeypatch: pytest.MonkeyPatch, spoken: Path, tmp_path: Path, arguments: tuple[str, ...], option: str
+):
+    monkeypatch.setattr("hri.datasets.Dataset.load", lambda *_: pytest.fail("the recordings were read"))
+    (tmp_path / "file").touch()
+    places = {"file": tmp_path / "file", "folder": tmp_path}
+    result = hri(*(argument.format(**places) for argument in arguments), "--data", spoken)
+    assert (result.code, result.out) == (2, "")
+    assert result.err.startswith(f"hri: error: Invalid value for '{option}'") and result.err.count("\n") == 1
+
+
+def test_usage_errors_are_one_line_that_names_the_help(hri):
+    for arguments, place in (("train", "hri train"), ("robot nonsense", "hri robot"), ("nonsense", "hri")):
+        result = hri(*arguments.split())
+        assert result.code == 2 and result.err.count("\n") == 1
+        assert result.err.endswith(f"(see '{place} --help')\n")
+
+
+def test_choices_that_an_option_does_not_have_are_listed(hri, spoken: Path):
+    result = hri("train", "speech", "--data", spoken, "--option", "models.model=hmmm")
+    assert result.code == 3
+    assert result.err.startswith("hri: error: --option: ") and "'ptbhmm'" in result.err
+
+
+def test_what_nobody_foresaw_is_one_line_too(hri, monkeypatch: pytest.MonkeyPatch, spoken: Path):
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError("by\nzero")
+
+    monkeypatch.setattr("hri.datasets.Dataset.load", fail)
+    result = hri("train", "speech", "--data", spoken)
+    assert result.code == cli_main.EXIT_UNEXPECTED == 70
+    assert result.err == "hri: error: unexpected ZeroDivisionError: by zero (HRI_TRACEBACK=1 shows where)\n"
+    monkeypatch.setenv("HRI_TRACEBACK", "1")
+    with pytest.raises(ZeroDivisionError):
+        hri("train", "speech", "--data", spoken)
+
+
+def test_a_missing_extra_is_named_before_the_work(hri, monkeypatch: pytest.MonkeyPatch, spoken: Path):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    result = hri("evaluate", "speech", "--data", spoken, "--confusion", "c.png")
+    assert (result.code, result.out) == (3, "")
+    assert "pip install libhri[plots]" in result.err and result.err.count("\n") == 1
+
+
+def test_a_command_that_does_not_load_troubles_no_other(hri, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setitem(cli_main.COMMANDS, "demo", ("hri.nowhere:demo", "Not there."))
+    assert hri("--help").code == 0 and hri("study", "list").code == 0
+    result = hri("demo")
+    assert result.code == 3 and "hri.nowhere" in result.err and result.err.count("\n") == 1
+
+
+def test_help_loads_no_recogniser_and_no_library_for_media():
+    result = run_python(
+        "import sys; from hri.cli.main import main; main(['--help']); "
+        "print([m for m in ('cv2', 'rich', 'matplotlib', 'pybullet', 'hri.recognition') if m in sys.modules])"
+    )
+    assert result.stdout.splitlines()[-1] == "[]"
+
+
+def test_output_to_a_program_that_ends_early_ends_silently():
+    code = "from hri.cli.main import run; import sys; sys.argv[1:] = ['robot', 'joints']; run()"
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None and process.stderr is not None
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == -signal.SIGPIPE
+
+
+@pytest.mark.parametrize(("passed", "code"), [(True, 0), (False, 1)])
+def test_a_study_that_misses_its_target_ends_with_1(
+    hri, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, passed: bool, code: int
+):
+    found = {"accuracy_mean": 0.5, "accuracy_std": 0.1, "passed": passed}
+    study = replace(studies.STUDIES["fsdd"], data=(), run=lambda data, progress: found)
+    monkeypatch.setitem(studies.STUDIES, "fsdd", study)
+    result = hri("study", "fsdd", "--data", tmp_path)
+    assert result.code == code
+    assert result.out.splitlines() == [
+        "accuracy\t50.0 % ± 10.0",
+        f"target\t{study.target}",
+        f"passed\t{'yes' if passed else 'no'}",
+    ]
+    assert ("missed its target" in result.err) is not passed
+
+
+def test_a_label_that_the_robot_does_not_know_still_gives_the_decision(hri, spoken: Path, tmp_path: Path):
+    words = tmp_path / "words"
+    words.mkdir()
+    for path in spoken.iterdir():
+        (words / f"word{path.name}").write_bytes(path.read_bytes())
+    model, report, film = tmp_path / "words.hri", tmp_path / "report.json", tmp_path / "film.mp4"
+    assert hri("train", "speech", "--data", words, "--out", model).code == 0
+    said = ("recognise", "--speech", words / "word1_low_0.wav", "--speech-model", model)
+    result = hri(*said, "--robot", film, "--json", report)
+    assert result.code == 3 and result.out.startswith("word1\t")
+    assert "no gesture named 'word1'" in result.err and not film.exists()
+    assert json.loads(report.read_text())["robot"]["moved"] is False
+
+
+def test_a_window_without_a_display_is_refused(hri, monkeypatch: pytest.MonkeyPatch, spoken: Path):
+    pytest.importorskip("pybullet")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    hri("train", "speech", "--data", spoken)
+    result = hri("recognise", "--speech", spoken / "1_low_0.wav", "--gui")
+    assert result.code == 3 and "DISPLAY" in result.err.splitlines()[-1]
+
+
+def test_people_met_before_and_files_left_out_are_told_of(hri, spoken: Path, tmp_path: Path):
+    split = hri("evaluate", "speech", "--train", spoken, "--test", spoken)
+    assert "in both folders: high low middle;" in split.err
+    part = hri("train", "speech", "--data", spoken, "--pattern", "{label}_low_{take}.wav", "--out", tmp_path / "m.hri")
+    assert part.code == 0 and "12 recordings do not fit the pattern, such as 1_high_0.wav" in part.err
+
+
+@pytest.mark.parametrize("mode", ["speech", "gesture"])
+def test_a_seed_reaches_the_recogniser_unless_an_option_says_otherwise(mode: str):
+    name = {"speech": "models.seed", "gesture": "seed"}[mode]
+
+    def seed(*options: str) -> int:
+        fields = recognizer_factory(mode, options, seed=7)().get_params()
+        return fields.get("models", fields)["seed"]
+
+    assert seed() == 7
+    assert seed(f"{name}=3") == 3
+
+
+def test_progress_is_drawn_on_a_terminal_only(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("TERM", "xterm")
+    for stream, drawn in ((Terminal(), True), (io.StringIO(), False)):
+        monkeypatch.setattr(sys, "stderr", stream)
+        with progress_bars() as progress:
+            for what in ("reading", "training"):
+                for done in range(3):
+                    progress(what, done + 1, 3)
+        assert ("training" in stream.getvalue()) is drawn
+        assert bool(stream.getvalue()) is drawn
+
+
+def test_tables_are_aligned_on_a_terminal_and_tabbed_elsewhere(monkeypatch: pytest.MonkeyPatch):
+    rows = [("held out", "right"), ("a", "5")]
+    for stream, text in ((Terminal(), "held out  right\na         5\n"), (io.StringIO(), "held out\tright\na\t5\n")):
+        monkeypatch.setattr(sys, "stdout", stream)
+        say_table(rows, None)
+        assert stream.getvalue() == text
+
+
+def test_info_names_what_a_file_holds_instead_of_a_recogniser(hri, tmp_path: Path):
+    other = _native.ModelFile()
+    other.kind = "recipe"
+    other.write(str(tmp_path / "other.hri"))
+    result = hri("info", tmp_path / "other.hri")
+    assert result.code == 3 and "'recipe'" in result.err
