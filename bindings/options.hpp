@@ -13,7 +13,9 @@
 #include <utility>
 #include <vector>
 
-namespace [[gnu::visibility("hidden")]] hri_bind {
+// pybind11's own types are hidden, so what holds them has to be.
+#pragma GCC visibility push(hidden)
+namespace hri_bind {
 
 namespace py = pybind11;
 
@@ -106,4 +108,5 @@ OptionsBinder<T> options(py::class_<T>& cls) {
   return OptionsBinder<T>(cls);
 }
 
-}  // namespace gnu::visibility("hidden")]]hri_bind
+}  // namespace hri_bind
+#pragma GCC visibility pop

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Formatters, linters and the type checker, over everything; --fix lets the formatters write. `./run lint` calls it.
 set -uo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit
 
 fix=0
 [[ ${1:-} == --fix ]] && fix=1

@@ -127,7 +127,7 @@ def test_core_reports_errors_without_exceptions(tmp_path: Path) -> None:
     source.write_text(
         "#include <hri/core/error.hpp>\n#include <hri/io/model_file.hpp>\n#include <cstdio>\n#include <cstdlib>\n"
         "int main() {\n"
-        '  hri::set_failure_handler([](hri::ErrorKind, const char* m) { std::fputs(m, stderr); std::_Exit(7); });\n'
+        "  hri::set_failure_handler([](hri::ErrorKind, const char* m) { std::fputs(m, stderr); std::_Exit(7); });\n"
         '  hri::ModelFile::parse({}, "empty.hri");\n}\n'
     )
     flags = run(

@@ -26,7 +26,6 @@ from hri import _native, read_audio
 from hri.errors import FormatError
 from hri.media import write_video
 
-
 Run = Callable[..., CommandResult]
 
 

@@ -15,11 +15,8 @@ try:
 except ImportError:  # the base install has no command line
     sys.exit("hri: error: the command line needs click: pip install libhri[cli]")
 
-try:
-    from hri import __version__
-    from hri.errors import Error
-except ImportError as broken:
-    sys.exit(f"hri: error: the compiled library does not load: {broken}")
+from hri import __version__
+from hri.errors import Error
 
 EXIT_USAGE = 2
 EXIT_BAD_DATA = 3
