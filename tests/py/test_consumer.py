@@ -102,6 +102,23 @@ def test_a_program_builds_with_pkg_config_alone(installed: Path, tmp_path: Path)
     assert run(tmp_path / "version").split() == [_native.__version__, "8"]
 
 
+def test_vision_brings_opencv_to_those_who_ask(installed: Path, tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"
+        "find_package(hri CONFIG REQUIRED)\n"
+        "add_executable(x x.cpp)\ntarget_link_libraries(x PRIVATE hri::hri)\n"
+    )
+    (tmp_path / "x.cpp").write_text(
+        "#include <hri/vision/silhouette.hpp>\n#include <cstdio>\n#include <vector>\n"
+        "int main() {\n  const std::vector<std::uint8_t> wall(3 * 64 * 48, 90);\n"
+        '  std::printf("%g\\n", hri::SilhouetteExtractor({}).extract({wall.data(), 64, 48, 3, 192}).quality);\n}\n'
+    )
+    build = tmp_path / "build"
+    run("cmake", "-S", tmp_path, "-B", build, f"-DCMAKE_PREFIX_PATH={installed}")
+    run("cmake", "--build", build)
+    assert run(build / "x") == "0\n"
+
+
 def test_missing_component_is_named(installed: Path, tmp_path: Path) -> None:
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"

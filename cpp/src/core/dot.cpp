@@ -8,7 +8,7 @@ namespace hri {
 
 HRI_SIMD_CLONES
 float dot(const float* a, const float* b, int count) {
-  constexpr int kLanes = 8;
+  constexpr int kLanes = 16;
   float lanes[kLanes] = {};
   int i = 0;
   for (; i + kLanes <= count; i += kLanes) {

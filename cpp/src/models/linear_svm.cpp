@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "hri/core/dot.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 #include "hri/core/simd.hpp"
@@ -15,20 +16,6 @@
 
 namespace hri {
 namespace {
-
-HRI_SIMD_CLONES
-float dot(const float* a, const float* b, int count) {
-  constexpr int kLanes = 16;
-  float lanes[kLanes] = {};
-  int i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    for (int l = 0; l < kLanes; ++l) lanes[l] += a[i + l] * b[i + l];
-  }
-  float sum = 0;
-  for (; i < count; ++i) sum += a[i] * b[i];
-  for (const float lane : lanes) sum += lane;
-  return sum;
-}
 
 HRI_SIMD_CLONES
 void add_scaled(const float* x, float scale, int count, float* out) {
