@@ -45,6 +45,9 @@ def seen(status: str = "recognised", **probabilities: float) -> Decision:
         (heard(a=0.6, b=0.4), seen(b=0.7, a=0.3), "b", "both below, weighted gesture"),
         (heard(a=0.75, b=0.25), seen(b=0.7, a=0.3), "a", "both below, weighted speech"),
         (heard(a=0.7, b=0.3), seen(b=0.7, a=0.3), "b", "both below, weighted gesture"),
+        # A mode that rejected its input does not win over one that recognised, however sure its best class was.
+        (heard("unknown", a=0.84, b=0.16), seen(b=0.79, a=0.21), "b", "both below, only gesture recognised"),
+        (heard(a=0.5, b=0.5), seen("unknown", b=0.79, a=0.21), "a", "both below, only speech recognised"),
         # A mode that rejected its input is below its threshold, however sure its best class was.
         (heard("unknown", a=0.99, b=0.01), seen(b=0.85, a=0.15), "b", "only gesture above"),
     ],

@@ -87,6 +87,14 @@ class WordTrainer {
                                               std::to_string(i));
       }
     }
+    const double duration_ms =
+        1000.0 * static_cast<double>(sample.samples.size()) / std::max(1, sample.sample_rate_hz);
+    if (duration_ms <
+        std::max(result_.options_.activity.frame_ms, result_.options_.cepstra.frame_length_ms)) {
+      fail(ErrorKind::invalid_argument, "sample " + std::to_string(index) +
+                                            ": audio is too short: " + std::to_string(duration_ms) +
+                                            " ms, less than one frame");
+    }
     const std::vector<float> word = result_.locate(sample.samples, sample.sample_rate_hz, nullptr);
     if (word.empty())
       return;  // nobody speaks; a label without any word is refused in train_without

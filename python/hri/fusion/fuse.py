@@ -73,7 +73,7 @@ def _as_decided(decision: Decision, rule: str, speech: Decision | None, gesture:
 
 
 def _winner(decision: Decision, rule: str, speech: Decision, gesture: Decision) -> FusedDecision:
-    """The class that `decision` puts first wins, whatever its own rejection said: the rule has weighed it."""
+    """The class that `decision` puts first wins."""
     best = decision.nbest[0]
     return FusedDecision(
         best.label, RECOGNISED, best.probability, f"table 6.9: {rule}", decision.nbest, speech, gesture
@@ -94,6 +94,10 @@ def _table_6_9(speech: Decision, gesture: Decision, options: FusionOptions) -> F
         return _winner(gesture, "only gesture above its threshold", speech, gesture)
     if above_2:
         return _winner(speech, "only speech above its threshold", speech, gesture)
+    # Nor does it win over one that recognised: the robot must not act on what was rejected.
+    if gesture.status != speech.status:
+        recognised = gesture if gesture.status == RECOGNISED else speech
+        return _winner(recognised, f"both below, only {recognised.mode} recognised", speech, gesture)
     if options.weight_speech * alpha_2 <= options.weight_gesture * alpha_1:
         return _winner(gesture, "both below, weighted gesture at least as sure", speech, gesture)
     return _winner(speech, "both below, weighted speech surer", speech, gesture)

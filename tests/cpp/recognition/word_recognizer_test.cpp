@@ -122,6 +122,14 @@ TEST(WordRecognizer, RefusesBadAudioAndBadSets) {
   EXPECT_THROW((void)recognizer.recognise(all.audio[0], 10), InvalidArgument);
   EXPECT_THROW(WordRecognizer::train({}, {}), InvalidArgument);
   EXPECT_THROW(WordRecognizer::train({all.samples[0]}, {}), InvalidArgument);
+  std::vector<WordSample> with_click = all.samples;
+  with_click[4].samples = with_click[4].samples.subspan(0, 20);
+  try {
+    WordRecognizer::train(with_click, {});
+    FAIL();
+  } catch (const InvalidArgument& error) {
+    EXPECT_NE(std::string(error.what()).find("sample 4: audio is too short"), std::string::npos);
+  }
   std::vector<WordSample> with_silence = all.samples;
   const std::vector<float> silence(8000, 0.0F);
   with_silence.push_back({silence, kRateHz, "quiet", "low"});
