@@ -109,10 +109,14 @@ TEST_P(GestureRecognizerOf, RefusesAModelThatWasDamaged) {
   EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, GestureRecognizerOf,
-                         ::testing::Values(GestureModel::svm, GestureModel::bayes,
-                                           GestureModel::knn, GestureModel::hmm,
-                                           GestureModel::ptbhmm));
+INSTANTIATE_TEST_SUITE_P(
+    Models, GestureRecognizerOf,
+    ::testing::Values(GestureModel::svm, GestureModel::bayes, GestureModel::knn, GestureModel::hmm,
+                      GestureModel::ptbhmm),
+    [](const auto& test) {
+      constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm"};
+      return std::string(kNames[static_cast<std::size_t>(test.param)]);
+    });
 
 TEST(GestureRecognizer, SeesNothingWithoutAHand) {
   const GestureRecognizer recognizer = GestureRecognizer::train(stills(), {});

@@ -100,7 +100,11 @@ TEST_P(WordRecognizerOf, StopsWhenAsked) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, WordRecognizerOf,
-                         ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm));
+                         ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm),
+                         [](const auto& test) {
+                           const bool hmm = test.param == SequenceModelKind::hmm;
+                           return std::string(hmm ? "hmm" : "ptbhmm");
+                         });
 
 TEST(WordRecognizer, HearsNothingInSilence) {
   const Clips all = clips();
