@@ -109,14 +109,16 @@ TEST_P(GestureRecognizerOf, RefusesAModelThatWasDamaged) {
   EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, GestureRecognizerOf,
-    ::testing::Values(GestureModel::svm, GestureModel::bayes, GestureModel::knn, GestureModel::hmm,
-                      GestureModel::ptbhmm),
-    [](const auto& test) {
-      constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm"};
-      return std::string(kNames[static_cast<std::size_t>(test.param)]);
-    });
+std::string model_name(const ::testing::TestParamInfo<GestureModel>& test) {
+  constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm"};
+  return kNames[static_cast<std::size_t>(test.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, GestureRecognizerOf,
+                         ::testing::Values(GestureModel::svm, GestureModel::bayes,
+                                           GestureModel::knn, GestureModel::hmm,
+                                           GestureModel::ptbhmm),
+                         model_name);
 
 TEST(GestureRecognizer, SeesNothingWithoutAHand) {
   const GestureRecognizer recognizer = GestureRecognizer::train(stills(), {});

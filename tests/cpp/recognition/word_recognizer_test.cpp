@@ -99,12 +99,14 @@ TEST_P(WordRecognizerOf, StopsWhenAsked) {
   EXPECT_EQ(polls, 3);
 }
 
+std::string model_name(const ::testing::TestParamInfo<SequenceModelKind>& test) {
+  constexpr const char* kNames[] = {"hmm", "ptbhmm"};
+  return kNames[static_cast<std::size_t>(test.param)];
+}
+
 INSTANTIATE_TEST_SUITE_P(Models, WordRecognizerOf,
                          ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm),
-                         [](const auto& test) {
-                           const bool hmm = test.param == SequenceModelKind::hmm;
-                           return std::string(hmm ? "hmm" : "ptbhmm");
-                         });
+                         model_name);
 
 TEST(WordRecognizer, HearsNothingInSilence) {
   const Clips all = clips();
