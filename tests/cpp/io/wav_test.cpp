@@ -36,7 +36,9 @@ Bytes wav(std::uint32_t codec, int channels, int bits, const Bytes& data, std::u
   put(bytes, codec, 2);
   put(bytes, static_cast<std::uint64_t>(channels), 2);
   put(bytes, 16000, 4);
-  put(bytes, static_cast<std::uint64_t>(16000 * channels * bits / 8), 4);
+  put(bytes,
+      std::uint64_t{2000} * static_cast<std::uint64_t>(channels) * static_cast<std::uint64_t>(bits),
+      4);
   put(bytes, static_cast<std::uint64_t>(channels * bits / 8), 2);
   put(bytes, static_cast<std::uint64_t>(bits), 2);
   put(bytes, "data");
