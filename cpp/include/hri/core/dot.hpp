@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The inner product behind filter banks, resampling and linear classifiers, dispatched by processor at run time.
+// The inner product behind filter banks, resampling and linear classifiers, dispatched by processor
+// at run time.
 #pragma once
 
 namespace hri {

@@ -37,11 +37,11 @@ class Span {
   template <
       class U, class A,
       class = std::enable_if_t<std::is_same_v<std::remove_const_t<T>, U> && std::is_const_v<T>>>
-  Span(const std::vector<U, A>& v)
-      : data_(v.data()), size_(v.size()) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor): a vector is a span
+  Span(const std::vector<U, A>& v) : data_(v.data()), size_(v.size()) {}
   template <class U, class A, class = std::enable_if_t<std::is_same_v<std::remove_const_t<T>, U>>>
-  Span(std::vector<U, A>& v)
-      : data_(v.data()), size_(v.size()) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  Span(std::vector<U, A>& v) : data_(v.data()), size_(v.size()) {}
   template <class U, class = std::enable_if_t<std::is_same_v<const U, T> && !std::is_const_v<U>>>
   constexpr Span(Span<U> other)  // NOLINT(google-explicit-constructor)
       : data_(other.data()), size_(other.size()) {}
