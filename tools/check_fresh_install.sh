@@ -21,8 +21,9 @@ import numpy as np
 import hri
 
 assert not {"cv2", "pybullet", "matplotlib", "click"} & set(sys.modules)
-tones = [np.sin(np.arange(8000) * f).astype("f4") * 0.3 for f in (0.2, 0.21, 0.6, 0.62)]
-words = hri.WordRecognizer(trim=False).fit(tones, ["low", "low", "high", "high"], sample_rate_hz=16000)
+pause = np.zeros(4000, "f4")
+tones = [np.concatenate([pause, 0.3 * np.sin(np.arange(8000, dtype="f4") * f), pause]) for f in (0.2, 0.21, 0.6, 0.62)]
+words = hri.WordRecognizer().fit(tones, ["low", "low", "high", "high"], sample_rate_hz=16000)
 assert words.predict(tones, 16000).tolist() == ["low", "low", "high", "high"]
 words.save("words.hri")
 assert (hri.WordRecognizer.load("words.hri").scores(tones[0], 16000) == words.scores(tones[0], 16000)).all()

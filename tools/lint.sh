@@ -33,7 +33,7 @@ step shellcheck shellcheck run tools/*.sh .ci/run
 # Only findings; the commands and counts of suppressed warnings are noise.
 tidy() {
   run-clang-tidy -quiet -p build/dev -j "$(nproc)" "$PWD/(cpp/src|bindings)/.*\.cpp$" 2>/dev/null |
-    { grep -v '^clang-tidy ' || true; }
+    { grep -vE '^clang-tidy[-0-9]* ' || true; }
 }
 step clang-tidy tidy
 
