@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Builds the wheel from a clean copy, installs it into an environment of its own, and uses it away from the sources.
+# Builds the wheel from a copy of the sources, installs it into an environment of its own, and uses it away from the sources.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
-git clone --quiet --local . "$work/source"
+mkdir "$work/source"
+tar --exclude=./.venv --exclude=./build --exclude=./hri_demo --exclude=./.git -cf - . | tar -xf - -C "$work/source"
 
 python=$PWD/.venv/bin/python
 "$python" -m pip wheel --quiet --disable-pip-version-check --no-build-isolation --no-deps \
