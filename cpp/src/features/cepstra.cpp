@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
 #include "hri/signal/framing.hpp"
 
 namespace hri {
@@ -83,10 +84,9 @@ MatrixF CepstraComputer::compute(Span<const float> audio) const {
 }
 
 void CepstraComputer::compute(Span<const float> audio, MatrixRefF out) const {
-  for (std::size_t i = 0; i < audio.size(); ++i) {
-    if (!std::isfinite(audio[i])) {
-      fail(ErrorKind::invalid_argument, "audio is not finite at sample " + std::to_string(i));
-    }
+  const std::size_t bad = first_not_finite(audio.data(), audio.size());
+  if (bad < audio.size()) {
+    fail(ErrorKind::invalid_argument, "audio is not finite at sample " + std::to_string(bad));
   }
   if (num_frames(audio.size()) == 0) {
     fail(ErrorKind::invalid_argument, "audio is too short: " + std::to_string(audio.size()) +

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hri/core/dot.hpp"
 #include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
 
 namespace hri {
 namespace {

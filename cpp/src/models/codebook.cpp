@@ -8,68 +8,17 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
-#include "hri/core/simd.hpp"
 #include "hri/models/row_checks.hpp"
+#include "nearest_codeword.hpp"
 
 namespace hri {
 namespace {
 
-constexpr int kLanes = 32;
-
-struct Nearest {
-  std::int32_t index = 0;
-  float distance = 0;
-};
-
-// The nearest codeword of every row, the lower index where two are as near. `columns` is (dim,
-// padded), padded a multiple of kLanes.
-HRI_SIMD_CLONES
-void find_nearest(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows, int dim,
-                  const float* columns, int padded, Nearest* out) {
-  for (std::ptrdiff_t r = 0; r < num_rows; ++r) {
-    const float* x = rows + r * stride;
-    float best[kLanes];
-    std::int32_t block_of[kLanes];
-    for (int l = 0; l < kLanes; ++l) {
-      best[l] = std::numeric_limits<float>::infinity();
-      block_of[l] = 0;
-    }
-    for (std::int32_t first = 0; first < padded; first += kLanes) {
-      float sums[kLanes] = {};
-      for (int d = 0; d < dim; ++d) {
-        const float* c = columns + static_cast<std::ptrdiff_t>(d) * padded + first;
-        for (int l = 0; l < kLanes; ++l) sums[l] += (x[d] - c[l]) * (x[d] - c[l]);
-      }
-      for (int l = 0; l < kLanes; ++l) {
-        const bool nearer = sums[l] < best[l];
-        best[l] = nearer ? sums[l] : best[l];
-        block_of[l] = nearer ? first : block_of[l];
-      }
-    }
-    Nearest nearest{block_of[0], best[0]};
-    for (std::int32_t l = 1; l < kLanes; ++l) {
-      const std::int32_t index = block_of[l] + l;
-      if (best[l] < nearest.distance || (best[l] == nearest.distance && index < nearest.index)) {
-        nearest = {index, best[l]};
-      }
-    }
-    out[r] = nearest;
-  }
-}
-
-// Centroids as columns; codewords that only pad lie infinitely far.
-MatrixF columns_of(const MatrixF& centroids) {
-  const Eigen::Index padded = (centroids.rows() + kLanes - 1) / kLanes * kLanes;
-  MatrixF columns =
-      MatrixF::Constant(centroids.cols(), padded, std::numeric_limits<float>::infinity());
-  columns.leftCols(centroids.rows()) = centroids.transpose();
-  return columns;
-}
+using detail::Nearest;
 
 std::vector<Nearest> nearest_codewords(ConstMatrixRefF rows, const MatrixF& columns) {
   std::vector<Nearest> nearest(static_cast<std::size_t>(rows.rows()));
-  find_nearest(rows.data(), rows.outerStride(), rows.rows(), static_cast<int>(rows.cols()),
-               columns.data(), static_cast<int>(columns.cols()), nearest.data());
+  detail::find_nearest(rows.data(), rows.outerStride(), rows.rows(), columns, nearest.data());
   return nearest;
 }
 
@@ -85,11 +34,13 @@ Pass assign(ConstMatrixRefF rows, const MatrixF& centroids) {
   Pass pass{MatrixD::Zero(centroids.rows(), rows.cols()),
             MatrixD::Zero(centroids.rows(), rows.cols()), VectorD::Zero(centroids.rows()),
             VectorD::Zero(centroids.rows())};
-  const std::vector<Nearest> nearest = nearest_codewords(rows, columns_of(centroids));
+  const std::vector<Nearest> nearest = nearest_codewords(rows, detail::codeword_columns(centroids));
+  const auto dim = static_cast<int>(rows.cols());
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const Nearest& best = nearest[static_cast<std::size_t>(r)];
-    pass.sums.row(best.index) += rows.row(r).cast<double>();
-    pass.squares.row(best.index) += rows.row(r).cast<double>().cwiseAbs2();
+    const Eigen::Index cell = best.index * rows.cols();
+    detail::accumulate(rows.data() + r * rows.outerStride(), dim, pass.sums.data() + cell,
+                       pass.squares.data() + cell);
     pass.counts[best.index] += 1;
     pass.distortions[best.index] += static_cast<double>(best.distance);
   }
@@ -164,7 +115,7 @@ MatrixF without_empty(const MatrixF& centroids, const VectorD& counts) {
 Codebook::Codebook(MatrixF centroids) : centroids_(std::move(centroids)) {
   require(centroids_.size() > 0, "a codebook needs at least one codeword");
   validate_finite(centroids_, "centroids");
-  columns_ = columns_of(centroids_);
+  columns_ = detail::codeword_columns(centroids_);
 }
 
 Codebook Codebook::train_lbg(ConstMatrixRefF rows, const CodebookOptions& options) {
@@ -208,8 +159,7 @@ Codebook Codebook::train_kmeans(ConstMatrixRefF rows, ConstMatrixRefF centroids,
 int Codebook::quantise(Span<const float> frame) const {
   validate_row(frame, dim());
   Nearest nearest;
-  find_nearest(frame.data(), 0, 1, dim(), columns_.data(), static_cast<int>(columns_.cols()),
-               &nearest);
+  detail::find_nearest(frame.data(), 0, 1, columns_, &nearest);
   return nearest.index;
 }
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
-#include "hri/core/dot.hpp"
 #include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
 #include "hri/core/random.hpp"
 #include "hri/core/simd.hpp"
 #include "hri/models/row_checks.hpp"

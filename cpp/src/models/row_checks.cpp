@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/models/row_checks.hpp"
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
 
 namespace hri {
 
 void validate_finite(ConstMatrixRefF rows, const char* what) {
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    if (rows.row(r).allFinite()) continue;
-    Eigen::Index c = 0;
-    while (std::isfinite(rows(r, c))) ++c;
-    fail(ErrorKind::invalid_argument, std::string(what) + " are not finite at row " +
-                                          std::to_string(r) + ", column " + std::to_string(c) +
-                                          ": " + std::to_string(rows(r, c)));
+    const auto dim = static_cast<std::size_t>(rows.cols());
+    const std::size_t c = first_not_finite(rows.data() + r * rows.outerStride(), dim);
+    if (c == dim) continue;
+    fail(ErrorKind::invalid_argument,
+         std::string(what) + " are not finite at row " + std::to_string(r) + ", column " +
+             std::to_string(c) + ": " + std::to_string(rows(r, static_cast<Eigen::Index>(c))));
   }
 }
 
@@ -26,8 +26,8 @@ void validate_row(Span<const float> row, int dim) {
     fail(ErrorKind::invalid_argument,
          "row has " + std::to_string(row.size()) + " values, the model has " + std::to_string(dim));
   }
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (std::isfinite(row[i])) continue;
+  const std::size_t i = first_not_finite(row.data(), row.size());
+  if (i < row.size()) {
     fail(ErrorKind::invalid_argument,
          "row[" + std::to_string(i) + "] is not finite: " + std::to_string(row[i]));
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
 #include "hri/recognition/word_recognizer.hpp"
 
 namespace hri {
@@ -80,12 +81,11 @@ class WordTrainer {
 
   void prepare(const WordSample& sample, std::size_t index) {
     if (should_stop_ && should_stop_()) fail(ErrorKind::interrupted, "training interrupted");
-    for (std::size_t i = 0; i < sample.samples.size(); ++i) {
-      if (!(sample.samples[i] - sample.samples[i] == 0)) {
-        fail(ErrorKind::invalid_argument, "sample " + std::to_string(index) +
-                                              ": audio is not finite at index " +
-                                              std::to_string(i));
-      }
+    const std::size_t bad = first_not_finite(sample.samples.data(), sample.samples.size());
+    if (bad < sample.samples.size()) {
+      fail(ErrorKind::invalid_argument, "sample " + std::to_string(index) +
+                                            ": audio is not finite at index " +
+                                            std::to_string(bad));
     }
     const double duration_ms =
         1000.0 * static_cast<double>(sample.samples.size()) / std::max(1, sample.sample_rate_hz);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
 #include "hri/signal/framing.hpp"
 
 namespace hri {
@@ -44,10 +45,9 @@ std::vector<double> frame_levels_db(Span<const float> audio, int length, int shi
 SpeechBounds find_speech(Span<const float> audio, int sample_rate_hz,
                          const ActivityOptions& options) {
   check(options, sample_rate_hz);
-  for (std::size_t i = 0; i < audio.size(); ++i) {
-    if (!std::isfinite(audio[i])) {
-      fail(ErrorKind::invalid_argument, "audio is not finite at sample " + std::to_string(i));
-    }
+  const std::size_t bad = first_not_finite(audio.data(), audio.size());
+  if (bad < audio.size()) {
+    fail(ErrorKind::invalid_argument, "audio is not finite at sample " + std::to_string(bad));
   }
   const int length =
       std::max(1, static_cast<int>(std::lround(options.frame_ms * sample_rate_hz / 1000)));

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "hri/core/dot.hpp"
 #include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
 
 namespace hri {
 namespace {

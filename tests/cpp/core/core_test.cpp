@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "hri/core/dot.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/kernels.hpp"
 #include "hri/core/random.hpp"
 #include "hri/core/types.hpp"
 
@@ -101,6 +101,21 @@ TEST(Dot, EqualsTheSumInDoubleForEveryLength) {
       sum += static_cast<double>(a[static_cast<std::size_t>(count)]) *
              b[static_cast<std::size_t>(count)];
   }
+}
+
+TEST(FirstNotFinite, SeesABadValueAnywhere) {
+  std::vector<float> values(50, 3e38F);
+  EXPECT_EQ(first_not_finite(values.data(), values.size()), 50U);
+  EXPECT_EQ(first_not_finite(nullptr, 0), 0U);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const float bad : {std::nanf(""), HUGE_VALF, -HUGE_VALF}) {
+      values[i] = bad;
+      EXPECT_EQ(first_not_finite(values.data(), values.size()), i);
+    }
+    values[i] = -1e-45F;
+  }
+  values[7] = values[30] = std::nanf("");
+  EXPECT_EQ(first_not_finite(values.data(), values.size()), 7U);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class GestureRecognizerOf : public ::testing::TestWithParam<GestureModel> {
     o.model = GetParam();
     o.num_components = 8;
     o.num_states = 3;
-    o.num_codewords = 8;
+    o.num_codewords = 16;
     return o;
   }
   static bool of_movements() {

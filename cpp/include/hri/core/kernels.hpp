@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The inner product behind filter banks, resampling and linear classifiers, dispatched by processor
-// at run time.
+// Small loops that several folders share, dispatched by processor at run time.
 #pragma once
+
+#include <cstddef>
 
 namespace hri {
 
 /// Sum of a[i] b[i] over i < count, added up in sixteen lanes: equal on every processor.
 float dot(const float* a, const float* b, int count);
+
+/// Index of the first value that is NaN or infinite; `count` where there is none.
+std::size_t first_not_finite(const float* values, std::size_t count);
 
 }  // namespace hri
