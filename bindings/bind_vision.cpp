@@ -23,6 +23,8 @@ void bind_vision(py::module_& m) {
       .field("max_side_px", &hri::SilhouetteOptions::max_side_px)
       .field("blur_px", &hri::SilhouetteOptions::blur_px)
       .field("min_contrast", &hri::SilhouetteOptions::min_contrast)
+      .field("sure_contrast", &hri::SilhouetteOptions::sure_contrast)
+      .field("min_quality", &hri::SilhouetteOptions::min_quality)
       .field("min_area", &hri::SilhouetteOptions::min_area)
       .field("max_area", &hri::SilhouetteOptions::max_area)
       .field("remove_face", &hri::SilhouetteOptions::remove_face);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/io/file.hpp"
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -75,7 +76,10 @@ std::vector<std::uint8_t> read_file(const std::string& path, std::uint64_t max_b
 }
 
 void write_file_atomically(const std::string& path, Span<const std::uint8_t> bytes) {
-  const std::string temporary = path + ".part" + std::to_string(process_id());
+  // Neither another process nor another thread that writes the same path gets the same name.
+  static std::atomic<unsigned> count{0};
+  const std::string temporary =
+      path + ".part" + std::to_string(process_id()) + "_" + std::to_string(count++);
   int error = write_and_sync(temporary, bytes);
   if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
   if (error != 0) {

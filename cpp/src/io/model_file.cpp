@@ -7,7 +7,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iomanip>
+#include <locale>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "hri/core/error.hpp"
 #include "hri/io/crc32.hpp"
@@ -33,6 +36,14 @@ std::vector<std::uint8_t> to_bytes(const M& values) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(dense.size()) * sizeof(T));
   if (!bytes.empty()) std::memcpy(bytes.data(), dense.data(), bytes.size());
   return bytes;
+}
+
+// JSON knows no other text; what is not UTF-8 does not come back from it as it went in.
+void require_utf8(const std::string& field, const std::string& text) {
+  const nlohmann::json json = text;
+  if (nlohmann::json::parse(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) !=
+      json)
+    fail(ErrorKind::invalid_argument, "field '" + field + "' holds text that is not UTF-8");
 }
 
 std::string hex(std::uint32_t value) {
@@ -75,9 +86,11 @@ std::int64_t ModelFile::integer(const std::string& key) const {
 
 double ModelFile::number(const std::string& key) const {
   const std::string& value = text(key);
-  char* end = nullptr;
-  const double parsed = std::strtod(value.c_str(), &end);
-  if (value.empty() || *end != '\0' || !std::isfinite(parsed))
+  std::istringstream in(value);
+  in.imbue(std::locale::classic());  // a program may have set a locale with decimal commas
+  double parsed = 0;
+  if (!(in >> parsed) || in.peek() != std::istringstream::traits_type::eof() ||
+      !std::isfinite(parsed))
     refuse(key, "is not a finite number: '" + value + "'");
   return parsed;
 }
@@ -94,6 +107,7 @@ std::vector<std::string> ModelFile::text_list(const std::string& key) const {
 }
 
 void ModelFile::set_text(const std::string& key, const std::string& value) {
+  require_utf8(key, value);
   metadata_[key] = value;
 }
 
@@ -103,14 +117,15 @@ void ModelFile::set_integer(const std::string& key, std::int64_t value) {
 
 void ModelFile::set_number(const std::string& key, double value) {
   if (!std::isfinite(value)) fail(ErrorKind::invalid_argument, "field '" + key + "' is not finite");
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  metadata_[key] = text;
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setprecision(17) << value;
+  metadata_[key] = out.str();
 }
 
 void ModelFile::set_text_list(const std::string& key, const std::vector<std::string>& values) {
-  metadata_[key] =
-      nlohmann::json(values).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  for (const std::string& value : values) require_utf8(key, value);
+  metadata_[key] = nlohmann::json(values).dump();
 }
 
 const ModelFile::Tensor& ModelFile::tensor(const std::string& name, bool is_double) const {
@@ -169,7 +184,12 @@ std::uint32_t ModelFile::checksum() const {
     return crc32({reinterpret_cast<const std::uint8_t*>(s.c_str()), s.size() + 1}, crc);
   };
   std::uint32_t crc = 0;
-  for (const auto& [name, t] : tensors_) crc = crc32(t.bytes, add(name, crc));
+  for (const auto& [name, t] : tensors_) {
+    crc = add(name, crc);
+    crc = add(t.is_double ? "F64" : "F32", crc);
+    crc = add(std::to_string(t.rows) + " " + std::to_string(t.cols), crc);
+    crc = crc32(t.bytes, crc);
+  }
   for (const auto& [key, value] : metadata_) {
     if (key != kChecksumKey) crc = add(value, add(key, crc));
   }

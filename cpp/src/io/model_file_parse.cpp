@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{1} << 26U;
-constexpr std::int64_t kMaxSide = std::int64_t{1} << 28U;
+constexpr std::uint64_t kMaxSide = std::uint64_t{1} << 28U;
 
 [[noreturn]] void reject(const std::string& name, const std::string& why) {
   fail(ErrorKind::format, name + ": " + why);
@@ -89,18 +89,18 @@ ModelFile ModelFile::parse(Span<const std::uint8_t> bytes, const std::string& na
     if (value["dtype"] != "F32" && value["dtype"] != "F64")
       reject(name, "tensor '" + key + "': dtype must be F32 or F64");
     t.is_double = value["dtype"] == "F64";
-    t.rows = static_cast<std::int64_t>(unsigned_at(value["shape"], 0, name, key + ".shape"));
-    t.cols = static_cast<std::int64_t>(unsigned_at(value["shape"], 1, name, key + ".shape"));
+    const std::uint64_t rows = unsigned_at(value["shape"], 0, name, key + ".shape");
+    const std::uint64_t cols = unsigned_at(value["shape"], 1, name, key + ".shape");
     const std::uint64_t begin = unsigned_at(value["data_offsets"], 0, name, key + ".data_offsets");
     const std::uint64_t end = unsigned_at(value["data_offsets"], 1, name, key + ".data_offsets");
     // Sides below 2^28 and 8 bytes a value keep the product within 64 bits.
-    if (t.rows > kMaxSide || t.cols > kMaxSide || begin > end || end > data.size() ||
-        static_cast<std::uint64_t>(t.rows) * static_cast<std::uint64_t>(t.cols) *
-                (t.is_double ? 8U : 4U) !=
-            end - begin) {
+    if (rows > kMaxSide || cols > kMaxSide || begin > end || end > data.size() ||
+        rows * cols * (t.is_double ? 8U : 4U) != end - begin) {
       reject(name,
              "tensor '" + key + "': shape and data_offsets do not fit each other or the file");
     }
+    t.rows = static_cast<std::int64_t>(rows);
+    t.cols = static_cast<std::int64_t>(cols);
     t.bytes.assign(data.begin() + begin, data.begin() + end);
     if (end > begin && !ranges.emplace(begin, end).second)
       reject(name, "tensor '" + key + "' overlaps another");

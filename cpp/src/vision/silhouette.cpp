@@ -176,8 +176,10 @@ SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options) : opt
           "max_side_px must lie in 32..4096");
   require(options.blur_px >= 1 && options.blur_px <= 31 && options.blur_px % 2 == 1,
           "blur_px must be odd, 1..31");
-  require(options.min_contrast >= 0 && options.min_contrast <= 255,
-          "min_contrast must lie in 0..255");
+  require(options.min_contrast >= 0 && options.min_contrast <= options.sure_contrast &&
+              options.sure_contrast <= 255,
+          "min_contrast and sure_contrast must lie in 0..255, min_contrast not above");
+  require(options.min_quality >= 0 && options.min_quality <= 1, "min_quality must lie in 0..1");
   require(options.min_area >= 0 && options.min_area <= options.max_area && options.max_area <= 1,
           "min_area and max_area must lie in 0..1, min_area not above max_area");
 }
@@ -206,6 +208,8 @@ Silhouette SilhouetteExtractor::extract(ImageView bgr) const {
   result.mask = GreyImage(grey.cols, grey.rows);
   Split found = split(smooth, options_.method);
   if (found.contrast < options_.min_contrast) return result;
+  if (found.contrast < options_.sure_contrast && found.quality < options_.min_quality)
+    return result;
   cv::medianBlur(found.mask, found.mask, options_.blur_px);
   cv::Mat labels;
   cv::Mat stats;

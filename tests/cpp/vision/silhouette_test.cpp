@@ -32,7 +32,8 @@ constexpr Colour kSkin{110, 135, 195};
 constexpr Colour kShirt{150, 60, 30};
 
 // A picture whose pixels are `colour_at(x, y)`, in light of the given strength, with camera noise.
-Picture photograph(const std::function<Colour(int, int)>& colour_at, double light = 1) {
+Picture photograph(const std::function<Colour(int, int)>& colour_at, double light = 1,
+                   double noise = 2) {
   Random random(9);
   Picture p;
   for (int y = 0; y < p.height; ++y) {
@@ -40,7 +41,7 @@ Picture photograph(const std::function<Colour(int, int)>& colour_at, double ligh
       const Colour c = colour_at(x, y);
       for (const double v : {c.b, c.g, c.r}) {
         p.bgr.push_back(
-            static_cast<std::uint8_t>(std::clamp(light * v + 2 * random.normal(), 0.0, 255.0)));
+            static_cast<std::uint8_t>(std::clamp(light * v + noise * random.normal(), 0.0, 255.0)));
       }
     }
   }
@@ -63,7 +64,7 @@ double overlap(const GreyImage& found, const GreyImage& truth) {
 
 TEST(Silhouette, FindsTheHandInStrongAndWeakLight) {
   const GreyImage truth = hand(4);
-  for (const double light : {1.2, 1.0, 0.5, 0.3}) {
+  for (const double light : {1.2, 1.0, 0.5, 0.3, 0.15}) {
     const Picture p = photograph([&](int x, int y) { return hand_on_wall(truth, x, y); }, light);
     const Silhouette s = SilhouetteExtractor({}).extract(p.view());
     EXPECT_GT(overlap(s.mask, truth), 0.9) << light;
@@ -112,6 +113,15 @@ TEST(Silhouette, IsEmptyWithoutAHand) {
   EXPECT_EQ(s.mask.width_px, s.grey.width_px);
 }
 
+TEST(Silhouette, DoesNotTakeCameraNoiseForAHand) {
+  for (const double light : {1.0, 0.3, 0.1}) {
+    for (const double noise : {1.0, 2.0, 4.0}) {
+      const Picture p = photograph([](int, int) { return kWall; }, light, noise);
+      EXPECT_EQ(SilhouetteExtractor({}).extract(p.view()).quality, 0.0) << light << ", " << noise;
+    }
+  }
+}
+
 TEST(Silhouette, TakesPicturesOfAnySize) {
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {1000, 20}, {640, 480}}) {
     Picture p;
@@ -147,6 +157,8 @@ TEST(Silhouette, NamesTheOptionThatDoesNotFit) {
   refused([](auto& o) { o.max_side_px = 1; });
   refused([](auto& o) { o.min_area = 0.9; });
   refused([](auto& o) { o.min_contrast = -1; });
+  refused([](auto& o) { o.min_contrast = 9; });
+  refused([](auto& o) { o.min_quality = 2; });
   const GreyImage grey(10, 10);
   EXPECT_THROW((void)SilhouetteExtractor({}).extract(grey.view()), InvalidArgument);
   EXPECT_THROW((void)SilhouetteExtractor({}).extract({}), InvalidArgument);

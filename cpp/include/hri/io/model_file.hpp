@@ -3,8 +3,8 @@
 //
 // Model files in the safetensors layout: 8-byte little-endian header length, a JSON header that
 // names every tensor (dtype, shape, byte range) and holds text metadata, then the tensor bytes. The
-// format has its own version (newer files are refused) and a CRC-32 of the tensor bytes and the
-// metadata.
+// format has its own version (newer files are refused) and a CRC-32 of the tensors (name, dtype,
+// shape, bytes) and the metadata.
 #pragma once
 
 #include <cstdint>
@@ -49,6 +49,7 @@ class ModelFile {
   [[nodiscard]] std::int64_t integer(const std::string& key) const;
   [[nodiscard]] double number(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> text_list(const std::string& key) const;
+  /// Setters throw InvalidArgument for text that is not UTF-8 and a number that is not finite.
   void set_text(const std::string& key, const std::string& value);
   void set_integer(const std::string& key, std::int64_t value);
   void set_number(const std::string& key,

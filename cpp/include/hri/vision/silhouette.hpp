@@ -20,11 +20,14 @@ enum class SilhouetteMethod : std::uint8_t {
 
 struct SilhouetteOptions {
   SilhouetteMethod method = SilhouetteMethod::chroma_otsu;
-  int max_side_px = 320;    ///< larger pictures are scaled down to this first, 32..4096
-  int blur_px = 5;          ///< Gaussian blur before and median after the threshold, odd, 1..31
-  double min_contrast = 5;  ///< least difference of the two classes' means, in grey levels, 0..255
-  double min_area = 0.005;  ///< smallest share of the picture a hand covers, 0..1
-  double max_area = 0.8;    ///< largest, 0..1
+  int max_side_px = 320;  ///< larger pictures are scaled down to this first, 32..4096
+  int blur_px = 5;        ///< Gaussian blur before and median after the threshold, odd, 1..31
+  double min_contrast =
+      1.5;                   ///< least difference of the two classes' means, in grey levels, 0..255
+  double sure_contrast = 5;  ///< below this, as in poor light, the classes must also be well apart:
+  double min_quality = 0.7;  ///< quality at least this, 0..1; camera noise alone gives 0.64
+  double min_area = 0.005;   ///< smallest share of the picture a hand covers, 0..1
+  double max_area = 0.8;     ///< largest, 0..1
   bool remove_face =
       true;  ///< of several skin regions the one most like an ellipse is a face, not a hand
 };
