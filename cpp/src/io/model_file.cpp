@@ -30,9 +30,12 @@ Matrix<T> from_bytes(const std::vector<std::uint8_t>& bytes, std::int64_t rows, 
 }
 
 template <class M>
-std::vector<std::uint8_t> to_bytes(const M& values) {
+std::vector<std::uint8_t> to_bytes(const std::string& name, const M& values) {
   using T = typename M::Scalar;
   const Matrix<T> dense = values;
+  // Refused here, where the model still exists, and not when its file is read.
+  if (!dense.allFinite())
+    fail(ErrorKind::invalid_argument, "field '" + name + "' holds a value that is not finite");
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(dense.size()) * sizeof(T));
   if (!bytes.empty()) std::memcpy(bytes.data(), dense.data(), bytes.size());
   return bytes;
@@ -163,19 +166,19 @@ VectorF ModelFile::vector_f(const std::string& name) const {
 }
 
 void ModelFile::set_matrix(const std::string& name, ConstMatrixRefD values) {
-  tensors_[name] = {true, values.rows(), values.cols(), to_bytes(values)};
+  tensors_[name] = {true, values.rows(), values.cols(), to_bytes(name, values)};
 }
 
 void ModelFile::set_matrix(const std::string& name, ConstMatrixRefF values) {
-  tensors_[name] = {false, values.rows(), values.cols(), to_bytes(values)};
+  tensors_[name] = {false, values.rows(), values.cols(), to_bytes(name, values)};
 }
 
 void ModelFile::set_vector(const std::string& name, const VectorD& values) {
-  tensors_[name] = {true, 1, values.size(), to_bytes(values)};
+  tensors_[name] = {true, 1, values.size(), to_bytes(name, values)};
 }
 
 void ModelFile::set_vector(const std::string& name, const VectorF& values) {
-  tensors_[name] = {false, 1, values.size(), to_bytes(values)};
+  tensors_[name] = {false, 1, values.size(), to_bytes(name, values)};
 }
 
 std::uint32_t ModelFile::checksum() const {

@@ -56,6 +56,19 @@ Bytes with(const std::string& from, const std::string& to) {
   return packed(header, data_of(bytes));
 }
 
+// The same with the checksum that its content has, which the refusal tells: a file made by somebody
+// who knows the format.
+Bytes forged(const std::string& header, const Bytes& data) {
+  const std::string message =
+      message_of<FormatError>([&] { ModelFile::parse(packed(header, data), "x"); });
+  const std::string mark = "content gives ";
+  const std::size_t told = message.find(mark);
+  if (told == std::string::npos) return packed(header, data);
+  std::string right = header;
+  right.replace(right.find("checksum\":\"") + 11, 8, message.substr(told + mark.size(), 8));
+  return packed(right, data);
+}
+
 TEST(ModelFileDamage, IsNamedWithFileAndField) {
   struct Case {
     const char* from;
@@ -120,16 +133,36 @@ TEST(ModelFileDamage, AnotherShapeOrTypeOfTheSameBytesIsRefused) {
                                  {R"("F64","shape":[1,2])", R"("F32","shape":[2,2])"}}) {
     EXPECT_THROW(ModelFile::parse(with(from, to), "x"), FormatError) << to;
   }
+}
+
+TEST(ModelFileDamage, SidesBeyondSixtyThreeBitsAreRefusedEvenIfForged) {
   ModelFile none;
   none.set_kind("sample");
   none.set_matrix("e", MatrixD(0, 2));
-  const Bytes bytes = none.serialise();
-  EXPECT_EQ(ModelFile::parse(bytes, "x").matrix_d("e").cols(), 2);
-  for (const char* shape : {"[0,3]", "[9,0]", "[9223372036854775808,2]", "[18446744073709551615,0]",
-                            "[0,1073741824]"}) {
-    std::string header = header_of(bytes);
-    header.replace(header.find("[0,2]"), 5, shape);
-    EXPECT_THROW(ModelFile::parse(packed(header, {}), "x"), FormatError) << shape;
+  const std::string header = header_of(none.serialise());
+  const auto shaped = [&](const char* shape) {
+    std::string changed = header;
+    return changed.replace(changed.find("[0,2]"), 5, shape);
+  };
+  EXPECT_EQ(ModelFile::parse(forged(shaped("[0,3]"), {}), "x").matrix_d("e").cols(), 3);
+  for (const char* shape : {"[9223372036854775808,2]", "[18446744073709551615,0]", "[0,1073741824]",
+                            "[2,9223372036854775808]"}) {
+    EXPECT_THROW(ModelFile::parse(forged(shaped(shape), {}), "x"), FormatError) << shape;
+  }
+}
+
+TEST(ModelFileDamage, WeightsThatAreNotFiniteAreRefusedEvenIfForged) {
+  const std::string header = header_of(small().serialise());
+  for (const std::size_t last_byte : {15U, 31U}) {  // of the last value of "a", of "b"
+    Bytes data = data_of(small().serialise());
+    data[last_byte] = 0x7F;
+    data[last_byte - 1] = 0xF8;  // a NaN as double and as float
+    const ModelFile file = ModelFile::parse(forged(header, data), "robot.hri");
+    const std::string message = last_byte == 15
+                                    ? message_of<FormatError>([&] { (void)file.matrix_d("a"); })
+                                    : message_of<FormatError>([&] { (void)file.matrix_f("b"); });
+    EXPECT_EQ(message.rfind("robot.hri: ", 0), 0U) << message;
+    EXPECT_NE(message.find("finite"), std::string::npos) << message;
   }
 }
 

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/io/model_file.hpp"
 
+#include <clocale>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <locale>
 
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
@@ -61,14 +64,78 @@ TEST(ModelFile, NamesFileAndFieldOfWhatIsNotThere) {
 }
 
 TEST(ModelFile, RefusesNumbersThatAreNotFinite) {
-  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), kInfinity, -kInfinity}) {
     ModelFile file;
     file.set_kind("sample");
-    EXPECT_ANY_THROW({
-      file.set_matrix("m", MatrixD::Constant(1, 1, bad));
-      (void)ModelFile::parse(file.serialise(), "x").matrix_d("m");
-    });
+    EXPECT_THROW(file.set_number("n", bad), InvalidArgument);
+    MatrixD m = MatrixD::Zero(2, 2);
+    m(1, 0) = bad;
+    EXPECT_NE(message_of<InvalidArgument>([&] { file.set_matrix("means", m); }).find("means"),
+              std::string::npos);
+    EXPECT_THROW(file.set_vector("v", VectorF(m.col(0).cast<float>())), InvalidArgument);
   }
+  // Nor as the text of a number.
+  ModelFile file;
+  file.set_kind("sample");
+  file.set_text("third", "nan");
+  file.set_text("fourth", "1e999");
+  file.set_text("fifth", "1,5");
+  for (const char* field : {"third", "fourth", "fifth"})
+    EXPECT_THROW((void)file.number(field), FormatError) << field;
+}
+
+TEST(ModelFile, RefusesTextThatIsNotUtf8) {
+  ModelFile file;
+  EXPECT_NE(message_of<InvalidArgument>([&] { file.set_kind("caf\xe9"); }).find("kind"),
+            std::string::npos);
+  EXPECT_THROW(file.set_text_list("labels", {"fine", "\xff"}), InvalidArgument);
+  file.set_kind(std::string("zero\0inside", 11));
+  EXPECT_EQ(ModelFile::parse(file.serialise(), "x").kind(), file.kind());
+}
+
+// As a program sees it that set its user's locale: decimal commas and points between thousands.
+struct Commas : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(ModelFile, IsTheSameInEveryLocale) {
+  const std::vector<std::uint8_t> bytes = sample().serialise();
+  const std::locale before = std::locale::global(std::locale(std::locale(), new Commas));
+  const std::string c_before = std::setlocale(LC_NUMERIC, nullptr);
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "ru_RU.UTF-8"}) {
+    if (std::setlocale(LC_NUMERIC, name) != nullptr) break;
+  }
+  const std::vector<std::uint8_t> there = sample().serialise();
+  const double third = ModelFile::parse(bytes, "x").number("third");
+  std::locale::global(before);
+  std::setlocale(LC_NUMERIC, c_before.c_str());
+  EXPECT_EQ(there, bytes);
+  EXPECT_EQ(third, 1.0 / 3.0);
+}
+
+TEST(ModelFile, KeepsEveryNumberToTheBit) {
+  ModelFile file;
+  file.set_kind("sample");
+  Random random(23);
+  for (int i = 0; i < 2000; ++i) {
+    const std::uint64_t bits = random.next_u64();
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    if (i == 0) value = std::numeric_limits<double>::denorm_min();
+    if (i == 1) value = std::numeric_limits<double>::max();
+    if (i == 2) value = -0.0;
+    if (!std::isfinite(value)) continue;
+    file.set_number("n", value);
+    const double back = file.number("n");
+    EXPECT_EQ(std::memcmp(&back, &value, sizeof value), 0) << value;
+  }
+  file.set_integer("i", std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(file.integer("i"), std::numeric_limits<std::int64_t>::min());
+  file.set_text("i", "9223372036854775808");
+  EXPECT_THROW((void)file.integer("i"), FormatError);
 }
 
 TEST(ModelFile, RefusesEveryShorterFile) {
