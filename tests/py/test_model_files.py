@@ -48,7 +48,9 @@ def stamped(header: dict, tensors: bytes) -> dict:
     crc = 0
     for name in sorted(key for key in header if key != "__metadata__"):
         begin, end = header[name]["data_offsets"]
-        crc = zlib.crc32(tensors[begin:end], zlib.crc32(name.encode() + b"\0", crc))
+        for text in (name, header[name]["dtype"], " ".join(map(str, header[name]["shape"]))):
+            crc = zlib.crc32(text.encode() + b"\0", crc)
+        crc = zlib.crc32(tensors[begin:end], crc)
     for key, value in sorted(header["__metadata__"].items()):
         if key != "checksum":
             crc = zlib.crc32(value.encode() + b"\0", zlib.crc32(key.encode() + b"\0", crc))
