@@ -2,9 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/io/file.hpp"
 
+#include <csignal>
+#include <thread>
+
 #include "hri/core/error.hpp"
 #include "hri/io/crc32.hpp"
 #include "io/io_testing.hpp"
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
 
 namespace hri {
 namespace {
@@ -48,6 +56,68 @@ TEST(File, ThatCannotBeReplacedStays) {
   EXPECT_EQ(read_file(folder / "taken/inside"), kBytes);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"taken"});
 }
+
+TEST(File, IsReadUpToItsLimit) {
+  const Folder folder;
+  write_file_atomically(folder / "nine", kBytes);
+  EXPECT_EQ(read_file(folder / "nine", 9), kBytes);
+  EXPECT_THROW(read_file(folder / "nine", 8), FormatError);
+  write_file_atomically(folder / "none", {});
+  EXPECT_TRUE(read_file(folder / "none", 0).empty());
+}
+
+TEST(File, OfManyWritersIsWholeAndOneOfTheirs) {
+  const Folder folder;
+  std::vector<std::thread> writers;
+  for (int w = 0; w < 4; ++w) {
+    writers.emplace_back([&folder, w] {
+      const std::vector<std::uint8_t> mine(10000, static_cast<std::uint8_t>(w));
+      for (int i = 0; i < 10; ++i) write_file_atomically(folder / "shared", mine);
+    });
+  }
+  for (std::thread& t : writers) t.join();
+  const std::vector<std::uint8_t> bytes = read_file(folder / "shared");
+  ASSERT_EQ(bytes.size(), 10000U);
+  EXPECT_EQ(bytes, std::vector<std::uint8_t>(10000, bytes[0]));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"shared"});
+}
+
+#if defined(__unix__) || defined(__APPLE__)
+// As on a full disk: the operating system takes the first bytes and no more.
+TEST(File, StaysWholeWhenTheDiskTakesNoMore) {
+  const Folder folder;
+  write_file_atomically(folder / "model", kBytes);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 4096;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::string message;
+  try {
+    write_file_atomically(folder / "model", std::vector<std::uint8_t>(100000, 1));
+  } catch (const IoError& error) {
+    message = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  (void)std::signal(SIGXFSZ, handler);
+  EXPECT_NE(message.find(folder / "model"), std::string::npos) << message;
+  EXPECT_EQ(read_file(folder / "model"), kBytes);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"model"});
+}
+
+TEST(File, StaysWholeInAFolderThatMayNotBeWritten) {
+  if (geteuid() == 0) GTEST_SKIP() << "the superuser may write everywhere";
+  const Folder folder;
+  write_file_atomically(folder / "model", kBytes);
+  namespace fs = std::filesystem;
+  fs::permissions(folder / ".", fs::perms::owner_write, fs::perm_options::remove);
+  EXPECT_THROW(write_file_atomically(folder / "model", {}), IoError);
+  fs::permissions(folder / ".", fs::perms::owner_write, fs::perm_options::add);
+  EXPECT_EQ(read_file(folder / "model"), kBytes);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"model"});
+}
+#endif
 
 }  // namespace
 }  // namespace hri

@@ -5,19 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
+#include <random>
 #include <string>
 #include <vector>
 
 namespace hri::io_testing {
 
-/// A folder of one test's own, removed with everything in it.
+/// A folder of one run of one test, removed with everything in it.
 class Folder {
  public:
   Folder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::temp_directory_path() /
-            (std::string("hri_") + test->test_suite_name() + "_" + test->name());
+            (std::string("hri_") + test->test_suite_name() + "_" + test->name() + "_" +
+             std::to_string(std::random_device{}()));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
