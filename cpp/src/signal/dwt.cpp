@@ -194,9 +194,13 @@ std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavel
   const std::size_t taps = wavelet.rec_lo.size();
   for (std::size_t level = 1; level < c.size(); ++level) {
     const std::vector<T>& detail = c[level];
+    require(approx.size() == detail.size() || approx.size() == detail.size() + 1,
+            "coefficients of one level do not fit the next");
     approx.resize(detail.size());  // one coefficient too many where the signal above had odd length
-    const std::size_t full =
-        border == Border::periodization ? 2 * detail.size() : 2 * detail.size() + 2 - taps;
+    const std::size_t twice = 2 * detail.size();
+    require(border == Border::periodization ? twice > 0 : twice + 2 > taps,
+            "too few coefficients for the wavelet");
+    const std::size_t full = border == Border::periodization ? twice : twice + 2 - taps;
     std::vector<T> above(full);
     idwt<T>(Span<const T>(approx), Span<const T>(detail), wavelet, border, Span<T>(above));
     approx = std::move(above);

@@ -53,6 +53,12 @@ Dwt2<T> dwt2(const Matrix<T>& image, const Wavelet& wavelet, Border border) {
 template <class T>
 Matrix<T> idwt2(const Dwt2<T>& level, const Wavelet& wavelet, Border border, Eigen::Index rows,
                 Eigen::Index cols) {
+  const auto same = [&level](const Matrix<T>& m) {
+    return m.rows() == level.approx.rows() && m.cols() == level.approx.cols();
+  };
+  require(same(level.horizontal) && same(level.vertical) && same(level.diagonal),
+          "approximation and details must have one shape");
+  require(rows > 0 && cols > 0, "image must have at least one pixel");
   const Matrix<T> low = join_rows<T>(level.approx, level.vertical, wavelet, border, cols);
   const Matrix<T> high = join_rows<T>(level.horizontal, level.diagonal, wavelet, border, cols);
   return join_rows<T>(Matrix<T>(low.transpose()), Matrix<T>(high.transpose()), wavelet, border,

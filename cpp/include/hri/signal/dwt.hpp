@@ -45,6 +45,7 @@ struct WaveletDecomposition {
   std::vector<std::vector<T>> coefficients;
   std::size_t num_samples = 0;  ///< length of the signal, to which waverec cuts
 };
+/// Both throw InvalidArgument: for an empty signal, and for coefficients that no signal has.
 template <class T>
 WaveletDecomposition<T> wavedec(Span<const T> x, const Wavelet& wavelet, Border border,
                                 int num_levels);
@@ -62,7 +63,8 @@ struct Dwt2 {
 };
 template <class T>
 Dwt2<T> dwt2(const Matrix<T>& image, const Wavelet& wavelet, Border border);
-/// The inverse; cut to (rows, cols) of the image.
+/// The inverse; cut to (rows, cols) of the image. Throws InvalidArgument for shapes that do not
+/// fit.
 template <class T>
 Matrix<T> idwt2(const Dwt2<T>& level, const Wavelet& wavelet, Border border, Eigen::Index rows,
                 Eigen::Index cols);
