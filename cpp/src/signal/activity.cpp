@@ -20,6 +20,7 @@ void check(const ActivityOptions& o, int sample_rate_hz) {
           "sample_rate_hz must lie in 1000..384000");
   require(o.frame_ms >= 1 && o.frame_ms <= 1000 && o.shift_ms >= 1 && o.shift_ms <= 1000,
           "frame_ms and shift_ms must lie in 1..1000");
+  require(o.silence_dbfs >= -120 && o.silence_dbfs <= 0, "silence_dbfs must lie in -120..0");
   require(o.min_range_db >= 0 && o.min_range_db <= 60, "min_range_db must lie in 0..60");
   require(o.margin_db >= 0 && o.margin_db <= 60, "margin_db must lie in 0..60");
   require(o.max_depth_db >= 1 && o.max_depth_db <= 120, "max_depth_db must lie in 1..120");

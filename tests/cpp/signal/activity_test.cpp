@@ -6,10 +6,11 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
-#include "hri/signal/resample.hpp"
 
 namespace hri {
 namespace {
@@ -61,20 +62,86 @@ TEST(FindSpeech, RefusesWhatItCannotJudge) {
   EXPECT_THROW(find_speech(burst(0.5, 0.01), kRateHz, options), InvalidArgument);
 }
 
-TEST(Resample, KeepsATone) {
-  std::vector<float> x(44100);
-  for (std::size_t n = 0; n < x.size(); ++n) {
-    x[n] =
-        static_cast<float>(std::sin(2 * 3.14159265358979 * 440 * static_cast<double>(n) / 44100));
+TEST(FindSpeech, CoversTheWordAndLittleMore) {
+  for (const double padding_ms : {0.0, 30.0, 200.0}) {
+    ActivityOptions options;
+    options.padding_ms = padding_ms;
+    const SpeechBounds b = find_speech(burst(0.5, 0.002), kRateHz, options);
+    ASSERT_TRUE(b.found);
+    const auto padding = static_cast<std::size_t>(padding_ms * kRateHz / 1000);
+    // A frame (400 samples) that touches the word is loud; frames begin every 160 samples.
+    EXPECT_LE(b.first + padding, 8000U);
+    EXPECT_GE(b.first + padding + 400, 8000U);
+    EXPECT_GE(b.last, 12800U + padding);
+    EXPECT_LE(b.last, 12800U + padding + 400);
   }
-  const std::vector<float> y = resample(x, 44100, kRateHz);
-  ASSERT_EQ(y.size(), 16000U);
-  for (std::size_t n = 800; n < 15200; ++n) {
-    EXPECT_NEAR(y[n], std::sin(2 * 3.14159265358979 * 440 * static_cast<double>(n) / kRateHz),
-                2e-3);
+}
+
+TEST(FindSpeech, DoesNotDependOnTheLevel) {
+  const std::vector<float> x = burst(0.5, 0.01);
+  const SpeechBounds b = find_speech(x, kRateHz, {});
+  for (const float gain : {0.03125F, 0.5F, 1.5F}) {
+    std::vector<float> louder = x;
+    for (float& v : louder) v *= gain;
+    const SpeechBounds same = find_speech(louder, kRateHz, {});
+    EXPECT_EQ(same.found, b.found);
+    EXPECT_EQ(same.first, b.first) << gain;
+    EXPECT_EQ(same.last, b.last) << gain;
   }
-  EXPECT_TRUE(resample({}, 8000, 16000).empty());
-  EXPECT_EQ(resample(std::vector<float>{1.0F}, 8000, 16000).size(), 2U);
+}
+
+TEST(FindSpeech, StaysWithinTheClip) {
+  const std::vector<float> x = burst(0.5, 0.001);
+  ActivityOptions options;
+  options.padding_ms = 1000;
+  const SpeechBounds wide = find_speech(x, kRateHz, options);
+  EXPECT_EQ(wide.first, 0U);
+  EXPECT_EQ(wide.last, x.size());
+  // Two words with a pause: from the first to the last.
+  std::vector<float> two = x;
+  two.insert(two.end(), x.begin(), x.end());
+  const SpeechBounds both = find_speech(two, kRateHz, {});
+  EXPECT_LE(both.first, 8000U);
+  EXPECT_GE(both.last, x.size() + 12800);
+  // One frame exactly is judged: nothing stands out of it.
+  EXPECT_FALSE(find_speech(Span<const float>(x).subspan(9000, 400), kRateHz, {}).found);
+}
+
+TEST(FindSpeech, RefusesOptionsOutOfRange) {
+  const std::vector<float> x = burst(0.5, 0.01);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  struct Case {
+    double ActivityOptions::*field;
+    double low;
+    double high;
+    const char* name;
+  };
+  const Case cases[] = {{&ActivityOptions::frame_ms, 1, 1000, "frame_ms"},
+                        {&ActivityOptions::shift_ms, 1, 1000, "shift_ms"},
+                        {&ActivityOptions::silence_dbfs, -120, 0, "silence_dbfs"},
+                        {&ActivityOptions::min_range_db, 0, 60, "min_range_db"},
+                        {&ActivityOptions::margin_db, 0, 60, "margin_db"},
+                        {&ActivityOptions::max_depth_db, 1, 120, "max_depth_db"},
+                        {&ActivityOptions::padding_ms, 0, 1000, "padding_ms"}};
+  for (const Case& c : cases) {
+    for (const double good : {c.low, c.high}) {
+      ActivityOptions options;
+      options.*c.field = good;
+      EXPECT_NO_THROW(find_speech(x, kRateHz, options)) << c.name << " " << good;
+    }
+    for (const double bad : {c.low - 0.01, c.high + 0.01, nan}) {
+      ActivityOptions options;
+      options.*c.field = bad;
+      try {
+        find_speech(x, kRateHz, options);
+        ADD_FAILURE() << c.name << " " << bad;
+      } catch (const InvalidArgument& error) {
+        EXPECT_NE(std::string(error.what()).find(c.name), std::string::npos) << error.what();
+      }
+    }
+  }
+  for (const int rate : {999, 384001}) EXPECT_THROW(find_speech(x, rate, {}), InvalidArgument);
+  EXPECT_THROW(find_speech({}, kRateHz, {}), InvalidArgument);
 }
 
 }  // namespace
