@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <thread>
 
 #include "hri/core/error.hpp"
@@ -52,6 +54,50 @@ TEST(RealFft, KeepsEnergy) {
   double in_bins = power.front() + power.back();
   for (std::size_t k = 1; k < 128; ++k) in_bins += 2.0 * power[k];
   EXPECT_NEAR(in_bins / 256, in_time, 1e-3);
+}
+
+TEST(RealFft, PutsAToneIntoItsBinAndAnImpulseIntoAll) {
+  constexpr int kSize = 400;
+  std::vector<float> x(kSize);
+  std::vector<float> power(kSize / 2 + 1);
+  const RealFft fft(kSize);
+  for (std::size_t n = 0; n < x.size(); ++n)
+    x[n] = static_cast<float>(std::cos(2 * kPi * 30 * static_cast<double>(n) / kSize));
+  fft.power_spectrum(x, power);
+  for (std::size_t k = 0; k < power.size(); ++k)
+    EXPECT_NEAR(power[k] / (kSize * kSize / 4.0), k == 30 ? 1 : 0, 1e-5) << k;
+  std::fill(x.begin(), x.end(), 0.0F);
+  fft.power_spectrum(x, power);
+  EXPECT_EQ(power, std::vector<float>(power.size(), 0.0F));
+  x[123] = 2;
+  fft.power_spectrum(x, power);
+  for (const float p : power) EXPECT_NEAR(p, 4, 1e-4);
+}
+
+TEST(RealFft, OneValueThatIsNotANumberShowsInEveryBin) {
+  std::vector<float> x = noise(64);
+  x[10] = std::nanf("");
+  std::vector<float> power(33);
+  RealFft(64).power_spectrum(x, power);
+  for (const float p : power) EXPECT_TRUE(std::isnan(p));
+  // And in no later call: the work space of the thread keeps nothing.
+  RealFft(64).power_spectrum(noise(64), power);
+  for (const float p : power) EXPECT_TRUE(std::isfinite(p));
+}
+
+TEST(RealFft, OfLargeSizesKeepsItsPrecision) {
+  constexpr int kSize = 1 << 16;
+  const std::vector<float> x = noise(kSize);
+  std::vector<float> power(kSize / 2 + 1);
+  RealFft(kSize).power_spectrum(x, power);
+  for (const std::size_t k : {0U, 1U, 12345U, 32768U}) {
+    std::complex<double> sum = 0;
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      sum += static_cast<double>(x[n]) *
+             std::polar(1.0, -2 * kPi * static_cast<double>((k * n) % kSize) / kSize);
+    }
+    EXPECT_NEAR(power[k] / kSize, std::norm(sum) / kSize, 1e-4 * (1 + std::norm(sum) / kSize)) << k;
+  }
 }
 
 TEST(RealFft, GivesEveryThreadTheSame) {
