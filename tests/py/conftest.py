@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 import os
+import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +28,14 @@ def tone_word(base_hz: float, slope_hz_per_s: float, seed: int) -> NDArray[np.fl
     pause = np.zeros(RATE_HZ // 4)
     clip = np.concatenate([pause, tone, pause])
     return (clip + 0.001 * rng.standard_normal(len(clip))).astype(np.float32)
+
+
+@pytest.fixture(autouse=True)
+def ctrl_c_interrupts() -> Iterator[None]:
+    """Python's own handler, also where the tests were started in the background and SIGINT is ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session")
