@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "hri/core/error.hpp"
@@ -14,10 +15,23 @@ namespace {
 constexpr float kPi = 3.14159265358979F;
 constexpr float kClip = 0.2F;
 constexpr float kFlat = 0.1F;  // length below which a block counts as flat, in units of the image
+constexpr float kLargest = 1e6F;  // sums of squares of gradients of larger values may overflow
 
 void check(const OrientationHistogramOptions& o) {
   require(o.num_cells >= 1 && o.num_cells <= 64, "num_cells must lie in 1..64");
   require(o.num_bins >= 2 && o.num_bins <= 72, "num_bins must lie in 2..72");
+}
+
+// A gradient that is not finite has no bin.
+void check_values(ConstMatrixRefF image) {
+  for (Eigen::Index y = 0; y < image.rows(); ++y) {
+    for (Eigen::Index x = 0; x < image.cols(); ++x) {
+      if (std::abs(image(y, x)) <= kLargest) continue;
+      fail(ErrorKind::invalid_argument, "image must lie within -1e6..1e6 and be finite, got " +
+                                            std::to_string(image(y, x)) + " at row " +
+                                            std::to_string(y) + ", column " + std::to_string(x));
+    }
+  }
 }
 
 // Two neighbours along one axis and the share of the second.
@@ -95,6 +109,7 @@ void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOpti
   const auto cols = static_cast<int>(image.cols());
   require(rows >= std::max(3, n) && cols >= std::max(3, n),
           "image must have at least 3 and num_cells rows and columns");
+  check_values(image);
   thread_local std::vector<float> cells;
   CellHistogram histogram(n, options.num_bins, &cells);
   for (int y = 1; y + 1 < rows; ++y) {

@@ -111,5 +111,20 @@ TEST(OrientationHistogram, PutsARampIntoOneBin) {
   EXPECT_THROW(histogram(ramp(0)), InvalidArgument);
 }
 
+TEST(OrientationHistogram, RefusesWhatHasNoDirection) {
+  const OrientationHistogramOptions options;
+  VectorF out(orientation_histogram_size(options));
+  const Span<float> values(out.data(), static_cast<std::size_t>(out.size()));
+  for (const float bad : {std::nanf(""), HUGE_VALF, -HUGE_VALF, 3e38F}) {
+    MatrixF image = MatrixF::Zero(20, 20);
+    image(7, 9) = bad;
+    EXPECT_THROW(orientation_histogram(image, options, values), InvalidArgument) << bad;
+  }
+  MatrixF largest = MatrixF::Constant(20, 20, 1e6F);
+  largest.leftCols(10) *= -1.0F;
+  orientation_histogram(largest, options, values);
+  EXPECT_TRUE(out.allFinite());
+}
+
 }  // namespace
 }  // namespace hri

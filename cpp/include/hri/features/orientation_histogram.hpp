@@ -18,10 +18,11 @@ struct OrientationHistogramOptions {
 /// one cell.
 int orientation_histogram_size(const OrientationHistogramOptions& options);
 
-/// Histograms of `image` (any size of at least num_cells a side, values of any scale): central
+/// Histograms of `image` (any size of at least num_cells a side, values in -1e6..1e6): central
 /// differences, angle modulo 180 degrees, magnitude shared out linearly among neighbouring bins and
 /// cells, blocks scaled to length 1, clipped at 0.2 and scaled again. A flat image gives zeros.
-/// Throws InvalidArgument for sizes that do not fit.
+/// Throws InvalidArgument for sizes that do not fit, and for a value that is not finite or too large
+/// (names row and column).
 void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOptions& options,
                            Span<float> out);
 
