@@ -1,0 +1,232 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Features of hands against plain NumPy, and silhouettes of drawn hands."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+
+import cv2
+import numpy as np
+import pytest
+
+from hri import _native, _native_vision
+from hri.datasets.drawing.signer import make_signer
+from hri.datasets.synthetic_signer import draw_still
+from hri.errors import InvalidArgument
+
+
+def picture(rows: int, columns: int, seed: int = 0) -> np.ndarray:
+    """Smooth blobs, float32, 0..1."""
+    noise = np.random.default_rng(seed).random((rows, columns)).astype("f4")
+    return cv2.GaussianBlur(noise, (0, 0), 2.0)
+
+
+def normalised(block: np.ndarray) -> np.ndarray:
+    block = np.minimum(block / np.sqrt((block**2).sum() + 0.1**2), 0.2)
+    return block / np.sqrt((block**2).sum() + 1e-3) if block.any() else block
+
+
+def reference(image: np.ndarray, num_cells: int, num_bins: int) -> np.ndarray:
+    """Orientation histograms in double: every pixel deals its gradient out to two bins of up to four cells."""
+    image = image.astype("f8")
+    gx, gy = np.zeros(image.shape), np.zeros(image.shape)
+    gx[1:-1, 1:-1] = image[1:-1, 2:] - image[1:-1, :-2]
+    gy[1:-1, 1:-1] = image[2:, 1:-1] - image[:-2, 1:-1]
+    magnitude, angle = np.hypot(gx, gy), np.arctan2(gy, gx) % np.pi
+
+    def shares(positions: np.ndarray, count: int, wraps: bool) -> np.ndarray:
+        """Triangular weight of every position for each of `count` centres one apart, shape (..., count)."""
+        away = np.abs(positions[..., None] - np.arange(count))
+        return np.maximum(0, 1 - (np.minimum(away, count - away) if wraps else away))
+
+    def along(size: int) -> np.ndarray:
+        return shares((np.arange(size) + 0.5) * num_cells / size - 0.5, num_cells, wraps=False)
+
+    bins = shares(angle / np.pi * num_bins - 0.5, num_bins, wraps=True) * magnitude[..., None]
+    cells = np.einsum("yi,xj,yxb->ijb", along(image.shape[0]), along(image.shape[1]), bins)
+    if num_cells == 1:
+        return normalised(cells.ravel())
+    places = [(i, j) for i in range(num_cells - 1) for j in range(num_cells - 1)]
+    return np.concatenate([normalised(cells[i : i + 2, j : j + 2].ravel()) for i, j in places])
+
+
+@pytest.mark.parametrize(("num_cells", "num_bins"), [(1, 18), (1, 36), (2, 9), (8, 9), (5, 3)])
+@pytest.mark.parametrize("shape", [(40, 60), (64, 64), (9, 11)])
+def test_orientation_histogram_equals_its_definition(num_cells: int, num_bins: int, shape: tuple[int, int]) -> None:
+    image = picture(*shape)
+    options = _native.OrientationHistogramOptions(num_cells=num_cells, num_bins=num_bins)
+    ours = _native.orientation_histogram(image, options)
+    theirs = reference(image, num_cells, num_bins)
+    assert ours.dtype == np.float32 and ours.shape == theirs.shape
+    # Sums of single precision in another order; blocks have length 1.
+    np.testing.assert_allclose(ours, theirs, atol=1e-5)
+
+
+def test_orientation_histogram_tells_directions_apart() -> None:
+    options = _native.OrientationHistogramOptions(num_cells=1, num_bins=18)
+    y, x = np.mgrid[:48, :64]
+    for bin_index in range(18):
+        angle = np.deg2rad(10 * bin_index + 5)
+        ramp = (x * np.cos(angle) + y * np.sin(angle)).astype("f4")
+        for image in (ramp, -ramp):  # only the direction of the edge counts, not its sign
+            assert _native.orientation_histogram(image, options).argmax() == bin_index
+
+
+@pytest.mark.parametrize("value", [0.0, 0.5, 1e6])
+def test_flat_picture_has_no_orientation(value: float) -> None:
+    np.testing.assert_array_equal(_native.orientation_histogram(np.full((20, 20), value, "f4")), 0)
+
+
+def test_orientation_histogram_takes_any_layout() -> None:
+    image = picture(32, 48)
+    expected = _native.orientation_histogram(image)
+    np.testing.assert_array_equal(_native.orientation_histogram(image.astype("f8")), expected)
+    np.testing.assert_array_equal(_native.orientation_histogram(np.repeat(image, 2, axis=1)[:, ::2]), expected)
+    np.testing.assert_array_equal(_native.orientation_histogram(np.asfortranarray(image)), expected)
+
+
+@pytest.mark.parametrize(
+    ("shape", "fields", "message"),
+    [
+        ((2, 20), {"num_cells": 1}, "at least 3"),
+        ((20, 7), {"num_cells": 8}, "num_cells"),
+        ((20, 20), {"num_cells": 0}, "num_cells"),
+        ((20, 20), {"num_bins": 1}, "num_bins"),
+        ((400,), {}, "2 dimensions, got 1"),
+        ((20, 20, 3), {}, "2 dimensions, got 3"),
+    ],
+)
+def test_orientation_histogram_names_what_does_not_fit(shape: tuple[int, ...], fields: dict, message: str) -> None:
+    with pytest.raises(InvalidArgument, match=message):
+        _native.orientation_histogram(np.zeros(shape, "f4"), _native.OrientationHistogramOptions(**fields))
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 3e38])
+def test_value_without_a_direction_is_named(bad: float) -> None:
+    image = picture(20, 30)
+    image[7, 19] = bad
+    with pytest.raises(InvalidArgument, match="row 7, column 19"):
+        _native.orientation_histogram(image)
+
+
+def disc(size_px: int = 200, radius_px: float = 60.0) -> np.ndarray:
+    y, x = np.mgrid[:size_px, :size_px] - size_px / 2
+    return np.where(np.hypot(x, y) < radius_px, 255, 0).astype("u1")
+
+
+def test_parts_of_the_feature_stand_side_by_side() -> None:
+    grey, mask = (255 * picture(200, 200)).astype("u1"), disc()
+
+    def parts(*names: str) -> np.ndarray:
+        chosen = {f"use_{name}": name in names for name in ("grey", "silhouette", "cepstrum")}
+        computer = _native.HandFeatureComputer(_native.HandFeatureOptions(**chosen))
+        values = computer.compute(grey, mask)
+        assert values.dtype == np.float32 and values.shape == (computer.num_features,)
+        return values
+
+    whole = parts("grey", "silhouette", "cepstrum")
+    np.testing.assert_array_equal(whole, np.concatenate([parts("grey"), parts("silhouette"), parts("cepstrum")]))
+    weight = np.float32(_native.HandFeatureOptions().cepstrum_weight)
+    cepstrum = _native.SilhouetteCepstrumComputer().compute(mask)
+    np.testing.assert_allclose(parts("cepstrum"), weight * cepstrum, rtol=1e-6)
+
+
+def test_contour_of_a_disc_is_flat_and_of_a_square_has_four_corners() -> None:
+    computer = _native.SilhouetteCepstrumComputer()
+    flat = computer.contour_signal(disc())
+    assert flat.dtype == np.float32 and flat.shape == (_native.SilhouetteCepstrumOptions().num_points,)
+    np.testing.assert_allclose(flat, 1, atol=0.06)
+    square = np.zeros((200, 200), "u1")
+    square[50:150, 50:150] = 255
+    signal = computer.contour_signal(square)
+    assert np.abs(np.fft.rfft(signal))[1:20].argmax() + 1 == 4
+    assert signal.max() / signal.min() == pytest.approx(np.sqrt(2), rel=0.1)
+
+
+def test_feature_takes_any_layout_of_bytes_and_nothing_else() -> None:
+    computer = _native.HandFeatureComputer()
+    grey, mask = (255 * picture(200, 200)).astype("u1"), disc()
+    expected = computer.compute(grey, mask)
+    np.testing.assert_array_equal(
+        computer.compute(np.repeat(grey, 2, axis=1)[:, ::2], np.asfortranarray(mask)), expected
+    )
+    with pytest.raises(TypeError):
+        computer.compute(grey.astype("f4"), mask)
+    with pytest.raises(InvalidArgument, match="2 dimensions, got 3"):
+        computer.compute(grey[..., None], mask)
+    with pytest.raises(InvalidArgument, match="same size"):
+        computer.compute(grey[:100], mask)
+    with pytest.raises(InvalidArgument, match="empty"):
+        computer.compute(grey, np.zeros_like(mask))
+
+
+@pytest.mark.parametrize("mask", [np.full((1, 1), 255), np.eye(30) * 255, np.full((40, 3), 255), np.eye(1, 900) * 255])
+def test_strange_masks_give_finite_features(mask: np.ndarray) -> None:
+    mask = mask.astype("u1")
+    assert np.isfinite(_native.HandFeatureComputer().compute(mask, mask)).all()
+
+
+@pytest.mark.parametrize("person", range(4))
+def test_drawn_hand_is_cut_out_of_its_wall(person: int) -> None:
+    bgr = draw_still(make_signer(person), "5")
+    found = _native_vision.SilhouetteExtractor().extract(bgr)
+    assert found.grey.shape == found.mask.shape == bgr.shape[:2]
+    assert found.grey.dtype == found.mask.dtype == np.uint8
+    assert set(np.unique(found.mask)) == {0, 255}
+    assert 0.7 < found.quality <= 1
+    assert cv2.connectedComponents(found.mask)[0] == 2  # the background and one hand
+    np.testing.assert_allclose(found.grey, cv2.cvtColor(bgr, cv2.COLOR_BGR2GRAY), atol=1)
+    # Inside there is skin, redder than any wall; outside there is not.
+    redness = bgr[..., 2].astype(int) - bgr[..., 0]
+    inside = cv2.erode(found.mask, np.ones((5, 5))) > 0
+    outside = cv2.dilate(found.mask, np.ones((9, 9))) == 0
+    outside[120:] = False  # the sleeve
+    assert np.mean(redness[inside] > np.quantile(redness[outside], 0.99)) > 0.97
+
+
+def num_gaps(mask: np.ndarray) -> int:
+    """Number of deep bays in the outline: gaps between fingers."""
+    contour = max(cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)[0], key=cv2.contourArea)
+    defects = cv2.convexityDefects(contour, cv2.convexHull(contour, returnPoints=False))
+    return int(sum(depth / 256 > 15 for *_, depth in defects.reshape(-1, 4)))
+
+
+def test_silhouette_keeps_the_fingers() -> None:
+    for person in range(3):
+        extractor = _native_vision.SilhouetteExtractor()
+        gaps = [num_gaps(extractor.extract(draw_still(make_signer(person), label)).mask) for label in "0245"]
+        assert gaps == [0, 2, 3, 4]  # beside the second finger of a 2 the fist is a bay, too
+
+
+def test_wall_alone_holds_no_hand() -> None:
+    found = _native_vision.SilhouetteExtractor().extract(np.full((240, 320, 3), (180, 170, 160), np.uint8))
+    assert not found.mask.any() and found.quality == 0
+
+
+def test_silhouette_outlives_its_extractor_and_is_the_same_in_every_thread() -> None:
+    pictures = [draw_still(make_signer(person), "3") for person in range(3)]
+    expected = [_native_vision.SilhouetteExtractor().extract(p).mask for p in pictures]
+    extractor = _native_vision.SilhouetteExtractor()
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda p: extractor.extract(p).mask, pictures * 4))
+    for mask, place in zip(found, range(12), strict=True):
+        np.testing.assert_array_equal(mask, expected[place % 3])
+
+
+def test_silhouette_takes_any_layout_of_bytes_and_nothing_else() -> None:
+    extractor = _native_vision.SilhouetteExtractor()
+    bgr = draw_still(make_signer(0), "4")
+    expected = extractor.extract(bgr).mask
+    np.testing.assert_array_equal(extractor.extract(np.repeat(bgr, 2, axis=1)[:, ::2]).mask, expected)
+    np.testing.assert_array_equal(extractor.extract(np.asfortranarray(bgr)).mask, expected)
+    with pytest.raises(TypeError):
+        extractor.extract(bgr / 255)
+    with pytest.raises(InvalidArgument, match="3 dimensions, got 2"):
+        extractor.extract(bgr[..., 0].copy())
+    with pytest.raises(InvalidArgument, match="3 channels, got 4"):
+        extractor.extract(np.zeros((20, 20, 4), "u1"))
+    with pytest.raises(InvalidArgument):
+        extractor.extract(np.zeros((0, 0, 3), "u1"))
+    with pytest.raises(InvalidArgument, match="blur_px"):
+        _native_vision.SilhouetteExtractor(_native_vision.SilhouetteOptions(blur_px=4))
