@@ -43,6 +43,7 @@ void check(const FilterBankOptions& o, int sample_rate_hz) {
   require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000,
           "sample_rate_hz must lie in 1000..384000");
   require(o.num_filters >= 1 && o.num_filters <= 512, "num_filters must lie in 1..512");
+  require(o.high_hz >= 0, "high_hz must not be negative");
   const double high = o.high_hz > 0 ? o.high_hz : sample_rate_hz / 2.0;
   require(o.low_hz >= 0 && o.low_hz < high, "low_hz must lie in 0..high_hz");
   require(high <= sample_rate_hz / 2.0, "high_hz must not exceed half the sample rate");

@@ -11,7 +11,6 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
-#include "hri/features/filter_bank.hpp"
 
 namespace hri {
 namespace {
@@ -21,52 +20,6 @@ std::vector<float> noise(std::size_t count, double level = 0.1) {
   std::vector<float> x(count);
   for (float& v : x) v = static_cast<float>(level * random.normal());
   return x;
-}
-
-TEST(FilterBank, RisesToOneAtEveryCentreAndLeavesNoGap) {
-  for (const FilterBankKind kind : {FilterBankKind::mel, FilterBankKind::hfcc}) {
-    FilterBankOptions options;
-    options.kind = kind;
-    options.num_filters = 29;
-    const auto triangles = filter_triangles(options, 16000);
-    ASSERT_EQ(triangles.size(), 29U);
-    EXPECT_NEAR(triangles.front().low_hz, 100, 1e-6);
-    EXPECT_NEAR(triangles.back().high_hz, 8000, 1e-6);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      EXPECT_LT(triangles[i].low_hz, triangles[i].centre_hz);
-      EXPECT_LT(triangles[i].centre_hz, triangles[i].high_hz);
-      if (i > 0) {
-        EXPECT_LT(triangles[i - 1].centre_hz, triangles[i].centre_hz);
-      }
-    }
-    const FilterBank bank(options, 16000, 2048);
-    for (int i = 0; i < bank.num_filters(); ++i) {
-      EXPECT_GT(bank.weights().row(i).maxCoeff(), 0.8F);
-      EXPECT_LE(bank.weights().row(i).maxCoeff(), 1.0F);
-    }
-  }
-}
-
-TEST(FilterBank, AppliesItsWeights) {
-  const FilterBank bank({}, 16000, 512);
-  const std::vector<float> power(257, 2.0F);
-  std::vector<float> out(26);
-  bank.apply(power, out);
-  for (int i = 0; i < 26; ++i)
-    EXPECT_NEAR(out[static_cast<std::size_t>(i)], 2 * bank.weights().row(i).sum(), 1e-4);
-}
-
-TEST(FilterBank, NamesTheFieldThatDoesNotFit) {
-  FilterBankOptions options;
-  options.low_hz = 9000;
-  EXPECT_THROW(filter_triangles(options, 16000), InvalidArgument);
-  options = {};
-  options.kind = FilterBankKind::hfcc;
-  options.erb_factor = 10;
-  options.high_hz = 300;
-  EXPECT_THROW(filter_triangles(options, 16000), InvalidArgument);
-  EXPECT_NEAR(mel_to_hz(hz_to_mel(1234)), 1234, 1e-9);
-  EXPECT_NEAR(hz_to_mel(1000), 1000, 0.1);
 }
 
 TEST(CepstraComputer, CountsFramesAndFeatures) {

@@ -38,7 +38,7 @@ double mel_to_hz(double mel);
 double equivalent_rectangular_bandwidth(double centre_hz, double erb_factor);
 
 /// The triangles before they are sampled. Throws InvalidArgument where they do not fit below the
-/// Nyquist rate.
+/// Nyquist rate before the warp; what `warp` moves beyond it is cut off when they are sampled.
 std::vector<FilterTriangle> filter_triangles(const FilterBankOptions& options, int sample_rate_hz);
 
 /// Immutable; const calls are safe from several threads.
