@@ -27,9 +27,10 @@ const CepstraOptions& checked(const CepstraOptions& o) {
   require(o.sample_rate_hz >= 1000 && o.sample_rate_hz <= 384000,
           "sample_rate_hz must lie in 1000..384000");
   require(o.pre_emphasis >= 0 && o.pre_emphasis <= 1, "pre_emphasis must lie in 0..1");
+  require(o.num_filters >= 1 && o.num_filters <= 512, "num_filters must lie in 1..512");
   require(o.num_cepstra >= 1 && o.num_cepstra < o.num_filters,
           "num_cepstra must lie in 1..num_filters - 1");
-  require(o.lifter >= 0, "lifter must not be negative");
+  require(std::isfinite(o.lifter) && o.lifter >= 0, "lifter must be finite and not negative");
   require(o.delta_orders >= 0 && o.delta_orders <= 2, "delta_orders must lie in 0..2");
   require(o.delta_window >= 1 && o.delta_window <= 10, "delta_window must lie in 1..10");
   return o;

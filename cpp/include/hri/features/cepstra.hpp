@@ -35,7 +35,7 @@ struct CepstraOptions {
   double warp = 1;        ///< vocal-tract-length factor on the filter frequencies, 0.5..2
   int num_cepstra = 12;   ///< c1 .. c_num, 1..num_filters - 1
   bool use_c0 = true;     ///< put c0 (log energy of all filters) in front
-  double lifter = 22;     ///< HTK's sine lifter; 0 turns it off
+  double lifter = 22;     ///< HTK's sine lifter, not negative; 0 turns it off
   Normalisation normalisation = Normalisation::mean;
   int delta_orders = 2;  ///< 0 static only, 1 deltas, 2 and accelerations
   int delta_window = 2;  ///< frames on each side of the regression, 1..10
