@@ -12,7 +12,7 @@ import pytest
 
 from hri.cli.main import main
 from hri.datasets import Dataset
-from hri.demo.cli import MARKER
+from hri.demo.cli import MADE, MARKER, _prepare
 from hri.demo.scenes import SCRIPTS
 from hri.media import read_frames
 
@@ -84,3 +84,23 @@ def test_a_folder_of_somebody_else_is_left_alone(tmp_path: Path, capsys: pytest.
     assert "not made by the demo" in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
     assert MARKER.startswith(".")
+
+
+def test_only_what_the_demo_made_is_removed(tmp_path: Path) -> None:
+    folder = tmp_path / "out"
+    _prepare(folder)
+    for name in MADE:
+        (folder / name).mkdir() if "." not in name else (folder / name).touch()
+    (folder / "corpus" / "old.wav").touch()
+    (folder / "notes.txt").write_text("mine")
+    _prepare(folder)
+    assert sorted(path.name for path in folder.iterdir()) == [MARKER, "notes.txt"]
+
+
+def test_what_is_missing_is_said_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))  # without espeak-ng
+    assert main(["demo", "--out", str(tmp_path / "out")]) == 3
+    assert "install the package espeak-ng" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
