@@ -53,6 +53,8 @@ float sample(ImageView image, float y, float x) {
 
 HandBox hand_box(ImageView mask, float max_aspect, float padding) {
   require(mask.channels == 1, "mask must have one channel");
+  require(max_aspect > 0 && padding >= 0, "max_aspect must be positive, padding not negative");
+  if (mask.empty()) return {};
   const Extent e = extent_of(mask);
   if (e.bottom < 0) return {};
   const auto width = static_cast<float>(e.right - e.left + 1);
@@ -68,6 +70,8 @@ void crop(ImageView image, const HandBox& box, MatrixRefF out) {
           "image must have one channel and at least one pixel");
   require(box.side_px > 0 && out.rows() == out.cols() && out.rows() > 0,
           "box and out must be squares");
+  require(std::isfinite(box.left_px) && std::isfinite(box.top_px) && std::isfinite(box.side_px),
+          "box must be finite");
   const auto size = static_cast<int>(out.rows());
   const float step = box.side_px / static_cast<float>(size);
   const int samples = std::clamp(static_cast<int>(std::ceil(step)), 1, 8);

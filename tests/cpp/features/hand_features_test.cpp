@@ -10,8 +10,6 @@
 
 #include "features/hand_testing.hpp"
 #include "hri/core/error.hpp"
-#include "hri/features/hand_crop.hpp"
-#include "hri/features/orientation_histogram.hpp"
 
 namespace hri {
 namespace {
@@ -62,68 +60,6 @@ TEST(HandFeatures, AreTheSameInEveryThread) {
     threads.emplace_back([&] { f = computer.compute(image.view(), mask.view()); });
   for (std::thread& t : threads) t.join();
   for (const VectorF& f : found) EXPECT_EQ(f, expected);
-}
-
-TEST(HandCrop, IsASquareAroundTheMask) {
-  GreyImage mask(100, 100);
-  for (int y = 40; y < 60; ++y) {
-    for (int x = 20; x < 60; ++x) mask.pixels[static_cast<std::size_t>(y * 100 + x)] = 255;
-  }
-  const HandBox box = hand_box(mask.view(), 1.6F, 0.0F);
-  EXPECT_NEAR(box.side_px, 40, 1.5);
-  EXPECT_NEAR(box.left_px, 20, 1.5);
-  EXPECT_NEAR(box.top_px + box.side_px / 2, 50, 1.5);
-  EXPECT_EQ(hand_box(GreyImage(10, 10).view()).side_px, 0.0F);
-  MatrixF out(16, 16);
-  crop(mask.view(), box, out);
-  EXPECT_GT(out(8, 8), 0.99F);
-  EXPECT_LT(out(0, 0), 0.01F);
-}
-
-TEST(OrientationHistogram, PutsARampIntoOneBin) {
-  OrientationHistogramOptions options;
-  options.num_cells = 1;
-  options.num_bins = 18;
-  // Brightness that rises towards `angle_deg`, which lies in the middle of a bin.
-  const auto ramp = [](double angle_deg) {
-    const double angle = angle_deg * 3.14159265358979 / 180;
-    MatrixF image(32, 32);
-    for (int y = 0; y < 32; ++y) {
-      for (int x = 0; x < 32; ++x) {
-        image(y, x) = static_cast<float>(x * std::cos(angle) + y * std::sin(angle));
-      }
-    }
-    return image;
-  };
-  const auto histogram = [&](const MatrixF& image) {
-    VectorF out(orientation_histogram_size(options));
-    orientation_histogram(image, options, {out.data(), static_cast<std::size_t>(out.size())});
-    return out;
-  };
-  Eigen::Index first = 0;
-  Eigen::Index second = 0;
-  histogram(ramp(25)).maxCoeff(&first);
-  histogram(ramp(115)).maxCoeff(&second);
-  EXPECT_EQ(second - first, 9);  // 90 degrees in bins of 10
-  EXPECT_LT((histogram(ramp(25)) - histogram(5.0F * ramp(25))).norm(), 1e-5F);
-  EXPECT_EQ(histogram(MatrixF::Constant(32, 32, 3)), VectorF(VectorF::Zero(18)));
-  options.num_cells = 64;
-  EXPECT_THROW(histogram(ramp(0)), InvalidArgument);
-}
-
-TEST(OrientationHistogram, RefusesWhatHasNoDirection) {
-  const OrientationHistogramOptions options;
-  VectorF out(orientation_histogram_size(options));
-  const Span<float> values(out.data(), static_cast<std::size_t>(out.size()));
-  for (const float bad : {std::nanf(""), HUGE_VALF, -HUGE_VALF, 3e38F}) {
-    MatrixF image = MatrixF::Zero(20, 20);
-    image(7, 9) = bad;
-    EXPECT_THROW(orientation_histogram(image, options, values), InvalidArgument) << bad;
-  }
-  MatrixF largest = MatrixF::Constant(20, 20, 1e6F);
-  largest.leftCols(10) *= -1.0F;
-  orientation_histogram(largest, options, values);
-  EXPECT_TRUE(out.allFinite());
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct HandBox {
 
 /// The square around the mask. A forearm that makes the mask more than `max_aspect` times as high
 /// as wide is cut off at the bottom; `padding` (share of the side) is left free on every side.
+/// Throws InvalidArgument unless max_aspect > 0 and padding >= 0.
 HandBox hand_box(ImageView mask, float max_aspect = 1.6F, float padding = 0.08F);
 
 /// Samples `image` (one channel) inside `box` into `out` (square), 0..1; pixels average what they
