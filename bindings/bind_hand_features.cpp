@@ -24,9 +24,13 @@ void bind_hand_features(py::module_& m) {
   m.def(
       "orientation_histogram",
       [](const hri_bind::FloatArray& image, const hri::OrientationHistogramOptions& options) {
+        const auto values = hri_bind::as_matrix(image, "image");
         hri::VectorF out(hri::orientation_histogram_size(options));
-        hri::orientation_histogram(hri_bind::as_matrix(image, "image"), options,
-                                   {out.data(), static_cast<std::size_t>(out.size())});
+        {
+          const py::gil_scoped_release release;
+          hri::orientation_histogram(values, options,
+                                     {out.data(), static_cast<std::size_t>(out.size())});
+        }
         return to_array(out);
       },
       py::arg("image"), py::arg("options") = hri::OrientationHistogramOptions{},
@@ -48,15 +52,24 @@ void bind_hand_features(py::module_& m) {
       .def(
           "contour_signal",
           [](const hri::SilhouetteCepstrumComputer& self, const ByteArray& mask) {
-            return to_array(self.contour_signal(as_image(mask, 1, "mask")));
+            const auto shape = as_image(mask, 1, "mask");
+            std::vector<float> signal;
+            {
+              const py::gil_scoped_release release;
+              signal = self.contour_signal(shape);
+            }
+            return to_array(signal);
           },
           py::arg("mask"), "Distance from the centroid along the contour, scaled by its mean.")
       .def(
           "compute",
           [](const hri::SilhouetteCepstrumComputer& self, const ByteArray& mask) {
+            const auto shape = as_image(mask, 1, "mask");
             hri::VectorF out(self.num_features());
-            self.compute(as_image(mask, 1, "mask"),
-                         {out.data(), static_cast<std::size_t>(out.size())});
+            {
+              const py::gil_scoped_release release;
+              self.compute(shape, {out.data(), static_cast<std::size_t>(out.size())});
+            }
             return to_array(out);
           },
           py::arg("mask"), "c0, c1, ..., float32.");

@@ -16,6 +16,7 @@ void bind_io(py::module_& m) {
                              "Tensors and metadata in the safetensors layout; strict reader.")
       .def(py::init<>())
       .def_static("read", &hri::ModelFile::read, py::arg("path"),
+                  py::call_guard<py::gil_scoped_release>(),
                   "Reads a whole file; raises IoError, or FormatError naming file and field.")
       .def("write", &hri::ModelFile::write, py::arg("path"),
            py::call_guard<py::gil_scoped_release>(),
@@ -69,6 +70,7 @@ void bind_io(py::module_& m) {
       "parse_wav",
       [](const py::bytes& data, const std::string& name) {
         const std::string_view view(data);
+        const py::gil_scoped_release release;
         return hri::parse_wav({reinterpret_cast<const std::uint8_t*>(view.data()), view.size()},
                               name);
       },
@@ -76,7 +78,9 @@ void bind_io(py::module_& m) {
   m.def(
       "write_wav_pcm16",
       [](const std::string& path, const hri_bind::FloatArray& samples, int sample_rate_hz) {
-        hri::write_wav_pcm16(path, hri_bind::as_span(samples, "samples"), sample_rate_hz);
+        const auto x = hri_bind::as_span(samples, "samples");
+        const py::gil_scoped_release release;
+        hri::write_wav_pcm16(path, x, sample_rate_hz);
       },
       py::arg("path"), py::arg("samples"), py::arg("sample_rate_hz"));
 }

@@ -119,7 +119,8 @@ void bind_words(py::module_& m) {
       .def_static("train", &train_words, py::arg("samples"), py::arg("sample_rates_hz"),
                   py::arg("labels"), py::arg("groups"), py::arg("options"),
                   py::arg("progress") = nullptr)
-      .def_static("load", &hri::WordRecognizer::load, py::arg("path"))
+      .def_static("load", &hri::WordRecognizer::load, py::arg("path"),
+                  py::call_guard<py::gil_scoped_release>())
       .def("save", &hri::WordRecognizer::save, py::arg("path"),
            py::call_guard<py::gil_scoped_release>())
       .def(
@@ -202,7 +203,8 @@ void bind_gestures(py::module_& m) {
                   py::arg("groups"), py::arg("options"), py::arg("progress") = nullptr)
       .def_static("features", &gesture_features, py::arg("greys"), py::arg("masks"),
                   py::arg("options"))
-      .def_static("load", &hri::GestureRecognizer::load, py::arg("path"))
+      .def_static("load", &hri::GestureRecognizer::load, py::arg("path"),
+                  py::call_guard<py::gil_scoped_release>())
       .def("save", &hri::GestureRecognizer::save, py::arg("path"),
            py::call_guard<py::gil_scoped_release>())
       .def(
@@ -216,7 +218,12 @@ void bind_gestures(py::module_& m) {
       .def(
           "scores",
           [](const hri::GestureRecognizer& self, const FloatArray& features) {
-            const hri::VectorF scores = self.scores(as_matrix(features, "features"));
+            const hri::MatrixF rows = as_matrix(features, "features");
+            hri::VectorF scores;
+            {
+              const py::gil_scoped_release release;
+              scores = self.scores(rows);
+            }
             return hri_bind::to_array(scores);
           },
           py::arg("features"))

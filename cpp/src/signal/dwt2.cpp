@@ -59,6 +59,12 @@ Matrix<T> idwt2(const Dwt2<T>& level, const Wavelet& wavelet, Border border, Eig
   require(same(level.horizontal) && same(level.vertical) && same(level.diagonal),
           "approximation and details must have one shape");
   require(rows > 0 && cols > 0, "image must have at least one pixel");
+  const auto fits = [&](Eigen::Index num_pixels, Eigen::Index num_coefficients) {
+    return dwt_length(static_cast<std::size_t>(num_pixels), wavelet.dec_lo.size(), border) ==
+           static_cast<std::size_t>(num_coefficients);
+  };
+  require(fits(rows, level.approx.rows()) && fits(cols, level.approx.cols()),
+          "coefficients are not those of an image of this shape");
   const Matrix<T> low = join_rows<T>(level.approx, level.vertical, wavelet, border, cols);
   const Matrix<T> high = join_rows<T>(level.horizontal, level.diagonal, wavelet, border, cols);
   return join_rows<T>(Matrix<T>(low.transpose()), Matrix<T>(high.transpose()), wavelet, border,
