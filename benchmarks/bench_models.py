@@ -22,7 +22,8 @@ def _left_right_pair(seed: int) -> tuple[_native.GaussianMixtureHmm, object]:
     start, transition = _native.initial_start(topology), _native.initial_transition(topology)
     means = rng.normal(size=(NUM_STATES, DIM))
     variances = rng.uniform(0.5, 2.0, (NUM_STATES, DIM))
-    ours = _native.GaussianMixtureHmm(topology, start, transition, np.ones((NUM_STATES, 1)), means, variances)
+    chain = _native.MarkovChain(topology, start, transition)
+    ours = _native.GaussianMixtureHmm(chain, np.ones((NUM_STATES, 1)), means, variances)
     peer = GaussianHMM(NUM_STATES, covariance_type="diag")
     peer.startprob_, peer.transmat_ = start, transition
     peer.means_, peer.covars_, peer.n_features = means, variances, DIM
@@ -67,7 +68,7 @@ def hmm_baum_welch() -> Timed:
 
     def peer() -> GaussianHMM:
         model = GaussianHMM(NUM_STATES, covariance_type="diag", n_iter=10, tol=-np.inf, init_params="")
-        model.startprob_, model.transmat_ = first.start, first.transition
+        model.startprob_, model.transmat_ = first.chain.start, first.chain.transition
         model.means_, model.covars_ = first.means, first.variances
         return model.fit(together, lengths)
 

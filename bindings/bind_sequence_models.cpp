@@ -9,6 +9,7 @@
 #include "hri/models/discrete_hmm.hpp"
 #include "hri/models/gaussian_mixture.hpp"
 #include "hri/models/gaussian_mixture_hmm.hpp"
+#include "hri/models/markov_chain.hpp"
 #include "hri/models/possibilistic_hmm.hpp"
 #include "hri/models/topology.hpp"
 #include "model_inputs.hpp"
@@ -39,23 +40,13 @@ std::vector<hri::SymbolSequence> symbols_of(const std::vector<py::array>& arrays
   return sequences;
 }
 
-// Start, transition and topology, which both classical HMMs have.
-template <class Model>
-void bind_chain(py::class_<Model>& cls) {
-  cls.def_property_readonly("num_states", &Model::num_states);
-  cls.def_property_readonly("topology", &Model::topology);
-  cls.def_property_readonly("start", [](const Model& self) { return to_array(self.start()); });
-  cls.def_property_readonly("transition",
-                            [](const Model& self) { return to_array(self.transition()); });
-  bind_files(cls);
-}
-
 void bind_topology(py::module_& m) {
   py::class_<hri::Topology> cls(m, "Topology", "Which transitions a sequence model has.");
   py::enum_<hri::Topology::Kind>(cls, "Kind")
       .value("left_right", hri::Topology::Kind::left_right)
       .value("banded", hri::Topology::Kind::banded)
-      .value("ergodic", hri::Topology::Kind::ergodic);
+      .value("ergodic", hri::Topology::Kind::ergodic)
+      .value("rank_one_plus_band", hri::Topology::Kind::rank_one_plus_band);
   hri_bind::options(cls)
       .field("kind", &hri::Topology::kind)
       .field("num_states", &hri::Topology::num_states)
@@ -75,7 +66,34 @@ void bind_topology(py::module_& m) {
         return to_array(hri::initial_transition(topology, stay));
       },
       py::arg("topology"), py::arg("stay") = 0.6,
-      "Row-stochastic start values, shape (num_states, num_states).");
+      "Row-stochastic start values without jumps, shape (num_states, num_states).");
+
+  using Chain = hri::MarkovChain;
+  py::class_<Chain> chain(m, "MarkovChain",
+                          "Start and transition probabilities of a sequence model.");
+  chain
+      .def(py::init([](const hri::Topology& topology, const DoubleArray& start,
+                       const DoubleArray& transition) {
+             return Chain(topology, as_vector(start, "start"), as_matrix(transition, "transition"));
+           }),
+           py::arg("topology"), py::arg("start"), py::arg("transition"))
+      .def(py::init([](const hri::Topology& topology, const DoubleArray& start,
+                       const DoubleArray& band, const DoubleArray& leave, const DoubleArray& land) {
+             return Chain(topology, as_vector(start, "start"), as_matrix(band, "band"),
+                          as_vector(leave, "leave"), as_vector(land, "land"));
+           }),
+           py::arg("topology"), py::arg("start"), py::arg("band"), py::arg("leave"),
+           py::arg("land"), "rank_one_plus_band: a_ij = band[i, j] + leave[i] * land[j].")
+      .def_static("initial", &Chain::initial, py::arg("topology"))
+      .def_property_readonly("topology", &Chain::topology)
+      .def_property_readonly("num_states", &Chain::num_states)
+      .def_property_readonly("start", [](const Chain& self) { return to_array(self.start()); })
+      .def_property_readonly("transition",
+                             [](const Chain& self) { return to_array(self.transition()); })
+      .def_property_readonly("band", [](const Chain& self) { return to_array(self.band()); })
+      .def_property_readonly("leave", [](const Chain& self) { return to_array(self.leave()); })
+      .def_property_readonly("land", [](const Chain& self) { return to_array(self.land()); });
+  bind_files(chain);
 
   py::class_<hri::TrainingReport>(m, "TrainingReport", "How an iterative training went.")
       .def(py::init<>())
@@ -139,15 +157,13 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
       .field("seed", &Options::seed);
   py::class_<Model> cls(m, "GaussianMixtureHmm",
                         "HMM with Gaussian-mixture emissions of diagonal covariance.");
-  cls.def(py::init([](const hri::Topology& topology, const DoubleArray& start,
-                      const DoubleArray& transition, const DoubleArray& weights,
+  cls.def(py::init([](const hri::MarkovChain& chain, const DoubleArray& weights,
                       const DoubleArray& means, const DoubleArray& variances) {
-            return Model(topology, as_vector(start, "start"), as_matrix(transition, "transition"),
+            return Model(chain,
                          hri::MixtureBank(as_matrix(weights, "weights"), as_matrix(means, "means"),
                                           as_matrix(variances, "variances")));
           }),
-          py::arg("topology"), py::arg("start"), py::arg("transition"), py::arg("weights"),
-          py::arg("means"), py::arg("variances"),
+          py::arg("chain"), py::arg("weights"), py::arg("means"), py::arg("variances"),
           "weights (num_states, num_mixtures); means and variances (num_states * num_mixtures, "
           "dim), state by state.");
   cls.def_static(
@@ -191,7 +207,9 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
                             [](const Model& self) { return to_array(self.bank().means()); });
   cls.def_property_readonly("variances",
                             [](const Model& self) { return to_array(self.bank().variances()); });
-  bind_chain(cls);
+  cls.def_property_readonly("num_states", &Model::num_states);
+  cls.def_property_readonly("chain", &Model::chain);
+  bind_files(cls);
 }
 
 void bind_discrete_hmm(py::module_& m) {
@@ -206,12 +224,10 @@ void bind_discrete_hmm(py::module_& m) {
       .field("emission_floor", &Options::emission_floor)
       .field("seed", &Options::seed);
   py::class_<Model> cls(m, "DiscreteHmm", "HMM over discrete symbols.");
-  cls.def(py::init([](const hri::Topology& topology, const DoubleArray& start,
-                      const DoubleArray& transition, const DoubleArray& emission) {
-            return Model(topology, as_vector(start, "start"), as_matrix(transition, "transition"),
-                         as_matrix(emission, "emission"));
+  cls.def(py::init([](const hri::MarkovChain& chain, const DoubleArray& emission) {
+            return Model(chain, as_matrix(emission, "emission"));
           }),
-          py::arg("topology"), py::arg("start"), py::arg("transition"), py::arg("emission"));
+          py::arg("chain"), py::arg("emission"), "emission has shape (num_states, num_symbols).");
   cls.def_static(
       "train",
       [](const std::vector<py::array>& sequences, Options o, hri::TrainingReport* report) {
@@ -238,7 +254,9 @@ void bind_discrete_hmm(py::module_& m) {
   cls.def_property_readonly("num_symbols", &Model::num_symbols);
   cls.def_property_readonly("emission",
                             [](const Model& self) { return to_array(self.emission()); });
-  bind_chain(cls);
+  cls.def_property_readonly("num_states", &Model::num_states);
+  cls.def_property_readonly("chain", &Model::chain);
+  bind_files(cls);
 }
 
 void bind_possibilistic(py::module_& m) {

@@ -47,6 +47,7 @@ __all__: list[str] = [
     "KnnOptions",
     "LinearSvm",
     "LinearSvmOptions",
+    "MarkovChain",
     "ModelFile",
     "NBest",
     "Normalisation",
@@ -924,12 +925,15 @@ class Topology:
           banded
 
           ergodic
+
+          rank_one_plus_band
         """
 
         __members__: typing.ClassVar[dict[str, Topology.Kind]]
         banded: typing.ClassVar[Topology.Kind]
         ergodic: typing.ClassVar[Topology.Kind]
         left_right: typing.ClassVar[Topology.Kind]
+        rank_one_plus_band: typing.ClassVar[Topology.Kind]
         @typing.overload
         def __eq__(self, other: Topology.Kind) -> bool: ...
         @typing.overload
@@ -968,6 +972,55 @@ class Topology:
     def num_states(self) -> int: ...
     @num_states.setter
     def num_states(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class MarkovChain:
+    """
+    Start and transition probabilities of a sequence model.
+    """
+    @staticmethod
+    def initial(topology: Topology) -> MarkovChain: ...
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> MarkovChain:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @typing.overload
+    def __init__(
+        self,
+        topology: Topology,
+        start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        transition: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    ) -> None: ...
+    @typing.overload
+    def __init__(
+        self,
+        topology: Topology,
+        start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        band: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        leave: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        land: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    ) -> None:
+        """
+        rank_one_plus_band: a_ij = band[i, j] + leave[i] * land[j].
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def band(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def land(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def leave(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def num_states(self) -> int: ...
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    @property
+    def topology(self) -> Topology: ...
+    @property
+    def transition(self) -> numpy.typing.NDArray[numpy.float64]: ...
 
 class TrainingReport:
     """
@@ -1102,9 +1155,7 @@ class GaussianMixtureHmm:
         """
     def __init__(
         self,
-        topology: Topology,
-        start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-        transition: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        chain: MarkovChain,
         weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         means: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         variances: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
@@ -1131,17 +1182,13 @@ class GaussianMixtureHmm:
         Adds the model to a ModelFile.
         """
     @property
+    def chain(self) -> MarkovChain: ...
+    @property
     def dim(self) -> int: ...
     @property
     def means(self) -> numpy.typing.NDArray[numpy.float64]: ...
     @property
     def num_states(self) -> int: ...
-    @property
-    def start(self) -> numpy.typing.NDArray[numpy.float64]: ...
-    @property
-    def topology(self) -> Topology: ...
-    @property
-    def transition(self) -> numpy.typing.NDArray[numpy.float64]: ...
     @property
     def variances(self) -> numpy.typing.NDArray[numpy.float64]: ...
     @property
@@ -1194,13 +1241,10 @@ class DiscreteHmm:
         options: DiscreteHmmOptions,
         report: TrainingReport = None,
     ) -> DiscreteHmm: ...
-    def __init__(
-        self,
-        topology: Topology,
-        start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-        transition: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-        emission: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-    ) -> None: ...
+    def __init__(self, chain: MarkovChain, emission: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        emission has shape (num_states, num_symbols).
+        """
     def log_likelihood(self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]) -> float:
         """
         log P(symbols | model), natural log.
@@ -1216,17 +1260,13 @@ class DiscreteHmm:
         Adds the model to a ModelFile.
         """
     @property
+    def chain(self) -> MarkovChain: ...
+    @property
     def emission(self) -> numpy.typing.NDArray[numpy.float64]: ...
     @property
     def num_states(self) -> int: ...
     @property
     def num_symbols(self) -> int: ...
-    @property
-    def start(self) -> numpy.typing.NDArray[numpy.float64]: ...
-    @property
-    def topology(self) -> Topology: ...
-    @property
-    def transition(self) -> numpy.typing.NDArray[numpy.float64]: ...
 
 class Conjunction:
     """
@@ -1804,7 +1844,7 @@ def initial_transition(
     topology: Topology, stay: typing.SupportsFloat | typing.SupportsIndex = 0.6
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Row-stochastic start values, shape (num_states, num_states).
+    Row-stochastic start values without jumps, shape (num_states, num_states).
     """
 
 def necessity_of(

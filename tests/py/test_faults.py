@@ -266,9 +266,7 @@ def test_model_whose_probabilities_do_not_sum_to_one_is_refused(tmp_path: Path) 
     topology = _native.Topology(kind="left_right", num_states=3)
     rng = np.random.default_rng(0)
     model = _native.GaussianMixtureHmm(
-        topology,
-        _native.initial_start(topology),
-        _native.initial_transition(topology),
+        _native.MarkovChain.initial(topology),
         np.ones((3, 1)),
         rng.normal(size=(3, 2)),
         np.ones((3, 2)),

@@ -43,9 +43,8 @@ def gaussian_pair(
     weights = rng.dirichlet(np.ones(num_mixtures), n)
     means = rng.normal(0, 2, (n, num_mixtures, dim))
     variances = rng.uniform(0.5, 2.0, (n, num_mixtures, dim))
-    ours = _native.GaussianMixtureHmm(
-        topology, start, transition, weights, means.reshape(-1, dim), variances.reshape(-1, dim)
-    )
+    chain = _native.MarkovChain(topology, start, transition)
+    ours = _native.GaussianMixtureHmm(chain, weights, means.reshape(-1, dim), variances.reshape(-1, dim))
     if num_mixtures == 1:
         peer = hmmlearn.GaussianHMM(n, covariance_type="diag")
         peer.means_, peer.covars_ = means[:, 0], variances[:, 0]
@@ -82,7 +81,7 @@ def test_discrete_forward_and_viterbi_match_hmmlearn(fields: dict) -> None:
     emission = rng.dirichlet(np.ones(7), n)
     transition = random_transition(topology, rng)
     start = _native.initial_start(topology)
-    ours = _native.DiscreteHmm(topology, start, transition, emission)
+    ours = _native.DiscreteHmm(_native.MarkovChain(topology, start, transition), emission)
     peer = hmmlearn.CategoricalHMM(n)
     peer.startprob_, peer.transmat_, peer.emissionprob_ = start, transition, emission
     peer.n_features = 7
@@ -107,13 +106,13 @@ def test_one_baum_welch_step_matches_hmmlearn() -> None:
     )
     first = _native.DiscreteHmm.train(sequences, options)
     peer = hmmlearn.CategoricalHMM(3, n_iter=1, init_params="", tol=0)
-    peer.startprob_, peer.transmat_ = first.start, first.transition
+    peer.startprob_, peer.transmat_ = first.chain.start, first.chain.transition
     peer.emissionprob_ = first.emission
     peer.fit(np.concatenate(sequences)[:, None], [len(s) for s in sequences])
     options.max_iterations = 2
     second = _native.DiscreteHmm.train(sequences, options)
-    np.testing.assert_allclose(second.start, peer.startprob_, rtol=1e-9)
-    np.testing.assert_allclose(second.transition, peer.transmat_, rtol=1e-9)
+    np.testing.assert_allclose(second.chain.start, peer.startprob_, rtol=1e-9)
+    np.testing.assert_allclose(second.chain.transition, peer.transmat_, rtol=1e-9)
     np.testing.assert_allclose(second.emission, peer.emissionprob_, rtol=1e-9)
 
 
@@ -131,11 +130,11 @@ def test_one_gaussian_baum_welch_step_matches_hmmlearn() -> None:
     peer = hmmlearn.GaussianHMM(
         3, n_iter=1, init_params="", tol=0, min_covar=0, covars_prior=0, covars_weight=1, means_weight=0
     )
-    peer.startprob_, peer.transmat_ = before.start, before.transition
+    peer.startprob_, peer.transmat_ = before.chain.start, before.chain.transition
     peer.means_, peer.covars_ = before.means, before.variances
     peer.fit(np.concatenate(sequences), [len(s) for s in sequences])
-    np.testing.assert_allclose(after.start, peer.startprob_, rtol=1e-7, atol=1e-12)
-    np.testing.assert_allclose(after.transition, peer.transmat_, rtol=1e-7)
+    np.testing.assert_allclose(after.chain.start, peer.startprob_, rtol=1e-7, atol=1e-12)
+    np.testing.assert_allclose(after.chain.transition, peer.transmat_, rtol=1e-7)
     np.testing.assert_allclose(after.means, peer.means_, rtol=1e-7)
     variances = np.array([np.diag(c) for c in peer.covars_])
     np.testing.assert_allclose(after.variances, variances, rtol=1e-6)

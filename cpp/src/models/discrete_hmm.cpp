@@ -13,8 +13,8 @@
 namespace hri {
 namespace {
 
-const char* emission_fault(const Topology& topology, const MatrixD& emission) {
-  if (emission.rows() != topology.num_states || emission.cols() < 1)
+const char* emission_fault(int num_states, const MatrixD& emission) {
+  if (emission.rows() != num_states || emission.cols() < 1)
     return "emission needs a row for every state";
   if (!emission.allFinite() || emission.minCoeff() < 0) return "emission must be finite and >= 0";
   if ((emission.rowwise().sum().array() - 1).abs().maxCoeff() > 1e-6)
@@ -79,16 +79,10 @@ void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symb
   }
 }
 
-DiscreteHmm::DiscreteHmm(Topology topology, VectorD start, MatrixD transition, MatrixD emission)
-    : topology_(topology),
-      start_(std::move(start)),
-      transition_(std::move(transition)),
-      emission_(std::move(emission)) {
-  const char* fault = detail::chain_fault(topology_, start_, transition_);
-  if (fault == nullptr) fault = emission_fault(topology_, emission_);
+DiscreteHmm::DiscreteHmm(MarkovChain chain, MatrixD emission)
+    : chain_(std::move(chain)), emission_(std::move(emission)) {
+  const char* fault = emission_fault(num_states(), emission_);
   require(fault == nullptr, fault);
-  log_start_ = detail::safe_log(start_);
-  log_transition_ = detail::safe_log(transition_);
   log_emission_ = detail::safe_log(emission_);
 }
 
@@ -111,8 +105,7 @@ DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
   check(options);
   validate_symbols(sequences, options.num_symbols);
   const int n = options.topology.num_states;
-  DiscreteHmm model(options.topology, initial_start(options.topology),
-                    initial_transition(options.topology), initial_emission(sequences, options));
+  DiscreteHmm model(MarkovChain::initial(options.topology), initial_emission(sequences, options));
   double num_total = 0;
   for (const SymbolSequence& s : sequences) num_total += static_cast<double>(s.size());
   TrainingReport local;
@@ -123,9 +116,7 @@ DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
     MatrixD emitted = MatrixD::Zero(n, options.num_symbols);
     double total = 0;
     for (const SymbolSequence& s : sequences) {
-      const detail::Chain chain{model.topology_, model.log_start_, model.transition_,
-                                model.log_transition_};
-      total += detail::forward_backward(chain, model.log_densities(s), &gamma, &counts);
+      total += detail::forward_backward(model.chain_, model.log_densities(s), &gamma, &counts);
       for (std::size_t t = 0; t < s.size(); ++t) {
         emitted.col(s[t]) += gamma.row(static_cast<Eigen::Index>(t)).transpose();
       }
@@ -134,49 +125,38 @@ DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
       local.converged = (total - local.log_likelihoods.back()) / num_total < options.tolerance;
     }
     local.log_likelihoods.push_back(total);
-    VectorD start = model.start_;
-    MatrixD transition = model.transition_;
-    detail::estimate_chain(counts, &start, &transition);
     MatrixD emission = model.emission_;
     constexpr double kUnvisited = 1e-8;
     for (int j = 0; j < n; ++j) {
       if (emitted.row(j).sum() > kUnvisited)
         emission.row(j) = emitted.row(j) / emitted.row(j).sum();
     }
-    model =
-        DiscreteHmm(options.topology, start, transition, floored(emission, options.emission_floor));
+    model = DiscreteHmm(detail::estimate_chain(counts, model.chain_),
+                        floored(emission, options.emission_floor));
   }
   if (report != nullptr) *report = std::move(local);
   return model;
 }
 
 double DiscreteHmm::log_likelihood(Span<const std::int32_t> symbols) const {
-  return detail::forward(detail::Chain{topology_, log_start_, transition_, log_transition_},
-                         log_densities(symbols));
+  return detail::forward(chain_, log_densities(symbols));
 }
 
 double DiscreteHmm::viterbi(Span<const std::int32_t> symbols, std::vector<int>* path) const {
-  return detail::viterbi(detail::Chain{topology_, log_start_, transition_, log_transition_},
-                         log_densities(symbols), path);
+  return detail::viterbi(chain_, log_densities(symbols), path);
 }
 
 void DiscreteHmm::write(ModelFile& file, const std::string& prefix) const {
-  write_topology(topology_, file, prefix);
-  file.set_vector(prefix + "start", start_);
-  file.set_matrix(prefix + "transition", transition_);
+  chain_.write(file, prefix);
   file.set_matrix(prefix + "emission", emission_);
 }
 
 DiscreteHmm DiscreteHmm::read(const ModelFile& file, const std::string& prefix) {
-  const Topology topology = read_topology(file, prefix);
-  const VectorD start = file.vector_d(prefix + "start");
-  const MatrixD transition = file.matrix_d(prefix + "transition");
-  const MatrixD emission = file.matrix_d(prefix + "emission");
-  const char* fault = detail::chain_fault(topology, start, transition);
-  if (fault == nullptr) fault = emission_fault(topology, emission);
-  if (fault != nullptr)
-    fail(ErrorKind::format, file.name() + ": fields of '" + prefix + "': " + fault);
-  return {topology, start, transition, emission};
+  MarkovChain chain = MarkovChain::read(file, prefix);
+  MatrixD emission = file.matrix_d(prefix + "emission");
+  if (const char* fault = emission_fault(chain.num_states(), emission))
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + "emission': " + fault);
+  return {std::move(chain), std::move(emission)};
 }
 
 }  // namespace hri

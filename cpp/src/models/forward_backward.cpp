@@ -22,16 +22,6 @@ double log_sum(int begin, int end, const F& term) {
   return top + std::log(sum);
 }
 
-// The states from which j can be reached form a contiguous range in every topology.
-int first_previous(const Topology& t, int j) {
-  return t.kind == Topology::Kind::ergodic ? 0 : std::max(0, j - t.max_jump);
-}
-int end_previous(const Topology& t, int j) {
-  if (t.kind == Topology::Kind::left_right) return j + 1;
-  return t.kind == Topology::Kind::banded ? std::min(t.num_states, j + t.max_jump + 1)
-                                          : t.num_states;
-}
-
 // exp(values - their maximum) into `out`; gives the maximum.
 double scaled_exp(const double* values, int count, double* out) {
   const double top = *std::max_element(values, values + count);
@@ -46,38 +36,37 @@ double scaled_exp(const double* values, int count, double* out) {
 constexpr double kSafeSum = 1e-200;
 
 template <class Scalar>
-void forward_step(const Chain& chain, const Scalar* log_b, const double* before, double* scratch,
-                  double* after) {
-  const int n = chain.topology.num_states;
+void forward_step(const MarkovChain& chain, const Scalar* log_b, const double* before,
+                  double* scratch, double* after) {
+  const int n = chain.num_states();
   const double top = scaled_exp(before, n, scratch);
+  if (top == kMinusInf) {
+    std::fill(after, after + n, kMinusInf);
+    return;
+  }
+  chain.propagate(scratch, after);
   for (int j = 0; j < n; ++j) {
-    const int begin = first_previous(chain.topology, j);
-    const int end = end_previous(chain.topology, j);
-    double sum = 0;
-    if (top > kMinusInf) {
-      for (int i = begin; i < end; ++i) sum += scratch[i] * chain.transition(i, j);
-    }
-    const double log_sum_j = sum > kSafeSum ? top + std::log(sum) : log_sum(begin, end, [&](int i) {
-      return before[i] + chain.log_transition(i, j);
-    });
+    const double log_sum_j =
+        after[j] > kSafeSum
+            ? top + std::log(after[j])
+            : log_sum(0, n, [&](int i) { return before[i] + chain.log_transition()(i, j); });
     after[j] = static_cast<double>(log_b[j]) + log_sum_j;
   }
 }
 
 // The same backward: `after` holds log b(t + 1) + beta(t + 1).
-void backward_step(const Chain& chain, const double* after, double* scratch, double* beta) {
-  const int n = chain.topology.num_states;
+void backward_step(const MarkovChain& chain, const double* after, double* scratch, double* beta) {
+  const int n = chain.num_states();
   const double top = scaled_exp(after, n, scratch);
+  if (top == kMinusInf) {
+    std::fill(beta, beta + n, kMinusInf);
+    return;
+  }
+  chain.propagate_back(scratch, beta);
   for (int i = 0; i < n; ++i) {
-    const int begin = chain.topology.first_next(i);
-    const int end = chain.topology.end_next(i);
-    double sum = 0;
-    if (top > kMinusInf) {
-      for (int j = begin; j < end; ++j) sum += chain.transition(i, j) * scratch[j];
-    }
-    beta[i] = sum > kSafeSum ? top + std::log(sum) : log_sum(begin, end, [&](int j) {
-      return chain.log_transition(i, j) + after[j];
-    });
+    beta[i] = beta[i] > kSafeSum
+                  ? top + std::log(beta[i])
+                  : log_sum(0, n, [&](int j) { return chain.log_transition()(i, j) + after[j]; });
   }
 }
 
@@ -92,14 +81,14 @@ MatrixD safe_log(const MatrixD& values) {
 }
 
 template <class Scalar>
-double forward(const Chain& chain, const Matrix<Scalar>& log_b) {
-  const int n = chain.topology.num_states;
+double forward(const MarkovChain& chain, const Matrix<Scalar>& log_b) {
+  const int n = chain.num_states();
   thread_local std::vector<double> buffers;
   buffers.resize(3 * static_cast<std::size_t>(n));
   double* now = buffers.data();
   double* next = now + n;
   double* scratch = next + n;
-  for (int j = 0; j < n; ++j) now[j] = chain.log_start[j] + static_cast<double>(log_b(0, j));
+  for (int j = 0; j < n; ++j) now[j] = chain.log_start()[j] + static_cast<double>(log_b(0, j));
   for (Eigen::Index t = 1; t < log_b.rows(); ++t) {
     forward_step(chain, log_b.data() + t * n, now, scratch, next);
     std::swap(now, next);
@@ -107,31 +96,18 @@ double forward(const Chain& chain, const Matrix<Scalar>& log_b) {
   return log_sum(0, n, [&](int i) { return now[i]; });
 }
 
-template double forward<float>(const Chain&, const MatrixF&);
-template double forward<double>(const Chain&, const MatrixD&);
+template double forward<float>(const MarkovChain&, const MatrixF&);
+template double forward<double>(const MarkovChain&, const MatrixD&);
 
 template <class Scalar>
-double viterbi(const Chain& chain, const Matrix<Scalar>& log_b, std::vector<int>* path) {
-  const int n = chain.topology.num_states;
+double viterbi(const MarkovChain& chain, const Matrix<Scalar>& log_b, std::vector<int>* path) {
+  const int n = chain.num_states();
   const Eigen::Index num_frames = log_b.rows();
   MatrixD delta(num_frames, n);
-  Matrix<int> from = Matrix<int>::Zero(num_frames, n);
-  for (int j = 0; j < n; ++j) delta(0, j) = chain.log_start[j] + static_cast<double>(log_b(0, j));
+  for (int j = 0; j < n; ++j) delta(0, j) = chain.log_start()[j] + static_cast<double>(log_b(0, j));
   for (Eigen::Index t = 1; t < num_frames; ++t) {
-    for (int j = 0; j < n; ++j) {
-      const int begin = first_previous(chain.topology, j);
-      double best = kMinusInf;
-      int best_i = begin;
-      for (int i = begin; i < end_previous(chain.topology, j); ++i) {
-        const double score = delta(t - 1, i) + chain.log_transition(i, j);
-        if (score > best) {
-          best = score;
-          best_i = i;
-        }
-      }
-      delta(t, j) = best + static_cast<double>(log_b(t, j));
-      from(t, j) = best_i;
-    }
+    chain.propagate_max(delta.data() + (t - 1) * n, delta.data() + t * n);
+    for (int j = 0; j < n; ++j) delta(t, j) += static_cast<double>(log_b(t, j));
   }
   Eigen::Index last = 0;
   const double score = delta.row(num_frames - 1).maxCoeff(&last);
@@ -140,28 +116,29 @@ double viterbi(const Chain& chain, const Matrix<Scalar>& log_b, std::vector<int>
     if (score > kMinusInf) {
       path->resize(static_cast<std::size_t>(num_frames));
       int state = static_cast<int>(last);
-      for (Eigen::Index t = num_frames - 1; t >= 0; --t) {
+      for (Eigen::Index t = num_frames - 1; t > 0; --t) {
         (*path)[static_cast<std::size_t>(t)] = state;
-        state = from(t, state);
+        state = chain.best_previous(delta.data() + (t - 1) * n, state);
       }
+      path->front() = state;
     }
   }
   return score;
 }
 
-template double viterbi<float>(const Chain&, const MatrixF&, std::vector<int>*);
-template double viterbi<double>(const Chain&, const MatrixD&, std::vector<int>*);
+template double viterbi<float>(const MarkovChain&, const MatrixF&, std::vector<int>*);
+template double viterbi<double>(const MarkovChain&, const MatrixD&, std::vector<int>*);
 
-double forward_backward(const Chain& chain, const MatrixD& log_b, MatrixD* gamma,
+double forward_backward(const MarkovChain& chain, const MatrixD& log_b, MatrixD* gamma,
                         ChainCounts* counts) {
-  const Topology& topology = chain.topology;
+  const Topology& topology = chain.topology();
   const int n = topology.num_states;
   const Eigen::Index num_frames = log_b.rows();
   MatrixD alpha(num_frames, n);
   MatrixD beta = MatrixD::Zero(num_frames, n);
   VectorD scratch(n);
   VectorD after(n);
-  alpha.row(0) = chain.log_start.transpose() + log_b.row(0);
+  alpha.row(0) = chain.log_start().transpose() + log_b.row(0);
   for (Eigen::Index t = 1; t < num_frames; ++t) {
     forward_step(chain, log_b.data() + t * n, alpha.data() + (t - 1) * n, scratch.data(),
                  alpha.data() + t * n);
@@ -175,8 +152,18 @@ double forward_backward(const Chain& chain, const MatrixD& log_b, MatrixD* gamma
     for (int i = 0; i < n; ++i) {
       if (alpha(t, i) == kMinusInf) continue;
       for (int j = topology.first_next(i); j < topology.end_next(i); ++j) {
-        counts->transition(i, j) +=
-            std::exp(alpha(t, i) + chain.log_transition(i, j) + after[j] - total);
+        if (chain.band()(i, j) > 0) {
+          counts->band(i, j) += chain.band()(i, j) * std::exp(alpha(t, i) + after[j] - total);
+        }
+      }
+    }
+    if (!chain.jumps()) continue;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        const double jumped =
+            chain.leave()[i] * chain.land()[j] * std::exp(alpha(t, i) + after[j] - total);
+        counts->leave[i] += jumped;
+        counts->land[j] += jumped;
       }
     }
   }
@@ -187,35 +174,22 @@ double forward_backward(const Chain& chain, const MatrixD& log_b, MatrixD* gamma
   return total;
 }
 
-void estimate_chain(const ChainCounts& counts, VectorD* start, MatrixD* transition) {
+MarkovChain estimate_chain(const ChainCounts& counts, const MarkovChain& previous) {
   constexpr double kUnvisited = 1e-8;
-  if (counts.start.sum() > kUnvisited) *start = counts.start / counts.start.sum();
-  for (Eigen::Index i = 0; i < transition->rows(); ++i) {
-    const double sum = counts.transition.row(i).sum();
-    if (sum > kUnvisited) transition->row(i) = counts.transition.row(i) / sum;
+  VectorD start = previous.start();
+  MatrixD band = previous.band();
+  VectorD leave = previous.leave();
+  VectorD land = previous.land();
+  if (counts.start.sum() > kUnvisited) start = counts.start / counts.start.sum();
+  for (Eigen::Index i = 0; i < band.rows(); ++i) {
+    const double sum = counts.band.row(i).sum() + counts.leave[i];
+    if (!(sum > kUnvisited)) continue;
+    band.row(i) = counts.band.row(i) / sum;
+    if (previous.jumps()) leave[i] = counts.leave[i] / sum;
   }
-}
-
-const char* chain_fault(const Topology& topology, const VectorD& start, const MatrixD& transition) {
-  if (const char* fault = topology_fault(topology)) return fault;
-  const Eigen::Index n = topology.num_states;
-  if (start.size() != n || transition.rows() != n || transition.cols() != n) {
-    return "start and transition must have num_states rows and columns";
-  }
-  if (!start.allFinite() || !transition.allFinite()) return "start or transition is not finite";
-  if (start.minCoeff() < 0 || std::abs(start.sum() - 1) > 1e-6)
-    return "start must be >= 0 and sum to 1";
-  if (transition.minCoeff() < 0 ||
-      (transition.rowwise().sum().array() - 1).abs().maxCoeff() > 1e-6) {
-    return "the rows of transition must be >= 0 and sum to 1";
-  }
-  for (int i = 0; i < topology.num_states; ++i) {
-    for (int j = 0; j < topology.num_states; ++j) {
-      if (!topology.allows(i, j) && transition(i, j) != 0)
-        return "transition has an entry outside its topology";
-    }
-  }
-  return nullptr;
+  if (!previous.jumps()) return {previous.topology(), start, band};
+  if (counts.land.sum() > kUnvisited) land = counts.land / counts.land.sum();
+  return {previous.topology(), start, band, leave, land};
 }
 
 std::vector<int> uniform_segmentation(Eigen::Index num_frames, int num_states) {

@@ -45,18 +45,10 @@ VectorD floor_of(const VectorD& global_variance, double share) {
 
 }  // namespace
 
-GaussianMixtureHmm::GaussianMixtureHmm(Topology topology, VectorD start, MatrixD transition,
-                                       MixtureBank bank)
-    : topology_(topology),
-      start_(std::move(start)),
-      transition_(std::move(transition)),
-      bank_(std::move(bank)) {
-  const char* fault = detail::chain_fault(topology_, start_, transition_);
-  require(fault == nullptr, fault);
-  require(bank_.num_states() == topology_.num_states,
+GaussianMixtureHmm::GaussianMixtureHmm(MarkovChain chain, MixtureBank bank)
+    : chain_(std::move(chain)), bank_(std::move(bank)) {
+  require(bank_.num_states() == chain_.num_states(),
           "the mixture bank must have one mixture a state");
-  log_start_ = detail::safe_log(start_);
-  log_transition_ = detail::safe_log(transition_);
 }
 
 GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequences,
@@ -67,7 +59,7 @@ GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequenc
   const VectorD floor = floor_of(global.variance, options.variance_floor);
   const int n = options.topology.num_states;
   GaussianMixtureHmm model(
-      options.topology, initial_start(options.topology), initial_transition(options.topology),
+      MarkovChain::initial(options.topology),
       initial_bank(sequences, first_states(sequences, options.topology, options.seed), n,
                    options.num_mixtures, floor, options.seed));
   double num_frames = 0;
@@ -84,19 +76,14 @@ GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequenc
     double total = 0;
     for (const MatrixF& s : sequences) {
       model.bank_.log_densities(s, &densities, &components);
-      const detail::Chain chain{model.topology_, model.log_start_, model.transition_,
-                                model.log_transition_};
-      total += detail::forward_backward(chain, densities, &gamma, &counts);
+      total += detail::forward_backward(model.chain_, densities, &gamma, &counts);
       accumulator.add(s, gamma, components, densities);
     }
     if (!local.log_likelihoods.empty()) {
       local.converged = (total - local.log_likelihoods.back()) / num_frames < options.tolerance;
     }
     local.log_likelihoods.push_back(total);
-    VectorD start = model.start_;
-    MatrixD transition = model.transition_;
-    detail::estimate_chain(counts, &start, &transition);
-    model = GaussianMixtureHmm(options.topology, start, transition,
+    model = GaussianMixtureHmm(detail::estimate_chain(counts, model.chain_),
                                accumulator.estimate(model.bank_, floor, options.weight_floor));
   }
   if (report != nullptr) *report = std::move(local);
@@ -107,7 +94,7 @@ double GaussianMixtureHmm::log_likelihood(ConstMatrixRefF frames) const {
   require(frames.rows() > 0, "frames must have at least one row");
   MatrixF log_b(frames.rows(), num_states());
   bank_.log_densities(frames, log_b);
-  return detail::forward(detail::Chain{topology_, log_start_, transition_, log_transition_}, log_b);
+  return detail::forward(chain_, log_b);
 }
 
 double GaussianMixtureHmm::log_likelihood_exact(ConstMatrixRefF frames) const {
@@ -115,7 +102,7 @@ double GaussianMixtureHmm::log_likelihood_exact(ConstMatrixRefF frames) const {
           "frames must have at least one row and dim() columns");
   MatrixD log_b;
   bank_.log_densities(frames, &log_b, nullptr);
-  return detail::forward(detail::Chain{topology_, log_start_, transition_, log_transition_}, log_b);
+  return detail::forward(chain_, log_b);
 }
 
 double GaussianMixtureHmm::viterbi(ConstMatrixRefF frames, std::vector<int>* path) const {
@@ -123,29 +110,21 @@ double GaussianMixtureHmm::viterbi(ConstMatrixRefF frames, std::vector<int>* pat
           "frames must have at least one row and dim() columns");
   MatrixD log_b;
   bank_.log_densities(frames, &log_b, nullptr);
-  return detail::viterbi(detail::Chain{topology_, log_start_, transition_, log_transition_}, log_b,
-                         path);
+  return detail::viterbi(chain_, log_b, path);
 }
 
 void GaussianMixtureHmm::write(ModelFile& file, const std::string& prefix) const {
-  write_topology(topology_, file, prefix);
-  file.set_vector(prefix + "start", start_);
-  file.set_matrix(prefix + "transition", transition_);
+  chain_.write(file, prefix);
   bank_.write(file, prefix);
 }
 
 GaussianMixtureHmm GaussianMixtureHmm::read(const ModelFile& file, const std::string& prefix) {
-  const Topology topology = read_topology(file, prefix);
-  const VectorD start = file.vector_d(prefix + "start");
-  const MatrixD transition = file.matrix_d(prefix + "transition");
-  if (const char* fault = detail::chain_fault(topology, start, transition)) {
-    fail(ErrorKind::format, file.name() + ": field '" + prefix + "transition': " + fault);
-  }
+  MarkovChain chain = MarkovChain::read(file, prefix);
   MixtureBank bank = MixtureBank::read(file, prefix);
-  if (bank.num_states() != topology.num_states) {
+  if (bank.num_states() != chain.num_states()) {
     fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' needs one row a state");
   }
-  return {topology, start, transition, std::move(bank)};
+  return {std::move(chain), std::move(bank)};
 }
 
 }  // namespace hri

@@ -57,24 +57,22 @@ DiscreteHmm reestimate(const std::vector<SymbolSequence>& sequences, const Discr
     counts.start[path.front()] += 1;
     for (std::size_t t = 0; t < path.size(); ++t) {
       emitted(path[t], s[t]) += 1;
-      if (t > 0) counts.transition(path[t - 1], path[t]) += 1;
+      if (t > 0) counts.band(path[t - 1], path[t]) += 1;
     }
   }
-  VectorD start = model.start();
-  MatrixD transition = model.transition();
   // One imagined visit of every allowed transition keeps rare ones possible.
   for (int i = 0; i < n; ++i) {
-    for (int j = model.topology().first_next(i); j < model.topology().end_next(i); ++j)
-      counts.transition(i, j) += 1;
+    for (int j = model.chain().topology().first_next(i); j < model.chain().topology().end_next(i);
+         ++j)
+      counts.band(i, j) += 1;
   }
-  detail::estimate_chain(counts, &start, &transition);
   MatrixD emission = model.emission();
   for (int j = 0; j < n; ++j) {
     if (emitted.row(j).sum() > 0.5) emission.row(j) = emitted.row(j) / emitted.row(j).sum();
     emission.row(j) = emission.row(j).cwiseMax(floor);
     emission.row(j) /= emission.row(j).sum();
   }
-  return {model.topology(), start, transition, emission};
+  return {detail::estimate_chain(counts, model.chain()), emission};
 }
 
 DiscreteHmm train_class(const std::vector<SymbolSequence>& sequences,
@@ -90,8 +88,9 @@ DiscreteHmm train_class(const std::vector<SymbolSequence>& sequences,
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     poll(options.should_stop);
     DiscreteHmm next = reestimate(sequences, model, options.emission_floor);
-    const double moved = std::max((next.transition() - model.transition()).cwiseAbs().maxCoeff(),
-                                  (next.emission() - model.emission()).cwiseAbs().maxCoeff());
+    const double moved =
+        std::max((next.chain().transition() - model.chain().transition()).cwiseAbs().maxCoeff(),
+                 (next.emission() - model.emission()).cwiseAbs().maxCoeff());
     model = std::move(next);
     if (moved < options.tolerance) break;
   }
@@ -141,6 +140,32 @@ float score(const Topology& topology, const MatrixF& log_s, const MatrixF& log_p
   return *std::max_element(phi, phi + n) + scale;
 }
 
+double most_possible_path(const Topology& topology, const VectorD& log_start, const MatrixD& log_s,
+                          const MatrixD& log_b, std::vector<int>* path) {
+  const Eigen::Index num_frames = log_b.rows();
+  MatrixD delta(num_frames, topology.num_states);
+  Matrix<int> from = Matrix<int>::Zero(num_frames, topology.num_states);
+  delta.row(0) = log_start.transpose() + log_b.row(0);
+  for (Eigen::Index t = 1; t < num_frames; ++t) {
+    for (int j = 0; j < topology.num_states; ++j) {
+      const VectorD scores = delta.row(t - 1).transpose() + log_s.col(j);
+      delta(t, j) = scores.maxCoeff(&from(t, j)) + log_b(t, j);
+    }
+  }
+  int state = 0;
+  const double best = delta.row(num_frames - 1).maxCoeff(&state);
+  if (path != nullptr) {
+    path->clear();
+    if (!(best > -std::numeric_limits<double>::infinity())) return best;
+    path->resize(static_cast<std::size_t>(num_frames));
+    for (Eigen::Index t = num_frames - 1; t >= 0; --t) {
+      (*path)[static_cast<std::size_t>(t)] = state;
+      state = from(t, state);
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 PossibilisticHmmSet::PossibilisticHmmSet(Topology topology, Conjunction conjunction,
@@ -182,17 +207,17 @@ PossibilisticHmmSet PossibilisticHmmSet::train(
 PossibilisticHmmSet PossibilisticHmmSet::from_hmms(const std::vector<DiscreteHmm>& models,
                                                    Conjunction conjunction, bool conditioned) {
   require(!models.empty(), "a set needs at least one model");
-  const Topology& topology = models.front().topology();
+  const Topology& topology = models.front().chain().topology();
   std::vector<MatrixD> transitions;
   std::vector<MatrixD> emissions;
   VectorD largest = VectorD::Zero(models.front().num_symbols());
   for (const DiscreteHmm& m : models) {
-    require(m.topology().kind == topology.kind && m.num_states() == topology.num_states &&
-                m.topology().max_jump == topology.max_jump &&
+    require(m.chain().topology().kind == topology.kind && m.num_states() == topology.num_states &&
+                m.chain().topology().max_jump == topology.max_jump &&
                 m.num_symbols() == models.front().num_symbols(),
             "all models of a set need the same topology and number of symbols");
-    transitions.emplace_back(m.transition().array().colwise() /
-                             m.transition().rowwise().maxCoeff().array());
+    transitions.emplace_back(m.chain().transition().array().colwise() /
+                             m.chain().transition().rowwise().maxCoeff().array());
     emissions.push_back(m.emission());
     largest = largest.cwiseMax(m.emission().colwise().maxCoeff().transpose());
   }
@@ -248,9 +273,8 @@ double PossibilisticHmmSet::viterbi(int class_index, Span<const std::int32_t> sy
   VectorD start = VectorD::Ones(topology_.num_states);
   if (topology_.kind == Topology::Kind::left_right) start = initial_start(topology_);
   const VectorD log_start = detail::safe_log(start);
-  const MatrixD log_transition = detail::safe_log(transition(class_index));
-  return detail::viterbi(
-      detail::Chain{topology_, log_start, transition(class_index), log_transition}, log_b, path);
+  const MatrixD log_s = detail::safe_log(transition(class_index));
+  return most_possible_path(topology_, log_start, log_s, log_b, path);
 }
 
 const MatrixD& PossibilisticHmmSet::transition(int class_index) const {

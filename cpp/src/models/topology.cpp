@@ -10,14 +10,26 @@ namespace hri {
 
 int Topology::first_next(int i) const {
   if (kind == Kind::left_right) return i;
-  return kind == Kind::banded ? std::max(0, i - max_jump) : 0;
+  return kind == Kind::ergodic ? 0 : std::max(0, i - max_jump);
 }
 
 int Topology::end_next(int i) const {
   return kind == Kind::ergodic ? num_states : std::min(num_states, i + max_jump + 1);
 }
 
-bool Topology::allows(int i, int j) const { return j >= first_next(i) && j < end_next(i); }
+int Topology::first_previous(int j) const {
+  return kind == Kind::ergodic ? 0 : std::max(0, j - max_jump);
+}
+
+int Topology::end_previous(int j) const {
+  if (kind == Kind::left_right) return j + 1;
+  return kind == Kind::ergodic ? num_states : std::min(num_states, j + max_jump + 1);
+}
+
+bool Topology::allows(int i, int j) const {
+  if (kind == Kind::rank_one_plus_band) return true;
+  return j >= first_next(i) && j < end_next(i);
+}
 
 const char* topology_fault(const Topology& topology) {
   if (topology.num_states < 1 || topology.num_states > 4096)
@@ -68,7 +80,7 @@ Topology read_topology(const ModelFile& file, const std::string& prefix) {
     return static_cast<int>(value);
   };
   Topology topology;
-  topology.kind = static_cast<Topology::Kind>(field("topology", 0, 2));
+  topology.kind = static_cast<Topology::Kind>(field("topology", 0, 3));
   topology.num_states = field("num_states", 1, 4096);
   topology.max_jump = field("max_jump", 1, 4096);
   return topology;

@@ -44,8 +44,7 @@ TEST(DiscreteHmm, SaysMinusInfinityForTheImpossible) {
   MatrixD emission(2, 2);
   emission << 1, 0, 0, 1;
   const Topology topology{Kind::left_right, 2, 1};
-  const DiscreteHmm model(topology, initial_start(topology), initial_transition(topology),
-                          emission);
+  const DiscreteHmm model(MarkovChain::initial(topology), emission);
   EXPECT_EQ(model.log_likelihood(SymbolSequence{1, 0}), -kInfinity);
   std::vector<int> path{7};
   EXPECT_EQ(model.viterbi(SymbolSequence{1, 0}, &path), -kInfinity);
@@ -80,8 +79,10 @@ TEST(DiscreteHmm, RefusesEmissionsThatAreNoDistribution) {
   const Topology topology{Kind::left_right, 2, 1};
   const VectorD start = initial_start(topology);
   const MatrixD transition = initial_transition(topology);
-  EXPECT_THROW(DiscreteHmm(topology, start, transition, MatrixD::Ones(2, 3)), InvalidArgument);
-  EXPECT_THROW(DiscreteHmm(topology, start, transition, MatrixD::Ones(3, 1)), InvalidArgument);
+  EXPECT_THROW(DiscreteHmm(MarkovChain(topology, start, transition), MatrixD::Ones(2, 3)),
+               InvalidArgument);
+  EXPECT_THROW(DiscreteHmm(MarkovChain(topology, start, transition), MatrixD::Ones(3, 1)),
+               InvalidArgument);
 }
 
 }  // namespace

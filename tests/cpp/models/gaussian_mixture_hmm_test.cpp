@@ -79,8 +79,9 @@ TEST(GaussianMixtureHmm, ReachesStatesThatLookImpossibleAtFirst) {
   means << 100, 0;
   MatrixD transition(2, 2);
   transition << 0.5, 0.5, 0, 1;
-  const GaussianMixtureHmm model({Kind::left_right, 2, 1}, VectorD::Unit(2, 0), transition,
-                                 MixtureBank(MatrixD::Ones(2, 1), means, MatrixD::Ones(2, 1)));
+  const GaussianMixtureHmm model(
+      MarkovChain({Kind::left_right, 2, 1}, VectorD::Unit(2, 0), transition),
+      MixtureBank(MatrixD::Ones(2, 1), means, MatrixD::Ones(2, 1)));
   const double log_2pi = std::log(2 * 3.14159265358979323846);
   // Two frames at 0: leaving at once dominates by exp(5000), log(0.5) - 0.5 100^2 - log(2 pi).
   EXPECT_NEAR(model.log_likelihood_exact(MatrixF::Zero(2, 1)), std::log(0.5) - 5000.0 - log_2pi,
@@ -147,14 +148,15 @@ TEST(GaussianMixtureHmm, RefusesParametersThatAreNoModel) {
   const Topology topology{Kind::left_right, 2, 1};
   const MixtureBank bank(MatrixD::Ones(2, 1), MatrixD::Zero(2, 1), MatrixD::Ones(2, 1));
   const MatrixD good = initial_transition(topology);
-  EXPECT_NO_THROW(GaussianMixtureHmm(topology, initial_start(topology), good, bank));
-  EXPECT_THROW(GaussianMixtureHmm(topology, VectorD::Ones(2), good, bank), InvalidArgument);
-  EXPECT_THROW(GaussianMixtureHmm(topology, initial_start(topology), MatrixD::Ones(2, 2), bank),
+  EXPECT_NO_THROW(GaussianMixtureHmm(MarkovChain(topology, initial_start(topology), good), bank));
+  EXPECT_THROW(MarkovChain(topology, VectorD::Ones(2), good), InvalidArgument);
+  EXPECT_THROW(MarkovChain(topology, initial_start(topology), MatrixD::Ones(2, 2)),
                InvalidArgument);
-  EXPECT_THROW(GaussianMixtureHmm(topology, initial_start(topology), MatrixD::Ones(3, 3), bank),
+  EXPECT_THROW(MarkovChain(topology, initial_start(topology), MatrixD::Ones(3, 3)),
                InvalidArgument);
   const MixtureBank three(MatrixD::Ones(3, 1), MatrixD::Zero(3, 1), MatrixD::Ones(3, 1));
-  EXPECT_THROW(GaussianMixtureHmm(topology, initial_start(topology), good, three), InvalidArgument);
+  EXPECT_THROW(GaussianMixtureHmm(MarkovChain(topology, initial_start(topology), good), three),
+               InvalidArgument);
 }
 
 }  // namespace

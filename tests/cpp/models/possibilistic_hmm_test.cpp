@@ -172,7 +172,7 @@ TEST(PossibilisticHmmSet, ConvertsTrainedHmms) {
   }
   EXPECT_GT(accuracy(PossibilisticHmmSet::from_hmms(models, Conjunction::product), 5000), 0.95);
   const Topology other{Kind::left_right, 2, 1};
-  models.emplace_back(other, initial_start(other), initial_transition(other),
+  models.emplace_back(MarkovChain::initial(other),
                       MatrixD::Constant(2, kNumSymbols, 1.0 / kNumSymbols));
   EXPECT_THROW(PossibilisticHmmSet::from_hmms(models, Conjunction::product), InvalidArgument);
   EXPECT_THROW(PossibilisticHmmSet::from_hmms({}, Conjunction::product), InvalidArgument);

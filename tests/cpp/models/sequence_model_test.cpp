@@ -47,14 +47,12 @@ AllPaths all_paths(const VectorD& start, const MatrixD& transition, const Matrix
   return result;
 }
 
-const std::vector<Topology> kTopologies{{Kind::left_right, 3, 1},
-                                        {Kind::left_right, 3, 2},
-                                        {Kind::banded, 3, 1},
-                                        {Kind::ergodic, 3, 1},
-                                        {Kind::ergodic, 1, 1}};
+const std::vector<Topology> kTopologies{{Kind::left_right, 3, 1}, {Kind::left_right, 3, 2},
+                                        {Kind::banded, 3, 1},     {Kind::ergodic, 3, 1},
+                                        {Kind::ergodic, 1, 1},    {Kind::rank_one_plus_band, 4, 1}};
 
-// A random row-stochastic matrix with the topology's zeros.
-MatrixD random_transition(const Topology& topology, Random* random) {
+// Random rows that sum to 1, with the topology's zeros, and jumps where it has them.
+MatrixD random_band(const Topology& topology, Random* random) {
   MatrixD a = MatrixD::Zero(topology.num_states, topology.num_states);
   for (int i = 0; i < topology.num_states; ++i) {
     for (int j = topology.first_next(i); j < topology.end_next(i); ++j)
@@ -62,6 +60,19 @@ MatrixD random_transition(const Topology& topology, Random* random) {
     a.row(i) /= a.row(i).sum();
   }
   return a;
+}
+
+MarkovChain random_chain(const Topology& topology, Random* random) {
+  MatrixD band = random_band(topology, random);
+  if (topology.kind != Kind::rank_one_plus_band) return {topology, initial_start(topology), band};
+  VectorD leave(topology.num_states);
+  VectorD land(topology.num_states);
+  for (int i = 0; i < topology.num_states; ++i) {
+    leave[i] = 0.1 + 0.5 * random->uniform();
+    land[i] = 0.1 + random->uniform();
+    band.row(i) *= 1 - leave[i];
+  }
+  return {topology, initial_start(topology), band, leave, land / land.sum()};
 }
 
 struct DiscreteCase {
@@ -73,7 +84,7 @@ struct DiscreteCase {
     MatrixD emission(topology.num_states, 4);
     for (Eigen::Index i = 0; i < emission.size(); ++i) emission.data()[i] = 0.1 + random.uniform();
     for (Eigen::Index j = 0; j < emission.rows(); ++j) emission.row(j) /= emission.row(j).sum();
-    return {topology, initial_start(topology), random_transition(topology, &random), emission};
+    return {random_chain(topology, &random), emission};
   }
   static Sequence sequence(int num_frames, std::uint64_t seed) {
     Random random(seed);
@@ -113,8 +124,7 @@ struct GaussianCase {
     MatrixD variances(2 * n, 2);
     for (Eigen::Index i = 0; i < variances.size(); ++i)
       variances.data()[i] = 0.5 + random.uniform();
-    return {topology, initial_start(topology), random_transition(topology, &random),
-            MixtureBank(weights, means, variances)};
+    return {random_chain(topology, &random), MixtureBank(weights, means, variances)};
   }
   static Sequence sequence(int num_frames, std::uint64_t seed) {
     return noise(num_frames, 2, seed);
@@ -162,8 +172,8 @@ TYPED_TEST(SequenceModel, SumsAndMaximisesOverAllPaths) {
     const auto model = TypeParam::make(topology, 1);
     for (const int num_frames : {1, 2, 6}) {
       const auto s = TypeParam::sequence(num_frames, 2);
-      const AllPaths expected =
-          all_paths(model.start(), model.transition(), TypeParam::densities(model, s));
+      const AllPaths expected = all_paths(model.chain().start(), model.chain().transition(),
+                                          TypeParam::densities(model, s));
       EXPECT_NEAR(TypeParam::exact(model, s), std::log(expected.sum),
                   1e-12 * std::abs(std::log(expected.sum)) + 1e-13);
       EXPECT_NEAR(model.log_likelihood(s), std::log(expected.sum),
@@ -195,10 +205,10 @@ TYPED_TEST(SequenceModel, KeepsStructuralZerosInTraining) {
     const auto model = TypeParam::train({TypeParam::sequence(30, 1), TypeParam::sequence(40, 2)},
                                         topology, nullptr, {});
     for (int i = 0; i < topology.num_states; ++i) {
-      EXPECT_NEAR(model.transition().row(i).sum(), 1.0, 1e-9);
+      EXPECT_NEAR(model.chain().transition().row(i).sum(), 1.0, 1e-9);
       for (int j = 0; j < topology.num_states; ++j) {
         if (!topology.allows(i, j)) {
-          EXPECT_EQ(model.transition()(i, j), 0.0);
+          EXPECT_EQ(model.chain().transition()(i, j), 0.0);
         }
       }
     }
@@ -212,7 +222,7 @@ TYPED_TEST(SequenceModel, LivesOnSequencesShorterThanItsStates) {
     const auto model = TypeParam::train({s}, topology, nullptr, {});
     EXPECT_TRUE(std::isfinite(model.log_likelihood(s)));
     EXPECT_TRUE(std::isfinite(model.log_likelihood(TypeParam::sequence(1, 3))));
-    EXPECT_TRUE(model.transition().allFinite());
+    EXPECT_TRUE(model.chain().transition().allFinite());
   }
 }
 

@@ -11,8 +11,8 @@
 
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/markov_chain.hpp"
 #include "hri/models/stop_check.hpp"
-#include "hri/models/topology.hpp"
 #include "hri/models/training_report.hpp"
 
 namespace hri {
@@ -29,13 +29,12 @@ struct DiscreteHmmOptions {
   StopCheck should_stop;
 };
 
-/// Immutable; const calls are safe from several threads. Invariant: start, rows of transition and
-/// emission sum to 1.
+/// Immutable; const calls are safe from several threads. Invariant: the rows of emission sum to 1.
 class DiscreteHmm {
  public:
   /// `emission` has shape (num_states, num_symbols). Throws InvalidArgument for what is no
   /// distribution.
-  DiscreteHmm(Topology topology, VectorD start, MatrixD transition, MatrixD emission);
+  DiscreteHmm(MarkovChain chain, MatrixD emission);
 
   /// Throws InvalidArgument for no sequence, an empty one, or a symbol outside 0..num_symbols - 1
   /// (names it).
@@ -49,11 +48,9 @@ class DiscreteHmm {
   /// impossible).
   double viterbi(Span<const std::int32_t> symbols, std::vector<int>* path = nullptr) const;
 
-  [[nodiscard]] int num_states() const { return topology_.num_states; }
+  [[nodiscard]] const MarkovChain& chain() const { return chain_; }
+  [[nodiscard]] int num_states() const { return chain_.num_states(); }
   [[nodiscard]] int num_symbols() const { return static_cast<int>(emission_.cols()); }
-  [[nodiscard]] const Topology& topology() const { return topology_; }
-  [[nodiscard]] const VectorD& start() const { return start_; }
-  [[nodiscard]] const MatrixD& transition() const { return transition_; }
   [[nodiscard]] const MatrixD& emission() const { return emission_; }
 
   void write(ModelFile& file, const std::string& prefix) const;
@@ -62,12 +59,8 @@ class DiscreteHmm {
  private:
   [[nodiscard]] MatrixD log_densities(Span<const std::int32_t> symbols) const;
 
-  Topology topology_;
-  VectorD start_;
-  MatrixD transition_;
+  MarkovChain chain_;
   MatrixD emission_;
-  VectorD log_start_;
-  MatrixD log_transition_;
   MatrixD log_emission_;
 };
 

@@ -11,9 +11,9 @@
 
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/markov_chain.hpp"
 #include "hri/models/mixture_bank.hpp"
 #include "hri/models/stop_check.hpp"
-#include "hri/models/topology.hpp"
 #include "hri/models/training_report.hpp"
 
 namespace hri {
@@ -29,12 +29,12 @@ struct GaussianMixtureHmmOptions {
   StopCheck should_stop;
 };
 
-/// Immutable; const calls are safe from several threads. Invariant: start and the rows of
-/// transition sum to 1.
+/// Immutable; const calls are safe from several threads. Invariant: the bank has one mixture a
+/// state.
 class GaussianMixtureHmm {
  public:
-  /// Throws InvalidArgument for parameters that do not fit each other or are no distributions.
-  GaussianMixtureHmm(Topology topology, VectorD start, MatrixD transition, MixtureBank bank);
+  /// Throws InvalidArgument for a bank that does not fit the chain.
+  GaussianMixtureHmm(MarkovChain chain, MixtureBank bank);
 
   /// Trains on sequences of frames (rows), each with at least one frame. Starts from uniform
   /// segmentation for left_right (sequences shorter than the number of states skip some), seeded
@@ -53,21 +53,15 @@ class GaussianMixtureHmm {
 
   [[nodiscard]] int num_states() const { return bank_.num_states(); }
   [[nodiscard]] int dim() const { return bank_.dim(); }
-  [[nodiscard]] const Topology& topology() const { return topology_; }
-  [[nodiscard]] const VectorD& start() const { return start_; }
-  [[nodiscard]] const MatrixD& transition() const { return transition_; }
+  [[nodiscard]] const MarkovChain& chain() const { return chain_; }
   [[nodiscard]] const MixtureBank& bank() const { return bank_; }
 
   void write(ModelFile& file, const std::string& prefix) const;
   static GaussianMixtureHmm read(const ModelFile& file, const std::string& prefix);
 
  private:
-  Topology topology_;
-  VectorD start_;
-  MatrixD transition_;
+  MarkovChain chain_;
   MixtureBank bank_;
-  VectorD log_start_;
-  MatrixD log_transition_;
 };
 
 }  // namespace hri

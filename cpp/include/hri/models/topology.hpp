@@ -14,9 +14,11 @@ namespace hri {
 
 struct Topology {
   enum class Kind : std::uint8_t {
-    left_right,  ///< from i to i .. i + max_jump; starts in state 0
-    banded,      ///< from i to i - max_jump .. i + max_jump; starts anywhere
-    ergodic,     ///< from anywhere to anywhere; starts anywhere
+    left_right,          ///< from i to i .. i + max_jump; starts in state 0
+    banded,              ///< from i to i - max_jump .. i + max_jump; starts anywhere
+    ergodic,             ///< from anywhere to anywhere, each pair its own value; starts anywhere
+    rank_one_plus_band,  ///< banded, and jumps from anywhere to anywhere whose value is a product
+                         ///< of one factor of i and one of j; starts anywhere
   };
   Kind kind = Kind::left_right;
   int num_states = 5;  ///< 1..4096
@@ -24,9 +26,12 @@ struct Topology {
 
   /// Whether the transition from i to j exists.
   [[nodiscard]] bool allows(int i, int j) const;
-  /// The first and one past the last state that can be reached from i.
+  /// The first and one past the last state that can be reached from i without a jump.
   [[nodiscard]] int first_next(int i) const;
   [[nodiscard]] int end_next(int i) const;
+  /// The first and one past the last state from which j can be reached without a jump.
+  [[nodiscard]] int first_previous(int j) const;
+  [[nodiscard]] int end_previous(int j) const;
 };
 
 /// nullptr, or what is wrong with the fields.
@@ -37,8 +42,8 @@ void validate(const Topology& topology);
 /// Start probabilities: all on state 0 for left_right, uniform otherwise, shape (num_states,).
 VectorD initial_start(const Topology& topology);
 
-/// Row-stochastic start values: `stay` on the diagonal, the rest shared by the other allowed
-/// states.
+/// Row-stochastic start values without jumps: `stay` on the diagonal, the rest shared by the other
+/// states in reach.
 MatrixD initial_transition(const Topology& topology, double stay = 0.6);
 
 void write_topology(const Topology& topology, ModelFile& file, const std::string& prefix);

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The hidden part of every sequence model: start and transition probabilities in the structure of
+// their topology. The recursions of forward, backward and Viterbi are built from the three steps
+// below, whose cost is that of the structure: N^2 for ergodic, N for all others.
+#pragma once
+
+#include <string>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/topology.hpp"
+
+namespace hri {
+
+/// Immutable; const calls are safe from several threads. Invariant: start and every row of
+/// transition() sum to 1, and transitions outside the topology are 0.
+class MarkovChain {
+ public:
+  /// left_right, banded or ergodic: `transition` has shape (num_states, num_states). Throws
+  /// InvalidArgument for what is no distribution or does not fit the topology.
+  MarkovChain(const Topology& topology, VectorD start, MatrixD transition);
+
+  /// rank_one_plus_band: a_ij = band(i, j) + leave[i] land[j], so that band row i and leave[i] sum
+  /// to 1, and so does land. From i the chain either takes a step of the band, or leaves, and lands
+  /// in j whatever i was.
+  MarkovChain(const Topology& topology, VectorD start, MatrixD band, VectorD leave, VectorD land);
+
+  /// The values that training starts from.
+  static MarkovChain initial(const Topology& topology);
+
+  [[nodiscard]] const Topology& topology() const { return topology_; }
+  [[nodiscard]] int num_states() const { return topology_.num_states; }
+  [[nodiscard]] const VectorD& start() const { return start_; }
+  /// All of a_ij, shape (num_states, num_states).
+  [[nodiscard]] const MatrixD& transition() const { return transition_; }
+  /// The band alone; equal to transition() but for rank_one_plus_band.
+  [[nodiscard]] const MatrixD& band() const { return jumps() ? band_ : transition_; }
+  /// Empty but for rank_one_plus_band.
+  [[nodiscard]] const VectorD& leave() const { return leave_; }
+  [[nodiscard]] const VectorD& land() const { return land_; }
+  [[nodiscard]] bool jumps() const { return topology_.kind == Topology::Kind::rank_one_plus_band; }
+
+  [[nodiscard]] const VectorD& log_start() const { return log_start_; }
+  [[nodiscard]] const MatrixD& log_transition() const { return log_transition_; }
+
+  /// y[j] = sum over i of x[i] a_ij. x and y hold num_states values and do not overlap.
+  void propagate(const double* x, double* y) const;
+  /// y[i] = sum over j of a_ij x[j].
+  void propagate_back(const double* x, double* y) const;
+  /// y[j] = max over i of x[i] + log a_ij.
+  void propagate_max(const double* x, double* y) const;
+  /// The lowest i for which x[i] + log a_ij is largest.
+  [[nodiscard]] int best_previous(const double* x, int j) const;
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  /// Throws FormatError naming the field.
+  static MarkovChain read(const ModelFile& file, const std::string& prefix);
+
+ private:
+  void tabulate();
+
+  Topology topology_;
+  VectorD start_;
+  MatrixD transition_;
+  MatrixD band_;  // empty unless jumps()
+  VectorD leave_;
+  VectorD land_;
+  VectorD log_start_;
+  MatrixD log_transition_;
+  VectorD log_leave_;
+  VectorD log_land_;
+};
+
+}  // namespace hri
