@@ -2,18 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nearest_codeword.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "hri/core/simd.hpp"
 
+// A fused multiply-add rounds once where others round twice, and compilers fuse unless told.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC optimize("fp-contract=off")
+#endif
+
 namespace hri::detail {
 namespace {
 
-constexpr int kLanes = 16;
-constexpr int kBlock = 2 * kLanes;  // codewords at a time
-constexpr int kRows = 4;            // rows at a time: they share every load of a codeword
+constexpr int kPadding = 32;  // codewords at a time against one row; whole registers everywhere
+constexpr int kGroup = 8;     // codewords at a time against a block of rows
+constexpr int kWidest = 128;  // columns of rows searched by blocks; wider ones go one by one
 
 namespace baseline {
+constexpr int kLanes = 4;
 #include "nearest_codeword_kernel.inc"
 }  // namespace baseline
 
@@ -21,54 +30,94 @@ namespace baseline {
 #pragma GCC push_options
 #pragma GCC target("arch=haswell")
 namespace avx2 {
+constexpr int kLanes = 8;
 #include "nearest_codeword_kernel.inc"
 }  // namespace avx2
 #pragma GCC pop_options
 #pragma GCC push_options
 #pragma GCC target("arch=skylake-avx512,prefer-vector-width=512")
 namespace avx512 {
+constexpr int kLanes = 16;
 #include "nearest_codeword_kernel.inc"
 }  // namespace avx512
 #pragma GCC pop_options
 #endif
 
-using Search = void (*)(const float*, std::ptrdiff_t, std::ptrdiff_t, int, const float*,
-                        std::ptrdiff_t, Nearest*);
-
-// All give the same bits: no instruction set fuses or reorders the sums.
-Search choose() {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
-    return &avx512::search_rows;
-  }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &avx2::search_rows;
-#endif
-  return &baseline::search_rows;
-}
-
 }  // namespace
 
-MatrixF codeword_columns(const MatrixF& centroids) {
-  const Eigen::Index padded = (centroids.rows() + kBlock - 1) / kBlock * kBlock;
-  MatrixF columns =
-      MatrixF::Constant(centroids.cols(), padded, std::numeric_limits<float>::infinity());
-  columns.leftCols(centroids.rows()) = centroids.transpose();
-  return columns;
+CodewordTable::CodewordTable(const MatrixF& centroids)
+    : dim(static_cast<int>(centroids.cols())),
+      middle(centroids.cast<double>().colwise().mean().transpose().cast<float>()) {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const Eigen::Index size = centroids.rows();
+  columns = MatrixF::Constant(dim, (size + kPadding - 1) / kPadding * kPadding, kFar);
+  columns.leftCols(size) = centroids.transpose();
+
+  const Eigen::Index num_groups = (size + kGroup - 1) / kGroup;
+  halves.assign(static_cast<std::size_t>(num_groups * kGroup), kFar);
+  products.assign(halves.size() * static_cast<std::size_t>(dim), 0.0F);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    float* product = products.data() + k / kGroup * kGroup * dim + k % kGroup;
+    double square = 0;
+    for (int d = 0; d < dim; ++d) {
+      const float away = centroids(k, d) - middle[d];
+      product[d * kGroup] = -away;
+      square += static_cast<double>(away) * away;
+    }
+    halves[static_cast<std::size_t>(k)] = static_cast<float>(square / 2);
+    reach = std::max(reach, static_cast<float>(square));
+  }
 }
 
-void find_nearest(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
-                  const MatrixF& columns, Nearest* out) {
-  static const Search search_rows = choose();
-  search_rows(rows, stride, num_rows, static_cast<int>(columns.rows()), columns.data(),
-              columns.cols(), out);
+std::vector<NamedSearch> searches() {
+  std::vector<NamedSearch> found = {{"baseline", &baseline::search_rows}};
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    found.push_back({"avx2", &avx2::search_rows});
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
+    found.push_back({"avx512", &avx512::search_rows});
+  }
+#endif
+  return found;
+}
+
+Search find_nearest() {
+  static const Search best = searches().back().search;
+  return best;
+}
+
+float squared_distance(const float* a, const float* b, int dim) {
+  float sum = 0;
+  for (int d = 0; d < dim; ++d) {
+    const float step = a[d] - b[d];
+    sum += step * step;
+  }
+  return sum;
 }
 
 HRI_SIMD_CLONES
-void accumulate(const float* row, int dim, double* sums, double* squares) {
-  for (int d = 0; d < dim; ++d) sums[d] += static_cast<double>(row[d]);
-  if (squares == nullptr) return;
-  for (int d = 0; d < dim; ++d) squares[d] += static_cast<double>(row[d]) * row[d];
+void add_to_cells(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
+                  const MatrixF& centroids, const std::int32_t* cells, CellSums* sums) {
+  const auto dim = static_cast<int>(centroids.cols());
+  const float* all_centroids = centroids.data();
+  double* all_sums = sums->sums.data();
+  double* counts = sums->counts.data();
+  double* distortions = sums->distortions.data();
+  for (std::ptrdiff_t r = 0; r < num_rows; ++r) {
+    const float* row = rows + r * stride;
+    const std::ptrdiff_t cell = cells[r];
+    const float* centroid = all_centroids + cell * dim;
+    double* sum = all_sums + cell * dim;
+    float distance = 0;
+    for (int d = 0; d < dim; ++d) {
+      const float step = row[d] - centroid[d];
+      distance += step * step;
+      sum[d] += static_cast<double>(row[d]);
+    }
+    counts[cell] += 1;
+    distortions[cell] += static_cast<double>(distance);
+  }
 }
 
 }  // namespace hri::detail

@@ -1,30 +1,59 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The search behind Codebook: all distances from a few rows to a few codewords at a time.
+// The search behind Codebook. The answer is defined by squared_distance(): float sums in the order
+// of the columns, nothing fused, the lower index where two sums are equal. Blocks of rows are
+// searched by |c|^2/2 - x.c, which takes one multiply-add a value; where its lead is not larger
+// than all rounding could make it, the row is searched again by the definition. So the answer is
+// the same to the bit whatever the instruction set and however many rows come together.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "hri/core/types.hpp"
 
 namespace hri::detail {
 
-struct Nearest {
-  std::int32_t index = 0;
-  float distance = 0;  ///< squared
+/// Codewords laid out for the searches.
+struct CodewordTable {
+  explicit CodewordTable(const MatrixF& centroids);
+
+  int dim = 0;
+  MatrixF columns;  ///< transposed, padded with infinity: for one row against many codewords
+  VectorF middle;   ///< mean of the codewords; distances from it keep products small
+  std::vector<float> products;  ///< middle - c by groups of codewords: groups, columns, codewords
+  std::vector<float> halves;    ///< |c - middle|^2 / 2, padded with infinity to whole groups
+  float reach = 0;              ///< the largest |c - middle|^2
 };
 
-/// Centroids as columns, padded to whole blocks; codewords that only pad lie infinitely far.
-MatrixF codeword_columns(const MatrixF& centroids);
+/// The nearest codeword of every row. Rows are `stride` values apart, places in `out` are
+/// `out_stride` apart. Allocates nothing.
+using Search = void (*)(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
+                        const CodewordTable& table, std::int32_t* out, std::ptrdiff_t out_stride);
 
-/// The nearest codeword of every row, the lower index where two are as near. `columns` is what
-/// codeword_columns() gave; rows are `stride` values apart. Allocates nothing.
-void find_nearest(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
-                  const MatrixF& columns, Nearest* out);
+/// The search for the best instruction set of this machine.
+Search find_nearest();
 
-/// sums += row; and, unless `squares` is null, squares += row^2.
-void accumulate(const float* row, int dim, double* sums, double* squares);
+struct NamedSearch {
+  const char* name;
+  Search search;
+};
+/// The searches that this machine can run, the best one last.
+std::vector<NamedSearch> searches();
+
+float squared_distance(const float* a, const float* b, int dim);
+
+/// The cells that rows fall into, summed: centroids and how far the rows lie from theirs.
+struct CellSums {
+  MatrixD sums;
+  VectorD counts;
+  VectorD distortions;  ///< sums of squared distances
+};
+
+/// Adds rows with their cells to the sums.
+void add_to_cells(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
+                  const MatrixF& centroids, const std::int32_t* cells, CellSums* sums);
 
 }  // namespace hri::detail

@@ -92,6 +92,23 @@ TEST(Codebook, RepairsEmptyCellsOfGivenCentroids) {
   EXPECT_LT(book.distortion(data.rows), 4.0);
 }
 
+TEST(Codebook, RepairsCellsOfDuplicateCentroids) {
+  const LabelledRows data = blobs(4, 50, 30.0, 11);
+  const Codebook book = Codebook::train_kmeans(data.rows, data.rows.row(0).replicate(4, 1), {});
+  EXPECT_EQ(book.size(), 4);
+  EXPECT_LT(book.distortion(data.rows), 4.0);  // three columns of variance 1: one codeword a blob
+}
+
+TEST(Codebook, DropsCentroidsThatFewerDifferentRowsLeaveOver) {
+  MatrixF rows(30, 2);
+  for (Eigen::Index r = 0; r < 30; ++r) rows.row(r).setConstant(static_cast<float>(r % 3));
+  MatrixF centroids = noise(6, 2, 12);
+  centroids.row(5).setConstant(1e30F);  // its squared distance overflows
+  const Codebook book = Codebook::train_kmeans(rows, centroids, {});
+  EXPECT_EQ(book.size(), 3);
+  EXPECT_EQ(book.distortion(rows), 0.0);
+}
+
 TEST(Codebook, KeepsOneCodewordForRowsAllAlike) {
   const Codebook book = Codebook::train_lbg(MatrixF::Constant(5, 2, 3.0F), with_size(8));
   EXPECT_EQ(book.size(), 1);
@@ -124,10 +141,62 @@ TEST(Codebook, QuantisesNoFramesToNoSymbols) {
   EXPECT_TRUE(Codebook(MatrixF::Zero(2, 3)).quantise(MatrixF(0, 3)).empty());
 }
 
-TEST(Codebook, StopsWhenAsked) {
-  CodebookOptions options = with_size(8);
-  options.should_stop = [] { return true; };
-  EXPECT_THROW(Codebook::train_lbg(noise(50, 2, 7), options), Interrupted);
+TEST(Codebook, StopsWhenAskedInAnyIteration) {
+  const MatrixF rows = noise(50, 2, 7);
+  for (const bool lbg : {true, false}) {
+    CodebookOptions options = with_size(8);
+    options.tolerance = 0;
+    int polls = 0;
+    int stop_at = 0;
+    options.should_stop = [&] { return ++polls == stop_at; };
+    const auto train = [&] {
+      polls = 0;
+      return lbg ? Codebook::train_lbg(rows, options)
+                 : Codebook::train_kmeans(rows, rows.topRows(8), options);
+    };
+    train();
+    const int all = polls;
+    ASSERT_GT(all, 3);
+    for (stop_at = 1; stop_at <= all; ++stop_at) {
+      EXPECT_THROW(train(), Interrupted);
+      EXPECT_EQ(polls, stop_at);
+    }
+  }
+}
+
+TEST(Codebook, ReportsADistortionThatNeverRisesWithinOneSize) {
+  for (const double offset : {0.0, 1000.0}) {
+    const MatrixF rows = noise(700, 6, 9, offset);
+    CodebookReport report;
+    report.sizes = {99};  // of an earlier training
+    const Codebook book = Codebook::train_lbg(rows, with_size(24), &report);
+    ASSERT_EQ(report.sizes.size(), report.distortions.size());
+    EXPECT_EQ(std::set<int>(report.sizes.begin(), report.sizes.end()),
+              (std::set<int>{2, 4, 8, 16, 24}));
+    EXPECT_TRUE(report.converged);
+    for (std::size_t i = 1; i < report.sizes.size(); ++i) {
+      ASSERT_GE(report.sizes[i], report.sizes[i - 1]);
+      if (report.sizes[i] == report.sizes[i - 1]) {
+        EXPECT_LE(report.distortions[i], report.distortions[i - 1] * (1 + 1e-6)) << i;
+      }
+    }
+    EXPECT_LE(book.distortion(rows), report.distortions.back() * (1 + 1e-6));
+  }
+}
+
+TEST(Codebook, ReportsTheIterationLimitAsNotConverged) {
+  const MatrixF rows = noise(300, 4, 10);
+  CodebookOptions options;
+  options.max_iterations = 3;
+  options.tolerance = 0;
+  CodebookReport report;
+  Codebook::train_kmeans(rows, rows.topRows(10), options, &report);
+  EXPECT_EQ(report.sizes, std::vector<int>(3, 10));
+  EXPECT_FALSE(report.converged);
+  options.max_iterations = 1000;
+  const Codebook book = Codebook::train_kmeans(rows, rows.topRows(10), options, &report);
+  EXPECT_TRUE(report.converged);
+  EXPECT_NEAR(report.distortions.back(), book.distortion(rows), 1e-9);
 }
 
 TEST(Codebook, QuantisesTheSameAfterLoading) {
