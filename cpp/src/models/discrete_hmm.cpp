@@ -6,7 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "dense_kernels.hpp"
 #include "forward_backward.hpp"
+#include "forward_pass.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 
@@ -60,6 +62,10 @@ MatrixD initial_emission(const std::vector<SymbolSequence>& sequences,
   return floored(counts.array().colwise() / counts.rowwise().sum().array(), options.emission_floor);
 }
 
+detail::Rows<double> rows_by(Span<const std::int32_t> symbols, const MatrixD& table) {
+  return {table.data(), table.cols(), static_cast<std::ptrdiff_t>(symbols.size()), symbols.data()};
+}
+
 }  // namespace
 
 void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols,
@@ -83,21 +89,27 @@ DiscreteHmm::DiscreteHmm(MarkovChain chain, MatrixD emission)
     : chain_(std::move(chain)), emission_(std::move(emission)) {
   const char* fault = emission_fault(num_states(), emission_);
   require(fault == nullptr, fault);
-  log_emission_ = detail::safe_log(emission_);
+  const Eigen::Index stride = detail::padded(num_states());
+  by_symbol_ = MatrixD::Zero(num_symbols(), stride);
+  by_symbol_.leftCols(num_states()) = emission_.transpose();
+  log_by_symbol_ = detail::safe_log(by_symbol_);
+  double smallest = 1;
+  for (Eigen::Index i = 0; i < emission_.size(); ++i) {
+    if (emission_.data()[i] > 0) smallest = std::min(smallest, emission_.data()[i]);
+  }
+  smallest_step_ = smallest * chain_.smallest_probability();
 }
 
-MatrixD DiscreteHmm::log_densities(Span<const std::int32_t> symbols) const {
+void DiscreteHmm::validate_symbol(std::int32_t symbol, std::size_t position) const {
+  if (symbol >= 0 && symbol < num_symbols()) return;
+  fail(ErrorKind::invalid_argument, "symbol " + std::to_string(symbol) + " at position " +
+                                        std::to_string(position) + " lies outside 0.." +
+                                        std::to_string(num_symbols() - 1));
+}
+
+void DiscreteHmm::validate_all(Span<const std::int32_t> symbols) const {
   require(!symbols.empty(), "symbols must not be empty");
-  MatrixD log_b(static_cast<Eigen::Index>(symbols.size()), num_states());
-  for (std::size_t t = 0; t < symbols.size(); ++t) {
-    if (symbols[t] < 0 || symbols[t] >= num_symbols()) {
-      fail(ErrorKind::invalid_argument, "symbol " + std::to_string(symbols[t]) + " at position " +
-                                            std::to_string(t) + " lies outside 0.." +
-                                            std::to_string(num_symbols() - 1));
-    }
-    log_b.row(static_cast<Eigen::Index>(t)) = log_emission_.col(symbols[t]).transpose();
-  }
-  return log_b;
+  for (std::size_t t = 0; t < symbols.size(); ++t) validate_symbol(symbols[t], t);
 }
 
 DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
@@ -111,16 +123,16 @@ DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
   TrainingReport local;
   MatrixD gamma;
   for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
-    poll(options.should_stop);
     detail::ChainCounts counts(n);
-    MatrixD emitted = MatrixD::Zero(n, options.num_symbols);
+    MatrixD by_symbol = MatrixD::Zero(options.num_symbols, model.by_symbol_.cols());
     double total = 0;
     for (const SymbolSequence& s : sequences) {
-      total += detail::forward_backward(model.chain_, model.log_densities(s), &gamma, &counts);
-      for (std::size_t t = 0; t < s.size(); ++t) {
-        emitted.col(s[t]) += gamma.row(static_cast<Eigen::Index>(t)).transpose();
-      }
+      poll(options.should_stop);
+      total += model.forward_backward(s, &gamma, &counts);
+      for (std::size_t t = 0; t < s.size(); ++t)
+        by_symbol.row(s[t]) += gamma.row(static_cast<Eigen::Index>(t));
     }
+    const MatrixD emitted = by_symbol.leftCols(n).transpose();
     if (!local.log_likelihoods.empty()) {
       local.converged = (total - local.log_likelihoods.back()) / num_total < options.tolerance;
     }
@@ -139,11 +151,41 @@ DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
 }
 
 double DiscreteHmm::log_likelihood(Span<const std::int32_t> symbols) const {
-  return detail::forward(chain_, log_densities(symbols));
+  validate_all(symbols);
+  thread_local detail::ForwardPass pass;
+  pass.reset(chain_, detail::first_arithmetic(smallest_step_));
+  const Eigen::Index stride = by_symbol_.cols();
+  for (const std::int32_t symbol : symbols)
+    pass.step(chain_, by_symbol_.data() + symbol * stride, log_by_symbol_.data() + symbol * stride);
+  return pass.log_likelihood();
+}
+
+double DiscreteHmm::log_likelihood_exact(Span<const std::int32_t> symbols) const {
+  validate_all(symbols);
+  thread_local detail::ForwardPass pass;
+  pass.reset(chain_, detail::ForwardPass::Arithmetic::logs);
+  for (const std::int32_t symbol : symbols)
+    pass.step(chain_, nullptr, log_by_symbol_.data() + symbol * log_by_symbol_.cols());
+  return pass.log_likelihood();
 }
 
 double DiscreteHmm::viterbi(Span<const std::int32_t> symbols, std::vector<int>* path) const {
-  return detail::viterbi(chain_, log_densities(symbols), path);
+  validate_all(symbols);
+  return detail::viterbi(chain_, rows_by(symbols, log_by_symbol_), path);
+}
+
+// gamma: (num_frames, padded num_states).
+double DiscreteHmm::forward_backward(Span<const std::int32_t> symbols, MatrixD* gamma,
+                                     detail::ChainCounts* counts) const {
+  gamma->resize(static_cast<Eigen::Index>(symbols.size()), by_symbol_.cols());
+  double score = 0;
+  const bool scaled =
+      detail::first_arithmetic(smallest_step_) == detail::ForwardPass::Arithmetic::scaled;
+  if (scaled && detail::scaled_forward_backward(chain_, rows_by(symbols, by_symbol_), gamma, counts,
+                                                &score)) {
+    return score;
+  }
+  return detail::forward_backward(chain_, rows_by(symbols, log_by_symbol_), gamma, counts);
 }
 
 void DiscreteHmm::write(ModelFile& file, const std::string& prefix) const {

@@ -4,70 +4,122 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "dense_kernels.hpp"
+#include "log_steps.hpp"
 
 namespace hri::detail {
 namespace {
 
-constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
+// Of scaled probabilities: see forward_pass.cpp. What vanishes beside kSafeTotal is 1e-100 of it or
+// less.
+constexpr double kDanger = 1e-260;
+constexpr double kRescale = 1e-50;
+constexpr double kSafeTotal = 1e-200;
+constexpr int kBlock = 64;
 
-// log sum exp of values[i] + terms(i) over i in [begin, end).
-template <class F>
-double log_sum(int begin, int end, const F& term) {
-  double top = kMinusInf;
-  for (int i = begin; i < end; ++i) top = std::max(top, term(i));
-  if (top == kMinusInf) return kMinusInf;
-  double sum = 0;
-  for (int i = begin; i < end; ++i) sum += std::exp(term(i) - top);
-  return top + std::log(sum);
+// The sum over frames of x_t(i) y_t(j), for the pairs i, j that the chain has: times a_ij it is the
+// expected number of transitions.
+class TransitionSums {
+ public:
+  explicit TransitionSums(const MarkovChain& chain)
+      : chain_(chain),
+        dense_(chain.topology().kind == Topology::Kind::ergodic),
+        stride_(padded(chain.num_states())),
+        x_(kBlock, stride_),
+        y_(kBlock, stride_),
+        pairs_(MatrixD::Zero(chain.num_states(), stride_)),
+        leave_(VectorD::Zero(chain.num_states())),
+        land_(VectorD::Zero(chain.num_states())) {}
+
+  /// Where the next frame's rows go, stride() values each; add() then counts them.
+  double* x() { return x_.data() + held_ * stride_; }
+  double* y() { return y_.data() + held_ * stride_; }
+  [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
+
+  void add() {
+    if (++held_ == kBlock) flush();
+  }
+
+  void finish(ChainCounts* counts) {
+    flush();
+    const int n = chain_.num_states();
+    counts->band.array() += chain_.band().array() * pairs_.leftCols(n).array();
+    if (!chain_.jumps()) return;
+    counts->leave += leave_;
+    counts->land += land_;
+  }
+
+ private:
+  void flush() {
+    const int n = chain_.num_states();
+    if (dense_) {
+      dense_kernels().add_products(x_.data(), stride_, y_.data(), stride_, held_, n, stride_,
+                                   pairs_.data());
+    } else {
+      for (int r = 0; r < held_; ++r) add_steps(x_.data() + r * stride_, y_.data() + r * stride_);
+    }
+    held_ = 0;
+  }
+
+  void add_steps(const double* x, const double* y) {
+    const int n = chain_.num_states();
+    double left = 0;
+    double landed = 0;
+    for (int i = 0; i < n; ++i) {
+      const int end = chain_.topology().end_next(i);
+      double* row = pairs_.data() + i * stride_;
+      for (int j = chain_.topology().first_next(i); j < end; ++j) row[j] += x[i] * y[j];
+      if (!chain_.jumps()) continue;
+      left += x[i] * chain_.leave()[i];
+      landed += chain_.land()[i] * y[i];
+    }
+    if (!chain_.jumps()) return;
+    for (int i = 0; i < n; ++i) {
+      leave_[i] += x[i] * chain_.leave()[i] * landed;
+      land_[i] += left * chain_.land()[i] * y[i];
+    }
+  }
+
+  const MarkovChain& chain_;
+  bool dense_;
+  std::ptrdiff_t stride_;
+  int held_ = 0;
+  MatrixD x_;
+  MatrixD y_;
+  MatrixD pairs_;
+  VectorD leave_;
+  VectorD land_;
+};
+
+// Expected transitions of one step in logs, without jumps: alpha(i) a_ij after(j) / total.
+void count_steps_in_logs(const MarkovChain& chain, const double* alpha, const double* after,
+                         double total, ChainCounts* counts) {
+  for (int i = 0; i < chain.num_states(); ++i) {
+    if (alpha[i] == kMinusInf) continue;
+    const int end = chain.topology().end_next(i);
+    for (int j = chain.topology().first_next(i); j < end; ++j) {
+      const double a = chain.band()(i, j);
+      if (a > 0) counts->band(i, j) += a * std::exp(alpha[i] + after[j] - total);
+    }
+  }
 }
 
-// exp(values - their maximum) into `out`; gives the maximum.
-double scaled_exp(const double* values, int count, double* out) {
-  const double top = *std::max_element(values, values + count);
-  if (top == kMinusInf) return top;
-  for (int i = 0; i < count; ++i) out[i] = std::exp(values[i] - top);
-  return top;
-}
-
-// One step of the forward recursion. Sums are taken of probabilities scaled by the largest, with
-// one exp and one log a state; a sum so small that terms may have underflowed is taken again in
-// logs.
-constexpr double kSafeSum = 1e-200;
-
-template <class Scalar>
-void forward_step(const MarkovChain& chain, const Scalar* log_b, const double* before,
-                  double* scratch, double* after) {
+void count_jumps_in_logs(const MarkovChain& chain, const double* alpha, const double* after,
+                         double total, ChainCounts* counts) {
   const int n = chain.num_states();
-  const double top = scaled_exp(before, n, scratch);
-  if (top == kMinusInf) {
-    std::fill(after, after + n, kMinusInf);
-    return;
-  }
-  chain.propagate(scratch, after);
-  for (int j = 0; j < n; ++j) {
-    const double log_sum_j =
-        after[j] > kSafeSum
-            ? top + std::log(after[j])
-            : log_sum(0, n, [&](int i) { return before[i] + chain.log_transition()(i, j); });
-    after[j] = static_cast<double>(log_b[j]) + log_sum_j;
-  }
-}
-
-// The same backward: `after` holds log b(t + 1) + beta(t + 1).
-void backward_step(const MarkovChain& chain, const double* after, double* scratch, double* beta) {
-  const int n = chain.num_states();
-  const double top = scaled_exp(after, n, scratch);
-  if (top == kMinusInf) {
-    std::fill(beta, beta + n, kMinusInf);
-    return;
-  }
-  chain.propagate_back(scratch, beta);
+  const auto log_of = [](double p) { return p > 0 ? std::log(p) : kMinusInf; };
+  const double left = log_sum(0, n, [&](int i) { return alpha[i] + log_of(chain.leave()[i]); });
+  const double landed = log_sum(0, n, [&](int j) { return log_of(chain.land()[j]) + after[j]; });
+  if (left == kMinusInf || landed == kMinusInf) return;
   for (int i = 0; i < n; ++i) {
-    beta[i] = beta[i] > kSafeSum
-                  ? top + std::log(beta[i])
-                  : log_sum(0, n, [&](int j) { return chain.log_transition()(i, j) + after[j]; });
+    counts->leave[i] += chain.leave()[i] * std::exp(alpha[i] + landed - total);
+    counts->land[i] += chain.land()[i] * std::exp(left + after[i] - total);
   }
+}
+
+void exponentials(const double* logs, int count, double offset, double* out) {
+  for (int i = 0; i < count; ++i) out[i] = std::exp(logs[i] - offset);
 }
 
 }  // namespace
@@ -81,97 +133,155 @@ MatrixD safe_log(const MatrixD& values) {
 }
 
 template <class Scalar>
-double forward(const MarkovChain& chain, const Matrix<Scalar>& log_b) {
+double viterbi(const MarkovChain& chain, const Rows<Scalar>& log_b, std::vector<int>* path) {
   const int n = chain.num_states();
-  thread_local std::vector<double> buffers;
-  buffers.resize(3 * static_cast<std::size_t>(n));
-  double* now = buffers.data();
-  double* next = now + n;
-  double* scratch = next + n;
-  for (int j = 0; j < n; ++j) now[j] = chain.log_start()[j] + static_cast<double>(log_b(0, j));
-  for (Eigen::Index t = 1; t < log_b.rows(); ++t) {
-    forward_step(chain, log_b.data() + t * n, now, scratch, next);
-    std::swap(now, next);
+  const std::ptrdiff_t num_frames = log_b.num_frames;
+  thread_local std::vector<double> table;
+  const std::size_t needed = static_cast<std::size_t>(num_frames) * static_cast<std::size_t>(n);
+  if (table.size() < needed) table.resize(needed);
+  double* delta = table.data();
+  for (int j = 0; j < n; ++j) delta[j] = chain.log_start()[j] + static_cast<double>(log_b[0][j]);
+  for (std::ptrdiff_t t = 1; t < num_frames; ++t) {
+    chain.propagate_max(delta, delta + n);
+    delta += n;
+    const Scalar* row = log_b[t];
+    for (int j = 0; j < n; ++j) delta[j] += static_cast<double>(row[j]);
   }
-  return log_sum(0, n, [&](int i) { return now[i]; });
-}
-
-template double forward<float>(const MarkovChain&, const MatrixF&);
-template double forward<double>(const MarkovChain&, const MatrixD&);
-
-template <class Scalar>
-double viterbi(const MarkovChain& chain, const Matrix<Scalar>& log_b, std::vector<int>* path) {
-  const int n = chain.num_states();
-  const Eigen::Index num_frames = log_b.rows();
-  MatrixD delta(num_frames, n);
-  for (int j = 0; j < n; ++j) delta(0, j) = chain.log_start()[j] + static_cast<double>(log_b(0, j));
-  for (Eigen::Index t = 1; t < num_frames; ++t) {
-    chain.propagate_max(delta.data() + (t - 1) * n, delta.data() + t * n);
-    for (int j = 0; j < n; ++j) delta(t, j) += static_cast<double>(log_b(t, j));
+  const auto last = static_cast<int>(std::max_element(delta, delta + n) - delta);
+  const double score = delta[last];
+  if (path == nullptr) return score;
+  path->clear();
+  if (score == kMinusInf) return score;
+  path->resize(static_cast<std::size_t>(num_frames));
+  int state = last;
+  for (std::ptrdiff_t t = num_frames - 1; t > 0; --t) {
+    (*path)[static_cast<std::size_t>(t)] = state;
+    delta -= n;
+    state = chain.best_previous(delta, state);
   }
-  Eigen::Index last = 0;
-  const double score = delta.row(num_frames - 1).maxCoeff(&last);
-  if (path != nullptr) {
-    path->clear();
-    if (score > kMinusInf) {
-      path->resize(static_cast<std::size_t>(num_frames));
-      int state = static_cast<int>(last);
-      for (Eigen::Index t = num_frames - 1; t > 0; --t) {
-        (*path)[static_cast<std::size_t>(t)] = state;
-        state = chain.best_previous(delta.data() + (t - 1) * n, state);
-      }
-      path->front() = state;
-    }
-  }
+  path->front() = state;
   return score;
 }
 
-template double viterbi<float>(const MarkovChain&, const MatrixF&, std::vector<int>*);
-template double viterbi<double>(const MarkovChain&, const MatrixD&, std::vector<int>*);
+template double viterbi<float>(const MarkovChain&, const Rows<float>&, std::vector<int>*);
+template double viterbi<double>(const MarkovChain&, const Rows<double>&, std::vector<int>*);
 
-double forward_backward(const MarkovChain& chain, const MatrixD& log_b, MatrixD* gamma,
+double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, MatrixD* gamma,
                         ChainCounts* counts) {
-  const Topology& topology = chain.topology();
-  const int n = topology.num_states;
-  const Eigen::Index num_frames = log_b.rows();
+  const int n = chain.num_states();
+  const std::ptrdiff_t num_frames = log_b.num_frames;
   MatrixD alpha(num_frames, n);
-  MatrixD beta = MatrixD::Zero(num_frames, n);
   VectorD scratch(n);
-  VectorD after(n);
-  alpha.row(0) = chain.log_start().transpose() + log_b.row(0);
-  for (Eigen::Index t = 1; t < num_frames; ++t) {
-    forward_step(chain, log_b.data() + t * n, alpha.data() + (t - 1) * n, scratch.data(),
-                 alpha.data() + t * n);
+  for (int j = 0; j < n; ++j) alpha(0, j) = chain.log_start()[j] + log_b[0][j];
+  for (std::ptrdiff_t t = 1; t < num_frames; ++t) {
+    double* now = alpha.data() + t * n;
+    log_forward_step(chain, now - n, scratch.data(), now);
+    const double* row = log_b[t];
+    for (int j = 0; j < n; ++j) now[j] += row[j];
   }
   const double total = log_sum(0, n, [&](int i) { return alpha(num_frames - 1, i); });
-  gamma->setZero(num_frames, n);
+  gamma->setZero(num_frames, gamma->cols());
   if (total == kMinusInf) return total;
-  for (Eigen::Index t = num_frames - 2; t >= 0; --t) {
-    after = (log_b.row(t + 1) + beta.row(t + 1)).transpose();
-    backward_step(chain, after.data(), scratch.data(), beta.data() + t * n);
-    for (int i = 0; i < n; ++i) {
-      if (alpha(t, i) == kMinusInf) continue;
-      for (int j = topology.first_next(i); j < topology.end_next(i); ++j) {
-        if (chain.band()(i, j) > 0) {
-          counts->band(i, j) += chain.band()(i, j) * std::exp(alpha(t, i) + after[j] - total);
+
+  const bool dense = chain.topology().kind == Topology::Kind::ergodic && counts != nullptr;
+  TransitionSums sums(chain);
+  VectorD beta = VectorD::Zero(n);
+  VectorD after(n);
+  for (std::ptrdiff_t t = num_frames - 1; t >= 0; --t) {
+    const double* now = alpha.data() + t * n;
+    if (t + 1 < num_frames) {
+      const double* row = log_b[t + 1];
+      for (int j = 0; j < n; ++j) after[j] = row[j] + beta[j];
+      log_backward_step(chain, after.data(), scratch.data(), beta.data());
+      if (counts != nullptr) {
+        const double alpha_top = *std::max_element(now, now + n);
+        const double after_top = after.maxCoeff();
+        // As long as no pair is too far above the total, terms that underflow are none that count.
+        if (dense && alpha_top + after_top - total < 460) {
+          exponentials(now, n, alpha_top, sums.x());
+          exponentials(after.data(), n, total - alpha_top, sums.y());
+          std::fill(sums.y() + n, sums.y() + sums.stride(), 0.0);
+          sums.add();
+        } else {
+          count_steps_in_logs(chain, now, after.data(), total, counts);
         }
+        if (chain.jumps()) count_jumps_in_logs(chain, now, after.data(), total, counts);
       }
     }
-    if (!chain.jumps()) continue;
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) {
-        const double jumped =
-            chain.leave()[i] * chain.land()[j] * std::exp(alpha(t, i) + after[j] - total);
-        counts->leave[i] += jumped;
-        counts->land[j] += jumped;
-      }
-    }
+    double* posterior = gamma->data() + t * gamma->cols();
+    for (int i = 0; i < n; ++i) posterior[i] = std::exp(now[i] + beta[i] - total);
   }
-  for (Eigen::Index t = 0; t < num_frames; ++t) {
-    for (int i = 0; i < n; ++i) (*gamma)(t, i) = std::exp(alpha(t, i) + beta(t, i) - total);
+  if (counts != nullptr) {
+    sums.finish(counts);
+    for (int i = 0; i < n; ++i) counts->start[i] += (*gamma)(0, i);
   }
-  counts->start += gamma->row(0).transpose();
   return total;
+}
+
+bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, MatrixD* gamma,
+                             ChainCounts* counts, double* log_likelihood) {
+  const int n = chain.num_states();
+  const std::ptrdiff_t stride = padded(n);
+  const std::ptrdiff_t num_frames = b.num_frames;
+  const DenseKernels& kernels = dense_kernels();
+  double exponent = 0;
+  double sum = 0;
+  // gamma holds alpha until the way back.
+  for (std::ptrdiff_t t = 0; t < num_frames; ++t) {
+    double* now = gamma->data() + t * stride;
+    if (t == 0) {
+      std::copy_n(chain.start().data(), n, now);
+    } else {
+      chain.propagate(now - stride, now);
+    }
+    std::fill(now + n, now + stride, 0.0);
+    const Spread spread = kernels.emit(b[t], stride, now);
+    if (spread.smallest < kDanger) return false;
+    sum = spread.sum;
+    if (!(sum > 0)) {
+      gamma->setZero();
+      *log_likelihood = kMinusInf;
+      return true;
+    }
+    if (sum < kRescale) {
+      const int power = -std::ilogb(sum);
+      const double scale = std::ldexp(1.0, power);
+      for (int j = 0; j < n; ++j) now[j] *= scale;
+      sum *= scale;
+      exponent -= power;
+    }
+  }
+  *log_likelihood = std::log(sum) + exponent * kLog2;
+
+  TransitionSums sums(chain);
+  VectorD after = VectorD::Zero(stride);
+  VectorD beta = VectorD::Zero(stride);
+  double* last = gamma->data() + (num_frames - 1) * stride;
+  for (int j = 0; j < n; ++j) last[j] /= sum;
+  beta.head(n).setOnes();
+  for (std::ptrdiff_t t = num_frames - 2; t >= 0; --t) {
+    after = beta;
+    const Spread spread = kernels.emit(b[t + 1], stride, after.data());
+    if (spread.smallest < kDanger || !(spread.sum > 0)) return false;
+    if (spread.sum < kRescale) after *= std::ldexp(1.0, -std::ilogb(spread.sum));
+    chain.propagate_back(after.data(), beta.data());
+    double* now = gamma->data() + t * stride;
+    std::copy_n(now, stride, sums.x());
+    std::copy_n(beta.data(), stride, now);
+    const double total = kernels.emit(sums.x(), stride, now).sum;
+    if (!(total > kSafeTotal)) return false;
+    const double scale = 1 / total;
+    for (int j = 0; j < n; ++j) now[j] *= scale;
+    if (counts == nullptr) continue;
+    double* y = sums.y();
+    for (std::ptrdiff_t j = 0; j < stride; ++j) y[j] = after[j] * scale;
+    sums.add();
+  }
+  if (counts != nullptr) {
+    sums.finish(counts);
+    for (int i = 0; i < n; ++i) counts->start[i] += (*gamma)(0, i);
+  }
+  return true;
 }
 
 MarkovChain estimate_chain(const ChainCounts& counts, const MarkovChain& previous) {

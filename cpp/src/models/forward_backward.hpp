@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The recursions every HMM shares, in logs: rows of `log_b` are frames, columns states (Rabiner eq.
-// 19-37).
+// The recursions every HMM shares (Rabiner eq. 19-37): Viterbi and Baum-Welch. The forward
+// recursion that scores is in forward_pass.hpp.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "hri/core/types.hpp"
@@ -16,14 +17,29 @@ namespace hri::detail {
 VectorD safe_log(const VectorD& values);
 MatrixD safe_log(const MatrixD& values);
 
-/// log P(frames); Scalar of log_b is float (scoring) or double (training).
+/// Emissions frame by frame, a value a state: rows of a matrix, or the rows of a table that symbols
+/// choose.
 template <class Scalar>
-double forward(const MarkovChain& chain, const Matrix<Scalar>& log_b);
+struct Rows {
+  const Scalar* data = nullptr;
+  std::ptrdiff_t stride = 0;
+  std::ptrdiff_t num_frames = 0;
+  const std::int32_t* symbols = nullptr;
+
+  const Scalar* operator[](std::ptrdiff_t t) const {
+    return data + (symbols == nullptr ? t : symbols[t]) * stride;
+  }
+};
+
+template <class Scalar>
+Rows<Scalar> rows_of(const Matrix<Scalar>& matrix) {
+  return {matrix.data(), matrix.cols(), matrix.rows(), nullptr};
+}
 
 /// log P(frames, best path), and the path if wanted. An impossible sequence gives -inf and an empty
-/// path.
+/// path. Allocates nothing once the thread has seen a sequence as long, and the path is reserved.
 template <class Scalar>
-double viterbi(const MarkovChain& chain, const Matrix<Scalar>& log_b, std::vector<int>* path);
+double viterbi(const MarkovChain& chain, const Rows<Scalar>& log_b, std::vector<int>* path);
 
 /// Expected counts of one pass over the training data.
 struct ChainCounts {
@@ -38,11 +54,17 @@ struct ChainCounts {
         land(VectorD::Zero(num_states)) {}
 };
 
-/// Forward and backward: log P(frames), state posteriors `gamma` (num_frames, num_states), and the
-/// expected counts are added to `counts`. An impossible sequence gives -inf, gamma zero, and adds
-/// nothing.
-double forward_backward(const MarkovChain& chain, const MatrixD& log_b, MatrixD* gamma,
+/// Forward and backward in logs: log P(frames), state posteriors in the first num_states columns of
+/// `gamma` (num_frames rows, other columns 0), and the expected counts are added to `counts`,
+/// unless it is null. An impossible sequence gives -inf, gamma zero, and adds nothing.
+double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, MatrixD* gamma,
                         ChainCounts* counts);
+
+/// The same with scaled probabilities, several times as fast: `b` has rows of padded() length, and
+/// so has `gamma`. False, with `counts` untouched, where a probability comes so close to 0 that
+/// accuracy would suffer; forward_backward() has to do it then.
+bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, MatrixD* gamma,
+                             ChainCounts* counts, double* log_likelihood);
 
 /// The chain re-estimated from counts; states never visited keep the values of `previous`.
 /// Structural zeros stay zero.

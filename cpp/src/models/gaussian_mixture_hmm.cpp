@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "forward_backward.hpp"
+#include "forward_pass.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 
@@ -43,6 +44,15 @@ VectorD floor_of(const VectorD& global_variance, double share) {
   return (global_variance * share).cwiseMax(1e-10);
 }
 
+// Gaussians differ by more than probabilities can, so that the pass is in logs.
+template <class Scalar>
+double forward(const MarkovChain& chain, const detail::Rows<Scalar>& log_b) {
+  thread_local detail::ForwardPass pass;
+  pass.reset(chain, detail::ForwardPass::Arithmetic::logs);
+  for (std::ptrdiff_t t = 0; t < log_b.num_frames; ++t) pass.step(chain, nullptr, log_b[t]);
+  return pass.log_likelihood();
+}
+
 }  // namespace
 
 GaussianMixtureHmm::GaussianMixtureHmm(MarkovChain chain, MixtureBank bank)
@@ -70,13 +80,14 @@ GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequenc
   MatrixD components;
   MatrixD gamma;
   for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
-    poll(options.should_stop);
     detail::ChainCounts counts(n);
     MixtureAccumulator accumulator(n, options.num_mixtures, model.dim());
     double total = 0;
     for (const MatrixF& s : sequences) {
+      poll(options.should_stop);
       model.bank_.log_densities(s, &densities, &components);
-      total += detail::forward_backward(model.chain_, densities, &gamma, &counts);
+      gamma.resize(s.rows(), n);
+      total += detail::forward_backward(model.chain_, detail::rows_of(densities), &gamma, &counts);
       accumulator.add(s, gamma, components, densities);
     }
     if (!local.log_likelihoods.empty()) {
@@ -92,9 +103,12 @@ GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequenc
 
 double GaussianMixtureHmm::log_likelihood(ConstMatrixRefF frames) const {
   require(frames.rows() > 0, "frames must have at least one row");
-  MatrixF log_b(frames.rows(), num_states());
+  thread_local std::vector<float> buffer;
+  const auto needed = static_cast<std::size_t>(frames.rows() * num_states());
+  if (buffer.size() < needed) buffer.resize(needed);
+  const Eigen::Map<MatrixF> log_b(buffer.data(), frames.rows(), num_states());
   bank_.log_densities(frames, log_b);
-  return detail::forward(chain_, log_b);
+  return forward(chain_, detail::Rows<float>{log_b.data(), num_states(), frames.rows(), nullptr});
 }
 
 double GaussianMixtureHmm::log_likelihood_exact(ConstMatrixRefF frames) const {
@@ -102,7 +116,7 @@ double GaussianMixtureHmm::log_likelihood_exact(ConstMatrixRefF frames) const {
           "frames must have at least one row and dim() columns");
   MatrixD log_b;
   bank_.log_densities(frames, &log_b, nullptr);
-  return detail::forward(chain_, log_b);
+  return forward(chain_, detail::rows_of(log_b));
 }
 
 double GaussianMixtureHmm::viterbi(ConstMatrixRefF frames, std::vector<int>* path) const {
@@ -110,7 +124,7 @@ double GaussianMixtureHmm::viterbi(ConstMatrixRefF frames, std::vector<int>* pat
           "frames must have at least one row and dim() columns");
   MatrixD log_b;
   bank_.log_densities(frames, &log_b, nullptr);
-  return detail::viterbi(chain_, log_b, path);
+  return detail::viterbi(chain_, detail::rows_of(log_b), path);
 }
 
 void GaussianMixtureHmm::write(ModelFile& file, const std::string& prefix) const {

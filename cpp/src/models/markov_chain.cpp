@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "dense_kernels.hpp"
 #include "forward_backward.hpp"
 #include "hri/core/error.hpp"
 
@@ -84,9 +85,29 @@ MarkovChain::MarkovChain(const Topology& topology, VectorD start, MatrixD band, 
 void MarkovChain::tabulate() {
   log_start_ = detail::safe_log(start_);
   log_transition_ = detail::safe_log(transition_);
-  if (!jumps()) return;
-  log_leave_ = detail::safe_log(leave_);
-  log_land_ = detail::safe_log(land_);
+  if (jumps()) {
+    log_leave_ = detail::safe_log(leave_);
+    log_land_ = detail::safe_log(land_);
+  }
+  const int n = num_states();
+  if (dense()) {
+    padded_ = detail::padded_rows(transition_, 0);
+    padded_log_ = detail::padded_rows(log_transition_, kMinusInf);
+    const MatrixD back = transition_.transpose();
+    padded_back_ = detail::padded_rows(back, 0);
+    if (padded_back_.size() == 0) padded_back_ = back;
+    return;
+  }
+  const int longest = std::min(topology_.max_jump, n - 1);
+  lowest_step_ = topology_.kind == Topology::Kind::left_right ? 0 : longest;
+  steps_ = MatrixD::Zero(lowest_step_ + longest + 1, n);
+  log_steps_ = MatrixD::Constant(steps_.rows(), n, kMinusInf);
+  for (int i = 0; i < n; ++i) {
+    for (int j = topology_.first_next(i); j < topology_.end_next(i); ++j) {
+      steps_(j - i + lowest_step_, i) = band()(i, j);
+      log_steps_(j - i + lowest_step_, i) = log_transition_(i, j);
+    }
+  }
 }
 
 MarkovChain MarkovChain::initial(const Topology& topology) {
@@ -100,30 +121,41 @@ MarkovChain MarkovChain::initial(const Topology& topology) {
 
 void MarkovChain::propagate(const double* x, double* y) const {
   const int n = num_states();
+  if (dense()) {
+    const MatrixD& a = padded_.size() > 0 ? padded_ : transition_;
+    detail::dense_kernels().propagate(x, n, a.data(), a.cols(), n, y);
+    return;
+  }
   std::fill(y, y + n, 0.0);
-  double left = 0;
-  const MatrixD& a = band();
-  for (int i = 0; i < n; ++i) {
-    const double* row = a.data() + static_cast<std::ptrdiff_t>(i) * n;
-    for (int j = topology_.first_next(i); j < topology_.end_next(i); ++j) y[j] += x[i] * row[j];
-    if (jumps()) left += x[i] * leave_[i];
+  // The longest step first, so that y[j] adds up its i in ascending order.
+  for (auto row = static_cast<int>(steps_.rows()) - 1; row >= 0; --row) {
+    const int step = row - lowest_step_;
+    const double* a = steps_.data() + static_cast<std::ptrdiff_t>(row) * n;
+    const int end = std::min(n, n - step);
+    for (int i = std::max(0, -step); i < end; ++i) y[i + step] += x[i] * a[i];
   }
   if (!jumps()) return;
+  double left = 0;
+  for (int i = 0; i < n; ++i) left += x[i] * leave_[i];
   for (int j = 0; j < n; ++j) y[j] += left * land_[j];
 }
 
 void MarkovChain::propagate_back(const double* x, double* y) const {
   const int n = num_states();
+  if (dense()) {
+    detail::dense_kernels().propagate(x, n, padded_back_.data(), padded_back_.cols(), n, y);
+    return;
+  }
   double landed = 0;
   if (jumps()) {
     for (int j = 0; j < n; ++j) landed += land_[j] * x[j];
   }
-  const MatrixD& a = band();
-  for (int i = 0; i < n; ++i) {
-    const double* row = a.data() + static_cast<std::ptrdiff_t>(i) * n;
-    double sum = jumps() ? leave_[i] * landed : 0.0;
-    for (int j = topology_.first_next(i); j < topology_.end_next(i); ++j) sum += row[j] * x[j];
-    y[i] = sum;
+  for (int i = 0; i < n; ++i) y[i] = jumps() ? leave_[i] * landed : 0.0;
+  for (int row = 0; row < static_cast<int>(steps_.rows()); ++row) {
+    const int step = row - lowest_step_;
+    const double* a = steps_.data() + static_cast<std::ptrdiff_t>(row) * n;
+    const int end = std::min(n, n - step);
+    for (int i = std::max(0, -step); i < end; ++i) y[i] += a[i] * x[i + step];
   }
 }
 
@@ -131,26 +163,65 @@ void MarkovChain::propagate_back(const double* x, double* y) const {
 // from is the best one to leave from, whatever j is; inside the band a_ij decides.
 void MarkovChain::propagate_max(const double* x, double* y) const {
   const int n = num_states();
-  double best_leave = kMinusInf;
-  if (jumps()) {
-    for (int i = 0; i < n; ++i) best_leave = std::max(best_leave, x[i] + log_leave_[i]);
+  if (dense()) {
+    const MatrixD& a = padded_log_.size() > 0 ? padded_log_ : log_transition_;
+    detail::dense_kernels().propagate_max(x, n, a.data(), a.cols(), n, y);
+    return;
   }
-  for (int j = 0; j < n; ++j) y[j] = jumps() ? best_leave + log_land_[j] : kMinusInf;
-  for (int i = 0; i < n; ++i) {
-    const double* row = log_transition_.data() + static_cast<std::ptrdiff_t>(i) * n;
-    for (int j = topology_.first_next(i); j < topology_.end_next(i); ++j)
-      y[j] = std::max(y[j], x[i] + row[j]);
+  if (jumps()) {
+    const int leaver = best_leaver(x);
+    const double best = x[leaver] + log_leave_[leaver];
+    for (int j = 0; j < n; ++j) y[j] = best + log_land_[j];
+  } else {
+    std::fill(y, y + n, kMinusInf);
+  }
+  for (int row = 0; row < static_cast<int>(log_steps_.rows()); ++row) {
+    const int step = row - lowest_step_;
+    const double* a = log_steps_.data() + static_cast<std::ptrdiff_t>(row) * n;
+    const int end = std::min(n, n - step);
+    for (int i = std::max(0, -step); i < end; ++i) y[i + step] = std::max(y[i + step], x[i] + a[i]);
   }
 }
 
+int MarkovChain::best_leaver(const double* x) const {
+  int best = 0;
+  if (!jumps()) return best;
+  for (int i = 1; i < num_states(); ++i) {
+    if (x[i] + log_leave_[i] > x[best] + log_leave_[best]) best = i;
+  }
+  return best;
+}
+
 int MarkovChain::best_previous(const double* x, int j) const {
-  const int begin = jumps() ? 0 : topology_.first_previous(j);
-  const int end = jumps() ? num_states() : topology_.end_previous(j);
+  return best_previous(x, j, best_leaver(x));
+}
+
+int MarkovChain::best_previous(const double* x, int j, int best_leaver) const {
+  const int begin = topology_.first_previous(j);
+  const int end = topology_.end_previous(j);
   int best = begin;
   for (int i = begin + 1; i < end; ++i) {
     if (x[i] + log_transition_(i, j) > x[best] + log_transition_(best, j)) best = i;
   }
-  return best;
+  if (!jumps() || (best_leaver >= begin && best_leaver < end)) return best;
+  const double in_band = x[best] + log_transition_(best, j);
+  const double jumped = x[best_leaver] + log_leave_[best_leaver] + log_land_[j];
+  return jumped > in_band || (jumped == in_band && best_leaver < best) ? best_leaver : best;
+}
+
+double MarkovChain::smallest_probability() const {
+  const auto smallest = [](const double* values, Eigen::Index count) {
+    double low = 1;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      if (values[i] > 0) low = std::min(low, values[i]);
+    }
+    return low;
+  };
+  const double low =
+      std::min(smallest(start_.data(), start_.size()), smallest(band().data(), band().size()));
+  if (!jumps()) return low;
+  return std::min(low,
+                  smallest(leave_.data(), leave_.size()) * smallest(land_.data(), land_.size()));
 }
 
 void MarkovChain::write(ModelFile& file, const std::string& prefix) const {

@@ -17,6 +17,10 @@
 
 namespace hri {
 
+namespace detail {
+struct ChainCounts;
+}
+
 using SymbolSequence = std::vector<std::int32_t>;
 
 struct DiscreteHmmOptions {
@@ -42,8 +46,10 @@ class DiscreteHmm {
                            const DiscreteHmmOptions& options, TrainingReport* report = nullptr);
 
   /// log P(symbols | model), natural log; -inf for an impossible sequence. Throws InvalidArgument
-  /// for unknown symbols.
+  /// for unknown symbols. Allocates nothing once the thread has scored a model as large.
   [[nodiscard]] double log_likelihood(Span<const std::int32_t> symbols) const;
+  /// The same in logs from the first symbol on: slow, to compare with.
+  [[nodiscard]] double log_likelihood_exact(Span<const std::int32_t> symbols) const;
   /// log P(symbols, best path | model); the path if wanted (empty where the sequence is
   /// impossible).
   double viterbi(Span<const std::int32_t> symbols, std::vector<int>* path = nullptr) const;
@@ -57,11 +63,17 @@ class DiscreteHmm {
   static DiscreteHmm read(const ModelFile& file, const std::string& prefix);
 
  private:
-  [[nodiscard]] MatrixD log_densities(Span<const std::int32_t> symbols) const;
+  void validate_symbol(std::int32_t symbol, std::size_t position) const;
+  void validate_all(Span<const std::int32_t> symbols) const;
+  double forward_backward(Span<const std::int32_t> symbols, MatrixD* gamma,
+                          detail::ChainCounts* counts) const;
 
   MarkovChain chain_;
   MatrixD emission_;
-  MatrixD log_emission_;
+  // One row a symbol, padded to whole registers, so that a frame reads one piece of memory.
+  MatrixD by_symbol_;
+  MatrixD log_by_symbol_;
+  double smallest_step_ = 0;  // product above 0 of a transition and an emission
 };
 
 /// Throws InvalidArgument unless every sequence has symbols, all in 0..num_symbols - 1. `where`

@@ -51,8 +51,14 @@ class MarkovChain {
   void propagate_back(const double* x, double* y) const;
   /// y[j] = max over i of x[i] + log a_ij.
   void propagate_max(const double* x, double* y) const;
-  /// The lowest i for which x[i] + log a_ij is largest.
+  /// The lowest i for which x[i] + log a_ij is largest. `best_leaver` is what best_leaver(x) gave.
+  [[nodiscard]] int best_previous(const double* x, int j, int best_leaver) const;
   [[nodiscard]] int best_previous(const double* x, int j) const;
+  /// The lowest i for which x[i] + log leave[i] is largest: where jumps come from. 0 unless
+  /// jumps().
+  [[nodiscard]] int best_leaver(const double* x) const;
+  /// The smallest probability above 0 of a start, a step of the band or a jump.
+  [[nodiscard]] double smallest_probability() const;
 
   void write(ModelFile& file, const std::string& prefix) const;
   /// Throws FormatError naming the field.
@@ -60,6 +66,7 @@ class MarkovChain {
 
  private:
   void tabulate();
+  [[nodiscard]] bool dense() const { return topology_.kind == Topology::Kind::ergodic; }
 
   Topology topology_;
   VectorD start_;
@@ -71,6 +78,14 @@ class MarkovChain {
   MatrixD log_transition_;
   VectorD log_leave_;
   VectorD log_land_;
+  // ergodic: rows of whole registers, empty where they are that already, and the transpose.
+  MatrixD padded_;
+  MatrixD padded_log_;
+  MatrixD padded_back_;
+  // All others: row d holds the steps from i to i + d - lowest_step_.
+  int lowest_step_ = 0;
+  MatrixD steps_;
+  MatrixD log_steps_;
 };
 
 }  // namespace hri
