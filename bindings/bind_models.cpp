@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models of single rows: codebook, PCA, classifiers, distances, possibility.
+// Models of single rows: PCA, classifiers, distances, possibility.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <functional>
 
-#include "hri/models/codebook.hpp"
 #include "hri/models/distances.hpp"
 #include "hri/models/gaussian_bayes.hpp"
 #include "hri/models/knn.hpp"
@@ -74,67 +73,6 @@ void bind_classifier(py::class_<Model>& cls, const std::function<void(Options*)>
       "matrix.");
   cls.def_property_readonly("num_classes", &Model::num_classes);
   cls.def_property_readonly("dim", &Model::dim);
-  bind_files(cls);
-}
-
-void bind_codebook(py::module_& m) {
-  py::class_<hri::CodebookOptions> options(m, "CodebookOptions", "Options of Codebook.");
-  hri_bind::options(options)
-      .field("num_codewords", &hri::CodebookOptions::num_codewords)
-      .field("max_iterations", &hri::CodebookOptions::max_iterations)
-      .field("tolerance", &hri::CodebookOptions::tolerance)
-      .field("split_epsilon", &hri::CodebookOptions::split_epsilon);
-
-  py::class_<hri::Codebook> cls(m, "Codebook", "Vector quantiser (Linde, Buzo, Gray).");
-  cls.def(py::init([](const FloatArray& centroids) {
-            return hri::Codebook(hri::MatrixF(as_matrix(centroids, "centroids")));
-          }),
-          py::arg("centroids"));
-  cls.def_static(
-      "train_lbg",
-      [](const FloatArray& rows, hri::CodebookOptions o) {
-        const auto matrix = as_matrix(rows, "rows");
-        o.should_stop = hri_bind::interrupted;
-        const py::gil_scoped_release release;
-        return hri::Codebook::train_lbg(matrix, o);
-      },
-      py::arg("rows"), py::arg_v("options", hri::CodebookOptions(), "CodebookOptions()"),
-      "Grows a codebook from one codeword by splitting.");
-  cls.def_static(
-      "train_kmeans",
-      [](const FloatArray& rows, const FloatArray& centroids, hri::CodebookOptions o) {
-        const auto matrix = as_matrix(rows, "rows");
-        const auto first = as_matrix(centroids, "centroids");
-        o.should_stop = hri_bind::interrupted;
-        const py::gil_scoped_release release;
-        return hri::Codebook::train_kmeans(matrix, first, o);
-      },
-      py::arg("rows"), py::arg("centroids"),
-      py::arg_v("options", hri::CodebookOptions(), "CodebookOptions()"),
-      "k-means from given centroids.");
-  cls.def(
-      "quantise",
-      [](const hri::Codebook& self, const FloatArray& frames) {
-        const auto matrix = as_matrix(frames, "frames");
-        std::vector<std::int32_t> symbols;
-        {
-          const py::gil_scoped_release release;
-          symbols = self.quantise(matrix);
-        }
-        return to_array(symbols);
-      },
-      py::arg("frames"), "The nearest codeword of every frame, int32, shape (num_frames,).");
-  cls.def(
-      "distortion",
-      [](const hri::Codebook& self, const FloatArray& frames) {
-        return self.distortion(as_matrix(frames, "frames"));
-      },
-      py::arg("frames"), "Mean squared distance of the frames to their codewords.");
-  cls.def("__len__", &hri::Codebook::size);
-  cls.def_property_readonly("size", &hri::Codebook::size);
-  cls.def_property_readonly("dim", &hri::Codebook::dim);
-  cls.def_property_readonly("centroids",
-                            [](const hri::Codebook& self) { return to_array(self.centroids()); });
   bind_files(cls);
 }
 
@@ -267,7 +205,6 @@ void bind_possibility(py::module_& m) {
 void bind_models(py::module_& m) {
   bind_distances(m);
   bind_possibility(m);
-  bind_codebook(m);
   bind_pca(m);
   bind_svm(m);
   bind_bayes(m);

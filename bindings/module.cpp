@@ -14,6 +14,7 @@ void bind_io(py::module_& m);
 void bind_signal(py::module_& m);
 void bind_features(py::module_& m);
 void bind_hand_features(py::module_& m);
+void bind_codebook(py::module_& m);
 void bind_models(py::module_& m);
 void bind_sequence_models(py::module_& m);
 void bind_recognition(py::module_& m);
@@ -78,6 +79,7 @@ PYBIND11_MODULE(_native, m) {
   bind_signal(m);
   bind_features(m);
   bind_hand_features(m);
+  bind_codebook(m);
   bind_models(m);
   bind_sequence_models(m);
   bind_recognition(m);

@@ -18,6 +18,7 @@ __all__: list[str] = [
     "CepstraOptions",
     "Codebook",
     "CodebookOptions",
+    "CodebookReport",
     "Conjunction",
     "CovarianceKind",
     "Decision",
@@ -49,6 +50,7 @@ __all__: list[str] = [
     "LinearSvmOptions",
     "MarkovChain",
     "ModelFile",
+    "MultiStreamCodebook",
     "NBest",
     "Normalisation",
     "OrientationHistogramOptions",
@@ -546,6 +548,148 @@ class HandFeatureComputer:
     @property
     def num_features(self) -> int: ...
 
+class CodebookOptions:
+    """
+    Options of Codebook.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_codewords(self) -> int: ...
+    @num_codewords.setter
+    def num_codewords(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def split_epsilon(self) -> float: ...
+    @split_epsilon.setter
+    def split_epsilon(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float: ...
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class CodebookReport:
+    """
+    How the training of a codebook went: one entry an iteration of k-means.
+    """
+    def __init__(self) -> None: ...
+    @property
+    def converged(self) -> bool:
+        """
+        False where the iteration limit ended the last size.
+        """
+    @property
+    def distortions(self) -> list[float]:
+        """
+        Mean squared distance, before the centroids moved.
+        """
+    @property
+    def sizes(self) -> list[int]:
+        """
+        Codewords there were.
+        """
+
+class Codebook:
+    """
+    Vector quantiser (Linde, Buzo, Gray).
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> Codebook:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train_kmeans(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        centroids: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        options: CodebookOptions = ...,
+        report: CodebookReport = None,
+    ) -> Codebook:
+        """
+        k-means from given centroids.
+        """
+    @staticmethod
+    def train_lbg(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        options: CodebookOptions = ...,
+        report: CodebookReport = None,
+    ) -> Codebook:
+        """
+        Grows a codebook from one codeword by splitting.
+        """
+    def __init__(self, centroids: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None: ...
+    def __len__(self) -> int: ...
+    def distortion(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
+        """
+        Mean squared distance of the frames to their codewords.
+        """
+    def quantise(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.int32]:
+        """
+        The nearest codeword of every frame, int32, shape (num_frames,).
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def centroids(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def dim(self) -> int: ...
+    @property
+    def size(self) -> int: ...
+
+class MultiStreamCodebook:
+    """
+    Codes consecutive groups of columns apart, each by its own Codebook.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> MultiStreamCodebook:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train_lbg(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        widths: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        options: CodebookOptions = ...,
+    ) -> MultiStreamCodebook:
+        """
+        Grows a codebook for each stream; widths are columns a stream.
+
+        Raises InvalidArgument for widths that do not add up to the columns of the rows.
+        """
+    def __init__(self, streams: collections.abc.Sequence[Codebook]) -> None: ...
+    def __len__(self) -> int: ...
+    def distortion(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
+        """
+        Mean squared distance of the frames to their codewords, all streams.
+        """
+    def quantise(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.int32]:
+        """
+        The nearest codewords, int32, shape (num_frames, num_streams).
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def num_streams(self) -> int: ...
+    @property
+    def streams(self) -> list[Codebook]: ...
+
 class Distance:
     """
     Members:
@@ -584,81 +728,6 @@ class Distance:
     def name(self) -> str: ...
     @property
     def value(self) -> int: ...
-
-class CodebookOptions:
-    """
-    Options of Codebook.
-    """
-
-    __hash__: typing.ClassVar[None] = None
-    def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
-    def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
-    @property
-    def max_iterations(self) -> int: ...
-    @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def num_codewords(self) -> int: ...
-    @num_codewords.setter
-    def num_codewords(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def split_epsilon(self) -> float: ...
-    @split_epsilon.setter
-    def split_epsilon(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def tolerance(self) -> float: ...
-    @tolerance.setter
-    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-
-class Codebook:
-    """
-    Vector quantiser (Linde, Buzo, Gray).
-    """
-    @staticmethod
-    def read(file: ModelFile, prefix: str) -> Codebook:
-        """
-        Reads what `write` added; raises FormatError naming the field that does not fit.
-        """
-    @staticmethod
-    def train_kmeans(
-        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
-        centroids: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
-        options: CodebookOptions = ...,
-    ) -> Codebook:
-        """
-        k-means from given centroids.
-        """
-    @staticmethod
-    def train_lbg(
-        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], options: CodebookOptions = ...
-    ) -> Codebook:
-        """
-        Grows a codebook from one codeword by splitting.
-        """
-    def __init__(self, centroids: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None: ...
-    def __len__(self) -> int: ...
-    def distortion(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
-        """
-        Mean squared distance of the frames to their codewords.
-        """
-    def quantise(
-        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
-    ) -> numpy.typing.NDArray[numpy.int32]:
-        """
-        The nearest codeword of every frame, int32, shape (num_frames,).
-        """
-    def write(self, file: ModelFile, prefix: str) -> None:
-        """
-        Adds the model to a ModelFile.
-        """
-    @property
-    def centroids(self) -> numpy.typing.NDArray[numpy.float32]: ...
-    @property
-    def dim(self) -> int: ...
-    @property
-    def size(self) -> int: ...
 
 class Pca:
     """
