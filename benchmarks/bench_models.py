@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Models against hmmlearn and scikit-learn."""
+"""Models against hmmlearn."""
 
 from __future__ import annotations
 
@@ -91,37 +91,9 @@ def hmm_word() -> Timed:
     )
 
 
-def lbg() -> Timed:
-    """A codebook of 64 codewords from 10000 frames; scikit-learn's k-means with one start."""
-    from sklearn.cluster import KMeans
-
-    frames = _frames(10000, 2)
-    options = _native.CodebookOptions(num_codewords=64)
-
-    def peer() -> KMeans:
-        return KMeans(64, n_init=1, max_iter=options.max_iterations, random_state=0).fit(frames)
-
-    distortion = _native.Codebook.train_lbg(frames, options).distortion(frames)
-    assert np.isclose(distortion, peer().inertia_ / len(frames), rtol=0.02)
-    return medians(lambda: _native.Codebook.train_lbg(frames, options), peer, repeats=5)
-
-
-def quantise() -> Timed:
-    """The nearest of 64 codewords for 10000 frames."""
-    from sklearn.cluster import KMeans
-
-    frames = _frames(10000, 3)
-    peer = KMeans(64, n_init=1, max_iter=5, random_state=0).fit(frames)
-    ours = _native.Codebook(peer.cluster_centers_)
-    assert np.mean(ours.quantise(frames) == peer.predict(frames)) > 0.999  # rounding may break ties
-    return medians(lambda: ours.quantise(frames), lambda: peer.predict(frames))
-
-
 BENCHES = [
     Bench("hmm_forward", hmm_forward, "hmmlearn"),
     Bench("hmm_viterbi", hmm_viterbi, "hmmlearn"),
     Bench("hmm_baum_welch", hmm_baum_welch, "hmmlearn"),
     Bench("hmm_word", hmm_word, "hmmlearn"),
-    Bench("lbg", lbg, "scikit-learn"),
-    Bench("quantise", quantise, "scikit-learn"),
 ]
