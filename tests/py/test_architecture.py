@@ -32,7 +32,7 @@ PYTHON = {
     "evaluation": {"errors", "media", "datasets", "recognition"},
     "fusion": {"errors", "recognition.decision"},
     "robot": {"errors", "media"},
-    "studies": {"errors", "datasets", "evaluation", "fusion", "recognition"},
+    "studies": {"errors", "media", "datasets", "evaluation", "fusion", "recognition"},
     "cli": {
         "errors",
         "media",

@@ -126,7 +126,7 @@ def test_bad_data_ends_with_3_and_one_line(hri, tmp_path: Path, spoken: Path):
 def test_study_list_names_every_study(hri):
     result = hri("study", "list")
     names = [line.split("\t")[0] for line in result.out.splitlines()]
-    assert names == ["fsdd", "hindi-digits", "hindi-words", "sign-digits", "fusion-digits"]
+    assert names == ["fsdd", "hindi-digits", "hindi-words", "sign-digits", "fusion-digits", "ptbhmm-parity"]
     assert all("target: " in line for line in result.out.splitlines())
     assert [study["name"] for study in json.loads(hri("study", "list", "--json", "-").out)] == names
 

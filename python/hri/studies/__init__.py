@@ -3,10 +3,10 @@
 """Measured claims on real recordings: ``hri study list``, ``hri study NAME --data DIR``."""
 
 from hri.errors import InvalidArgument
-from hri.studies import fusion, signs, speech
+from hri.studies import fusion, parity, signs, speech
 from hri.studies.registry import Study, find_data, run_study
 
-STUDIES: dict[str, Study] = {s.name: s for s in (*speech.STUDIES, *signs.STUDIES, *fusion.STUDIES)}
+STUDIES: dict[str, Study] = {s.name: s for s in (*speech.STUDIES, *signs.STUDIES, *fusion.STUDIES, *parity.STUDIES)}
 
 
 def get_study(name: str) -> Study:
