@@ -3,6 +3,7 @@
 #include "nearest_codeword.hpp"
 
 #include <algorithm>
+#include <cfloat>
 #include <limits>
 
 #include "hri/core/simd.hpp"
@@ -17,6 +18,7 @@
 namespace hri::detail {
 namespace {
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kPadding = 32;  // codewords at a time against one row; whole registers everywhere
 constexpr int kGroup = 8;     // codewords at a time against a block of rows
 constexpr int kWidest = 128;  // columns of rows searched by blocks; wider ones go one by one
@@ -46,27 +48,37 @@ constexpr int kLanes = 16;
 }  // namespace
 
 CodewordTable::CodewordTable(const MatrixF& centroids)
-    : dim(static_cast<int>(centroids.cols())),
-      middle(centroids.cast<double>().colwise().mean().transpose().cast<float>()) {
-  constexpr float kFar = std::numeric_limits<float>::infinity();
+    : middle_(centroids.cast<double>().colwise().mean().transpose().cast<float>()) {
   const Eigen::Index size = centroids.rows();
-  columns = MatrixF::Constant(dim, (size + kPadding - 1) / kPadding * kPadding, kFar);
-  columns.leftCols(size) = centroids.transpose();
+  const Eigen::Index dim = centroids.cols();
+  columns_ = MatrixF::Constant(dim, (size + kPadding - 1) / kPadding * kPadding, kInfinity);
+  columns_.leftCols(size) = centroids.transpose();
 
   const Eigen::Index num_groups = (size + kGroup - 1) / kGroup;
-  halves.assign(static_cast<std::size_t>(num_groups * kGroup), kFar);
-  products.assign(halves.size() * static_cast<std::size_t>(dim), 0.0F);
+  halves_.assign(static_cast<std::size_t>(num_groups * kGroup), kInfinity);
+  products_.assign(static_cast<std::size_t>(num_groups * kGroup * dim), 0.0F);
   for (Eigen::Index k = 0; k < size; ++k) {
-    float* product = products.data() + k / kGroup * kGroup * dim + k % kGroup;
+    float* product = products_.data() + k / kGroup * kGroup * dim + k % kGroup;
     double square = 0;
-    for (int d = 0; d < dim; ++d) {
-      const float away = centroids(k, d) - middle[d];
+    for (Eigen::Index d = 0; d < dim; ++d) {
+      const float away = centroids(k, d) - middle_[d];
       product[d * kGroup] = -away;
       square += static_cast<double>(away) * away;
     }
-    halves[static_cast<std::size_t>(k)] = static_cast<float>(square / 2);
-    reach = std::max(reach, static_cast<float>(square));
+    halves_[static_cast<std::size_t>(k)] = static_cast<float>(square / 2);
+    reach_ = std::max(reach_, static_cast<float>(square));
   }
+}
+
+CodewordLayout CodewordTable::layout() const {
+  return {static_cast<int>(middle_.size()),
+          columns_.cols(),
+          static_cast<std::ptrdiff_t>(halves_.size()) / kGroup,
+          columns_.data(),
+          middle_.data(),
+          products_.data(),
+          halves_.data(),
+          reach_};
 }
 
 std::vector<NamedSearch> searches() {

@@ -16,22 +16,37 @@
 
 namespace hri::detail {
 
-/// Codewords laid out for the searches.
-struct CodewordTable {
-  explicit CodewordTable(const MatrixF& centroids);
-
+/// What the kernels see of a table. Plain pointers: kernels are compiled with flags of their own,
+/// and calls to functions of other headers would stay calls.
+struct CodewordLayout {
   int dim = 0;
-  MatrixF columns;  ///< transposed, padded with infinity: for one row against many codewords
-  VectorF middle;   ///< mean of the codewords; distances from it keep products small
-  std::vector<float> products;  ///< middle - c by groups of codewords: groups, columns, codewords
-  std::vector<float> halves;    ///< |c - middle|^2 / 2, padded with infinity to whole groups
-  float reach = 0;              ///< the largest |c - middle|^2
+  std::ptrdiff_t padded = 0;        ///< codewords in `columns`
+  std::ptrdiff_t num_groups = 0;    ///< in `products`
+  const float* columns = nullptr;   ///< transposed, padded with infinity
+  const float* middle = nullptr;    ///< mean of the codewords; keeps products small
+  const float* products = nullptr;  ///< middle - c: by groups of codewords, columns, codewords
+  const float* halves = nullptr;    ///< |c - middle|^2 / 2, padded with infinity to whole groups
+  float reach = 0;                  ///< the largest |c - middle|^2
+};
+
+/// Codewords laid out for the searches.
+class CodewordTable {
+ public:
+  explicit CodewordTable(const MatrixF& centroids);
+  [[nodiscard]] CodewordLayout layout() const;
+
+ private:
+  MatrixF columns_;
+  VectorF middle_;
+  std::vector<float> products_;
+  std::vector<float> halves_;
+  float reach_ = 0;
 };
 
 /// The nearest codeword of every row. Rows are `stride` values apart, places in `out` are
 /// `out_stride` apart. Allocates nothing.
 using Search = void (*)(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
-                        const CodewordTable& table, std::int32_t* out, std::ptrdiff_t out_stride);
+                        const CodewordLayout& table, std::int32_t* out, std::ptrdiff_t out_stride);
 
 /// The search for the best instruction set of this machine.
 Search find_nearest();

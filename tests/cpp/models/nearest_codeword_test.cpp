@@ -66,7 +66,7 @@ TEST(NearestCodeword, IsTheSameByEveryInstructionSet) {
         const CodewordTable table(c.centroids);
         for (const NamedSearch& named : searches()) {
           std::vector<std::int32_t> found(static_cast<std::size_t>(c.rows.rows()), -1);
-          named.search(c.rows.data(), dim, c.rows.rows(), table, found.data(), 1);
+          named.search(c.rows.data(), dim, c.rows.rows(), table.layout(), found.data(), 1);
           for (Eigen::Index r = 0; r < c.rows.rows(); ++r) {
             ASSERT_EQ(found[static_cast<std::size_t>(r)],
                       by_definition(c.centroids, c.rows.row(r).data()))
@@ -85,7 +85,7 @@ TEST(NearestCodeword, TakesRowsAndPlacesApart) {
   const MatrixF wide = noise(40, 9, 4);
   for (const NamedSearch& named : searches()) {
     std::vector<std::int32_t> found(120, -1);
-    named.search(wide.data() + 2, 9, 40, table, found.data(), 3);
+    named.search(wide.data() + 2, 9, 40, table.layout(), found.data(), 3);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const float* row = wide.data() + i / 3 * 9 + 2;
       EXPECT_EQ(found[i], i % 3 == 0 ? by_definition(centroids, row) : -1) << named.name;

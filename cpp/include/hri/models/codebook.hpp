@@ -17,7 +17,7 @@
 namespace hri {
 
 namespace detail {
-struct CodewordTable;
+class CodewordTable;
 }
 
 struct CodebookOptions {
