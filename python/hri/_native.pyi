@@ -1174,7 +1174,9 @@ class GaussianMixtureHmmOptions:
     """
 
     __hash__: typing.ClassVar[None] = None
+    tied_variance: bool
     topology: Topology
+    train_transitions: bool
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __init__(self, **kwargs) -> None: ...
     def __repr__(self) -> str: ...
@@ -1196,6 +1198,10 @@ class GaussianMixtureHmmOptions:
     @tolerance.setter
     def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def transition_prior(self) -> float: ...
+    @transition_prior.setter
+    def transition_prior(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def variance_floor(self) -> float: ...
     @variance_floor.setter
     def variance_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -1203,6 +1209,10 @@ class GaussianMixtureHmmOptions:
     def weight_floor(self) -> float: ...
     @weight_floor.setter
     def weight_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def weight_prior(self) -> float: ...
+    @weight_prior.setter
+    def weight_prior(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class GaussianMixtureHmm:
     """
@@ -1240,6 +1250,21 @@ class GaussianMixtureHmm:
         """
         The same with emissions in double.
         """
+    def posterior(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        P(state | all frames), shape (num_frames, num_states).
+        """
+    def retrain(
+        self,
+        sequences: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        options: GaussianMixtureHmmOptions = ...,
+        report: TrainingReport = None,
+    ) -> GaussianMixtureHmm:
+        """
+        A model trained further; topology, num_mixtures and seed of the options are not read.
+        """
     def viterbi(
         self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
     ) -> tuple[float, numpy.typing.NDArray[numpy.int32]]:
@@ -1270,6 +1295,7 @@ class DiscreteHmmOptions:
 
     __hash__: typing.ClassVar[None] = None
     topology: Topology
+    train_transitions: bool
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __init__(self, **kwargs) -> None: ...
     def __repr__(self) -> str: ...
@@ -1278,6 +1304,10 @@ class DiscreteHmmOptions:
     def emission_floor(self) -> float: ...
     @emission_floor.setter
     def emission_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def emission_prior(self) -> float: ...
+    @emission_prior.setter
+    def emission_prior(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def max_iterations(self) -> int: ...
     @max_iterations.setter
@@ -1294,6 +1324,10 @@ class DiscreteHmmOptions:
     def tolerance(self) -> float: ...
     @tolerance.setter
     def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def transition_prior(self) -> float: ...
+    @transition_prior.setter
+    def transition_prior(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class DiscreteHmm:
     """
@@ -1309,7 +1343,10 @@ class DiscreteHmm:
         sequences: collections.abc.Sequence[numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]],
         options: DiscreteHmmOptions,
         report: TrainingReport = None,
-    ) -> DiscreteHmm: ...
+    ) -> DiscreteHmm:
+        """
+        Baum-Welch over a list of integer arrays.
+        """
     def __init__(self, chain: MarkovChain, emission: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
         emission has shape (num_states, num_symbols).
@@ -1317,6 +1354,25 @@ class DiscreteHmm:
     def log_likelihood(self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]) -> float:
         """
         log P(symbols | model), natural log.
+        """
+    def log_likelihood_exact(self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]) -> float:
+        """
+        The same in logs from the first symbol on: slow, to compare with.
+        """
+    def posterior(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        P(state | all symbols), shape (num_symbols_given, num_states).
+        """
+    def retrain(
+        self,
+        sequences: collections.abc.Sequence[numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]],
+        options: DiscreteHmmOptions,
+        report: TrainingReport = None,
+    ) -> DiscreteHmm:
+        """
+        A model trained further; topology, num_symbols and seed of the options are not read.
         """
     def viterbi(
         self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]

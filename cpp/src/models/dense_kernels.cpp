@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dense_kernels.hpp"
 
+#include <cstdint>
 #include <limits>
 
 namespace hri::detail {

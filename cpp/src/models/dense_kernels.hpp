@@ -37,6 +37,8 @@ struct DenseKernels {
                         int num_columns, double* y);
   /// y[j] *= b[j]
   Spread (*emit)(const double* b, std::ptrdiff_t count, double* y);
+  /// The lowest i for which x[i] + a[i] is largest; nothing padded, count >= 1.
+  int (*best_sum)(const double* x, const double* a, int count);
   /// sums(i, j) += sum over t of x(t, i) y(t, j), t ascending.
   void (*add_products)(const double* x, std::ptrdiff_t x_stride, const double* y,
                        std::ptrdiff_t y_stride, int num_frames, int num_rows,

@@ -24,14 +24,21 @@ const char* emission_fault(int num_states, const MatrixD& emission) {
   return nullptr;
 }
 
-void check(const DiscreteHmmOptions& o) {
+void check_start(const DiscreteHmmOptions& o) {
   validate(o.topology);
   require(o.num_symbols >= 1 && o.num_symbols <= 65536, "num_symbols must lie in 1..65536");
+}
+
+void check(const DiscreteHmmOptions& o, int num_symbols) {
   require(o.max_iterations >= 1 && o.max_iterations <= 100000,
           "max_iterations must lie in 1..100000");
   require(o.tolerance >= 0, "tolerance must not be negative");
-  require(o.emission_floor >= 0 && o.emission_floor * o.num_symbols <= 1,
+  require(o.emission_floor >= 0 && o.emission_floor * num_symbols <= 1,
           "emission_floor must lie in 0..1/num_symbols");
+  require(o.transition_prior >= 0 && std::isfinite(o.transition_prior),
+          "transition_prior must be finite and not negative");
+  require(o.emission_prior >= 0 && std::isfinite(o.emission_prior),
+          "emission_prior must be finite and not negative");
 }
 
 // Floors every row and scales it back to sum 1.
@@ -114,17 +121,26 @@ void DiscreteHmm::validate_all(Span<const std::int32_t> symbols) const {
 
 DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
                                const DiscreteHmmOptions& options, TrainingReport* report) {
-  check(options);
+  check_start(options);
+  check(options, options.num_symbols);
   validate_symbols(sequences, options.num_symbols);
-  const int n = options.topology.num_states;
-  DiscreteHmm model(MarkovChain::initial(options.topology), initial_emission(sequences, options));
+  return DiscreteHmm(MarkovChain::initial(options.topology), initial_emission(sequences, options))
+      .retrain(sequences, options, report);
+}
+
+DiscreteHmm DiscreteHmm::retrain(const std::vector<SymbolSequence>& sequences,
+                                 const DiscreteHmmOptions& options, TrainingReport* report) const {
+  check(options, num_symbols());
+  validate_symbols(sequences, num_symbols());
+  const int n = num_states();
+  DiscreteHmm model = *this;
   double num_total = 0;
   for (const SymbolSequence& s : sequences) num_total += static_cast<double>(s.size());
   TrainingReport local;
   MatrixD gamma;
   for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
     detail::ChainCounts counts(n);
-    MatrixD by_symbol = MatrixD::Zero(options.num_symbols, model.by_symbol_.cols());
+    MatrixD by_symbol = MatrixD::Zero(num_symbols(), by_symbol_.cols());
     double total = 0;
     for (const SymbolSequence& s : sequences) {
       poll(options.should_stop);
@@ -132,31 +148,40 @@ DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
       for (std::size_t t = 0; t < s.size(); ++t)
         by_symbol.row(s[t]) += gamma.row(static_cast<Eigen::Index>(t));
     }
-    const MatrixD emitted = by_symbol.leftCols(n).transpose();
     if (!local.log_likelihoods.empty()) {
       local.converged = (total - local.log_likelihoods.back()) / num_total < options.tolerance;
     }
     local.log_likelihoods.push_back(total);
+    const MatrixD emitted = by_symbol.leftCols(n).transpose().array() + options.emission_prior;
     MatrixD emission = model.emission_;
     constexpr double kUnvisited = 1e-8;
     for (int j = 0; j < n; ++j) {
       if (emitted.row(j).sum() > kUnvisited)
         emission.row(j) = emitted.row(j) / emitted.row(j).sum();
     }
-    model = DiscreteHmm(detail::estimate_chain(counts, model.chain_),
-                        floored(emission, options.emission_floor));
+    detail::add_pseudo_counts(model.chain_, options.transition_prior, &counts);
+    model = DiscreteHmm(
+        options.train_transitions ? detail::estimate_chain(counts, model.chain_) : model.chain_,
+        floored(emission, options.emission_floor));
   }
   if (report != nullptr) *report = std::move(local);
   return model;
 }
 
+void DiscreteHmm::begin(detail::ForwardPass* pass) const {
+  pass->reset(chain_, detail::first_arithmetic(smallest_step_));
+}
+
+void DiscreteHmm::advance(detail::ForwardPass* pass, std::int32_t symbol) const {
+  const std::ptrdiff_t row = symbol * by_symbol_.cols();
+  pass->step(chain_, by_symbol_.data() + row, log_by_symbol_.data() + row);
+}
+
 double DiscreteHmm::log_likelihood(Span<const std::int32_t> symbols) const {
   validate_all(symbols);
   thread_local detail::ForwardPass pass;
-  pass.reset(chain_, detail::first_arithmetic(smallest_step_));
-  const Eigen::Index stride = by_symbol_.cols();
-  for (const std::int32_t symbol : symbols)
-    pass.step(chain_, by_symbol_.data() + symbol * stride, log_by_symbol_.data() + symbol * stride);
+  begin(&pass);
+  for (const std::int32_t symbol : symbols) advance(&pass, symbol);
   return pass.log_likelihood();
 }
 
@@ -172,6 +197,14 @@ double DiscreteHmm::log_likelihood_exact(Span<const std::int32_t> symbols) const
 double DiscreteHmm::viterbi(Span<const std::int32_t> symbols, std::vector<int>* path) const {
   validate_all(symbols);
   return detail::viterbi(chain_, rows_by(symbols, log_by_symbol_), path);
+}
+
+MatrixD DiscreteHmm::posterior(Span<const std::int32_t> symbols) const {
+  validate_all(symbols);
+  MatrixD gamma;
+  require(std::isfinite(forward_backward(symbols, &gamma, nullptr)),
+          "symbols are impossible under the model");
+  return gamma.leftCols(num_states());
 }
 
 // gamma: (num_frames, padded num_states).

@@ -302,6 +302,17 @@ MarkovChain estimate_chain(const ChainCounts& counts, const MarkovChain& previou
   return {previous.topology(), start, band, leave, land};
 }
 
+void add_pseudo_counts(const MarkovChain& chain, double pseudo_count, ChainCounts* counts) {
+  for (int i = 0; i < chain.num_states(); ++i) {
+    if (chain.start()[i] > 0) counts->start[i] += pseudo_count;
+    const int end = chain.topology().end_next(i);
+    for (int j = chain.topology().first_next(i); j < end; ++j) counts->band(i, j) += pseudo_count;
+    if (!chain.jumps()) continue;
+    counts->leave[i] += pseudo_count;
+    counts->land[i] += pseudo_count;
+  }
+}
+
 std::vector<int> uniform_segmentation(Eigen::Index num_frames, int num_states) {
   std::vector<int> states(static_cast<std::size_t>(num_frames));
   for (Eigen::Index t = 0; t < num_frames; ++t) {

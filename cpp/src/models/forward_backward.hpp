@@ -70,6 +70,10 @@ bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, Ma
 /// Structural zeros stay zero.
 MarkovChain estimate_chain(const ChainCounts& counts, const MarkovChain& previous);
 
+/// Adds `pseudo_count` to every transition that the topology has, and to every start that is
+/// possible in `chain`.
+void add_pseudo_counts(const MarkovChain& chain, double pseudo_count, ChainCounts* counts);
+
 /// Uniform segmentation: the state of each of `num_frames` frames of a left-right model.
 std::vector<int> uniform_segmentation(Eigen::Index num_frames, int num_states);
 

@@ -58,6 +58,7 @@ void ForwardPass::reset(const MarkovChain& chain, Arithmetic first) {
   now_.assign(size, 0.0);
   next_.assign(size, 0.0);
   scratch_.resize(size);
+  log_densities_.resize(size);
   // Kept ready, so that no frame allocates.
   wide_now_.resize(size);
   wide_next_.resize(size);

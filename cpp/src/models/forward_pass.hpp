@@ -25,6 +25,9 @@ class ForwardPass {
   template <class Scalar>
   void step(const MarkovChain& chain, const double* b, const Scalar* log_b);
 
+  /// Room for the log densities of one frame, num_states values, for callers who have none.
+  float* log_densities() { return log_densities_.data(); }
+
   /// log P(frames so far); 0 before the first.
   [[nodiscard]] double log_likelihood() const;
 
@@ -45,6 +48,7 @@ class ForwardPass {
   std::vector<double> now_;
   std::vector<double> next_;
   std::vector<double> scratch_;
+  std::vector<float> log_densities_;
   std::vector<long double> wide_now_;
   std::vector<long double> wide_next_;
 };

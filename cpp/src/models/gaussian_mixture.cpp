@@ -57,7 +57,7 @@ GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtu
     local.log_likelihoods.push_back(total);
     MixtureAccumulator accumulator(1, options.num_mixtures, bank.dim());
     accumulator.add(rows, gamma, components, densities);
-    bank = accumulator.estimate(bank, floor, 0.0);
+    bank = accumulator.estimate(bank, {floor, 0.0, 0.0, false});
   }
   if (report != nullptr) *report = std::move(local);
   if (options.wide_weight > 0) bank = with_wide_component(bank, all, options.wide_weight);

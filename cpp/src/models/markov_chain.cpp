@@ -96,6 +96,7 @@ void MarkovChain::tabulate() {
     const MatrixD back = transition_.transpose();
     padded_back_ = detail::padded_rows(back, 0);
     if (padded_back_.size() == 0) padded_back_ = back;
+    log_back_ = log_transition_.transpose();
     return;
   }
   const int longest = std::min(topology_.max_jump, n - 1);
@@ -124,6 +125,14 @@ void MarkovChain::propagate(const double* x, double* y) const {
   if (dense()) {
     const MatrixD& a = padded_.size() > 0 ? padded_ : transition_;
     detail::dense_kernels().propagate(x, n, a.data(), a.cols(), n, y);
+    return;
+  }
+  if (steps_.rows() == 2 && lowest_step_ == 0 && !jumps()) {
+    // Left-right without skips, the usual word: one loop, where the general ones take three.
+    const double* stay = steps_.data();
+    const double* go = stay + n;
+    y[0] = x[0] * stay[0];
+    for (int j = 1; j < n; ++j) y[j] = x[j - 1] * go[j - 1] + x[j] * stay[j];
     return;
   }
   std::fill(y, y + n, 0.0);
@@ -197,6 +206,10 @@ int MarkovChain::best_previous(const double* x, int j) const {
 }
 
 int MarkovChain::best_previous(const double* x, int j, int best_leaver) const {
+  if (dense()) {
+    return detail::dense_kernels().best_sum(x, log_back_.data() + j * log_back_.cols(),
+                                            num_states());
+  }
   const int begin = topology_.first_previous(j);
   const int end = topology_.end_previous(j);
   int best = begin;

@@ -73,8 +73,9 @@ MixtureBank::MixtureBank(MatrixD weights, MatrixD means, MatrixD variances)
     constants_[r] = std::log(weight) - 0.5 * (static_cast<double>(means_.cols()) * kLog2Pi +
                                               variances_.row(r).array().log().sum());
   }
+  precisions_ = variances_.cwiseInverse();
   means_f_ = means_.cast<float>();
-  precisions_f_ = variances_.cwiseInverse().cast<float>();
+  precisions_f_ = precisions_.cast<float>();
   constants_f_ = constants_.cast<float>();
 }
 
@@ -102,25 +103,34 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
 }
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* components) const {
+  out->resize(frames.rows(), num_states());
+  if (components != nullptr) components->resize(frames.rows(), means_.rows());
+  log_densities_in_double(frames, out->data(),
+                          components == nullptr ? nullptr : components->data());
+}
+
+void MixtureBank::log_densities(ConstMatrixRefF frames, double* out) const {
+  log_densities_in_double(frames, out, nullptr);
+}
+
+void MixtureBank::log_densities_in_double(ConstMatrixRefF frames, double* out,
+                                          double* components) const {
   validate_finite(frames, "frames");
   const int k = num_mixtures();
-  MatrixD local(frames.rows(), means_.rows());
-  const MatrixD precisions = variances_.cwiseInverse();
+  const auto width = static_cast<std::size_t>(dim());
+  thread_local std::vector<double> buffer;
+  buffer.resize(width + static_cast<std::size_t>(means_.rows()));
+  Eigen::Map<Eigen::RowVectorXd> x(buffer.data(), dim());
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    const Eigen::RowVectorXd x = frames.row(t).cast<double>();
+    x = frames.row(t).cast<double>();
+    double* row = components == nullptr ? buffer.data() + width : components + t * means_.rows();
     for (Eigen::Index r = 0; r < means_.rows(); ++r) {
-      local(t, r) = constants_[r] -
-                    0.5 * ((x - means_.row(r)).array().square() * precisions.row(r).array()).sum();
+      row[r] = constants_[r] -
+               0.5 * ((x - means_.row(r)).array().square() * precisions_.row(r).array()).sum();
     }
+    for (int j = 0; j < num_states(); ++j)
+      out[t * num_states() + j] = log_sum_exp(row + static_cast<std::ptrdiff_t>(j) * k, k);
   }
-  out->resize(frames.rows(), num_states());
-  for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    for (int j = 0; j < num_states(); ++j) {
-      (*out)(t, j) =
-          log_sum_exp(local.data() + t * local.cols() + static_cast<std::ptrdiff_t>(j) * k, k);
-    }
-  }
-  if (components != nullptr) *components = std::move(local);
 }
 
 void MixtureBank::write(ModelFile& file, const std::string& prefix) const {

@@ -4,6 +4,7 @@
 // Estimation of mixture banks: statistics, k-means starts, and the M step of Baum-Welch.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
@@ -14,14 +15,30 @@ namespace {
 
 constexpr int kStartIterations = 10;
 
-// k-means of `rows`, seeded by random rows; returns the cluster of each row.
-std::vector<int> clusters_of(const MatrixD& rows, int num_clusters, Random* random) {
-  const auto count = static_cast<std::uint64_t>(rows.rows());
-  MatrixD centres(num_clusters, rows.cols());
-  for (int k = 0; k < num_clusters; ++k)
-    centres.row(k) = rows.row(static_cast<Eigen::Index>(random->below(count)));
+// Rows far apart: each is drawn with a probability that grows with the squared distance to those
+// already chosen (k-means++).
+MatrixD distant_rows(const MatrixD& rows, int count, Random* random) {
+  MatrixD chosen(count, rows.cols());
+  chosen.row(0) =
+      rows.row(static_cast<Eigen::Index>(random->below(static_cast<std::uint64_t>(rows.rows()))));
+  VectorD distance = VectorD::Constant(rows.rows(), std::numeric_limits<double>::infinity());
+  for (int k = 1; k < count; ++k) {
+    distance = distance.cwiseMin((rows.rowwise() - chosen.row(k - 1)).rowwise().squaredNorm());
+    double left = random->uniform() * distance.sum();
+    Eigen::Index at = 0;
+    while (at + 1 < rows.rows() && left >= distance[at]) left -= distance[at++];
+    chosen.row(k) = rows.row(at);
+  }
+  return chosen;
+}
+
+// k-means of `rows` from `centres` on, which are moved; returns the cluster of each row.
+std::vector<int> clusters_of(const MatrixD& rows, MatrixD* moved, const StopCheck& should_stop) {
+  MatrixD& centres = *moved;
+  const Eigen::Index num_clusters = centres.rows();
   std::vector<int> nearest(static_cast<std::size_t>(rows.rows()), 0);
   for (int iteration = 0; iteration < kStartIterations; ++iteration) {
+    poll(should_stop);
     MatrixD sums = MatrixD::Zero(num_clusters, rows.cols());
     VectorD counts = VectorD::Zero(num_clusters);
     for (Eigen::Index r = 0; r < rows.rows(); ++r) {
@@ -31,14 +48,62 @@ std::vector<int> clusters_of(const MatrixD& rows, int num_clusters, Random* rand
       sums.row(best) += rows.row(r);
       counts[best] += 1;
     }
-    for (int k = 0; k < num_clusters; ++k) {
+    for (Eigen::Index k = 0; k < num_clusters; ++k) {
       if (counts[k] > 0) centres.row(k) = sums.row(k) / counts[k];
     }
   }
   return nearest;
 }
 
+// As above from random rows.
+std::vector<int> clusters_of(const MatrixD& rows, int num_clusters, Random* random) {
+  MatrixD centres(num_clusters, rows.cols());
+  for (int k = 0; k < num_clusters; ++k)
+    centres.row(k) =
+        rows.row(static_cast<Eigen::Index>(random->below(static_cast<std::uint64_t>(rows.rows()))));
+  return clusters_of(rows, &centres, {});
+}
+
 }  // namespace
+
+std::vector<std::vector<int>> cluster_frames(const std::vector<MatrixF>& sequences, int num_states,
+                                             std::uint64_t seed, const StopCheck& should_stop) {
+  const GlobalStatistics global = global_statistics(sequences);
+  const Eigen::RowVectorXd scale =
+      (global.variance.array() > 0).select(global.variance.array().rsqrt(), 1.0).transpose();
+  const auto standardised = [&](const MatrixF& s, Eigen::Index t) {
+    return ((s.row(t).cast<double>() - global.mean.transpose()).array() * scale.array()).matrix();
+  };
+  // Evenly spaced frames are enough to place the centres.
+  constexpr std::ptrdiff_t kMostFrames = 20000;
+  std::ptrdiff_t total = 0;
+  for (const MatrixF& s : sequences) total += s.rows();
+  const std::ptrdiff_t every = (total + kMostFrames - 1) / kMostFrames;
+  MatrixD rows((total + every - 1) / every, global.mean.size());
+  std::ptrdiff_t frame = 0;
+  for (const MatrixF& s : sequences) {
+    for (Eigen::Index t = 0; t < s.rows(); ++t, ++frame) {
+      if (frame % every == 0) rows.row(frame / every) = standardised(s, t);
+    }
+  }
+  Random random(seed);
+  MatrixD centres = distant_rows(rows, num_states, &random);
+  clusters_of(rows, &centres, should_stop);
+  std::vector<std::vector<int>> states;
+  states.reserve(sequences.size());
+  for (const MatrixF& s : sequences) {
+    poll(should_stop);
+    std::vector<int>& own = states.emplace_back();
+    own.reserve(static_cast<std::size_t>(s.rows()));
+    for (Eigen::Index t = 0; t < s.rows(); ++t) {
+      Eigen::Index best = 0;
+      const Eigen::RowVectorXd x = standardised(s, t);
+      (centres.rowwise() - x).rowwise().squaredNorm().minCoeff(&best);
+      own.push_back(static_cast<int>(best));
+    }
+  }
+  return states;
+}
 
 GlobalStatistics global_statistics(const std::vector<MatrixF>& sequences) {
   require(!sequences.empty(), "training needs at least one sequence");
@@ -152,26 +217,35 @@ void MixtureAccumulator::add(ConstMatrixRefF frames, const MatrixD& gamma,
   }
 }
 
-MixtureBank MixtureAccumulator::estimate(const MixtureBank& previous, const VectorD& variance_floor,
-                                         double weight_floor) const {
+MixtureBank MixtureAccumulator::estimate(const MixtureBank& previous,
+                                         const BankEstimation& options) const {
   MatrixD weights = previous.weights();
   MatrixD means = previous.means();
   MatrixD variances = previous.variances();
+  const auto floor = options.variance_floor.transpose();
   const Eigen::Index k = weights.cols();
   constexpr double kUnvisited = 1e-8;
+  Eigen::RowVectorXd spread = Eigen::RowVectorXd::Zero(means.cols());  // of all components
+  double spread_count = 0;
   for (Eigen::Index j = 0; j < weights.rows(); ++j) {
     const double total = counts_.segment(j * k, k).sum();
     if (total < kUnvisited) continue;
     for (Eigen::Index c = 0; c < k; ++c) {
       const Eigen::Index r = j * k + c;
-      weights(j, c) = std::max(counts_[r] / total, weight_floor);
+      weights(j, c) = std::max((counts_[r] + options.weight_prior) /
+                                   (total + options.weight_prior * static_cast<double>(k)),
+                               options.weight_floor);
       if (counts_[r] < kUnvisited) continue;
       means.row(r) = sums_.row(r) / counts_[r];
-      variances.row(r) = (squares_.row(r) / counts_[r] - means.row(r).cwiseAbs2())
-                             .cwiseMax(variance_floor.transpose());
+      const Eigen::RowVectorXd variance = squares_.row(r) / counts_[r] - means.row(r).cwiseAbs2();
+      variances.row(r) = variance.cwiseMax(floor);
+      spread += counts_[r] * variance;
+      spread_count += counts_[r];
     }
     weights.row(j) /= weights.row(j).sum();
   }
+  if (options.tied_variance && spread_count > 0)
+    variances.rowwise() = (spread / spread_count).cwiseMax(floor);
   return {weights, means, variances};
 }
 

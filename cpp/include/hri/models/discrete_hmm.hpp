@@ -19,7 +19,11 @@ namespace hri {
 
 namespace detail {
 struct ChainCounts;
-}
+class ForwardPass;
+}  // namespace detail
+
+template <class Model>
+class HmmStream;
 
 using SymbolSequence = std::vector<std::int32_t>;
 
@@ -29,8 +33,13 @@ struct DiscreteHmmOptions {
   int max_iterations = 20;       ///< Baum-Welch iterations, 1..100000
   double tolerance = 1e-4;       ///< stop when the log-likelihood a symbol gains less, >= 0
   double emission_floor = 1e-4;  ///< smallest emission probability, 0..1 / num_symbols
-  std::uint64_t seed = 0;        ///< of the start of models that are not left-right
-  StopCheck should_stop;
+  /// Dirichlet priors: imagined counts of every transition (and start) that the topology has, and
+  /// of every symbol in every state, >= 0. Training then maximises the posterior.
+  double transition_prior = 0;
+  double emission_prior = 0;
+  bool train_transitions = true;  ///< false: start and transitions stay as they began
+  std::uint64_t seed = 0;         ///< of the start of models that are not left-right
+  StopCheck should_stop;          ///< polled before every sequence of every iteration
 };
 
 /// Immutable; const calls are safe from several threads. Invariant: the rows of emission sum to 1.
@@ -45,6 +54,12 @@ class DiscreteHmm {
   static DiscreteHmm train(const std::vector<SymbolSequence>& sequences,
                            const DiscreteHmmOptions& options, TrainingReport* report = nullptr);
 
+  /// Baum-Welch that goes on from this model. The topology, num_symbols and seed of the options are
+  /// not read. Throws as train() does.
+  [[nodiscard]] DiscreteHmm retrain(const std::vector<SymbolSequence>& sequences,
+                                    const DiscreteHmmOptions& options,
+                                    TrainingReport* report = nullptr) const;
+
   /// log P(symbols | model), natural log; -inf for an impossible sequence. Throws InvalidArgument
   /// for unknown symbols. Allocates nothing once the thread has scored a model as large.
   [[nodiscard]] double log_likelihood(Span<const std::int32_t> symbols) const;
@@ -53,6 +68,10 @@ class DiscreteHmm {
   /// log P(symbols, best path | model); the path if wanted (empty where the sequence is
   /// impossible).
   double viterbi(Span<const std::int32_t> symbols, std::vector<int>* path = nullptr) const;
+
+  /// P(state of frame t | all symbols), shape (num_frames, num_states). Throws InvalidArgument
+  /// where the sequence is impossible.
+  [[nodiscard]] MatrixD posterior(Span<const std::int32_t> symbols) const;
 
   [[nodiscard]] const MarkovChain& chain() const { return chain_; }
   [[nodiscard]] int num_states() const { return chain_.num_states(); }
@@ -63,6 +82,12 @@ class DiscreteHmm {
   static DiscreteHmm read(const ModelFile& file, const std::string& prefix);
 
  private:
+  friend class HmmStream<DiscreteHmm>;
+
+  // The forward recursion, frame by frame.
+  void begin(detail::ForwardPass* pass) const;
+  void advance(detail::ForwardPass* pass, std::int32_t symbol) const;
+
   void validate_symbol(std::int32_t symbol, std::size_t position) const;
   void validate_all(Span<const std::int32_t> symbols) const;
   double forward_backward(Span<const std::int32_t> symbols, MatrixD* gamma,

@@ -18,6 +18,13 @@
 
 namespace hri {
 
+namespace detail {
+class ForwardPass;
+}
+
+template <class Model>
+class HmmStream;
+
 struct GaussianMixtureHmmOptions {
   Topology topology;
   int num_mixtures = 1;          ///< Gaussians a state, 1..1024
@@ -25,8 +32,14 @@ struct GaussianMixtureHmmOptions {
   double tolerance = 1e-4;       ///< stop when the log-likelihood a frame gains less, >= 0
   double variance_floor = 0.01;  ///< share of the global variance, > 0
   double weight_floor = 1e-3;    ///< smallest mixture weight, 0..1 / num_mixtures
-  std::uint64_t seed = 0;        ///< of the k-means starts
-  StopCheck should_stop;
+  bool tied_variance = false;    ///< one vector of variances for all Gaussians of all states
+  /// Dirichlet priors: imagined counts of every transition (and start) that the topology has, and
+  /// of every Gaussian of a state's mixture, >= 0. Training then maximises the posterior.
+  double transition_prior = 0;
+  double weight_prior = 0;
+  bool train_transitions = true;  ///< false: start and transitions stay as they began
+  std::uint64_t seed = 0;         ///< of the k-means starts
+  StopCheck should_stop;          ///< polled before every sequence of every iteration
 };
 
 /// Immutable; const calls are safe from several threads. Invariant: the bank has one mixture a
@@ -44,12 +57,22 @@ class GaussianMixtureHmm {
                                   const GaussianMixtureHmmOptions& options,
                                   TrainingReport* report = nullptr);
 
+  /// Baum-Welch that goes on from this model. The topology, num_mixtures and seed of the options
+  /// are not read. Throws as train() does.
+  [[nodiscard]] GaussianMixtureHmm retrain(const std::vector<MatrixF>& sequences,
+                                           const GaussianMixtureHmmOptions& options,
+                                           TrainingReport* report = nullptr) const;
+
   /// log P(frames | model) by the forward recursion, natural log; -inf for an impossible sequence.
+  /// Allocates nothing once the thread has scored a sequence as long and a model as large.
   [[nodiscard]] double log_likelihood(ConstMatrixRefF frames) const;
   /// The same with emissions in double, to compare with other implementations.
   [[nodiscard]] double log_likelihood_exact(ConstMatrixRefF frames) const;
   /// log P(frames, best path | model); the path (num_frames states) if wanted.
   double viterbi(ConstMatrixRefF frames, std::vector<int>* path = nullptr) const;
+  /// P(state of frame t | all frames), shape (num_frames, num_states), emissions in double. Throws
+  /// InvalidArgument where the sequence is impossible.
+  [[nodiscard]] MatrixD posterior(ConstMatrixRefF frames) const;
 
   [[nodiscard]] int num_states() const { return bank_.num_states(); }
   [[nodiscard]] int dim() const { return bank_.dim(); }
@@ -60,6 +83,12 @@ class GaussianMixtureHmm {
   static GaussianMixtureHmm read(const ModelFile& file, const std::string& prefix);
 
  private:
+  friend class HmmStream<GaussianMixtureHmm>;
+
+  // The forward recursion, frame by frame.
+  void begin(detail::ForwardPass* pass) const;
+  void advance(detail::ForwardPass* pass, Span<const float> frame) const;
+
   MarkovChain chain_;
   MixtureBank bank_;
 };

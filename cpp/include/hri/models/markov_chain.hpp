@@ -82,6 +82,7 @@ class MarkovChain {
   MatrixD padded_;
   MatrixD padded_log_;
   MatrixD padded_back_;
+  MatrixD log_back_;  // the transpose of the logs
   // All others: row d holds the steps from i to i + d - lowest_step_.
   int lowest_step_ = 0;
   MatrixD steps_;

@@ -11,6 +11,7 @@
 
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/stop_check.hpp"
 
 namespace hri {
 
@@ -39,10 +40,16 @@ class MixtureBank {
   /// num_mixtures), if wanted.
   void log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* components) const;
 
+  /// The same for `out` of (num_frames, num_states) values, row by row; allocates nothing once the
+  /// thread has used a bank as large.
+  void log_densities(ConstMatrixRefF frames, double* out) const;
+
   void write(ModelFile& file, const std::string& prefix) const;
   static MixtureBank read(const ModelFile& file, const std::string& prefix);
 
  private:
+  void log_densities_in_double(ConstMatrixRefF frames, double* out, double* components) const;
+
   MatrixD weights_;
   MatrixD means_;
   MatrixD variances_;
@@ -52,6 +59,15 @@ class MixtureBank {
   MatrixF precisions_f_;
   VectorF constants_f_;
   VectorD constants_;
+  MatrixD precisions_;
+};
+
+/// How a bank is estimated from sums.
+struct BankEstimation {
+  VectorD variance_floor;      ///< (dim)
+  double weight_floor = 0;     ///< weights are rescaled after it
+  double weight_prior = 0;     ///< imagined frames of every component
+  bool tied_variance = false;  ///< one vector of variances for all components of all states
 };
 
 /// Weighted sums of one pass over the data, from which a bank is re-estimated (M step).
@@ -64,10 +80,9 @@ class MixtureAccumulator {
   void add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& components,
            const MatrixD& densities);
 
-  /// The re-estimated bank; states and components without data keep `previous`. Variances are
-  /// floored by `variance_floor` (dim), weights by `weight_floor` and rescaled.
-  [[nodiscard]] MixtureBank estimate(const MixtureBank& previous, const VectorD& variance_floor,
-                                     double weight_floor) const;
+  /// The re-estimated bank; states and components without data keep `previous`.
+  [[nodiscard]] MixtureBank estimate(const MixtureBank& previous,
+                                     const BankEstimation& options) const;
 
  private:
   VectorD counts_;
@@ -81,6 +96,10 @@ struct GlobalStatistics {
   VectorD variance;
 };
 GlobalStatistics global_statistics(const std::vector<MatrixF>& sequences);
+
+/// The state of every frame by k-means over all of them (standardised), seeded by rows far apart.
+std::vector<std::vector<int>> cluster_frames(const std::vector<MatrixF>& sequences, int num_states,
+                                             std::uint64_t seed, const StopCheck& should_stop);
 
 /// A first bank from frames already assigned to states: k-means within each state, seeded. States
 /// without frames get the global statistics.

@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Hidden Markov models: topologies, chains, Gaussian-mixture and discrete emissions.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+
+#include "hri/models/discrete_hmm.hpp"
+#include "hri/models/gaussian_mixture.hpp"
+#include "hri/models/gaussian_mixture_hmm.hpp"
+#include "hri/models/markov_chain.hpp"
+#include "hri/models/topology.hpp"
+#include "model_inputs.hpp"
+#include "options.hpp"
+
+namespace py = pybind11;
+using hri_bind::as_matrix;
+using hri_bind::as_symbols;
+using hri_bind::as_vector;
+using hri_bind::bind_files;
+using hri_bind::DoubleArray;
+using hri_bind::FloatArray;
+using hri_bind::Integers;
+using hri_bind::to_array;
+
+namespace {
+
+std::vector<hri::MatrixF> sequences_of(const std::vector<FloatArray>& arrays) {
+  std::vector<hri::MatrixF> sequences;
+  sequences.reserve(arrays.size());
+  for (const FloatArray& a : arrays) sequences.emplace_back(as_matrix(a, "a sequence"));
+  return sequences;
+}
+
+void bind_topology(py::module_& m) {
+  py::class_<hri::Topology> cls(m, "Topology", "Which transitions a sequence model has.");
+  py::enum_<hri::Topology::Kind>(cls, "Kind")
+      .value("left_right", hri::Topology::Kind::left_right)
+      .value("banded", hri::Topology::Kind::banded)
+      .value("ergodic", hri::Topology::Kind::ergodic)
+      .value("rank_one_plus_band", hri::Topology::Kind::rank_one_plus_band);
+  hri_bind::options(cls)
+      .field("kind", &hri::Topology::kind)
+      .field("num_states", &hri::Topology::num_states)
+      .field("max_jump", &hri::Topology::max_jump);
+  cls.def("allows", &hri::Topology::allows, py::arg("i"), py::arg("j"));
+  m.def(
+      "initial_start",
+      [](const hri::Topology& topology) {
+        hri::validate(topology);
+        return to_array(hri::initial_start(topology));
+      },
+      py::arg("topology"), "Start probabilities, shape (num_states,).");
+  m.def(
+      "initial_transition",
+      [](const hri::Topology& topology, double stay) {
+        hri::validate(topology);
+        return to_array(hri::initial_transition(topology, stay));
+      },
+      py::arg("topology"), py::arg("stay") = 0.6,
+      "Row-stochastic start values without jumps, shape (num_states, num_states).");
+
+  using Chain = hri::MarkovChain;
+  py::class_<Chain> chain(m, "MarkovChain",
+                          "Start and transition probabilities of a sequence model.");
+  chain
+      .def(py::init([](const hri::Topology& topology, const DoubleArray& start,
+                       const DoubleArray& transition) {
+             return Chain(topology, as_vector(start, "start"), as_matrix(transition, "transition"));
+           }),
+           py::arg("topology"), py::arg("start"), py::arg("transition"))
+      .def(py::init([](const hri::Topology& topology, const DoubleArray& start,
+                       const DoubleArray& band, const DoubleArray& leave, const DoubleArray& land) {
+             return Chain(topology, as_vector(start, "start"), as_matrix(band, "band"),
+                          as_vector(leave, "leave"), as_vector(land, "land"));
+           }),
+           py::arg("topology"), py::arg("start"), py::arg("band"), py::arg("leave"),
+           py::arg("land"), "rank_one_plus_band: a_ij = band[i, j] + leave[i] * land[j].")
+      .def_static("initial", &Chain::initial, py::arg("topology"))
+      .def_property_readonly("topology", &Chain::topology)
+      .def_property_readonly("num_states", &Chain::num_states)
+      .def_property_readonly("start", [](const Chain& self) { return to_array(self.start()); })
+      .def_property_readonly("transition",
+                             [](const Chain& self) { return to_array(self.transition()); })
+      .def_property_readonly("band", [](const Chain& self) { return to_array(self.band()); })
+      .def_property_readonly("leave", [](const Chain& self) { return to_array(self.leave()); })
+      .def_property_readonly("land", [](const Chain& self) { return to_array(self.land()); });
+  bind_files(chain);
+
+  py::class_<hri::TrainingReport>(m, "TrainingReport", "How an iterative training went.")
+      .def(py::init<>())
+      .def_readonly("log_likelihoods", &hri::TrainingReport::log_likelihoods)
+      .def_readonly("converged", &hri::TrainingReport::converged);
+}
+
+void bind_gaussian_mixture(py::module_& m) {
+  py::class_<hri::GaussianMixtureOptions> options(m, "GaussianMixtureOptions",
+                                                  "Options of GaussianMixture.");
+  hri_bind::options(options)
+      .field("num_mixtures", &hri::GaussianMixtureOptions::num_mixtures)
+      .field("max_iterations", &hri::GaussianMixtureOptions::max_iterations)
+      .field("tolerance", &hri::GaussianMixtureOptions::tolerance)
+      .field("variance_floor", &hri::GaussianMixtureOptions::variance_floor)
+      .field("wide_weight", &hri::GaussianMixtureOptions::wide_weight)
+      .field("seed", &hri::GaussianMixtureOptions::seed);
+  py::class_<hri::GaussianMixture> cls(m, "GaussianMixture",
+                                       "Gaussian mixture with diagonal covariance.");
+  cls.def_static(
+      "train",
+      [](const FloatArray& rows, hri::GaussianMixtureOptions o, hri::TrainingReport* report) {
+        const auto matrix = as_matrix(rows, "rows");
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return hri::GaussianMixture::train(matrix, o, report);
+      },
+      py::arg("rows"),
+      py::arg_v("options", hri::GaussianMixtureOptions(), "GaussianMixtureOptions()"),
+      py::arg("report") = nullptr);
+  cls.def(
+      "log_likelihood",
+      [](const hri::GaussianMixture& self, const FloatArray& frames) {
+        const auto matrix = as_matrix(frames, "frames");
+        const py::gil_scoped_release release;
+        return self.log_likelihood(matrix);
+      },
+      py::arg("frames"), "Sum over the frames of log p(frame), natural log.");
+  cls.def_property_readonly("dim", &hri::GaussianMixture::dim);
+  cls.def_property_readonly(
+      "weights", [](const hri::GaussianMixture& self) { return to_array(self.bank().weights()); });
+  cls.def_property_readonly(
+      "means", [](const hri::GaussianMixture& self) { return to_array(self.bank().means()); });
+  cls.def_property_readonly("variances", [](const hri::GaussianMixture& self) {
+    return to_array(self.bank().variances());
+  });
+  bind_files(cls);
+}
+
+void bind_gaussian_mixture_hmm(py::module_& m) {
+  using Model = hri::GaussianMixtureHmm;
+  using Options = hri::GaussianMixtureHmmOptions;
+  py::class_<Options> options(m, "GaussianMixtureHmmOptions", "Options of GaussianMixtureHmm.");
+  hri_bind::options(options)
+      .field("topology", &Options::topology)
+      .field("num_mixtures", &Options::num_mixtures)
+      .field("max_iterations", &Options::max_iterations)
+      .field("tolerance", &Options::tolerance)
+      .field("variance_floor", &Options::variance_floor)
+      .field("weight_floor", &Options::weight_floor)
+      .field("tied_variance", &Options::tied_variance)
+      .field("transition_prior", &Options::transition_prior)
+      .field("weight_prior", &Options::weight_prior)
+      .field("train_transitions", &Options::train_transitions)
+      .field("seed", &Options::seed);
+  py::class_<Model> cls(m, "GaussianMixtureHmm",
+                        "HMM with Gaussian-mixture emissions of diagonal covariance.");
+  cls.def(py::init([](const hri::MarkovChain& chain, const DoubleArray& weights,
+                      const DoubleArray& means, const DoubleArray& variances) {
+            return Model(chain,
+                         hri::MixtureBank(as_matrix(weights, "weights"), as_matrix(means, "means"),
+                                          as_matrix(variances, "variances")));
+          }),
+          py::arg("chain"), py::arg("weights"), py::arg("means"), py::arg("variances"),
+          "weights (num_states, num_mixtures); means and variances (num_states * num_mixtures, "
+          "dim), state by state.");
+  cls.def_static(
+      "train",
+      [](const std::vector<FloatArray>& sequences, Options o, hri::TrainingReport* report) {
+        const std::vector<hri::MatrixF> frames = sequences_of(sequences);
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return Model::train(frames, o, report);
+      },
+      py::arg("sequences"), py::arg_v("options", Options(), "GaussianMixtureHmmOptions()"),
+      py::arg("report") = nullptr, "Baum-Welch over a list of (num_frames, dim) arrays.");
+  cls.def(
+      "retrain",
+      [](const Model& self, const std::vector<FloatArray>& sequences, Options o,
+         hri::TrainingReport* report) {
+        const std::vector<hri::MatrixF> frames = sequences_of(sequences);
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return self.retrain(frames, o, report);
+      },
+      py::arg("sequences"), py::arg_v("options", Options(), "GaussianMixtureHmmOptions()"),
+      py::arg("report") = nullptr,
+      "A model trained further; topology, num_mixtures and seed of the options are not read.");
+  const auto scorer = [](double (Model::*method)(hri::ConstMatrixRefF) const) {
+    return [method](const Model& self, const FloatArray& frames) {
+      const auto matrix = as_matrix(frames, "frames");
+      const py::gil_scoped_release release;
+      return (self.*method)(matrix);
+    };
+  };
+  cls.def("log_likelihood", scorer(&Model::log_likelihood), py::arg("frames"),
+          "log P(frames | model), natural log; emissions in float.");
+  cls.def("log_likelihood_exact", scorer(&Model::log_likelihood_exact), py::arg("frames"),
+          "The same with emissions in double.");
+  cls.def(
+      "viterbi",
+      [](const Model& self, const FloatArray& frames) {
+        const auto matrix = as_matrix(frames, "frames");
+        std::vector<int> path;
+        double score = 0;
+        {
+          const py::gil_scoped_release release;
+          score = self.viterbi(matrix, &path);
+        }
+        return py::make_tuple(score, to_array(path));
+      },
+      py::arg("frames"), "log P(frames, best path | model) and the path, int32.");
+  cls.def(
+      "posterior",
+      [](const Model& self, const FloatArray& frames) {
+        const auto matrix = as_matrix(frames, "frames");
+        hri::MatrixD gamma;
+        {
+          const py::gil_scoped_release release;
+          gamma = self.posterior(matrix);
+        }
+        return to_array(gamma);
+      },
+      py::arg("frames"), "P(state | all frames), shape (num_frames, num_states).");
+  cls.def_property_readonly("dim", &Model::dim);
+  cls.def_property_readonly("weights",
+                            [](const Model& self) { return to_array(self.bank().weights()); });
+  cls.def_property_readonly("means",
+                            [](const Model& self) { return to_array(self.bank().means()); });
+  cls.def_property_readonly("variances",
+                            [](const Model& self) { return to_array(self.bank().variances()); });
+  cls.def_property_readonly("num_states", &Model::num_states);
+  cls.def_property_readonly("chain", &Model::chain);
+  bind_files(cls);
+}
+
+void bind_discrete_hmm(py::module_& m) {
+  using Model = hri::DiscreteHmm;
+  using Options = hri::DiscreteHmmOptions;
+  py::class_<Options> options(m, "DiscreteHmmOptions", "Options of DiscreteHmm.");
+  hri_bind::options(options)
+      .field("topology", &Options::topology)
+      .field("num_symbols", &Options::num_symbols)
+      .field("max_iterations", &Options::max_iterations)
+      .field("tolerance", &Options::tolerance)
+      .field("emission_floor", &Options::emission_floor)
+      .field("transition_prior", &Options::transition_prior)
+      .field("emission_prior", &Options::emission_prior)
+      .field("train_transitions", &Options::train_transitions)
+      .field("seed", &Options::seed);
+  py::class_<Model> cls(m, "DiscreteHmm", "HMM over discrete symbols.");
+  cls.def(py::init([](const hri::MarkovChain& chain, const DoubleArray& emission) {
+            return Model(chain, as_matrix(emission, "emission"));
+          }),
+          py::arg("chain"), py::arg("emission"), "emission has shape (num_states, num_symbols).");
+  cls.def_static(
+      "train",
+      [](const std::vector<py::array>& sequences, Options o, hri::TrainingReport* report) {
+        const std::vector<hri::SymbolSequence> symbols = as_symbols(sequences);
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return Model::train(symbols, o, report);
+      },
+      py::arg("sequences"), py::arg("options"), py::arg("report") = nullptr,
+      "Baum-Welch over a list of integer arrays.");
+  cls.def(
+      "retrain",
+      [](const Model& self, const std::vector<py::array>& sequences, Options o,
+         hri::TrainingReport* report) {
+        const std::vector<hri::SymbolSequence> symbols = as_symbols(sequences);
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return self.retrain(symbols, o, report);
+      },
+      py::arg("sequences"), py::arg("options"), py::arg("report") = nullptr,
+      "A model trained further; topology, num_symbols and seed of the options are not read.");
+  const auto scorer = [](double (Model::*method)(hri::Span<const std::int32_t>) const) {
+    return [method](const Model& self, const py::array& array) {
+      const Integers symbols(array, "symbols");
+      // A short word is scored in less time than it takes to let other threads run.
+      std::optional<py::gil_scoped_release> release;
+      if (symbols.span().size() > 256) release.emplace();
+      return (self.*method)(symbols.span());
+    };
+  };
+  cls.def("log_likelihood", scorer(&Model::log_likelihood), py::arg("symbols"),
+          "log P(symbols | model), natural log.");
+  cls.def("log_likelihood_exact", scorer(&Model::log_likelihood_exact), py::arg("symbols"),
+          "The same in logs from the first symbol on: slow, to compare with.");
+  cls.def(
+      "viterbi",
+      [](const Model& self, const py::array& array) {
+        const Integers symbols(array, "symbols");
+        std::vector<int> path;
+        double score = 0;
+        {
+          const py::gil_scoped_release release;
+          score = self.viterbi(symbols.span(), &path);
+        }
+        return py::make_tuple(score, to_array(path));
+      },
+      py::arg("symbols"), "log P(symbols, best path | model) and the path, int32.");
+  cls.def(
+      "posterior",
+      [](const Model& self, const py::array& array) {
+        const Integers symbols(array, "symbols");
+        hri::MatrixD gamma;
+        {
+          const py::gil_scoped_release release;
+          gamma = self.posterior(symbols.span());
+        }
+        return to_array(gamma);
+      },
+      py::arg("symbols"), "P(state | all symbols), shape (num_symbols_given, num_states).");
+  cls.def_property_readonly("num_symbols", &Model::num_symbols);
+  cls.def_property_readonly("emission",
+                            [](const Model& self) { return to_array(self.emission()); });
+  cls.def_property_readonly("num_states", &Model::num_states);
+  cls.def_property_readonly("chain", &Model::chain);
+  bind_files(cls);
+}
+
+}  // namespace
+
+void bind_hmm(py::module_& m) {
+  bind_topology(m);
+  bind_gaussian_mixture(m);
+  bind_gaussian_mixture_hmm(m);
+  bind_discrete_hmm(m);
+}
