@@ -16,11 +16,11 @@ from pathlib import Path
 
 import bench_classifiers
 import bench_codebook
-import bench_models
+import bench_hmm
 import bench_signal
 import bench_vision
 
-MODULES = (bench_signal, bench_models, bench_codebook, bench_classifiers, bench_vision)
+MODULES = (bench_signal, bench_hmm, bench_codebook, bench_classifiers, bench_vision)
 ALL = {bench.name: bench for module in MODULES for bench in module.BENCHES}
 
 
