@@ -72,9 +72,8 @@ def test_the_whole_study_on_made_up_words(data_dir: Path, monkeypatch: pytest.Mo
     result = studies.run_study(study, data_dir, lambda *progress: reported.append(progress))
     assert json.loads(json.dumps(result)) == result
     assert result["seeds"] == [0, 1] and set(result["data_sets"]) == set(parity.SETTINGS)
-    sizes = {"english-digits": (2, 18), "hindi-words": (4, 36), "asl-words": (2, 18)}
-    for name, (num_classes, num_test) in sizes.items():
-        found = result["data_sets"][name]
+    num_classes, num_test = 2, 18
+    for name, found in result["data_sets"].items():
         assert found["num_test"] == num_test and len(found["folds"]) == 3
         assert {fold["num_classes"] for fold in found["folds"]} == {num_classes}, (
             "a word that one video has is no class"
@@ -95,6 +94,17 @@ def test_the_whole_study_on_made_up_words(data_dir: Path, monkeypatch: pytest.Mo
         )
         assert (name, 6, 6) in reported
     assert result["passed"] == all(found["passed"] for found in result["data_sets"].values())
+
+
+def test_the_command_tells_every_difference(hri, data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(parity, "SEEDS", (0,))
+    monkeypatch.setattr(parity, "SETTINGS", {"asl-words": parity.SETTINGS["asl-words"]})
+    result = hri("study", "ptbhmm-parity", "--data", data_dir)
+    lines = [line.strip() for line in result.out.splitlines()]
+    assert result.code in (0, 1) and lines.count("difference\t+0.00 points to the HMM") >= 1
+    place = lines.index("max_literal")
+    assert lines[place + 1] == "accuracy\t50.0 % ± 0.0"
+    assert lines[place + 2].startswith("difference\t-")
 
 
 def test_the_study_repeats(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:

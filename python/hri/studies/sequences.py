@@ -59,9 +59,9 @@ class Split:
     test: list[int]
 
 
-def spoken_words(folders: Sequence[Path], what: str, progress: Progress) -> list[Example]:
+def spoken_words(folder: Path, what: str, progress: Progress) -> list[Example]:
     """Cepstra of every recording: MFCC 0-12 and deltas at 8 kHz, mean and variance normalised, pauses cut."""
-    samples = [sample for folder in folders for sample in Dataset.load(folder, "speech").samples]
+    samples = Dataset.load(folder, "speech").samples
     computer = _native.CepstraComputer(
         _native.CepstraOptions(sample_rate_hz=RATE_HZ, normalisation="mean_variance", delta_orders=1)
     )
