@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <vector>
 
 #include "hri/models/codebook.hpp"
@@ -19,6 +20,14 @@ using hri_bind::FloatArray;
 using hri_bind::to_array;
 
 namespace {
+
+// Lets other threads run during long work. For some microseconds it would not pay: a thread that
+// gives up the lock may wait some milliseconds until it has it again.
+void release_for_long(Eigen::Index multiplications,
+                      std::optional<py::gil_scoped_release>* release) {
+  constexpr Eigen::Index kLong = 1 << 20;  // some dozen microseconds
+  if (multiplications > kLong) release->emplace();
+}
 
 void bind_training(py::module_& m) {
   py::class_<hri::CodebookOptions> options(m, "CodebookOptions", "Options of Codebook.");
@@ -75,7 +84,8 @@ void bind_one(py::module_& m) {
         py::array_t<std::int32_t> symbols(matrix.rows());
         std::int32_t* out = symbols.mutable_data();
         {
-          const py::gil_scoped_release release;
+          std::optional<py::gil_scoped_release> release;
+          release_for_long(matrix.size() * self.size(), &release);
           self.quantise(matrix, out, 1);
         }
         return symbols;
@@ -123,7 +133,11 @@ void bind_streams(py::module_& m) {
         const hri::Span<std::int32_t> out(symbols.mutable_data(),
                                           static_cast<std::size_t>(symbols.size()));
         {
-          const py::gil_scoped_release release;
+          std::optional<py::gil_scoped_release> release;
+          Eigen::Index size = 0;
+          for (int s = 0; s < self.num_streams(); ++s)
+            size += Eigen::Index{self.stream(s).size()} * self.stream(s).dim();
+          release_for_long(matrix.rows() * size, &release);
           self.quantise(matrix, out);
         }
         return symbols;
@@ -142,6 +156,7 @@ void bind_streams(py::module_& m) {
   cls.def_property_readonly("dim", &Book::dim);
   cls.def_property_readonly("streams", [](const Book& self) {
     std::vector<hri::Codebook> streams;
+    streams.reserve(static_cast<std::size_t>(self.num_streams()));
     for (int s = 0; s < self.num_streams(); ++s) streams.push_back(self.stream(s));
     return streams;
   });
