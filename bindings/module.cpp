@@ -16,7 +16,8 @@ void bind_features(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_codebook(py::module_& m);
 void bind_models(py::module_& m);
-void bind_sequence_models(py::module_& m);
+void bind_hmm(py::module_& m);
+void bind_possibilistic(py::module_& m);
 void bind_recognition(py::module_& m);
 
 namespace {
@@ -81,6 +82,7 @@ PYBIND11_MODULE(_native, m) {
   bind_hand_features(m);
   bind_codebook(m);
   bind_models(m);
-  bind_sequence_models(m);
+  bind_hmm(m);
+  bind_possibilistic(m);
   bind_recognition(m);
 }

@@ -29,6 +29,7 @@ __all__: list[str] = [
     "Error",
     "FilterBankKind",
     "FilterBankOptions",
+    "FixedPointHmmSet",
     "FormatError",
     "GaussianBayes",
     "GaussianBayesOptions",
@@ -57,6 +58,9 @@ __all__: list[str] = [
     "Pca",
     "PossibilisticHmmOptions",
     "PossibilisticHmmSet",
+    "PossibilisticHmmStream",
+    "PossibilisticRule",
+    "PossibilisticTraining",
     "SequenceModelKind",
     "SequenceModelOptions",
     "SilhouetteCepstrumComputer",
@@ -1429,15 +1433,65 @@ class Conjunction:
     @property
     def value(self) -> int: ...
 
+class PossibilisticRule:
+    """
+    How a PossibilisticHmmSet is scored.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    conditioned: bool
+    conjunction: Conjunction
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def concentration(self) -> float: ...
+    @concentration.setter
+    def concentration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class PossibilisticTraining:
+    """
+    Members:
+
+      all_paths
+
+      best_path
+    """
+
+    __members__: typing.ClassVar[dict[str, PossibilisticTraining]]
+    all_paths: typing.ClassVar[PossibilisticTraining]
+    best_path: typing.ClassVar[PossibilisticTraining]
+    @typing.overload
+    def __eq__(self, other: PossibilisticTraining) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: PossibilisticTraining) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class PossibilisticHmmOptions:
     """
     Options of PossibilisticHmmSet.
     """
 
     __hash__: typing.ClassVar[None] = None
-    conditioned: bool
-    conjunction: Conjunction
+    rule: PossibilisticRule
     topology: Topology
+    training: PossibilisticTraining
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __init__(self, **kwargs) -> None: ...
     def __repr__(self) -> str: ...
@@ -1468,10 +1522,6 @@ class PossibilisticHmmSet:
     Possibility-theory HMMs of all classes, trained and scaled together (thesis chapter 4).
     """
     @staticmethod
-    def from_hmms(
-        models: collections.abc.Sequence[DiscreteHmm], conjunction: Conjunction, conditioned: bool = True
-    ) -> PossibilisticHmmSet: ...
-    @staticmethod
     def read(file: ModelFile, prefix: str) -> PossibilisticHmmSet:
         """
         Reads what `write` added; raises FormatError naming the field that does not fit.
@@ -1486,18 +1536,40 @@ class PossibilisticHmmSet:
         """
         per_class[c] lists the symbol sequences of class c.
         """
-    def emission(
-        self, class_index: typing.SupportsInt | typing.SupportsIndex
-    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def __init__(self, models: collections.abc.Sequence[DiscreteHmm], rule: PossibilisticRule = ...) -> None:
+        """
+        The set of trained HMMs: starts, transitions and the emissions of each symbol divided by the largest over all classes and states (eq. 5.14).
+        """
+    def classify(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
+        """
+        Possibility and necessity of each class, two float32 arrays of shape (num_classes,).
+        """
+    def emission(self, class_index: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Possibilities, shape (num_states, num_symbols).
+        """
     def log_possibilities(
         self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
     ) -> numpy.typing.NDArray[numpy.float32]:
         """
         log possibility of the symbols under each class, float32, shape (num_classes,).
         """
-    def transition(
-        self, class_index: typing.SupportsInt | typing.SupportsIndex
-    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def log_possibilities_exact(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The same computed in float64.
+        """
+    def start(self, class_index: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Possibilities, shape (num_states,).
+        """
+    def transition(self, class_index: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Possibilities, shape (num_states, num_states).
+        """
     def viterbi(
         self,
         class_index: typing.SupportsInt | typing.SupportsIndex,
@@ -1506,18 +1578,88 @@ class PossibilisticHmmSet:
         """
         Log possibility of the best path and the path, int32.
         """
+    @typing.overload
+    def with_class(self, model: DiscreteHmm) -> PossibilisticHmmSet:
+        """
+        The set with one class more, which comes last; no other class is trained again.
+        """
+    @typing.overload
+    def with_class(
+        self,
+        sequences: collections.abc.Sequence[numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]],
+        options: PossibilisticHmmOptions,
+    ) -> PossibilisticHmmSet: ...
     def write(self, file: ModelFile, prefix: str) -> None:
         """
         Adds the model to a ModelFile.
         """
     @property
-    def conjunction(self) -> Conjunction: ...
+    def models(self) -> list[DiscreteHmm]:
+        """
+        The HMMs before scaling.
+        """
+    @property
+    def num_classes(self) -> int: ...
+    @property
+    def num_states(self) -> int: ...
+    @property
+    def num_symbols(self) -> int: ...
+    @property
+    def rule(self) -> PossibilisticRule: ...
+    @property
+    def topology(self) -> Topology: ...
+
+class FixedPointHmmSet:
+    """
+    The product recursion of a PossibilisticHmmSet in 16-bit integers.
+    """
+    def __init__(self, set: PossibilisticHmmSet) -> None: ...
+    def log_possibilities(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        log possibility of the symbols under each class, float32, shape (num_classes,).
+        """
     @property
     def num_classes(self) -> int: ...
     @property
     def num_symbols(self) -> int: ...
     @property
-    def topology(self) -> Topology: ...
+    def units(self) -> float:
+        """
+        Integer steps in one natural-log unit.
+        """
+
+class PossibilisticHmmStream:
+    """
+    Scores of a PossibilisticHmmSet while the symbols come in.
+    """
+    def __init__(self, set: PossibilisticHmmSet, beam: typing.SupportsFloat | typing.SupportsIndex = ...) -> None:
+        """
+        Classes that fall by more than `beam` (natural log) below the best are dropped.
+        """
+    def log_possibilities(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Of all symbols so far under each class, float32, shape (num_classes,).
+        """
+    def nbest(self, count: typing.SupportsInt | typing.SupportsIndex = 5) -> list[int]:
+        """
+        Indices of the best classes, best first.
+        """
+    def push(self, symbol: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def reset(self) -> None:
+        """
+        Ready for the next utterance.
+        """
+    @property
+    def num_active(self) -> int:
+        """
+        Classes not dropped.
+        """
+    @property
+    def num_classes(self) -> int: ...
+    @property
+    def num_frames(self) -> int: ...
 
 class DecisionStatus:
     """

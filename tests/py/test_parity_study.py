@@ -80,7 +80,7 @@ def test_the_whole_study_on_made_up_words(data_dir: Path, monkeypatch: pytest.Mo
         )
         methods = found["methods"]
         assert list(methods) == list(parity.METHODS)
-        for method in ("hmm_forward", "hmm_viterbi", "product", "product_own_learning", "min_conditioned"):
+        for method in ("hmm_forward", "hmm_viterbi", "product", "product_best_path", "min_conditioned"):
             assert methods[method]["accuracy_mean"] >= 0.9, (name, method)
         for method, values in methods.items():
             assert values["accuracy_mean"] == pytest.approx(np.mean(values["per_fold"]))
@@ -177,7 +177,7 @@ def test_scores_of_rows_are_those_of_every_path() -> None:
         )
         for part in train
     ]
-    found = _native.PossibilisticHmmSet.from_hmms(models, _native.Conjunction.product)
+    found = _native.PossibilisticHmmSet(models)
     scores = parity.score_all(train, test, setting)["product_rows"]
     for symbols, row in zip(test, scores, strict=True):
         for c, model in enumerate(models):

@@ -166,7 +166,7 @@ def test_possibilities_match_a_plain_recursion() -> None:
 def test_literal_maximum_scores_all_classes_alike() -> None:
     rng = np.random.default_rng(7)
     per_class = [[rng.integers(0, 4, 20) + 2 * c for _ in range(4)] for c in range(3)]
-    options = _native.PossibilisticHmmOptions(num_symbols=8, conjunction="max")
+    options = _native.PossibilisticHmmOptions(num_symbols=8, rule={"conjunction": "max"})
     model = _native.PossibilisticHmmSet.train(per_class, options)
     for sequences in per_class:
         for symbols in sequences:

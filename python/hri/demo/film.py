@@ -99,7 +99,9 @@ def _scene_frames(scene: Scene, robot: Robot, answer: Answer, title: str) -> Ite
     resting = np.ascontiguousarray(robot.render(*_PANE_PX)[:, :, ::-1])
     clip = scene.frames or [_no_camera()] * _PAUSE_FRAMES
     for frame in clip:
-        yield _side_by_side(frame, resting, title, "listening and watching ..." if scene.frames else "listening ...", "")
+        yield _side_by_side(
+            frame, resting, title, "listening and watching ..." if scene.frames else "listening ...", ""
+        )
     said = f"heard: {told(scene.decision.speech)}     seen: {told(scene.decision.gesture)}"
     decided = f"decided: {told(scene.decision)}   [{scene.decision.rule}]"
     images = _perform(scene.decision.label, robot, answer) if robot_moves(scene.decision) else []

@@ -27,10 +27,11 @@ METHODS = {
     "hmm_viterbi": "the same models, Viterbi score",
     "product": "PTBHMM, product; parameters of the same models",
     "min_conditioned": "PTBHMM, min with conditioning; parameters of the same models",
+    "min_not_concentrated": "the same with concentration 1: what a state was contradicted by before is not held",
     "min_plain": "PTBHMM, min without conditioning",
     "max_literal": "PTBHMM, literal eq. 4.11: everything joined by max",
-    "product_own_learning": "PTBHMM, product; trained by itself (eq. 4.22-4.28)",
-    "min_own_learning": "PTBHMM, min with conditioning; trained by itself",
+    "product_best_path": "PTBHMM, product; trained along best paths (eq. 4.22-4.28)",
+    "min_best_path": "PTBHMM, min with conditioning; trained along best paths",
     "product_rows": "PTBHMM, product; emissions divided by their row's largest instead of eq. 5.14",
 }
 
@@ -101,19 +102,18 @@ def score_all(
         "max_iterations": setting.max_iterations,
     }
     models = [_native.DiscreteHmm.train(list(part), _native.DiscreteHmmOptions(**shared)) for part in train]
-    kinds = _native.Conjunction
-    own = {
-        kind: _native.PossibilisticHmmSet.train(train, _native.PossibilisticHmmOptions(conjunction=kind, **shared))
-        for kind in (kinds.product, kinds.min)
+    rules = {
+        "product": _native.PossibilisticRule(conjunction="product"),
+        "min_conditioned": _native.PossibilisticRule(conjunction="min"),
+        "min_not_concentrated": _native.PossibilisticRule(conjunction="min", concentration=1.0),
+        "min_plain": _native.PossibilisticRule(conjunction="min", conditioned=False),
+        "max_literal": _native.PossibilisticRule(conjunction="max"),
     }
-    sets = {
-        "product": _native.PossibilisticHmmSet.from_hmms(models, kinds.product),
-        "min_conditioned": _native.PossibilisticHmmSet.from_hmms(models, kinds.min, True),
-        "min_plain": _native.PossibilisticHmmSet.from_hmms(models, kinds.min, False),
-        "max_literal": _native.PossibilisticHmmSet.from_hmms(models, kinds.max),
-        "product_own_learning": own[kinds.product],
-        "min_own_learning": own[kinds.min],
-    }
+    best_path = _native.PossibilisticHmmOptions(training="best_path", **shared)
+    own = _native.PossibilisticHmmSet.train(train, best_path).models
+    sets = {name: _native.PossibilisticHmmSet(models, rule) for name, rule in rules.items()}
+    sets["product_best_path"] = _native.PossibilisticHmmSet(own, rules["product"])
+    sets["min_best_path"] = _native.PossibilisticHmmSet(own, rules["min_conditioned"])
     scores = {
         "hmm_forward": [[model.log_likelihood(symbols) for model in models] for symbols in test],
         "hmm_viterbi": [[model.viterbi(symbols)[0] for model in models] for symbols in test],

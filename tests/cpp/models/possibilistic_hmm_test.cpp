@@ -50,8 +50,28 @@ PossibilisticHmmOptions with(Conjunction conjunction,
   PossibilisticHmmOptions options;
   options.topology = topology;
   options.num_symbols = kNumSymbols;
-  options.conjunction = conjunction;
+  options.rule.conjunction = conjunction;
   return options;
+}
+
+// Models with arbitrary parameters, from training on noise.
+std::vector<DiscreteHmm> random_models(std::size_t num_classes, const Topology& topology) {
+  std::vector<DiscreteHmm> models;
+  DiscreteHmmOptions options;
+  options.topology = topology;
+  options.num_symbols = kNumSymbols;
+  options.max_iterations = 2;
+  for (std::size_t c = 0; c < num_classes; ++c) {
+    Random random(c + 1);
+    std::vector<SymbolSequence> sequences(3);
+    for (SymbolSequence& s : sequences) {
+      for (int t = 0; t < 3 * topology.num_states; ++t)
+        s.push_back(static_cast<std::int32_t>(random.below(kNumSymbols)));
+    }
+    options.seed = c;
+    models.push_back(DiscreteHmm::train(sequences, options));
+  }
+  return models;
 }
 
 double accuracy(const PossibilisticHmmSet& set, std::uint64_t seed) {
@@ -68,54 +88,66 @@ double accuracy(const PossibilisticHmmSet& set, std::uint64_t seed) {
 }
 
 // The recursion over a dense matrix, in plain possibilities: no logs, no band.
-double brute_force(const PossibilisticHmmSet& set, int c, const SymbolSequence& s, bool condition) {
-  const int n = set.topology().num_states;
-  const auto join = [&set](double a, double b) {
-    if (set.conjunction() == Conjunction::product) return a * b;
-    return set.conjunction() == Conjunction::min ? std::min(a, b) : std::max(a, b);
+double brute_force(const PossibilisticHmmSet& set, int c, const SymbolSequence& s) {
+  const int n = set.num_states();
+  const Conjunction conjunction = set.rule().conjunction;
+  const bool conditioned = conjunction == Conjunction::min && set.rule().conditioned;
+  const auto join = [conjunction](double a, double b) {
+    if (conjunction == Conjunction::product) return a * b;
+    return conjunction == Conjunction::min ? std::min(a, b) : std::max(a, b);
   };
-  VectorD phi(n);
+  const MatrixD transition = set.transition(c);
+  const MatrixD emission = set.emission(c);
+  VectorD phi = set.start(c);
   double log_scale = 0;
+  const auto condition = [&log_scale](VectorD* v) {
+    log_scale += std::log(v->maxCoeff());
+    *v /= v->maxCoeff();
+  };
   for (std::size_t t = 0; t < s.size(); ++t) {
-    VectorD next(n);
-    for (int j = 0; j < n; ++j) {
-      double before = set.topology().kind != Kind::left_right || j == 0 ? 1.0 : 0.0;
-      if (t > 0) {
-        before = 0;
-        for (int i = 0; i < n; ++i) {
-          // A transition that does not exist joins nothing, also under max.
-          if (set.topology().allows(i, j))
-            before = std::max(before, join(phi[i], set.transition(c)(i, j)));
-        }
+    VectorD came = phi;
+    for (int j = 0; t > 0 && j < n; ++j) {
+      came[j] = 0;
+      for (int i = 0; i < n; ++i) {
+        // A transition that does not exist joins nothing, also under max.
+        if (set.topology().allows(i, j))
+          came[j] = std::max(came[j], join(phi[i], transition(i, j)));
       }
-      next[j] = join(before, set.emission(c)(j, s[t]));
     }
-    phi = next;
-    if (condition) {
-      log_scale += std::log(phi.maxCoeff());
-      phi /= phi.maxCoeff();
+    VectorD b = emission.col(s[t]);
+    if (conditioned) condition(&b);
+    for (int j = 0; j < n; ++j) {
+      if (conditioned && b[j] < 1) came[j] = std::pow(came[j], set.rule().concentration);
+      phi[j] = join(came[j], b[j]);
     }
+    if (conditioned) condition(&phi);
   }
   return std::log(phi.maxCoeff()) + log_scale;
 }
 
+// Every structure and rule, on sets of so many classes that each layout is used.
 TEST(PossibilisticHmmSet, MatchesTheRecursionByBruteForce) {
   for (const Conjunction conjunction : {Conjunction::product, Conjunction::min, Conjunction::max}) {
     for (const Topology& topology :
-         {Topology{Kind::left_right, 4, 1}, Topology{Kind::left_right, 4, 2},
-          Topology{Kind::banded, 4, 1}, Topology{Kind::ergodic, 3, 1}}) {
+         {Topology{Kind::left_right, 4, 1}, Topology{Kind::left_right, 37, 1},
+          Topology{Kind::left_right, 4, 2}, Topology{Kind::banded, 4, 1},
+          Topology{Kind::banded, 5, 2}, Topology{Kind::ergodic, 3, 1},
+          Topology{Kind::rank_one_plus_band, 5, 1}}) {
       for (const bool conditioned : {false, true}) {
-        PossibilisticHmmOptions options = with(conjunction, topology);
-        options.conditioned = conditioned;
-        const auto set = PossibilisticHmmSet::train(words(8, 1), options);
-        for (const std::size_t length : {1U, 2U, 12U}) {
-          SymbolSequence s = word(1, 99);
-          s.resize(length);
-          const VectorF scores = set.log_possibilities(s);
-          for (int c = 0; c < kNumClasses; ++c) {
-            const double expected =
-                brute_force(set, c, s, conditioned && conjunction == Conjunction::min);
-            EXPECT_NEAR(scores[c], expected, 1e-5 * std::abs(expected) + 1e-6);
+        for (const std::size_t num_classes : {1U, 3U, 4U, 20U, 40U}) {
+          const std::vector<DiscreteHmm> models = random_models(num_classes, topology);
+          const PossibilisticHmmSet set(models, {conjunction, conditioned, 1.5});
+          for (const std::size_t length : {1U, 2U, 9U}) {
+            SymbolSequence s = word(1, 99);
+            s.resize(length);
+            const VectorF scores = set.log_possibilities(s);
+            const VectorD exact = set.log_possibilities_exact(s);
+            for (int c = 0; c < set.num_classes(); c += 3) {
+              const double expected = brute_force(set, c, s);
+              ASSERT_NEAR(exact[c], expected, 1e-12 * std::abs(expected) + 1e-12);
+              ASSERT_NEAR(scores[c], expected, 1e-5 * std::abs(expected) + 1e-5);
+              ASSERT_NEAR(set.viterbi(c, s), expected, 1e-12 * std::abs(expected) + 1e-12);
+            }
           }
         }
       }
@@ -123,17 +155,46 @@ TEST(PossibilisticHmmSet, MatchesTheRecursionByBruteForce) {
   }
 }
 
-TEST(PossibilisticHmmSet, ScalesEverySymbolOverAllClassesAndStates) {
+TEST(PossibilisticHmmSet, ScalesEverythingOverAllClassesAndStates) {
   const auto set = PossibilisticHmmSet::train(words(8, 1), with(Conjunction::product));
-  for (int o = 0; o < kNumSymbols; ++o) {
-    double largest = 0;
-    for (int c = 0; c < kNumClasses; ++c)
-      largest = std::max(largest, set.emission(c).col(o).maxCoeff());
-    EXPECT_DOUBLE_EQ(largest, 1.0);
+  const auto largest = [&set](const auto& part) {
+    double result = 0;
+    for (int c = 0; c < kNumClasses; ++c) result = std::max(result, part(c).maxCoeff());
+    return result;
+  };
+  EXPECT_DOUBLE_EQ(largest([&](int c) { return set.start(c); }), 1.0);
+  EXPECT_DOUBLE_EQ(largest([&](int c) { return set.transition(c); }), 1.0);
+  for (int o = 0; o < kNumSymbols; ++o)
+    EXPECT_DOUBLE_EQ(largest([&](int c) { return VectorD(set.emission(c).col(o)); }), 1.0);
+}
+
+TEST(PossibilisticHmmSet, TakesClassesMoreWithoutTrainingTheOthersAgain) {
+  const auto all = words(8, 1);
+  const PossibilisticHmmOptions options = with(Conjunction::product);
+  const auto few = PossibilisticHmmSet::train({all[0], all[1], all[2]}, options);
+  const auto more = few.with_class(all[3], options);
+  const auto whole = PossibilisticHmmSet::train(all, options);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(more.models()[static_cast<std::size_t>(c)].emission(),
+              few.models()[static_cast<std::size_t>(c)].emission());
   }
-  for (int c = 0; c < kNumClasses; ++c) {
-    for (int i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(set.transition(c).row(i).maxCoeff(), 1.0);
-  }
+  const SymbolSequence s = word(3, 50);
+  EXPECT_EQ(more.log_possibilities(s), whole.log_possibilities(s));
+  PossibilisticHmmOptions other = options;
+  other.topology.num_states = 2;
+  EXPECT_THROW(few.with_class(all[3], other), InvalidArgument);
+}
+
+TEST(PossibilisticHmmSet, GivesPossibilityAndNecessityOfEachClass) {
+  const auto set = PossibilisticHmmSet::train(words(20, 1), with(Conjunction::product));
+  const SymbolSequence s = word(2, 60);
+  const VectorF logs = set.log_possibilities(s);
+  const Possibilities p = set.classify(s);
+  EXPECT_FLOAT_EQ(p.possibility[2], 1.0F);
+  for (int c = 0; c < kNumClasses; ++c)
+    EXPECT_NEAR(p.possibility[c], std::exp(logs[c] - logs.maxCoeff()), 1e-6);
+  EXPECT_GT(p.necessity[2], 0.0F);
+  EXPECT_FLOAT_EQ(p.necessity[0], 0.0F);
 }
 
 TEST(PossibilisticHmmSet, TellsWordsApartByProductAndMin) {
@@ -144,7 +205,7 @@ TEST(PossibilisticHmmSet, TellsWordsApartByProductAndMin) {
 
 TEST(PossibilisticHmmSet, GainsFromConditioningTheMinimum) {
   PossibilisticHmmOptions plain = with(Conjunction::min);
-  plain.conditioned = false;
+  plain.rule.conditioned = false;
   const double without = accuracy(PossibilisticHmmSet::train(words(20, 1), plain), 5000);
   EXPECT_LT(without,
             accuracy(PossibilisticHmmSet::train(words(20, 1), with(Conjunction::min)), 5000));
@@ -170,12 +231,12 @@ TEST(PossibilisticHmmSet, ConvertsTrainedHmms) {
     options.num_symbols = kNumSymbols;
     models.push_back(DiscreteHmm::train(sequences, options));
   }
-  EXPECT_GT(accuracy(PossibilisticHmmSet::from_hmms(models, Conjunction::product), 5000), 0.95);
+  EXPECT_GT(accuracy(PossibilisticHmmSet(models), 5000), 0.95);
   const Topology other{Kind::left_right, 2, 1};
   models.emplace_back(MarkovChain::initial(other),
                       MatrixD::Constant(2, kNumSymbols, 1.0 / kNumSymbols));
-  EXPECT_THROW(PossibilisticHmmSet::from_hmms(models, Conjunction::product), InvalidArgument);
-  EXPECT_THROW(PossibilisticHmmSet::from_hmms({}, Conjunction::product), InvalidArgument);
+  EXPECT_THROW(PossibilisticHmmSet{models}, InvalidArgument);
+  EXPECT_THROW(PossibilisticHmmSet(std::vector<DiscreteHmm>{}), InvalidArgument);
 }
 
 TEST(PossibilisticHmmSet, FindsTheMostPossiblePath) {
@@ -229,7 +290,7 @@ TEST(PossibilisticHmmSet, ScoresTheSameAfterLoadingAndFromManyThreads) {
     ModelFile file;
     set.write(file, "p.");
     const auto loaded = PossibilisticHmmSet::read(through_bytes(file), "p.");
-    EXPECT_EQ(loaded.conjunction(), conjunction);
+    EXPECT_EQ(loaded.rule().conjunction, conjunction);
     const SymbolSequence s = word(1, 77);
     const VectorF expected = set.log_possibilities(s);
     EXPECT_EQ(loaded.log_possibilities(s), expected);
@@ -253,10 +314,10 @@ TEST(PossibilisticHmmSet, RefusesFilesThatAreNoSet) {
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "conjunction", refused(bad));
   bad = file;
   bad.set_integer("p.num_classes", 1000000000);
-  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "p.4.transition", refused(bad));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "p.4.topology", refused(bad));
   bad = file;
   bad.set_matrix("p.1.emission", MatrixD(MatrixD::Constant(3, kNumSymbols, 1.5)));
-  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "0..1", refused(bad));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "p.1.emission", refused(bad));
 }
 
 }  // namespace

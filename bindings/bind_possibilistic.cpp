@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Possibility-theory HMMs: the set of all classes, its 16-bit form and its stream.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+
+#include "hri/models/fixed_point_hmm.hpp"
+#include "hri/models/possibilistic_hmm.hpp"
+#include "hri/models/possibilistic_stream.hpp"
+#include "model_inputs.hpp"
+#include "options.hpp"
+
+namespace py = pybind11;
+using hri_bind::as_integers;
+using hri_bind::as_symbols;
+using hri_bind::bind_files;
+using hri_bind::to_array;
+
+namespace {
+
+using Set = hri::PossibilisticHmmSet;
+using Options = hri::PossibilisticHmmOptions;
+
+template <class Model>
+py::array_t<float> scores_of(const Model& self, const py::array& symbols) {
+  const hri_bind::Integers s(symbols, "symbols");
+  py::array_t<float> out(self.num_classes());
+  const hri::Span<float> scores(out.mutable_data(), static_cast<std::size_t>(out.size()));
+  {
+    const py::gil_scoped_release release;
+    self.log_possibilities(s.span(), scores);
+  }
+  return out;
+}
+
+void bind_set(py::module_& m) {
+  py::enum_<hri::Conjunction>(m, "Conjunction")
+      .value("product", hri::Conjunction::product)
+      .value("min", hri::Conjunction::min)
+      .value("max", hri::Conjunction::max);
+  using Rule = hri::PossibilisticRule;
+  py::class_<Rule> rule(m, "PossibilisticRule", "How a PossibilisticHmmSet is scored.");
+  hri_bind::options(rule)
+      .field("conjunction", &Rule::conjunction)
+      .field("conditioned", &Rule::conditioned)
+      .field("concentration", &Rule::concentration);
+  py::enum_<hri::PossibilisticTraining>(m, "PossibilisticTraining")
+      .value("all_paths", hri::PossibilisticTraining::all_paths)
+      .value("best_path", hri::PossibilisticTraining::best_path);
+  py::class_<Options> options(m, "PossibilisticHmmOptions", "Options of PossibilisticHmmSet.");
+  hri_bind::options(options)
+      .field("topology", &Options::topology)
+      .field("num_symbols", &Options::num_symbols)
+      .field("rule", &Options::rule)
+      .field("training", &Options::training)
+      .field("max_iterations", &Options::max_iterations)
+      .field("tolerance", &Options::tolerance)
+      .field("emission_floor", &Options::emission_floor)
+      .field("seed", &Options::seed);
+  py::class_<Set> cls(
+      m, "PossibilisticHmmSet",
+      "Possibility-theory HMMs of all classes, trained and scaled together (thesis chapter 4).");
+  cls.def(py::init<std::vector<hri::DiscreteHmm>, Rule>(), py::arg("models"),
+          py::arg_v("rule", Rule(), "PossibilisticRule()"),
+          "The set of trained HMMs: starts, transitions and the emissions of each symbol divided "
+          "by the largest over all classes and states (eq. 5.14).");
+  cls.def_static(
+      "train",
+      [](const std::vector<std::vector<py::array>>& per_class, Options o) {
+        std::vector<std::vector<hri::SymbolSequence>> symbols;
+        symbols.reserve(per_class.size());
+        for (const auto& sequences : per_class) symbols.push_back(as_symbols(sequences));
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return Set::train(symbols, o);
+      },
+      py::arg("per_class"), py::arg("options"),
+      "per_class[c] lists the symbol sequences of class c.");
+  cls.def("with_class", py::overload_cast<hri::DiscreteHmm>(&Set::with_class, py::const_),
+          py::arg("model"),
+          "The set with one class more, which comes last; no other class is trained again.");
+  cls.def(
+      "with_class",
+      [](const Set& self, const std::vector<py::array>& sequences, Options o) {
+        const std::vector<hri::SymbolSequence> symbols = as_symbols(sequences);
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return self.with_class(symbols, o);
+      },
+      py::arg("sequences"), py::arg("options"));
+  cls.def("log_possibilities", &scores_of<Set>, py::arg("symbols"),
+          "log possibility of the symbols under each class, float32, shape (num_classes,).");
+  cls.def(
+      "log_possibilities_exact",
+      [](const Set& self, const py::array& symbols) {
+        return to_array(self.log_possibilities_exact(as_integers(symbols, "symbols")));
+      },
+      py::arg("symbols"), "The same computed in float64.");
+  cls.def(
+      "classify",
+      [](const Set& self, const py::array& symbols) {
+        const hri::Possibilities p = self.classify(as_integers(symbols, "symbols"));
+        return py::make_tuple(to_array(p.possibility), to_array(p.necessity));
+      },
+      py::arg("symbols"),
+      "Possibility and necessity of each class, two float32 arrays of shape (num_classes,).");
+  cls.def(
+      "viterbi",
+      [](const Set& self, int class_index, const py::array& symbols) {
+        std::vector<int> path;
+        const double score = self.viterbi(class_index, as_integers(symbols, "symbols"), &path);
+        return py::make_tuple(score, to_array(path));
+      },
+      py::arg("class_index"), py::arg("symbols"),
+      "Log possibility of the best path and the path, int32.");
+  const auto matrix = [&cls](const char* name, auto method, const char* doc) {
+    cls.def(
+        name, [method](const Set& self, int c) { return to_array((self.*method)(c)); },
+        py::arg("class_index"), doc);
+  };
+  matrix("start", &Set::start, "Possibilities, shape (num_states,).");
+  matrix("transition", &Set::transition, "Possibilities, shape (num_states, num_states).");
+  matrix("emission", &Set::emission, "Possibilities, shape (num_states, num_symbols).");
+  cls.def_property_readonly("models", &Set::models, "The HMMs before scaling.");
+  cls.def_property_readonly("num_classes", &Set::num_classes);
+  cls.def_property_readonly("num_states", &Set::num_states);
+  cls.def_property_readonly("num_symbols", &Set::num_symbols);
+  cls.def_property_readonly("topology", &Set::topology);
+  cls.def_property_readonly("rule", &Set::rule);
+  bind_files(cls);
+}
+
+void bind_fixed_point(py::module_& m) {
+  using Model = hri::FixedPointHmmSet;
+  py::class_<Model>(m, "FixedPointHmmSet",
+                    "The product recursion of a PossibilisticHmmSet in 16-bit integers.")
+      .def(py::init<const Set&>(), py::arg("set"))
+      .def("log_possibilities", &scores_of<Model>, py::arg("symbols"),
+           "log possibility of the symbols under each class, float32, shape (num_classes,).")
+      .def_property_readonly("num_classes", &Model::num_classes)
+      .def_property_readonly("num_symbols", &Model::num_symbols)
+      .def_property_readonly("units", &Model::units, "Integer steps in one natural-log unit.");
+}
+
+void bind_stream(py::module_& m) {
+  using Stream = hri::PossibilisticHmmStream;
+  py::class_<Stream>(m, "PossibilisticHmmStream",
+                     "Scores of a PossibilisticHmmSet while the symbols come in.")
+      .def(py::init([](const Set& set, double beam) {
+             hri::HmmStreamOptions options;
+             options.beam = beam;
+             return Stream(set, options);
+           }),
+           py::arg("set"), py::arg("beam") = std::numeric_limits<double>::infinity(),
+           "Classes that fall by more than `beam` (natural log) below the best are dropped.")
+      .def("push", &Stream::push, py::arg("symbol"))
+      .def(
+          "log_possibilities",
+          [](const Stream& self) {
+            py::array_t<float> out(self.num_classes());
+            self.log_possibilities({out.mutable_data(), static_cast<std::size_t>(out.size())});
+            return out;
+          },
+          "Of all symbols so far under each class, float32, shape (num_classes,).")
+      .def("nbest", &Stream::nbest, py::arg("count") = 5,
+           "Indices of the best classes, best first.")
+      .def("reset", &Stream::reset, "Ready for the next utterance.")
+      .def_property_readonly("num_classes", &Stream::num_classes)
+      .def_property_readonly("num_frames", &Stream::num_frames)
+      .def_property_readonly("num_active", &Stream::num_active, "Classes not dropped.");
+}
+
+}  // namespace
+
+void bind_possibilistic(py::module_& m) {
+  bind_set(m);
+  bind_fixed_point(m);
+  bind_stream(m);
+}

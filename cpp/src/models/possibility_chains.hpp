@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Transition possibilities of all classes of a set, laid out for possibility_kernel.hpp: classes
+// stand side by side in blocks, so that the processor advances many of them in one instruction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/models/markov_chain.hpp"
+#include "possibility_kernel.hpp"
+
+namespace hri::detail {
+
+/// What possibilities are divided by: the largest of their kind over all classes and states
+/// (eq. 5.14), so that a class pays for staying and going on as it does for its symbols.
+struct ChainScale {
+  explicit ChainScale(const std::vector<const MarkovChain*>& chains);
+  double start = 0;
+  double transition = 0;
+};
+
+/// Possibilities of one class, not in logs. With jumps s_ij is the larger of band(i, j) and
+/// (leave[i] and land[j]).
+struct PossibilityChain {
+  PossibilityChain(const MarkovChain& chain, const ChainScale& scale);
+  Topology topology;
+  VectorD start;
+  MatrixD band;  ///< all of s_ij but for rank_one_plus_band
+  VectorD leave;
+  VectorD land;
+  /// s_ij, shape (num_states, num_states).
+  [[nodiscard]] MatrixD transition(Join join) const;
+};
+
+/// Where state j of class c stands. Blocks of several classes hold one class a lane; where classes
+/// are few and states many, one class takes all lanes of a block, its states dealt out to them in
+/// stripes (Farrar, Bioinformatics 23(2), 2007).
+struct ChainLayout {
+  static constexpr int kMaxLanes = 32;
+  /// `stripe_lanes` 0: no stripes.
+  ChainLayout(int num_classes, int num_states, int stripe_lanes);
+  int num_classes;
+  int num_states;
+  bool striped;
+  int num_lanes;  ///< of a block; the last lanes of the last block may stand for no class
+  int num_rows;
+  int num_blocks;
+  [[nodiscard]] int classes_a_block() const { return striped ? 1 : num_lanes; }
+  [[nodiscard]] int block(int c) const { return c / classes_a_block(); }
+  [[nodiscard]] int position(int c, int j) const {
+    return striped ? j % num_rows * num_lanes + j / num_rows : j * num_lanes + c % num_lanes;
+  }
+  [[nodiscard]] int block_size() const { return num_rows * num_lanes; }
+};
+
+/// What integers may hold. A value of the recursion lies between the floor, which is impossible,
+/// and the largest shift; the lowest entry of a table takes any of them to the floor or below, and
+/// still no sum of a value and an entry leaves 16 bits.
+struct Bounds16 {
+  static constexpr int kFloor = -12288;
+  static constexpr int kLargestShift = 4096;
+  static constexpr int kImpossible = kFloor - kLargestShift;
+  static constexpr int kLowestPossible = -4095;
+};
+
+/// A table entry. Integers stand for logs in steps of 1 / units.
+template <class T>
+T from_log(double log_value, double units);
+
+/// The sum of two table entries.
+template <class T>
+T sum_of_entries(T a, T b);
+
+/// Buffers of one recursion over one block.
+template <class T>
+class ChainWorkspace {
+ public:
+  /// Ready for the first frame. Allocates only where the buffers are too small. Sweeps need no
+  /// margin, and write everything at the first frame.
+  void reset(const ChainLayout& layout, int margin, T impossible, bool sweeps);
+  ChainState<T> state;
+
+ private:
+  std::vector<T> values_;
+  std::vector<typename ScaleOf<T>::Type> scale_;
+};
+
+template <class T>
+class PossibilityChains {
+ public:
+  /// All chains have one topology. `rule.floor` is set here. `units` is used by integers only.
+  PossibilityChains(const std::vector<PossibilityChain>& chains, const ChainRule<T>& rule,
+                    double units = 1);
+
+  [[nodiscard]] const ChainLayout& layout() const { return layout_; }
+
+  /// What emission log possibilities have to be changed by before they are given to `advance`,
+  /// state by state, because some transitions were shifted into them; (block_size) of each block.
+  [[nodiscard]] const T* shift(int block) const { return at(shifts_, block); }
+
+  void reset(ChainWorkspace<T>* workspace) const;
+  /// Frames of one block, see possibility_kernel.hpp.
+  void advance(int block, const FrameTable<T>& frames, std::ptrdiff_t num_frames,
+               ChainWorkspace<T>* workspace) const;
+  /// Log possibility of every class of the block (classes_a_block values) after the frames so far,
+  /// in the unit of T.
+  void scores(int block, const ChainWorkspace<T>& workspace, double* out) const;
+  /// Makes a class impossible from here on.
+  void drop(int c, ChainWorkspace<T>* workspace) const;
+
+  /// What is as low as this is impossible.
+  static T impossible();
+
+ private:
+  [[nodiscard]] const T* at(const std::vector<T>& values, int block) const {
+    return values.data() + static_cast<std::ptrdiff_t>(block) * layout_.block_size();
+  }
+  void tabulate_bands(const std::vector<PossibilityChain>& chains, double units);
+  void tabulate_dense(const std::vector<PossibilityChain>& chains, double units);
+  void free_the_steps();
+
+  ChainLayout layout_;
+  ChainRule<T> rule_;
+  int margin_ = 0;
+  Steps steps_ = Steps::as_given;
+  std::vector<int> offsets_;
+  std::vector<T> starts_;
+  std::vector<T> bands_;  // (num_blocks, num_bands, block_size)
+  std::vector<T> leaves_;
+  std::vector<T> lands_;
+  std::vector<T> dense_;   // (num_blocks, num_states, block_size)
+  std::vector<T> shifts_;  // added to emissions
+  std::vector<T> ends_;    // added to phi where scores are read
+};
+
+}  // namespace hri::detail
