@@ -5,8 +5,20 @@
 #include <cstdint>
 #include <limits>
 
+// A fused multiply-add rounds once where others round twice, and compilers fuse unless told.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC optimize("fp-contract=off")
+#endif
+
 namespace hri::detail {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Lane l + half of a register, for half = 4, 2, 1; narrower registers use the last ones.
+constexpr std::int64_t kShifts[3][8] = {
+    {4, 5, 6, 7, 0, 1, 2, 3}, {2, 3, 4, 5, 6, 7, 0, 1}, {1, 2, 3, 4, 5, 6, 7, 0}};
 
 namespace baseline {
 constexpr int kWidth = 2;
@@ -45,14 +57,6 @@ const DenseKernels& choose() {
 }
 
 }  // namespace
-
-MatrixD padded_rows(const MatrixD& matrix, double filler) {
-  const std::ptrdiff_t width = padded(matrix.cols());
-  if (width == matrix.cols()) return {};
-  MatrixD result = MatrixD::Constant(matrix.rows(), width, filler);
-  result.leftCols(matrix.cols()) = matrix;
-  return result;
-}
 
 const DenseKernels& dense_kernels() {
   static const DenseKernels& kernels = choose();

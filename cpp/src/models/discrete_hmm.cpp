@@ -69,8 +69,9 @@ MatrixD initial_emission(const std::vector<SymbolSequence>& sequences,
   return floored(counts.array().colwise() / counts.rowwise().sum().array(), options.emission_floor);
 }
 
-detail::Rows<double> rows_by(Span<const std::int32_t> symbols, const MatrixD& table) {
-  return {table.data(), table.cols(), static_cast<std::ptrdiff_t>(symbols.size()), symbols.data()};
+detail::Rows<double> rows_by(Span<const std::int32_t> symbols, const detail::PaddedMatrix& table) {
+  return {table.row(0), table.stride(), static_cast<std::ptrdiff_t>(symbols.size()),
+          symbols.data()};
 }
 
 }  // namespace
@@ -96,10 +97,9 @@ DiscreteHmm::DiscreteHmm(MarkovChain chain, MatrixD emission)
     : chain_(std::move(chain)), emission_(std::move(emission)) {
   const char* fault = emission_fault(num_states(), emission_);
   require(fault == nullptr, fault);
-  const Eigen::Index stride = detail::padded(num_states());
-  by_symbol_ = MatrixD::Zero(num_symbols(), stride);
-  by_symbol_.leftCols(num_states()) = emission_.transpose();
-  log_by_symbol_ = detail::safe_log(by_symbol_);
+  const MatrixD by_symbol = emission_.transpose();
+  by_symbol_ = detail::PaddedMatrix(by_symbol);
+  log_by_symbol_ = detail::PaddedMatrix(detail::safe_log(by_symbol));
   double smallest = 1;
   for (Eigen::Index i = 0; i < emission_.size(); ++i) {
     if (emission_.data()[i] > 0) smallest = std::min(smallest, emission_.data()[i]);
@@ -116,7 +116,10 @@ void DiscreteHmm::validate_symbol(std::int32_t symbol, std::size_t position) con
 
 void DiscreteHmm::validate_all(Span<const std::int32_t> symbols) const {
   require(!symbols.empty(), "symbols must not be empty");
-  for (std::size_t t = 0; t < symbols.size(); ++t) validate_symbol(symbols[t], t);
+  const auto count = static_cast<std::uint32_t>(num_symbols());
+  bool known = true;  // all in one go, as a word is scored fast; one by one to say which is not
+  for (const std::int32_t symbol : symbols) known &= static_cast<std::uint32_t>(symbol) < count;
+  for (std::size_t t = 0; !known && t < symbols.size(); ++t) validate_symbol(symbols[t], t);
 }
 
 DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
@@ -137,16 +140,18 @@ DiscreteHmm DiscreteHmm::retrain(const std::vector<SymbolSequence>& sequences,
   double num_total = 0;
   for (const SymbolSequence& s : sequences) num_total += static_cast<double>(s.size());
   TrainingReport local;
-  MatrixD gamma;
+  detail::PaddedMatrix gamma;
   for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
     detail::ChainCounts counts(n);
-    MatrixD by_symbol = MatrixD::Zero(num_symbols(), by_symbol_.cols());
+    MatrixD by_symbol = MatrixD::Zero(num_symbols(), by_symbol_.stride());
     double total = 0;
     for (const SymbolSequence& s : sequences) {
       poll(options.should_stop);
       total += model.forward_backward(s, &gamma, &counts);
-      for (std::size_t t = 0; t < s.size(); ++t)
-        by_symbol.row(s[t]) += gamma.row(static_cast<Eigen::Index>(t));
+      for (std::size_t t = 0; t < s.size(); ++t) {
+        by_symbol.row(s[t]) += Eigen::Map<const Eigen::RowVectorXd>(
+            gamma.row(static_cast<std::ptrdiff_t>(t)), by_symbol.cols());
+      }
     }
     if (!local.log_likelihoods.empty()) {
       local.converged = (total - local.log_likelihoods.back()) / num_total < options.tolerance;
@@ -173,8 +178,7 @@ void DiscreteHmm::begin(detail::ForwardPass* pass) const {
 }
 
 void DiscreteHmm::advance(detail::ForwardPass* pass, std::int32_t symbol) const {
-  const std::ptrdiff_t row = symbol * by_symbol_.cols();
-  pass->step(chain_, by_symbol_.data() + row, log_by_symbol_.data() + row);
+  pass->step(chain_, by_symbol_.row(symbol), log_by_symbol_.row(symbol));
 }
 
 double DiscreteHmm::log_likelihood(Span<const std::int32_t> symbols) const {
@@ -189,8 +193,7 @@ double DiscreteHmm::log_likelihood_exact(Span<const std::int32_t> symbols) const
   validate_all(symbols);
   thread_local detail::ForwardPass pass;
   pass.reset(chain_, detail::ForwardPass::Arithmetic::logs);
-  for (const std::int32_t symbol : symbols)
-    pass.step(chain_, nullptr, log_by_symbol_.data() + symbol * log_by_symbol_.cols());
+  for (const std::int32_t symbol : symbols) pass.step(chain_, nullptr, log_by_symbol_.row(symbol));
   return pass.log_likelihood();
 }
 
@@ -201,16 +204,17 @@ double DiscreteHmm::viterbi(Span<const std::int32_t> symbols, std::vector<int>* 
 
 MatrixD DiscreteHmm::posterior(Span<const std::int32_t> symbols) const {
   validate_all(symbols);
-  MatrixD gamma;
+  detail::PaddedMatrix gamma;
   require(std::isfinite(forward_backward(symbols, &gamma, nullptr)),
           "symbols are impossible under the model");
-  return gamma.leftCols(num_states());
+  const auto num_frames = static_cast<Eigen::Index>(symbols.size());
+  using Padded = Eigen::Map<const MatrixD, Eigen::Unaligned, Eigen::OuterStride<>>;
+  return Padded(gamma.row(0), num_frames, num_states(), Eigen::OuterStride<>(gamma.stride()));
 }
 
-// gamma: (num_frames, padded num_states).
-double DiscreteHmm::forward_backward(Span<const std::int32_t> symbols, MatrixD* gamma,
+double DiscreteHmm::forward_backward(Span<const std::int32_t> symbols, detail::PaddedMatrix* gamma,
                                      detail::ChainCounts* counts) const {
-  gamma->resize(static_cast<Eigen::Index>(symbols.size()), by_symbol_.cols());
+  gamma->resize(static_cast<std::ptrdiff_t>(symbols.size()), num_states());
   double score = 0;
   const bool scaled =
       detail::first_arithmetic(smallest_step_) == detail::ForwardPass::Arithmetic::scaled;
@@ -218,7 +222,8 @@ double DiscreteHmm::forward_backward(Span<const std::int32_t> symbols, MatrixD* 
                                                 &score)) {
     return score;
   }
-  return detail::forward_backward(chain_, rows_by(symbols, log_by_symbol_), gamma, counts);
+  return detail::forward_backward(chain_, rows_by(symbols, log_by_symbol_), gamma->row(0),
+                                  gamma->stride(), counts);
 }
 
 void DiscreteHmm::write(ModelFile& file, const std::string& prefix) const {

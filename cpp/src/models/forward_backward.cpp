@@ -25,17 +25,15 @@ class TransitionSums {
   explicit TransitionSums(const MarkovChain& chain)
       : chain_(chain),
         dense_(chain.topology().kind == Topology::Kind::ergodic),
-        stride_(padded(chain.num_states())),
-        x_(kBlock, stride_),
-        y_(kBlock, stride_),
-        pairs_(MatrixD::Zero(chain.num_states(), stride_)),
+        x_(kBlock, chain.num_states(), 0),
+        y_(kBlock, chain.num_states(), 0),
+        pairs_(chain.num_states(), chain.num_states(), 0),
         leave_(VectorD::Zero(chain.num_states())),
         land_(VectorD::Zero(chain.num_states())) {}
 
-  /// Where the next frame's rows go, stride() values each; add() then counts them.
-  double* x() { return x_.data() + held_ * stride_; }
-  double* y() { return y_.data() + held_ * stride_; }
-  [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
+  /// Where the rows of the next step go, padded; add() then counts them.
+  double* x() { return x_.row(held_); }
+  double* y() { return y_.row(held_); }
 
   void add() {
     if (++held_ == kBlock) flush();
@@ -44,7 +42,9 @@ class TransitionSums {
   void finish(ChainCounts* counts) {
     flush();
     const int n = chain_.num_states();
-    counts->band.array() += chain_.band().array() * pairs_.leftCols(n).array();
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) counts->band(i, j) += chain_.band()(i, j) * pairs_.row(i)[j];
+    }
     if (!chain_.jumps()) return;
     counts->leave += leave_;
     counts->land += land_;
@@ -54,10 +54,10 @@ class TransitionSums {
   void flush() {
     const int n = chain_.num_states();
     if (dense_) {
-      dense_kernels().add_products(x_.data(), stride_, y_.data(), stride_, held_, n, stride_,
-                                   pairs_.data());
+      dense_kernels().add_products(x_.row(0), x_.stride(), y_.row(0), y_.stride(), held_, n,
+                                   pairs_.stride(), pairs_.row(0));
     } else {
-      for (int r = 0; r < held_; ++r) add_steps(x_.data() + r * stride_, y_.data() + r * stride_);
+      for (int r = 0; r < held_; ++r) add_steps(x_.row(r), y_.row(r));
     }
     held_ = 0;
   }
@@ -68,7 +68,7 @@ class TransitionSums {
     double landed = 0;
     for (int i = 0; i < n; ++i) {
       const int end = chain_.topology().end_next(i);
-      double* row = pairs_.data() + i * stride_;
+      double* row = pairs_.row(i);
       for (int j = chain_.topology().first_next(i); j < end; ++j) row[j] += x[i] * y[j];
       if (!chain_.jumps()) continue;
       left += x[i] * chain_.leave()[i];
@@ -83,11 +83,10 @@ class TransitionSums {
 
   const MarkovChain& chain_;
   bool dense_;
-  std::ptrdiff_t stride_;
   int held_ = 0;
-  MatrixD x_;
-  MatrixD y_;
-  MatrixD pairs_;
+  PaddedMatrix x_;
+  PaddedMatrix y_;
+  PaddedMatrix pairs_;
   VectorD leave_;
   VectorD land_;
 };
@@ -136,14 +135,14 @@ template <class Scalar>
 double viterbi(const MarkovChain& chain, const Rows<Scalar>& log_b, std::vector<int>* path) {
   const int n = chain.num_states();
   const std::ptrdiff_t num_frames = log_b.num_frames;
-  thread_local std::vector<double> table;
-  const std::size_t needed = static_cast<std::size_t>(num_frames) * static_cast<std::size_t>(n);
-  if (table.size() < needed) table.resize(needed);
-  double* delta = table.data();
+  thread_local PaddedMatrix table;
+  table.resize(num_frames, n);
+  const std::ptrdiff_t stride = table.stride();
+  double* delta = table.row(0);
   for (int j = 0; j < n; ++j) delta[j] = chain.log_start()[j] + static_cast<double>(log_b[0][j]);
   for (std::ptrdiff_t t = 1; t < num_frames; ++t) {
-    chain.propagate_max(delta, delta + n);
-    delta += n;
+    chain.propagate_max(delta, delta + stride);
+    delta += stride;
     const Scalar* row = log_b[t];
     for (int j = 0; j < n; ++j) delta[j] += static_cast<double>(row[j]);
   }
@@ -156,7 +155,7 @@ double viterbi(const MarkovChain& chain, const Rows<Scalar>& log_b, std::vector<
   int state = last;
   for (std::ptrdiff_t t = num_frames - 1; t > 0; --t) {
     (*path)[static_cast<std::size_t>(t)] = state;
-    delta -= n;
+    delta -= stride;
     state = chain.best_previous(delta, state);
   }
   path->front() = state;
@@ -166,8 +165,8 @@ double viterbi(const MarkovChain& chain, const Rows<Scalar>& log_b, std::vector<
 template double viterbi<float>(const MarkovChain&, const Rows<float>&, std::vector<int>*);
 template double viterbi<double>(const MarkovChain&, const Rows<double>&, std::vector<int>*);
 
-double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, MatrixD* gamma,
-                        ChainCounts* counts) {
+double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, double* gamma,
+                        std::ptrdiff_t stride, ChainCounts* counts) {
   const int n = chain.num_states();
   const std::ptrdiff_t num_frames = log_b.num_frames;
   MatrixD alpha(num_frames, n);
@@ -180,7 +179,7 @@ double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, Mat
     for (int j = 0; j < n; ++j) now[j] += row[j];
   }
   const double total = log_sum(0, n, [&](int i) { return alpha(num_frames - 1, i); });
-  gamma->setZero(num_frames, gamma->cols());
+  std::fill(gamma, gamma + num_frames * stride, 0.0);
   if (total == kMinusInf) return total;
 
   const bool dense = chain.topology().kind == Topology::Kind::ergodic && counts != nullptr;
@@ -200,7 +199,6 @@ double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, Mat
         if (dense && alpha_top + after_top - total < 460) {
           exponentials(now, n, alpha_top, sums.x());
           exponentials(after.data(), n, total - alpha_top, sums.y());
-          std::fill(sums.y() + n, sums.y() + sums.stride(), 0.0);
           sums.add();
         } else {
           count_steps_in_logs(chain, now, after.data(), total, counts);
@@ -208,38 +206,39 @@ double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, Mat
         if (chain.jumps()) count_jumps_in_logs(chain, now, after.data(), total, counts);
       }
     }
-    double* posterior = gamma->data() + t * gamma->cols();
+    double* posterior = gamma + t * stride;
     for (int i = 0; i < n; ++i) posterior[i] = std::exp(now[i] + beta[i] - total);
   }
   if (counts != nullptr) {
     sums.finish(counts);
-    for (int i = 0; i < n; ++i) counts->start[i] += (*gamma)(0, i);
+    for (int i = 0; i < n; ++i) counts->start[i] += gamma[i];
   }
   return total;
 }
 
-bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, MatrixD* gamma,
+bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, PaddedMatrix* gamma,
                              ChainCounts* counts, double* log_likelihood) {
   const int n = chain.num_states();
-  const std::ptrdiff_t stride = padded(n);
+  const std::ptrdiff_t stride = gamma->stride();
   const std::ptrdiff_t num_frames = b.num_frames;
   const DenseKernels& kernels = dense_kernels();
   double exponent = 0;
   double sum = 0;
   // gamma holds alpha until the way back.
   for (std::ptrdiff_t t = 0; t < num_frames; ++t) {
-    double* now = gamma->data() + t * stride;
+    double* now = gamma->row(t);
+    std::fill(now + n, now + stride, 0.0);
+    Spread spread{};
     if (t == 0) {
       std::copy_n(chain.start().data(), n, now);
+      spread = kernels.emit(b[t], stride, now);
     } else {
-      chain.propagate(now - stride, now);
+      spread = chain.propagate(now - stride, b[t], now);
     }
-    std::fill(now + n, now + stride, 0.0);
-    const Spread spread = kernels.emit(b[t], stride, now);
     if (spread.smallest < kDanger) return false;
     sum = spread.sum;
     if (!(sum > 0)) {
-      gamma->setZero();
+      std::fill(gamma->row(0), gamma->row(num_frames), 0.0);
       *log_likelihood = kMinusInf;
       return true;
     }
@@ -254,20 +253,24 @@ bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, Ma
   *log_likelihood = std::log(sum) + exponent * kLog2;
 
   TransitionSums sums(chain);
-  VectorD after = VectorD::Zero(stride);
-  VectorD beta = VectorD::Zero(stride);
-  double* last = gamma->data() + (num_frames - 1) * stride;
+  PaddedMatrix way_back(2, n, 0);
+  double* after = way_back.row(0);
+  double* beta = way_back.row(1);
+  double* last = gamma->row(num_frames - 1);
   for (int j = 0; j < n; ++j) last[j] /= sum;
-  beta.head(n).setOnes();
+  std::fill(beta, beta + n, 1.0);
   for (std::ptrdiff_t t = num_frames - 2; t >= 0; --t) {
-    after = beta;
-    const Spread spread = kernels.emit(b[t + 1], stride, after.data());
+    std::copy_n(beta, stride, after);
+    const Spread spread = kernels.emit(b[t + 1], stride, after);
     if (spread.smallest < kDanger || !(spread.sum > 0)) return false;
-    if (spread.sum < kRescale) after *= std::ldexp(1.0, -std::ilogb(spread.sum));
-    chain.propagate_back(after.data(), beta.data());
-    double* now = gamma->data() + t * stride;
+    if (spread.sum < kRescale) {
+      const double up = std::ldexp(1.0, -std::ilogb(spread.sum));
+      for (int j = 0; j < n; ++j) after[j] *= up;
+    }
+    chain.propagate_back(after, beta);
+    double* now = gamma->row(t);
     std::copy_n(now, stride, sums.x());
-    std::copy_n(beta.data(), stride, now);
+    std::copy_n(beta, stride, now);
     const double total = kernels.emit(sums.x(), stride, now).sum;
     if (!(total > kSafeTotal)) return false;
     const double scale = 1 / total;
@@ -279,7 +282,7 @@ bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, Ma
   }
   if (counts != nullptr) {
     sums.finish(counts);
-    for (int i = 0; i < n; ++i) counts->start[i] += (*gamma)(0, i);
+    for (int i = 0; i < n; ++i) counts->start[i] += gamma->row(0)[i];
   }
   return true;
 }

@@ -54,16 +54,16 @@ struct ChainCounts {
         land(VectorD::Zero(num_states)) {}
 };
 
-/// Forward and backward in logs: log P(frames), state posteriors in the first num_states columns of
-/// `gamma` (num_frames rows, other columns 0), and the expected counts are added to `counts`,
-/// unless it is null. An impossible sequence gives -inf, gamma zero, and adds nothing.
-double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, MatrixD* gamma,
-                        ChainCounts* counts);
+/// Forward and backward in logs: log P(frames), state posteriors in `gamma` (num_frames rows of
+/// `stride` values, 0 beyond num_states), and the expected counts are added to `counts`, unless it
+/// is null. An impossible sequence gives -inf, gamma zero, and adds nothing.
+double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, double* gamma,
+                        std::ptrdiff_t stride, ChainCounts* counts);
 
-/// The same with scaled probabilities, several times as fast: `b` has rows of padded() length, and
-/// so has `gamma`. False, with `counts` untouched, where a probability comes so close to 0 that
-/// accuracy would suffer; forward_backward() has to do it then.
-bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, MatrixD* gamma,
+/// The same with scaled probabilities, several times as fast. False, with `counts` untouched, where
+/// a probability comes so close to 0 that accuracy would suffer; forward_backward() has to do it
+/// then.
+bool scaled_forward_backward(const MarkovChain& chain, const Rows<double>& b, PaddedMatrix* gamma,
                              ChainCounts* counts, double* log_likelihood);
 
 /// The chain re-estimated from counts; states never visited keep the values of `previous`.

@@ -81,13 +81,13 @@ template void ForwardPass::step(const MarkovChain&, const double*, const double*
 template void ForwardPass::step(const MarkovChain&, const double*, const float*);
 
 bool ForwardPass::step_scaled(const MarkovChain& chain, const double* b) {
+  Spread spread{};
   if (started_) {
-    chain.propagate(now_.data(), next_.data());
+    spread = chain.propagate(now_.data(), b, next_.data());
   } else {
     std::copy_n(chain.start().data(), num_states_, next_.data());
+    spread = dense_kernels().emit(b, static_cast<std::ptrdiff_t>(next_.size()), next_.data());
   }
-  const Spread spread =
-      dense_kernels().emit(b, static_cast<std::ptrdiff_t>(next_.size()), next_.data());
   if (spread.smallest < kDanger) return false;
   std::swap(now_, next_);
   sum_ = spread.sum;

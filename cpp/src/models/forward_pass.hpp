@@ -45,9 +45,9 @@ class ForwardPass {
   bool started_ = false;
   double sum_ = 1;             // scaled: of now_
   std::int64_t exponent_ = 0;  // probabilities are now_ times 2^exponent_
-  std::vector<double> now_;
-  std::vector<double> next_;
-  std::vector<double> scratch_;
+  AlignedVector now_;
+  AlignedVector next_;
+  AlignedVector scratch_;
   std::vector<float> log_densities_;
   std::vector<long double> wide_now_;
   std::vector<long double> wide_next_;

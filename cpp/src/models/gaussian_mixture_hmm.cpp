@@ -126,7 +126,8 @@ GaussianMixtureHmm GaussianMixtureHmm::retrain(const std::vector<MatrixF>& seque
       poll(options.should_stop);
       model.bank_.log_densities(s, &densities, &components);
       gamma.resize(s.rows(), n);
-      total += detail::forward_backward(model.chain_, detail::rows_of(densities), &gamma, &counts);
+      total += detail::forward_backward(model.chain_, detail::rows_of(densities), gamma.data(), n,
+                                        &counts);
       accumulator.add(s, gamma, components, densities);
     }
     if (!local.log_likelihoods.empty()) {
@@ -144,8 +145,8 @@ GaussianMixtureHmm GaussianMixtureHmm::retrain(const std::vector<MatrixF>& seque
 
 MatrixD GaussianMixtureHmm::posterior(ConstMatrixRefF frames) const {
   MatrixD gamma(frames.rows(), num_states());
-  require(std::isfinite(
-              detail::forward_backward(chain_, log_densities(bank_, frames), &gamma, nullptr)),
+  require(std::isfinite(detail::forward_backward(chain_, log_densities(bank_, frames), gamma.data(),
+                                                 num_states(), nullptr)),
           "frames are impossible under the model");
   return gamma;
 }

@@ -91,23 +91,27 @@ void MarkovChain::tabulate() {
   }
   const int n = num_states();
   if (dense()) {
-    padded_ = detail::padded_rows(transition_, 0);
-    padded_log_ = detail::padded_rows(log_transition_, kMinusInf);
-    const MatrixD back = transition_.transpose();
-    padded_back_ = detail::padded_rows(back, 0);
-    if (padded_back_.size() == 0) padded_back_ = back;
-    log_back_ = log_transition_.transpose();
+    forward_ = detail::PaddedMatrix(transition_);
+    back_ = detail::PaddedMatrix(transition_.transpose());
+    log_forward_ = detail::PaddedMatrix(log_transition_, kMinusInf);
+    log_back_ = detail::PaddedMatrix(log_transition_.transpose(), kMinusInf);
     return;
   }
   const int longest = std::min(topology_.max_jump, n - 1);
   lowest_step_ = topology_.kind == Topology::Kind::left_right ? 0 : longest;
-  steps_ = MatrixD::Zero(lowest_step_ + longest + 1, n);
-  log_steps_ = MatrixD::Constant(steps_.rows(), n, kMinusInf);
+  steps_ = detail::PaddedMatrix(lowest_step_ + longest + 1, n, 0);
+  log_steps_ = detail::PaddedMatrix(steps_.num_rows(), n, kMinusInf);
   for (int i = 0; i < n; ++i) {
     for (int j = topology_.first_next(i); j < topology_.end_next(i); ++j) {
-      steps_(j - i + lowest_step_, i) = band()(i, j);
-      log_steps_(j - i + lowest_step_, i) = log_transition_(i, j);
+      steps_.row(j - i + lowest_step_)[i] = band()(i, j);
+      log_steps_.row(j - i + lowest_step_)[i] = log_transition_(i, j);
     }
+  }
+  if (topology_.kind != Topology::Kind::left_right || longest > 1) return;
+  by_one_ = detail::PaddedMatrix(2, n, 0);
+  for (int j = 0; j < n; ++j) {
+    if (j > 0) by_one_.row(0)[j] = transition_(j - 1, j);
+    by_one_.row(1)[j] = transition_(j, j);
   }
 }
 
@@ -123,23 +127,14 @@ MarkovChain MarkovChain::initial(const Topology& topology) {
 void MarkovChain::propagate(const double* x, double* y) const {
   const int n = num_states();
   if (dense()) {
-    const MatrixD& a = padded_.size() > 0 ? padded_ : transition_;
-    detail::dense_kernels().propagate(x, n, a.data(), a.cols(), n, y);
-    return;
-  }
-  if (steps_.rows() == 2 && lowest_step_ == 0 && !jumps()) {
-    // Left-right without skips, the usual word: one loop, where the general ones take three.
-    const double* stay = steps_.data();
-    const double* go = stay + n;
-    y[0] = x[0] * stay[0];
-    for (int j = 1; j < n; ++j) y[j] = x[j - 1] * go[j - 1] + x[j] * stay[j];
+    detail::dense_kernels().propagate(x, n, forward_.row(0), forward_.stride(), n, y);
     return;
   }
   std::fill(y, y + n, 0.0);
   // The longest step first, so that y[j] adds up its i in ascending order.
-  for (auto row = static_cast<int>(steps_.rows()) - 1; row >= 0; --row) {
+  for (auto row = static_cast<int>(steps_.num_rows()) - 1; row >= 0; --row) {
     const int step = row - lowest_step_;
-    const double* a = steps_.data() + static_cast<std::ptrdiff_t>(row) * n;
+    const double* a = steps_.row(row);
     const int end = std::min(n, n - step);
     for (int i = std::max(0, -step); i < end; ++i) y[i + step] += x[i] * a[i];
   }
@@ -149,10 +144,18 @@ void MarkovChain::propagate(const double* x, double* y) const {
   for (int j = 0; j < n; ++j) y[j] += left * land_[j];
 }
 
+detail::Spread MarkovChain::propagate(const double* x, const double* b, double* y) const {
+  const detail::DenseKernels& kernels = detail::dense_kernels();
+  const std::ptrdiff_t count = detail::padded(num_states());
+  if (!by_one_.empty()) return kernels.step_by_one(x, by_one_.row(0), by_one_.row(1), b, count, y);
+  propagate(x, y);
+  return kernels.emit(b, count, y);
+}
+
 void MarkovChain::propagate_back(const double* x, double* y) const {
   const int n = num_states();
   if (dense()) {
-    detail::dense_kernels().propagate(x, n, padded_back_.data(), padded_back_.cols(), n, y);
+    detail::dense_kernels().propagate(x, n, back_.row(0), back_.stride(), n, y);
     return;
   }
   double landed = 0;
@@ -160,9 +163,9 @@ void MarkovChain::propagate_back(const double* x, double* y) const {
     for (int j = 0; j < n; ++j) landed += land_[j] * x[j];
   }
   for (int i = 0; i < n; ++i) y[i] = jumps() ? leave_[i] * landed : 0.0;
-  for (int row = 0; row < static_cast<int>(steps_.rows()); ++row) {
+  for (int row = 0; row < static_cast<int>(steps_.num_rows()); ++row) {
     const int step = row - lowest_step_;
-    const double* a = steps_.data() + static_cast<std::ptrdiff_t>(row) * n;
+    const double* a = steps_.row(row);
     const int end = std::min(n, n - step);
     for (int i = std::max(0, -step); i < end; ++i) y[i] += a[i] * x[i + step];
   }
@@ -173,8 +176,7 @@ void MarkovChain::propagate_back(const double* x, double* y) const {
 void MarkovChain::propagate_max(const double* x, double* y) const {
   const int n = num_states();
   if (dense()) {
-    const MatrixD& a = padded_log_.size() > 0 ? padded_log_ : log_transition_;
-    detail::dense_kernels().propagate_max(x, n, a.data(), a.cols(), n, y);
+    detail::dense_kernels().propagate_max(x, n, log_forward_.row(0), log_forward_.stride(), n, y);
     return;
   }
   if (jumps()) {
@@ -184,9 +186,9 @@ void MarkovChain::propagate_max(const double* x, double* y) const {
   } else {
     std::fill(y, y + n, kMinusInf);
   }
-  for (int row = 0; row < static_cast<int>(log_steps_.rows()); ++row) {
+  for (int row = 0; row < static_cast<int>(log_steps_.num_rows()); ++row) {
     const int step = row - lowest_step_;
-    const double* a = log_steps_.data() + static_cast<std::ptrdiff_t>(row) * n;
+    const double* a = log_steps_.row(row);
     const int end = std::min(n, n - step);
     for (int i = std::max(0, -step); i < end; ++i) y[i + step] = std::max(y[i + step], x[i] + a[i]);
   }
@@ -207,8 +209,7 @@ int MarkovChain::best_previous(const double* x, int j) const {
 
 int MarkovChain::best_previous(const double* x, int j, int best_leaver) const {
   if (dense()) {
-    return detail::dense_kernels().best_sum(x, log_back_.data() + j * log_back_.cols(),
-                                            num_states());
+    return detail::dense_kernels().best_sum(x, log_back_.row(j), num_states());
   }
   const int begin = topology_.first_previous(j);
   const int end = topology_.end_previous(j);

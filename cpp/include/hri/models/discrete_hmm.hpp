@@ -90,14 +90,14 @@ class DiscreteHmm {
 
   void validate_symbol(std::int32_t symbol, std::size_t position) const;
   void validate_all(Span<const std::int32_t> symbols) const;
-  double forward_backward(Span<const std::int32_t> symbols, MatrixD* gamma,
+  double forward_backward(Span<const std::int32_t> symbols, detail::PaddedMatrix* gamma,
                           detail::ChainCounts* counts) const;
 
   MarkovChain chain_;
   MatrixD emission_;
-  // One row a symbol, padded to whole registers, so that a frame reads one piece of memory.
-  MatrixD by_symbol_;
-  MatrixD log_by_symbol_;
+  // One row a symbol, so that a frame reads one piece of memory.
+  detail::PaddedMatrix by_symbol_;
+  detail::PaddedMatrix log_by_symbol_;
   double smallest_step_ = 0;  // product above 0 of a transition and an emission
 };
 

@@ -10,9 +10,18 @@
 
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/padded_matrix.hpp"
 #include "hri/models/topology.hpp"
 
 namespace hri {
+
+namespace detail {
+/// What a step of the forward recursion left behind.
+struct Spread {
+  double sum;
+  double smallest;  ///< of the values above 0; +inf where there is none
+};
+}  // namespace detail
 
 /// Immutable; const calls are safe from several threads. Invariant: start and every row of
 /// transition() sum to 1, and transitions outside the topology are 0.
@@ -47,6 +56,8 @@ class MarkovChain {
 
   /// y[j] = sum over i of x[i] a_ij. x and y hold num_states values and do not overlap.
   void propagate(const double* x, double* y) const;
+  /// propagate(), then y[j] *= b[j]; all hold num_states values and 0 up to the next multiple of 8.
+  detail::Spread propagate(const double* x, const double* b, double* y) const;
   /// y[i] = sum over j of a_ij x[j].
   void propagate_back(const double* x, double* y) const;
   /// y[j] = max over i of x[i] + log a_ij.
@@ -78,15 +89,16 @@ class MarkovChain {
   MatrixD log_transition_;
   VectorD log_leave_;
   VectorD log_land_;
-  // ergodic: rows of whole registers, empty where they are that already, and the transpose.
-  MatrixD padded_;
-  MatrixD padded_log_;
-  MatrixD padded_back_;
-  MatrixD log_back_;  // the transpose of the logs
+  // ergodic: the matrix and its transpose, and the same of logs.
+  detail::PaddedMatrix forward_;
+  detail::PaddedMatrix back_;
+  detail::PaddedMatrix log_forward_;
+  detail::PaddedMatrix log_back_;
   // All others: row d holds the steps from i to i + d - lowest_step_.
   int lowest_step_ = 0;
-  MatrixD steps_;
-  MatrixD log_steps_;
+  detail::PaddedMatrix steps_;
+  detail::PaddedMatrix log_steps_;
+  detail::PaddedMatrix by_one_;  // left-right without skips: steps into j from j - 1, and from j
 };
 
 }  // namespace hri
