@@ -19,9 +19,9 @@ namespace hri::detail {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr int kPadding = 32;  // codewords at a time against one row; whole registers everywhere
+constexpr int kBlock = 32;    // codewords at a time against a few rows
 constexpr int kGroup = 8;     // codewords at a time against a block of rows
-constexpr int kWidest = 128;  // columns of rows searched by blocks; wider ones go one by one
+constexpr int kWidest = 512;  // columns of rows searched by blocks; wider ones go one by one
 
 namespace baseline {
 constexpr int kLanes = 4;
@@ -51,16 +51,17 @@ CodewordTable::CodewordTable(const MatrixF& centroids)
     : middle_(centroids.cast<double>().colwise().mean().transpose().cast<float>()) {
   const Eigen::Index size = centroids.rows();
   const Eigen::Index dim = centroids.cols();
-  columns_ = MatrixF::Constant(dim, (size + kPadding - 1) / kPadding * kPadding, kInfinity);
-  columns_.leftCols(size) = centroids.transpose();
-
+  const Eigen::Index num_blocks = (size + kBlock - 1) / kBlock;
+  values_.assign(static_cast<std::size_t>(num_blocks * kBlock * dim), kInfinity);
   const Eigen::Index num_groups = (size + kGroup - 1) / kGroup;
   halves_.assign(static_cast<std::size_t>(num_groups * kGroup), kInfinity);
   products_.assign(static_cast<std::size_t>(num_groups * kGroup * dim), 0.0F);
   for (Eigen::Index k = 0; k < size; ++k) {
+    float* value = values_.data() + k / kBlock * kBlock * dim + k % kBlock;
     float* product = products_.data() + k / kGroup * kGroup * dim + k % kGroup;
     double square = 0;
     for (Eigen::Index d = 0; d < dim; ++d) {
+      value[d * kBlock] = centroids(k, d);
       const float away = centroids(k, d) - middle_[d];
       product[d * kGroup] = -away;
       square += static_cast<double>(away) * away;
@@ -71,14 +72,17 @@ CodewordTable::CodewordTable(const MatrixF& centroids)
 }
 
 CodewordLayout CodewordTable::layout() const {
-  return {static_cast<int>(middle_.size()),
-          columns_.cols(),
-          static_cast<std::ptrdiff_t>(halves_.size()) / kGroup,
-          columns_.data(),
-          middle_.data(),
-          products_.data(),
-          halves_.data(),
-          reach_};
+  CodewordLayout layout;
+  layout.dim = static_cast<int>(middle_.size());
+  const auto dim = static_cast<std::size_t>(std::max(layout.dim, 1));
+  layout.num_blocks = static_cast<std::ptrdiff_t>(values_.size() / (kBlock * dim));
+  layout.num_groups = static_cast<std::ptrdiff_t>(halves_.size() / kGroup);
+  layout.values = values_.data();
+  layout.middle = middle_.data();
+  layout.products = products_.data();
+  layout.halves = halves_.data();
+  layout.reach = reach_;
+  return layout;
 }
 
 std::vector<NamedSearch> searches() {

@@ -20,12 +20,13 @@ namespace hri::detail {
 /// and calls to functions of other headers would stay calls.
 struct CodewordLayout {
   int dim = 0;
-  std::ptrdiff_t padded = 0;        ///< codewords in `columns`
-  std::ptrdiff_t num_groups = 0;    ///< in `products`
-  const float* columns = nullptr;   ///< transposed, padded with infinity
+  std::ptrdiff_t num_blocks = 0;    ///< in `values`
+  std::ptrdiff_t num_groups = 0;    ///< in `products` and `halves`
+  const float* values = nullptr;    ///< by blocks of codewords, columns, codewords; padded with
+                                    ///< infinity
   const float* middle = nullptr;    ///< mean of the codewords; keeps products small
   const float* products = nullptr;  ///< middle - c: by groups of codewords, columns, codewords
-  const float* halves = nullptr;    ///< |c - middle|^2 / 2, padded with infinity to whole groups
+  const float* halves = nullptr;    ///< |c - middle|^2 / 2, padded with infinity
   float reach = 0;                  ///< the largest |c - middle|^2
 };
 
@@ -36,8 +37,8 @@ class CodewordTable {
   [[nodiscard]] CodewordLayout layout() const;
 
  private:
-  MatrixF columns_;
   VectorF middle_;
+  std::vector<float> values_;
   std::vector<float> products_;
   std::vector<float> halves_;
   float reach_ = 0;

@@ -121,6 +121,27 @@ TEST(Codebook, RefusesBadInputByName) {
   EXPECT_THROW(Codebook::train_lbg(MatrixF(0, 2), {}), InvalidArgument);
   EXPECT_THROW(Codebook::train_lbg(rows, with_size(0)), InvalidArgument);
   EXPECT_THROW(Codebook::train_kmeans(rows, MatrixF::Zero(2, 3), {}), InvalidArgument);
+  const auto option = [&](const auto& change) {
+    CodebookOptions options;
+    change(&options);
+    return message_of<InvalidArgument>([&] { Codebook::train_lbg(rows, options); });
+  };
+  for (const int bad : {0, 65537}) {
+    EXPECT_EQ(option([&](CodebookOptions* o) { o->num_codewords = bad; }),
+              "num_codewords must lie in 1..65536");
+  }
+  for (const int bad : {0, 100001}) {
+    EXPECT_EQ(option([&](CodebookOptions* o) { o->max_iterations = bad; }),
+              "max_iterations must lie in 1..100000");
+  }
+  for (const double bad : {-1e-9, static_cast<double>(kNan)}) {
+    EXPECT_EQ(option([&](CodebookOptions* o) { o->tolerance = bad; }),
+              "tolerance must not be negative");
+  }
+  for (const double bad : {0.0, kInfinity, static_cast<double>(kNan)}) {
+    EXPECT_EQ(option([&](CodebookOptions* o) { o->split_epsilon = bad; }),
+              "split_epsilon must be positive and finite");
+  }
   EXPECT_THROW(Codebook(MatrixF(0, 2)), InvalidArgument);
   const Codebook book = Codebook::train_lbg(rows, with_size(2));
   EXPECT_THROW(static_cast<void>(book.distortion(MatrixF(0, 2))), InvalidArgument);
