@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "hri/models/fixed_point_hmm.hpp"
+#include "hri/models/possibilistic_gaussian_hmm.hpp"
 #include "hri/models/possibilistic_hmm.hpp"
 #include "hri/models/possibilistic_stream.hpp"
 #include "model_inputs.hpp"
@@ -133,6 +134,62 @@ void bind_set(py::module_& m) {
   bind_files(cls);
 }
 
+void bind_gaussian_set(py::module_& m) {
+  using Model = hri::PossibilisticGaussianHmmSet;
+  using hri_bind::as_matrix;
+  using hri_bind::FloatArray;
+  py::class_<Model> cls(m, "PossibilisticGaussianHmmSet",
+                        "Possibility-theory HMMs over frames, emissions Gaussian mixtures.");
+  cls.def(py::init<std::vector<hri::GaussianMixtureHmm>, hri::PossibilisticRule>(),
+          py::arg("models"), py::arg_v("rule", hri::PossibilisticRule(), "PossibilisticRule()"));
+  cls.def_static(
+      "train",
+      [](const std::vector<std::vector<FloatArray>>& per_class, hri::GaussianMixtureHmmOptions o,
+         const hri::PossibilisticRule& rule) {
+        std::vector<std::vector<hri::MatrixF>> frames(per_class.size());
+        for (std::size_t c = 0; c < per_class.size(); ++c) {
+          for (const FloatArray& a : per_class[c])
+            frames[c].emplace_back(as_matrix(a, "a sequence"));
+        }
+        o.should_stop = hri_bind::interrupted;
+        const py::gil_scoped_release release;
+        return Model::train(frames, o, rule);
+      },
+      py::arg("per_class"), py::arg("options"),
+      py::arg_v("rule", hri::PossibilisticRule(), "PossibilisticRule()"),
+      "per_class[c] lists the (num_frames, dim) arrays of class c.");
+  cls.def("with_class", &Model::with_class, py::arg("model"),
+          "The set with one class more, which comes last; no other class is trained again.");
+  cls.def(
+      "log_possibilities",
+      [](const Model& self, const FloatArray& frames) {
+        const auto matrix = as_matrix(frames, "frames");
+        py::array_t<float> out(self.num_classes());
+        const hri::Span<float> scores(out.mutable_data(), static_cast<std::size_t>(out.size()));
+        {
+          const py::gil_scoped_release release;
+          self.log_possibilities(matrix, scores);
+        }
+        return out;
+      },
+      py::arg("frames"),
+      "log possibility of the frames under each class, float32, shape (num_classes,).");
+  cls.def(
+      "classify",
+      [](const Model& self, const FloatArray& frames) {
+        const hri::Possibilities p = self.classify(as_matrix(frames, "frames"));
+        return py::make_tuple(to_array(p.possibility), to_array(p.necessity));
+      },
+      py::arg("frames"),
+      "Possibility and necessity of each class, two float32 arrays of shape (num_classes,).");
+  cls.def_property_readonly("models", &Model::models, "The HMMs before scaling.");
+  cls.def_property_readonly("num_classes", &Model::num_classes);
+  cls.def_property_readonly("dim", &Model::dim);
+  cls.def_property_readonly("topology", &Model::topology);
+  cls.def_property_readonly("rule", &Model::rule);
+  bind_files(cls);
+}
+
 void bind_fixed_point(py::module_& m) {
   using Model = hri::FixedPointHmmSet;
   py::class_<Model>(m, "FixedPointHmmSet",
@@ -177,6 +234,7 @@ void bind_stream(py::module_& m) {
 
 void bind_possibilistic(py::module_& m) {
   bind_set(m);
+  bind_gaussian_set(m);
   bind_fixed_point(m);
   bind_stream(m);
 }

@@ -56,6 +56,7 @@ __all__: list[str] = [
     "Normalisation",
     "OrientationHistogramOptions",
     "Pca",
+    "PossibilisticGaussianHmmSet",
     "PossibilisticHmmOptions",
     "PossibilisticHmmSet",
     "PossibilisticHmmStream",
@@ -1604,6 +1605,61 @@ class PossibilisticHmmSet:
     def num_states(self) -> int: ...
     @property
     def num_symbols(self) -> int: ...
+    @property
+    def rule(self) -> PossibilisticRule: ...
+    @property
+    def topology(self) -> Topology: ...
+
+class PossibilisticGaussianHmmSet:
+    """
+    Possibility-theory HMMs over frames, emissions Gaussian mixtures.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> PossibilisticGaussianHmmSet:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        per_class: collections.abc.Sequence[
+            collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]]
+        ],
+        options: GaussianMixtureHmmOptions,
+        rule: PossibilisticRule = ...,
+    ) -> PossibilisticGaussianHmmSet:
+        """
+        per_class[c] lists the (num_frames, dim) arrays of class c.
+        """
+    def __init__(self, models: collections.abc.Sequence[GaussianMixtureHmm], rule: PossibilisticRule = ...) -> None: ...
+    def classify(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
+        """
+        Possibility and necessity of each class, two float32 arrays of shape (num_classes,).
+        """
+    def log_possibilities(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        log possibility of the frames under each class, float32, shape (num_classes,).
+        """
+    def with_class(self, model: GaussianMixtureHmm) -> PossibilisticGaussianHmmSet:
+        """
+        The set with one class more, which comes last; no other class is trained again.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def models(self) -> list[GaussianMixtureHmm]:
+        """
+        The HMMs before scaling.
+        """
+    @property
+    def num_classes(self) -> int: ...
     @property
     def rule(self) -> PossibilisticRule: ...
     @property

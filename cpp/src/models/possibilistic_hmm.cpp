@@ -9,17 +9,13 @@
 
 #include "forward_backward.hpp"
 #include "hri/core/error.hpp"
+#include "possibilistic_rule.hpp"
 #include "possibility_tables.hpp"
 
 namespace hri {
 namespace {
 
 constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
-
-detail::Join join_of(Conjunction conjunction) {
-  if (conjunction == Conjunction::product) return detail::Join::product;
-  return conjunction == Conjunction::min ? detail::Join::min : detail::Join::max;
-}
 
 double join(Conjunction conjunction, double a, double b) {
   if (conjunction == Conjunction::product) return a + b;
@@ -34,26 +30,8 @@ double condition(VectorD* logs) {
   return top;
 }
 
-template <class T>
-detail::ChainRule<T> chain_rule(const PossibilisticRule& rule) {
-  detail::ChainRule<T> result;
-  result.join = join_of(rule.conjunction);
-  const bool conditioned = rule.conjunction == Conjunction::min && rule.conditioned;
-  result.condition_every = conditioned ? 1 : 0;
-  result.concentration = conditioned ? static_cast<T>(rule.concentration) : T{1};
-  return result;
-}
-
-const char* rule_fault(const PossibilisticRule& rule) {
-  if (!(rule.concentration >= 1 && rule.concentration <= 16))
-    return "concentration must lie in 1..16";
-  return nullptr;
-}
-
 bool same_shape(const DiscreteHmm& a, const DiscreteHmm& b) {
-  const Topology& s = a.chain().topology();
-  const Topology& t = b.chain().topology();
-  return s.kind == t.kind && s.num_states == t.num_states && s.max_jump == t.max_jump &&
+  return detail::same_topology(a.chain().topology(), b.chain().topology()) &&
          a.num_symbols() == b.num_symbols();
 }
 
@@ -63,8 +41,7 @@ PossibilisticHmmSet::PossibilisticHmmSet(std::vector<DiscreteHmm> models,
                                          const PossibilisticRule& rule)
     : models_(std::move(models)), rule_(rule) {
   require(!models_.empty(), "a set needs at least one model");
-  const char* fault = rule_fault(rule_);
-  require(fault == nullptr, fault);
+  detail::validate(rule_);
   largest_ = VectorD::Zero(num_symbols());
   for (const DiscreteHmm& m : models_) {
     require(same_shape(m, models_.front()),
@@ -72,7 +49,7 @@ PossibilisticHmmSet::PossibilisticHmmSet(std::vector<DiscreteHmm> models,
     largest_ = largest_.cwiseMax(m.emission().colwise().maxCoeff().transpose());
   }
   tables_ = std::make_shared<const detail::PossibilityTables>(
-      detail::PossibilityTables{{models_, largest_, chain_rule<float>(rule_)}});
+      detail::PossibilityTables{{models_, largest_, detail::chain_rule<float>(rule_)}});
 }
 
 PossibilisticHmmSet PossibilisticHmmSet::with_class(DiscreteHmm model) const {
@@ -102,7 +79,7 @@ void PossibilisticHmmSet::log_possibilities(Span<const std::int32_t> symbols,
 VectorD PossibilisticHmmSet::log_possibilities_exact(Span<const std::int32_t> symbols) const {
   require(!symbols.empty(), "symbols must not be empty");
   detail::check_symbols(symbols, num_symbols());
-  const detail::SymbolScorer<double> scorer(models_, largest_, chain_rule<double>(rule_));
+  const detail::SymbolScorer<double> scorer(models_, largest_, detail::chain_rule<double>(rule_));
   VectorD result(num_classes());
   scorer.score(symbols, result.data());
   return result;
@@ -122,7 +99,7 @@ double PossibilisticHmmSet::viterbi(int class_index, Span<const std::int32_t> sy
   const MatrixD log_b = detail::safe_log(emission(class_index));
   const auto num_frames = static_cast<Eigen::Index>(symbols.size());
   const bool jumps = models_.front().chain().jumps();
-  const bool conditioned = rule_.conditioned && rule_.conjunction == Conjunction::min;
+  const bool conditioned = detail::is_conditioned(rule_);
   const int n = num_states();
   MatrixD phi(num_frames, n);
   Matrix<int> from = Matrix<int>::Zero(num_frames, n);
@@ -173,7 +150,7 @@ VectorD PossibilisticHmmSet::start(int class_index) const {
 MatrixD PossibilisticHmmSet::transition(int class_index) const {
   check_class(class_index);
   return detail::possibility_chains(models_)[static_cast<std::size_t>(class_index)].transition(
-      join_of(rule_.conjunction));
+      detail::join_of(rule_.conjunction));
 }
 
 MatrixD PossibilisticHmmSet::emission(int class_index) const {
@@ -186,34 +163,17 @@ MatrixD PossibilisticHmmSet::emission(int class_index) const {
 }
 
 void PossibilisticHmmSet::write(ModelFile& file, const std::string& prefix) const {
-  file.set_integer(prefix + "conjunction", static_cast<std::int64_t>(rule_.conjunction));
-  file.set_integer(prefix + "conditioned", rule_.conditioned ? 1 : 0);
-  file.set_number(prefix + "concentration", rule_.concentration);
-  file.set_integer(prefix + "num_classes", num_classes());
+  detail::write_rule(rule_, num_classes(), file, prefix);
   for (std::size_t c = 0; c < models_.size(); ++c)
     models_[c].write(file, prefix + std::to_string(c) + ".");
 }
 
 PossibilisticHmmSet PossibilisticHmmSet::read(const ModelFile& file, const std::string& prefix) {
-  const auto field = [&](const char* name, std::int64_t low, std::int64_t high) {
-    const std::int64_t value = file.integer(prefix + name);
-    if (value < low || value > high) {
-      fail(ErrorKind::format, file.name() + ": field '" + prefix + name +
-                                  "' is out of range: " + std::to_string(value));
-    }
-    return value;
-  };
-  PossibilisticRule rule;
-  rule.conjunction = static_cast<Conjunction>(field("conjunction", 0, 2));
-  rule.conditioned = field("conditioned", 0, 1) == 1;
-  rule.concentration = file.number(prefix + "concentration");
-  if (const char* fault = rule_fault(rule))
-    fail(ErrorKind::format, file.name() + ": field '" + prefix + "concentration': " + fault);
-  const std::int64_t num_classes =
-      field("num_classes", 1, std::numeric_limits<std::int32_t>::max());
+  int num_classes = 0;
+  const PossibilisticRule rule = detail::read_rule(file, prefix, &num_classes);
   std::vector<DiscreteHmm> models;
   // A class that is not there ends this, however large the number.
-  for (std::int64_t c = 0; c < num_classes; ++c) {
+  for (int c = 0; c < num_classes; ++c) {
     const std::string name = prefix + std::to_string(c) + ".";
     models.push_back(DiscreteHmm::read(file, name));
     if (!same_shape(models.back(), models.front())) {

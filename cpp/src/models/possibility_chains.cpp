@@ -61,6 +61,14 @@ PossibilityChain::PossibilityChain(const MarkovChain& chain, const ChainScale& s
   }
 }
 
+std::vector<PossibilityChain> scaled_together(const std::vector<const MarkovChain*>& chains) {
+  const ChainScale scale(chains);
+  std::vector<PossibilityChain> result;
+  result.reserve(chains.size());
+  for (const MarkovChain* chain : chains) result.emplace_back(*chain, scale);
+  return result;
+}
+
 MatrixD PossibilityChain::transition(Join join) const {
   MatrixD s = band;
   for (Eigen::Index i = 0; i < leave.size(); ++i) {

@@ -36,6 +36,9 @@ struct PossibilityChain {
   [[nodiscard]] MatrixD transition(Join join) const;
 };
 
+/// The chains of all classes.
+std::vector<PossibilityChain> scaled_together(const std::vector<const MarkovChain*>& chains);
+
 /// Where state j of class c stands. Blocks of several classes hold one class a lane; where classes
 /// are few and states many, one class takes all lanes of a block, its states dealt out to them in
 /// stripes (Farrar, Bioinformatics 23(2), 2007).

@@ -12,12 +12,9 @@
 namespace hri::detail {
 
 std::vector<PossibilityChain> possibility_chains(const std::vector<DiscreteHmm>& models) {
-  std::vector<const MarkovChain*> all;
-  for (const DiscreteHmm& m : models) all.push_back(&m.chain());
-  const ChainScale scale(all);
-  std::vector<PossibilityChain> chains;
-  for (const MarkovChain* chain : all) chains.emplace_back(*chain, scale);
-  return chains;
+  std::vector<const MarkovChain*> chains;
+  for (const DiscreteHmm& m : models) chains.push_back(&m.chain());
+  return scaled_together(chains);
 }
 
 void check_symbols(Span<const std::int32_t> symbols, int num_symbols) {
