@@ -322,9 +322,12 @@ void bind_discrete_hmm(py::module_& m) {
 
 }  // namespace
 
+void bind_hmm_tools(py::module_& m);
+
 void bind_hmm(py::module_& m) {
   bind_topology(m);
   bind_gaussian_mixture(m);
   bind_gaussian_mixture_hmm(m);
   bind_discrete_hmm(m);
+  bind_hmm_tools(m);
 }

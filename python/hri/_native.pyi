@@ -25,6 +25,7 @@ __all__: list[str] = [
     "DecisionStatus",
     "DiscreteHmm",
     "DiscreteHmmOptions",
+    "DiscreteHmmStream",
     "Distance",
     "Error",
     "FilterBankKind",
@@ -36,6 +37,7 @@ __all__: list[str] = [
     "GaussianMixture",
     "GaussianMixtureHmm",
     "GaussianMixtureHmmOptions",
+    "GaussianMixtureHmmStream",
     "GaussianMixtureOptions",
     "GestureModel",
     "GestureRecognizer",
@@ -66,12 +68,15 @@ __all__: list[str] = [
     "SequenceModelOptions",
     "SilhouetteCepstrumComputer",
     "SilhouetteCepstrumOptions",
+    "StateChoice",
+    "StateChoiceOptions",
     "Topology",
     "TrainingReport",
     "Wav",
     "WordRecognizer",
     "WordRecognizerOptions",
     "bhattacharyya_gaussian",
+    "choose_num_states",
     "distance",
     "dwt",
     "dwt2",
@@ -1398,6 +1403,175 @@ class DiscreteHmm:
     @property
     def num_symbols(self) -> int: ...
 
+class DiscreteHmmStream:
+    """
+    Scores of several DiscreteHmm while the symbols still arrive.
+    """
+    def __init__(
+        self, models: collections.abc.Sequence[DiscreteHmm], beam: typing.SupportsFloat | typing.SupportsIndex = ...
+    ) -> None:
+        """
+        Models whose log-likelihood falls `beam` below the best are dropped until reset().
+        """
+    def log_likelihoods(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        log P(frames so far | model) of every model; -inf for those dropped or impossible.
+        """
+    def nbest(self, count: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
+        """
+        Indices of the best models, best first, without those at -inf.
+        """
+    def push(self, symbol: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Advances all models by one symbol.
+        """
+    def push_all(self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]) -> None:
+        """
+        push() of every symbol.
+        """
+    def reset(self) -> None:
+        """
+        Back to before the first frame, with all models.
+        """
+    @property
+    def num_active(self) -> int:
+        """
+        Models not dropped.
+        """
+    @property
+    def num_frames(self) -> int: ...
+    @property
+    def num_models(self) -> int: ...
+
+class GaussianMixtureHmmStream:
+    """
+    Scores of several GaussianMixtureHmm while the frames still arrive.
+    """
+    def __init__(
+        self,
+        models: collections.abc.Sequence[GaussianMixtureHmm],
+        beam: typing.SupportsFloat | typing.SupportsIndex = ...,
+    ) -> None:
+        """
+        Models whose log-likelihood falls `beam` below the best are dropped until reset().
+        """
+    def log_likelihoods(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        log P(frames so far | model) of every model; -inf for those dropped or impossible.
+        """
+    def nbest(self, count: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
+        """
+        Indices of the best models, best first, without those at -inf.
+        """
+    def push(self, frame: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        Advances all models by one frame, shape (dim,).
+        """
+    def push_all(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        push() of every row.
+        """
+    def reset(self) -> None:
+        """
+        Back to before the first frame, with all models.
+        """
+    @property
+    def num_active(self) -> int:
+        """
+        Models not dropped.
+        """
+    @property
+    def num_frames(self) -> int: ...
+    @property
+    def num_models(self) -> int: ...
+
+class StateChoiceOptions:
+    """
+    Options of choose_num_states.
+    """
+    class Criterion:
+        """
+        Members:
+
+          bic
+
+          held_out
+        """
+
+        __members__: typing.ClassVar[dict[str, StateChoiceOptions.Criterion]]
+        bic: typing.ClassVar[StateChoiceOptions.Criterion]
+        held_out: typing.ClassVar[StateChoiceOptions.Criterion]
+        @typing.overload
+        def __eq__(self, other: StateChoiceOptions.Criterion) -> bool: ...
+        @typing.overload
+        def __eq__(self, other: typing.Any) -> bool: ...
+        def __getstate__(self) -> int: ...
+        def __hash__(self) -> int: ...
+        def __index__(self) -> int: ...
+        def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+        def __int__(self) -> int: ...
+        @typing.overload
+        def __ne__(self, other: StateChoiceOptions.Criterion) -> bool: ...
+        @typing.overload
+        def __ne__(self, other: typing.Any) -> bool: ...
+        def __repr__(self) -> str: ...
+        def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+        def __str__(self) -> str: ...
+        @property
+        def name(self) -> str: ...
+        @property
+        def value(self) -> int: ...
+
+    __hash__: typing.ClassVar[None] = None
+    criterion: StateChoiceOptions.Criterion
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_folds(self) -> int: ...
+    @num_folds.setter
+    def num_folds(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_restarts(self) -> int: ...
+    @num_restarts.setter
+    def num_restarts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class StateChoice:
+    """
+    What choose_num_states found.
+    """
+    class Candidate:
+        """
+        One number of states.
+        """
+        @property
+        def log_likelihood(self) -> float: ...
+        @property
+        def num_parameters(self) -> int: ...
+        @property
+        def num_states(self) -> int: ...
+        @property
+        def score(self) -> float:
+            """
+            The larger, the better.
+            """
+
+    @property
+    def candidates(self) -> list[StateChoice.Candidate]:
+        """
+        In the order they were given.
+        """
+    @property
+    def num_states(self) -> int:
+        """
+        Of the best candidate.
+        """
+
 class Conjunction:
     """
     Members:
@@ -2032,6 +2206,28 @@ def bhattacharyya_gaussian(
     mean_b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     covariance_b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
 ) -> float: ...
+@typing.overload
+def choose_num_states(
+    sequences: collections.abc.Sequence[numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]],
+    options: DiscreteHmmOptions,
+    candidates: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+    choice: StateChoiceOptions = ...,
+) -> StateChoice:
+    """
+    The number of states, out of `candidates`, whose models explain the sequences best: by BIC, or by the likelihood of sequences held out of training.
+    """
+
+@typing.overload
+def choose_num_states(
+    sequences: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+    options: GaussianMixtureHmmOptions,
+    candidates: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+    choice: StateChoiceOptions = ...,
+) -> StateChoice:
+    """
+    The number of states, out of `candidates`, whose models explain the sequences best: by BIC, or by the likelihood of sequences held out of training.
+    """
+
 def distance(
     kind: Distance,
     a: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],

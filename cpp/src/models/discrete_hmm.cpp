@@ -41,10 +41,22 @@ void check(const DiscreteHmmOptions& o, int num_symbols) {
           "emission_prior must be finite and not negative");
 }
 
-// Floors every row and scales it back to sum 1.
+// Raises what lies below the floor to it and scales the rest, so that rows sum to 1: the likeliest
+// of all distributions with that floor.
 MatrixD floored(MatrixD emission, double floor) {
-  emission = emission.cwiseMax(floor);
-  for (Eigen::Index i = 0; i < emission.rows(); ++i) emission.row(i) /= emission.row(i).sum();
+  for (Eigen::Index i = 0; i < emission.rows(); ++i) {
+    auto row = emission.row(i).array();
+    // Scaling down may bring others below the floor; each round settles one or more.
+    while (row.minCoeff() < floor) {
+      const double free = (row > floor).select(row, 0.0).sum();
+      const double held = floor * static_cast<double>((row <= floor).count());
+      if (!(free > 0) || held >= 1) {
+        row = 1.0 / static_cast<double>(row.size());
+        break;
+      }
+      row = (row > floor).select(row * ((1 - held) / free), floor);
+    }
+  }
   return emission;
 }
 
