@@ -80,7 +80,14 @@ def test_the_whole_study_on_made_up_words(data_dir: Path, monkeypatch: pytest.Mo
         )
         methods = found["methods"]
         assert list(methods) == list(parity.METHODS)
-        for method in ("hmm_forward", "hmm_viterbi", "product", "product_best_path", "min_conditioned"):
+        for method in (
+            "hmm_forward",
+            "hmm_viterbi",
+            "product",
+            "product_16_bit",
+            "product_best_path",
+            "min_conditioned",
+        ):
             assert methods[method]["accuracy_mean"] >= 0.9, (name, method)
         for method, values in methods.items():
             assert values["accuracy_mean"] == pytest.approx(np.mean(values["per_fold"]))

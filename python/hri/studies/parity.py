@@ -26,6 +26,7 @@ METHODS = {
     "hmm_forward": "HMM trained by Baum-Welch, forward score",
     "hmm_viterbi": "the same models, Viterbi score",
     "product": "PTBHMM, product; parameters of the same models",
+    "product_16_bit": "the same in saturating 16-bit integers",
     "min_conditioned": "PTBHMM, min with conditioning; parameters of the same models",
     "min_not_concentrated": "the same with concentration 1: what a state was contradicted by before is not held",
     "min_plain": "PTBHMM, min without conditioning",
@@ -111,7 +112,8 @@ def score_all(
     }
     best_path = _native.PossibilisticHmmOptions(training="best_path", **shared)
     own = _native.PossibilisticHmmSet.train(train, best_path).models
-    sets = {name: _native.PossibilisticHmmSet(models, rule) for name, rule in rules.items()}
+    sets: dict[str, Any] = {name: _native.PossibilisticHmmSet(models, rule) for name, rule in rules.items()}
+    sets["product_16_bit"] = _native.FixedPointHmmSet(sets["product"])
     sets["product_best_path"] = _native.PossibilisticHmmSet(own, rules["product"])
     sets["min_best_path"] = _native.PossibilisticHmmSet(own, rules["min_conditioned"])
     scores = {
