@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "hri/core/error.hpp"
@@ -157,6 +158,53 @@ TEST(GaussianMixtureHmm, RefusesParametersThatAreNoModel) {
   const MixtureBank three(MatrixD::Ones(3, 1), MatrixD::Zero(3, 1), MatrixD::Ones(3, 1));
   EXPECT_THROW(GaussianMixtureHmm(MarkovChain(topology, initial_start(topology), good), three),
                InvalidArgument);
+}
+
+TEST(GaussianMixtureHmm, SharesOneVarianceWhereItIsTied) {
+  GaussianMixtureHmmOptions options = with_states(3, 2);
+  options.tied_variance = true;
+  options.tolerance = 0;
+  TrainingReport report;
+  const std::vector<MatrixF> sequences{staircase(10, 1), staircase(20, 2), staircase(15, 3)};
+  const MatrixD variances =
+      GaussianMixtureHmm::train(sequences, options, &report).bank().variances();
+  for (Eigen::Index r = 1; r < variances.rows(); ++r) EXPECT_EQ(variances.row(r), variances.row(0));
+  EXPECT_NEAR(variances(0, 0), 1.0, 0.5);
+  for (std::size_t i = 1; i < report.log_likelihoods.size(); ++i)
+    EXPECT_GE(report.log_likelihoods[i], report.log_likelihoods[i - 1] - 1e-6);
+}
+
+TEST(GaussianMixtureHmm, CountsImaginedFramesOfEveryGaussian) {
+  GaussianMixtureHmmOptions options = with_states(2, 3);
+  options.weight_prior = 1e9;
+  const auto model = GaussianMixtureHmm::train({staircase(10, 1)}, options);
+  EXPECT_LT((model.bank().weights().array() - 1.0 / 3).abs().maxCoeff(), 1e-6);
+  options.weight_prior = -1;
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "weight_prior", message_of<InvalidArgument>([&] {
+                        return GaussianMixtureHmm::train({staircase(10, 1)}, options);
+                      }));
+}
+
+TEST(GaussianMixtureHmm, BeginsFromClustersWhereStatesHaveNoOrder) {
+  for (const Kind kind : {Kind::ergodic, Kind::banded, Kind::rank_one_plus_band}) {
+    GaussianMixtureHmmOptions options = with_states(3);
+    options.topology.kind = kind;
+    options.max_iterations = 1;
+    const auto model = GaussianMixtureHmm::train({staircase(30, 1), staircase(40, 2)}, options);
+    std::vector<double> means{model.bank().means()(0, 0), model.bank().means()(1, 0),
+                              model.bank().means()(2, 0)};
+    std::sort(means.begin(), means.end());
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(means[j], 10.0 * static_cast<double>(j), 1.0);
+  }
+}
+
+TEST(GaussianMixtureHmm, StaysANumberWhereDensitiesVanish) {
+  const auto model = GaussianMixtureHmm::train({staircase(10, 1)}, with_states(3));
+  MatrixF frames = staircase(4, 2);
+  frames.row(6).setConstant(3e38F);  // its square is no float
+  EXPECT_EQ(model.log_likelihood(frames), -kInfinity);
+  EXPECT_TRUE(std::isfinite(model.log_likelihood_exact(frames)));
+  EXPECT_TRUE(model.posterior(frames).allFinite());
 }
 
 }  // namespace
