@@ -45,21 +45,23 @@ constexpr int kBlock = 8;
 #pragma GCC pop_options
 #endif
 
-const DenseKernels& choose() {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
-    return avx512::kKernels;
-  }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2::kKernels;
-#endif
-  return baseline::kKernels;
-}
-
 }  // namespace
 
+std::vector<const DenseKernels*> all_dense_kernels() {
+  std::vector<const DenseKernels*> all{&baseline::kKernels};
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    all.push_back(&avx2::kKernels);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
+    all.push_back(&avx512::kKernels);
+  }
+#endif
+  return all;
+}
+
 const DenseKernels& dense_kernels() {
-  static const DenseKernels& kernels = choose();
+  static const DenseKernels& kernels = *all_dense_kernels().back();
   return kernels;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "hri/core/types.hpp"
 #include "hri/models/markov_chain.hpp"
@@ -35,5 +36,8 @@ struct DenseKernels {
 
 /// Those of the widest instruction set this machine has.
 const DenseKernels& dense_kernels();
+
+/// Those of all instruction sets it has, for tests.
+std::vector<const DenseKernels*> all_dense_kernels();
 
 }  // namespace hri::detail
