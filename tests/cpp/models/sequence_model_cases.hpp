@@ -7,11 +7,13 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "hri/models/discrete_hmm.hpp"
 #include "hri/models/gaussian_mixture_hmm.hpp"
+#include "hri/models/possibilistic_hmm.hpp"
 #include "models/model_testing.hpp"
 
 namespace hri::testing_data {
@@ -109,7 +111,9 @@ struct DiscreteCase {
   using Model = DiscreteHmm;
   using Sequence = SymbolSequence;
   static constexpr bool kProbabilistic = true;
-  static constexpr int kNumLetters = 4;  // letters: frames that differ
+  static constexpr const char* kTransitionField = "transition";
+  static constexpr double kRounding = 1e-12;  // of log_likelihood, for other orders of its sums
+  static constexpr int kNumLetters = 4;       // letters: frames that differ
 
   static Model make(const Topology& topology, std::uint64_t seed) {
     Random random(seed);
@@ -140,6 +144,8 @@ struct DiscreteCase {
     return b;
   }
   static MatrixD emissions(const Model& model) { return model.emission(); }
+  static VectorD start(const Model& model) { return model.chain().start(); }
+  static MatrixD transition(const Model& model) { return model.chain().transition(); }
   static double over_all(const AllPaths& paths) { return paths.sum; }
   static DiscreteHmmOptions options(const Topology& topology) {
     DiscreteHmmOptions options;
@@ -161,6 +167,8 @@ struct GaussianCase {
   using Model = GaussianMixtureHmm;
   using Sequence = MatrixF;
   static constexpr bool kProbabilistic = true;
+  static constexpr const char* kTransitionField = "transition";
+  static constexpr double kRounding = 1e-12;
   static constexpr int kNumLetters = 4;
 
   static Model make(const Topology& topology, std::uint64_t seed) {
@@ -209,6 +217,8 @@ struct GaussianCase {
     return b;
   }
   static MatrixD emissions(const Model& model) { return model.bank().means(); }
+  static VectorD start(const Model& model) { return model.chain().start(); }
+  static MatrixD transition(const Model& model) { return model.chain().transition(); }
   static double over_all(const AllPaths& paths) { return paths.sum; }
   static GaussianMixtureHmmOptions options(const Topology& topology) {
     GaussianMixtureHmmOptions options;
@@ -225,6 +235,59 @@ struct GaussianCase {
     o.should_stop = stop;
     return Model::train(sequences, o, report);
   }
+};
+
+// One class of a set of possibility-theory models, product conjunction: the score is the best path.
+class OnePossibilisticHmm {
+ public:
+  explicit OnePossibilisticHmm(const DiscreteHmm& model) : set_({model}) {}
+  explicit OnePossibilisticHmm(PossibilisticHmmSet set) : set_(std::move(set)) {}
+
+  [[nodiscard]] double log_likelihood(const SymbolSequence& s) const {
+    return static_cast<double>(set_.log_possibilities(s)[0]);
+  }
+  [[nodiscard]] double log_likelihood_exact(const SymbolSequence& s) const {
+    return set_.log_possibilities_exact(s)[0];
+  }
+  double viterbi(const SymbolSequence& s, std::vector<int>* path = nullptr) const {
+    return set_.viterbi(0, s, path);
+  }
+  [[nodiscard]] const MarkovChain& chain() const { return set_.models().front().chain(); }
+  [[nodiscard]] const DiscreteHmm& model() const { return set_.models().front(); }
+  [[nodiscard]] const PossibilisticHmmSet& set() const { return set_; }
+  void write(ModelFile& file, const std::string& prefix) const { set_.write(file, prefix); }
+  static OnePossibilisticHmm read(const ModelFile& file, const std::string& prefix) {
+    return OnePossibilisticHmm(PossibilisticHmmSet::read(file, prefix));
+  }
+
+ private:
+  PossibilisticHmmSet set_;
+};
+
+struct PossibilisticCase : DiscreteCase {
+  using Model = OnePossibilisticHmm;
+  static constexpr bool kProbabilistic = false;
+  static constexpr const char* kTransitionField = "0.transition";
+  static constexpr double kRounding = 5e-5;  // thousands of floats added up
+
+  static Model make(const Topology& topology, std::uint64_t seed) {
+    return Model(DiscreteCase::make(topology, seed));
+  }
+  static Model permuted(const Model& model, const MarkovChain& chain,
+                        const std::vector<int>& order) {
+    return Model(DiscreteCase::permuted(model.model(), chain, order));
+  }
+  static MatrixD densities(const Model& model, const Sequence& s) {
+    const MatrixD emission = model.set().emission(0);
+    MatrixD b(static_cast<Eigen::Index>(s.size()), emission.rows());
+    for (std::size_t t = 0; t < s.size(); ++t)
+      b.row(static_cast<Eigen::Index>(t)) = emission.col(s[t]).transpose();
+    return b;
+  }
+  static MatrixD emissions(const Model& model) { return model.set().emission(0); }
+  static VectorD start(const Model& model) { return model.set().start(0); }
+  static MatrixD transition(const Model& model) { return model.set().transition(0); }
+  static double over_all(const AllPaths& paths) { return paths.best; }
 };
 
 }  // namespace hri::testing_data
