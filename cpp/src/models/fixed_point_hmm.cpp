@@ -70,8 +70,9 @@ void FixedPointHmmSet::log_possibilities(Span<const std::int32_t> symbols, Span<
   thread_local std::vector<double> scores;
   scores.resize(out.size());
   scorer_->score(symbols, scores.data());
+  const double step = 1 / units_;
   std::transform(scores.begin(), scores.end(), out.begin(),
-                 [this](double v) { return static_cast<float>(v / units_); });
+                 [step](double v) { return static_cast<float>(v * step); });
 }
 
 }  // namespace hri

@@ -28,9 +28,12 @@ bool only_stays_and_goes(const std::vector<PossibilityChain>& chains, Join join)
 template <class T>
 ChainLayout layout_of(const std::vector<PossibilityChain>& chains, Join join) {
   constexpr int kRegister = 64;
+  // Two registers a row: while one waits for what its last frames came to, the other goes on.
+  constexpr int kMostLanes = std::max(32, 2 * kRegister / static_cast<int>(sizeof(T)));
+  static_assert(kMostLanes <= ChainLayout::kMaxLanes);
   const bool sweeps = only_stays_and_goes(chains, join);
   return {static_cast<int>(chains.size()), chains.front().topology.num_states,
-          sweeps ? kRegister / static_cast<int>(sizeof(T)) : 0};
+          sweeps ? kRegister / static_cast<int>(sizeof(T)) : 0, kMostLanes};
 }
 
 }  // namespace
@@ -82,7 +85,7 @@ MatrixD PossibilityChain::transition(Join join) const {
   return s;
 }
 
-ChainLayout::ChainLayout(int classes, int states, int stripe_lanes)
+ChainLayout::ChainLayout(int classes, int states, int stripe_lanes, int most_lanes)
     : num_classes(classes),
       num_states(states),
       striped(stripe_lanes > 0 && classes < kFewClasses && states > kFewStates) {
@@ -91,7 +94,7 @@ ChainLayout::ChainLayout(int classes, int states, int stripe_lanes)
   } else if (stripe_lanes == 0 && classes < kFewClasses) {
     num_lanes = classes;
   } else {
-    num_lanes = std::min(kMaxLanes, (classes + kAligned - 1) / kAligned * kAligned);
+    num_lanes = std::min(most_lanes, (classes + kAligned - 1) / kAligned * kAligned);
   }
   num_rows = striped ? (states + num_lanes - 1) / num_lanes : states;
   num_blocks = striped ? classes : (classes + num_lanes - 1) / num_lanes;

@@ -43,9 +43,9 @@ std::vector<PossibilityChain> scaled_together(const std::vector<const MarkovChai
 /// are few and states many, one class takes all lanes of a block, its states dealt out to them in
 /// stripes (Farrar, Bioinformatics 23(2), 2007).
 struct ChainLayout {
-  static constexpr int kMaxLanes = 32;
-  /// `stripe_lanes` 0: no stripes.
-  ChainLayout(int num_classes, int num_states, int stripe_lanes);
+  static constexpr int kMaxLanes = 64;
+  /// `stripe_lanes` 0: no stripes. Blocks have at most `most_lanes`.
+  ChainLayout(int num_classes, int num_states, int stripe_lanes, int most_lanes);
   int num_classes;
   int num_states;
   bool striped;
