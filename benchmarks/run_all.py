@@ -17,16 +17,17 @@ from pathlib import Path
 import bench_classifiers
 import bench_codebook
 import bench_hmm
+import bench_possibility
 import bench_signal
 import bench_vision
 
-MODULES = (bench_signal, bench_hmm, bench_codebook, bench_classifiers, bench_vision)
+MODULES = (bench_signal, bench_hmm, bench_possibility, bench_codebook, bench_classifiers, bench_vision)
 ALL = {bench.name: bench for module in MODULES for bench in module.BENCHES}
 
 
 def measure(bench: timing.Bench) -> dict[str, object]:
     """One entry of the report."""
-    ours, peer = bench.run()
+    ours, peer, *details = bench.run()
     return {
         "name": bench.name,
         "what": bench.what,
@@ -35,6 +36,7 @@ def measure(bench: timing.Bench) -> dict[str, object]:
         "unit": "s",
         "peer_name": bench.peer_name,
         "ratio": peer / ours,
+        "details": details[0] if details else {},
     }
 
 
@@ -61,6 +63,9 @@ def main() -> None:
             f"{entry['peer_name']}",
             flush=True,
         )
+        for what, value in entry["details"].items():
+            values = " ".join(f"{v:.4g}" for v in (value if isinstance(value, list) else [value]))
+            print(f"{'':22} {what}: {values}", flush=True)
     if arguments.json:
         arguments.json.write_text(json.dumps(entries, indent=2) + "\n")
 

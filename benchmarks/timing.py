@@ -15,7 +15,10 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-Timed = tuple[float, float]
+Details = dict[str, float | list[float]]
+"""Further figures of a bench, by name."""
+Timed = tuple[float, float] | tuple[float, float, Details]
+"""Seconds of ours and of the peer, and what else there is to report."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,8 @@ class Bench:
     ----------
     name : str
     run : callable
-        Gives the medians (ours, peer's) in seconds, after checking that both give the same answer where they should.
+        Gives the medians (ours, peer's) in seconds, after checking that both give the same answer where they should,
+        and further figures if there are any.
     peer_name : str
     """
 
@@ -40,7 +44,7 @@ class Bench:
         return " ".join((self.run.__doc__ or "").split())
 
 
-def medians(ours: Callable[[], object], peer: Callable[[], object], repeats: int = 15) -> Timed:
+def medians(ours: Callable[[], object], peer: Callable[[], object], repeats: int = 15) -> tuple[float, float]:
     """Median seconds of both, run in turns after one warm-up each."""
     seconds: tuple[list[float], list[float]] = ([], [])
     ours()

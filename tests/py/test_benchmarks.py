@@ -26,6 +26,6 @@ def test_every_bench_agrees_with_its_peer_and_is_reported(tmp_path: Path) -> Non
     listed = [line.split("\t")[0] for line in run("--list").splitlines()]
     assert [entry["name"] for entry in entries] == listed
     for entry in entries:
-        assert set(entry) == {"name", "what", "ours", "peer", "unit", "peer_name", "ratio"}
+        assert set(entry) == {"name", "what", "ours", "peer", "unit", "peer_name", "ratio", "details"}
         assert entry["ratio"] == pytest.approx(entry["peer"] / entry["ours"]) and entry["ratio"] > 0
         assert entry["what"].endswith(".") and entry["name"] in table

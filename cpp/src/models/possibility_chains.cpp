@@ -16,6 +16,13 @@ constexpr int kAligned = 16;  // lanes of a block come in multiples of this
 constexpr int kFewClasses = 4;
 constexpr int kFewStates = 8;
 
+// As many rows as the kernel can keep in registers, where that is enough.
+int striped_rows(int num_states, int num_lanes) {
+  const int rows = (num_states + num_lanes - 1) / num_lanes;
+  if (rows > 4 && rows <= 8) return 8;
+  return rows > 8 && rows <= 16 ? 16 : rows;
+}
+
 // Left-right, no skips, and every state can be stayed in.
 bool only_stays_and_goes(const std::vector<PossibilityChain>& chains, Join join) {
   const Topology& topology = chains.front().topology;
@@ -96,7 +103,7 @@ ChainLayout::ChainLayout(int classes, int states, int stripe_lanes, int most_lan
   } else {
     num_lanes = std::min(most_lanes, (classes + kAligned - 1) / kAligned * kAligned);
   }
-  num_rows = striped ? (states + num_lanes - 1) / num_lanes : states;
+  num_rows = striped ? striped_rows(states, num_lanes) : states;
   num_blocks = striped ? classes : (classes + num_lanes - 1) / num_lanes;
 }
 
