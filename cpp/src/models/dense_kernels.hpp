@@ -32,6 +32,12 @@ struct DenseKernels {
   void (*add_products)(const double* x, std::ptrdiff_t x_stride, const double* y,
                        std::ptrdiff_t y_stride, int num_frames, int num_rows,
                        std::ptrdiff_t num_columns, double* sums);
+  /// The largest of `count` values, padded.
+  double (*largest)(const double* x, std::ptrdiff_t count);
+  /// out[j] = exp(x[j] - offset), 0 where that is below 1e-307; at most exp(709).
+  void (*exponentials)(const double* x, double offset, std::ptrdiff_t count, double* out);
+  /// out[j] = log(x[j]) + offset where x[j] is a normal number above 0, and anything elsewhere.
+  void (*logarithms)(const double* x, double offset, std::ptrdiff_t count, double* out);
 };
 
 /// Those of the widest instruction set this machine has.

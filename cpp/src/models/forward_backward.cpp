@@ -117,55 +117,60 @@ void count_jumps_in_logs(const MarkovChain& chain, const double* alpha, const do
   }
 }
 
-void exponentials(const double* logs, int count, double offset, double* out) {
-  for (int i = 0; i < count; ++i) out[i] = std::exp(logs[i] - offset);
-}
-
 }  // namespace
 
 double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, double* gamma,
                         std::ptrdiff_t stride, ChainCounts* counts) {
   const int n = chain.num_states();
   const std::ptrdiff_t num_frames = log_b.num_frames;
-  MatrixD alpha(num_frames, n);
-  VectorD scratch(n);
-  for (int j = 0; j < n; ++j) alpha(0, j) = chain.log_start()[j] + log_b[0][j];
-  for (std::ptrdiff_t t = 1; t < num_frames; ++t) {
-    double* now = alpha.data() + t * n;
-    log_forward_step(chain, now - n, scratch.data(), now);
+  const DenseKernels& kernels = dense_kernels();
+  PaddedMatrix alpha(num_frames, n, kMinusInf);
+  const std::ptrdiff_t count = alpha.stride();
+  AlignedVector scratch(static_cast<std::size_t>(2 * count));
+  for (std::ptrdiff_t t = 0; t < num_frames; ++t) {
+    double* now = alpha.row(t);
+    if (t == 0) {
+      std::copy_n(chain.log_start().data(), n, now);
+    } else {
+      log_forward_step(chain, alpha.row(t - 1), scratch.data(), now);
+    }
     const double* row = log_b[t];
     for (int j = 0; j < n; ++j) now[j] += row[j];
   }
-  const double total = log_sum(0, n, [&](int i) { return alpha(num_frames - 1, i); });
+  const double* last = alpha.row(num_frames - 1);
+  const double total = log_sum(0, n, [&](int i) { return last[i]; });
   std::fill(gamma, gamma + num_frames * stride, 0.0);
   if (total == kMinusInf) return total;
 
   const bool dense = chain.topology().kind == Topology::Kind::ergodic && counts != nullptr;
   TransitionSums sums(chain);
-  VectorD beta = VectorD::Zero(n);
-  VectorD after(n);
+  PaddedMatrix way_back(3, n, kMinusInf);
+  double* beta = way_back.row(0);
+  double* after = way_back.row(1);
+  double* posterior = way_back.row(2);
+  std::fill(beta, beta + n, 0.0);
   for (std::ptrdiff_t t = num_frames - 1; t >= 0; --t) {
-    const double* now = alpha.data() + t * n;
+    const double* now = alpha.row(t);
     if (t + 1 < num_frames) {
       const double* row = log_b[t + 1];
       for (int j = 0; j < n; ++j) after[j] = row[j] + beta[j];
-      log_backward_step(chain, after.data(), scratch.data(), beta.data());
+      log_backward_step(chain, after, scratch.data(), beta);
       if (counts != nullptr) {
-        const double alpha_top = *std::max_element(now, now + n);
-        const double after_top = after.maxCoeff();
+        const double alpha_top = kernels.largest(now, count);
         // As long as no pair is too far above the total, terms that underflow are none that count.
-        if (dense && alpha_top + after_top - total < 460) {
-          exponentials(now, n, alpha_top, sums.x());
-          exponentials(after.data(), n, total - alpha_top, sums.y());
+        if (dense && alpha_top + kernels.largest(after, count) - total < 460) {
+          kernels.exponentials(now, alpha_top, count, sums.x());
+          kernels.exponentials(after, total - alpha_top, count, sums.y());
           sums.add();
         } else {
-          count_steps_in_logs(chain, now, after.data(), total, counts);
+          count_steps_in_logs(chain, now, after, total, counts);
         }
-        if (chain.jumps()) count_jumps_in_logs(chain, now, after.data(), total, counts);
+        if (chain.jumps()) count_jumps_in_logs(chain, now, after, total, counts);
       }
     }
-    double* posterior = gamma + t * stride;
-    for (int i = 0; i < n; ++i) posterior[i] = std::exp(now[i] + beta[i] - total);
+    for (int i = 0; i < n; ++i) posterior[i] = now[i] + beta[i];
+    kernels.exponentials(posterior, total, count, posterior);
+    std::copy_n(posterior, n, gamma + t * stride);
   }
   if (counts != nullptr) {
     sums.finish(counts);

@@ -57,7 +57,7 @@ void ForwardPass::reset(const MarkovChain& chain, Arithmetic first) {
   const auto size = static_cast<std::size_t>(padded(num_states_));
   now_.assign(size, 0.0);
   next_.assign(size, 0.0);
-  scratch_.resize(size);
+  scratch_.resize(2 * size);
   log_densities_.resize(size);
   // Kept ready, so that no frame allocates.
   wide_now_.resize(size);
@@ -137,6 +137,7 @@ void ForwardPass::step_logs(const MarkovChain& chain, const Scalar* log_b) {
     log_forward_step(chain, now_.data(), scratch_.data(), next_.data());
     std::swap(now_, next_);
   } else {
+    std::fill(now_.begin(), now_.end(), kMinusInf);
     std::copy_n(chain.log_start().data(), num_states_, now_.data());
     started_ = true;
   }
@@ -157,8 +158,11 @@ void ForwardPass::widen() {
 
 void ForwardPass::take_logs() {
   const double scale = static_cast<double>(exponent_) * kLog2;
-  for (std::size_t j = 0; j < now_.size(); ++j)
-    now_[j] = static_cast<double>(std::log(wide_now_[j])) + scale;
+  std::fill(now_.begin(), now_.end(), kMinusInf);
+  for (int j = 0; j < num_states_; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    now_[at] = static_cast<double>(std::log(wide_now_[at])) + scale;
+  }
   arithmetic_ = Arithmetic::logs;
 }
 

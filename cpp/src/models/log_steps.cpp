@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "log_steps.hpp"
 
+#include "dense_kernels.hpp"
+
 namespace hri::detail {
 namespace {
 
@@ -10,14 +12,6 @@ namespace {
 constexpr double kSafeSum = 1e-200;
 
 double log_of(double probability) { return probability > 0 ? std::log(probability) : kMinusInf; }
-
-// exp(values - their maximum) into `out`; gives the maximum.
-double scaled_exp(const double* values, int count, double* out) {
-  const double top = *std::max_element(values, values + count);
-  if (top == kMinusInf) return top;
-  for (int i = 0; i < count; ++i) out[i] = std::exp(values[i] - top);
-  return top;
-}
 
 double log_add(double a, double b) {
   const double top = std::max(a, b);
@@ -29,18 +23,22 @@ double log_add(double a, double b) {
 void log_forward_step(const MarkovChain& chain, const double* before, double* scratch,
                       double* after) {
   const int n = chain.num_states();
-  const double top = scaled_exp(before, n, scratch);
+  const std::ptrdiff_t count = padded(n);
+  const DenseKernels& kernels = dense_kernels();
+  const double top = kernels.largest(before, count);
   if (top == kMinusInf) {
-    std::fill(after, after + n, kMinusInf);
+    std::fill(after, after + count, kMinusInf);
     return;
   }
-  chain.propagate(scratch, after);
+  double* sums = scratch + count;
+  std::fill(sums + n, sums + count, 1.0);
+  kernels.exponentials(before, top, count, scratch);
+  chain.propagate(scratch, sums);
+  kernels.logarithms(sums, top, count, after);
+  std::fill(after + n, after + count, kMinusInf);
   double left = 1;  // log probability of leaving by a jump; 1: not known yet
   for (int j = 0; j < n; ++j) {
-    if (after[j] > kSafeSum) {
-      after[j] = top + std::log(after[j]);
-      continue;
-    }
+    if (sums[j] > kSafeSum) continue;
     const Topology& topology = chain.topology();
     after[j] = log_sum(topology.first_previous(j), topology.end_previous(j),
                        [&](int i) { return before[i] + log_of(chain.band()(i, j)); });
@@ -54,18 +52,22 @@ void log_forward_step(const MarkovChain& chain, const double* before, double* sc
 void log_backward_step(const MarkovChain& chain, const double* after, double* scratch,
                        double* before) {
   const int n = chain.num_states();
-  const double top = scaled_exp(after, n, scratch);
+  const std::ptrdiff_t count = padded(n);
+  const DenseKernels& kernels = dense_kernels();
+  const double top = kernels.largest(after, count);
   if (top == kMinusInf) {
-    std::fill(before, before + n, kMinusInf);
+    std::fill(before, before + count, kMinusInf);
     return;
   }
-  chain.propagate_back(scratch, before);
+  double* sums = scratch + count;
+  std::fill(sums + n, sums + count, 1.0);
+  kernels.exponentials(after, top, count, scratch);
+  chain.propagate_back(scratch, sums);
+  kernels.logarithms(sums, top, count, before);
+  std::fill(before + n, before + count, kMinusInf);
   double landed = 1;  // as `left` above
   for (int i = 0; i < n; ++i) {
-    if (before[i] > kSafeSum) {
-      before[i] = top + std::log(before[i]);
-      continue;
-    }
+    if (sums[i] > kSafeSum) continue;
     const Topology& topology = chain.topology();
     before[i] = log_sum(topology.first_next(i), topology.end_next(i),
                         [&](int j) { return log_of(chain.band()(i, j)) + after[j]; });

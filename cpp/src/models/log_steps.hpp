@@ -26,7 +26,8 @@ double log_sum(int begin, int end, const F& term) {
   return top + std::log(sum);
 }
 
-/// after[j] = log of the sum over i of exp(before[i]) a_ij. `scratch` holds num_states values.
+/// after[j] = log of the sum over i of exp(before[i]) a_ij. Both are padded() with -inf; `scratch`
+/// holds twice as many values.
 void log_forward_step(const MarkovChain& chain, const double* before, double* scratch,
                       double* after);
 

@@ -148,7 +148,13 @@ detail::Spread MarkovChain::propagate(const double* x, const double* b, double* 
   const detail::DenseKernels& kernels = detail::dense_kernels();
   const std::ptrdiff_t count = detail::padded(num_states());
   if (!by_one_.empty()) return kernels.step_by_one(x, by_one_.row(0), by_one_.row(1), b, count, y);
-  propagate(x, y);
+  if (dense()) {
+    // Also what pads, so that whole registers are stored.
+    kernels.propagate(x, num_states(), forward_.row(0), forward_.stride(), static_cast<int>(count),
+                      y);
+  } else {
+    propagate(x, y);
+  }
   return kernels.emit(b, count, y);
 }
 

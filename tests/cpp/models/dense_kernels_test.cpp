@@ -148,5 +148,43 @@ TEST(DenseKernels, AddProductsOfFramesInOrder) {
   }
 }
 
+TEST(DenseKernels, TakeExponentialsAndLogarithmsToTheLastPlaces) {
+  constexpr int kCount = 20000;
+  Random random(5);
+  AlignedVector logs(kCount);
+  AlignedVector values(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const double reach = i % 3 == 0 ? 700 : (i % 3 == 1 ? 10 : 0.01);
+    logs[i] = reach * (2 * random.uniform() - 1);
+    values[i] = i % 2 == 0 ? std::exp(-600 * random.uniform()) : 0.5 + random.uniform();
+  }
+  const std::vector<const DenseKernels*> all = all_dense_kernels();
+  AlignedVector exponentials(kCount);
+  AlignedVector logarithms(kCount);
+  all.front()->exponentials(logs.data(), 0, kCount, exponentials.data());
+  all.front()->logarithms(values.data(), 0, kCount, logarithms.data());
+  for (std::size_t i = 0; i < kCount; ++i) {
+    ASSERT_NEAR(exponentials[i] / std::exp(logs[i]), 1.0, 5e-16);
+    ASSERT_NEAR(logarithms[i], std::log(values[i]), 5e-16 * std::abs(std::log(values[i])));
+  }
+  for (const DenseKernels* kernels : all) {
+    AlignedVector out(kCount);
+    kernels->exponentials(logs.data(), 0, kCount, out.data());
+    EXPECT_EQ(out, exponentials);
+    kernels->logarithms(values.data(), 0, kCount, out.data());
+    EXPECT_EQ(out, logarithms);
+    EXPECT_EQ(kernels->largest(logs.data(), kCount), *std::max_element(logs.begin(), logs.end()));
+    const AlignedVector edges{-kInfinity, -1e300, -709, 0, 1, -1, 709, -700};
+    kernels->exponentials(edges.data(), 0, kLanes, out.data());
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(out[i], 0.0);
+    EXPECT_EQ(out[3], 1.0);
+    kernels->exponentials(edges.data(), 1, kLanes, out.data());
+    EXPECT_EQ(out[4], 1.0);
+    const AlignedVector ones(kLanes, 1.0);
+    kernels->logarithms(ones.data(), -3, kLanes, out.data());
+    EXPECT_EQ(out[0], -3.0);
+  }
+}
+
 }  // namespace
 }  // namespace hri::detail
