@@ -99,7 +99,8 @@ void count_steps_in_logs(const MarkovChain& chain, const double* alpha, const do
     const int end = chain.topology().end_next(i);
     for (int j = chain.topology().first_next(i); j < end; ++j) {
       const double a = chain.band()(i, j);
-      if (a > 0) counts->band(i, j) += a * std::exp(alpha[i] + after[j] - total);
+      const double exponent = alpha[i] + after[j] - total;
+      if (a > 0 && exponent > -700) counts->band(i, j) += a * std::exp(exponent);
     }
   }
 }
@@ -142,7 +143,6 @@ double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, dou
   std::fill(gamma, gamma + num_frames * stride, 0.0);
   if (total == kMinusInf) return total;
 
-  const bool dense = chain.topology().kind == Topology::Kind::ergodic && counts != nullptr;
   TransitionSums sums(chain);
   PaddedMatrix way_back(3, n, kMinusInf);
   double* beta = way_back.row(0);
@@ -158,14 +158,14 @@ double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, dou
       if (counts != nullptr) {
         const double alpha_top = kernels.largest(now, count);
         // As long as no pair is too far above the total, terms that underflow are none that count.
-        if (dense && alpha_top + kernels.largest(after, count) - total < 460) {
+        if (alpha_top + kernels.largest(after, count) - total < 460) {
           kernels.exponentials(now, alpha_top, count, sums.x());
           kernels.exponentials(after, total - alpha_top, count, sums.y());
           sums.add();
         } else {
           count_steps_in_logs(chain, now, after, total, counts);
+          if (chain.jumps()) count_jumps_in_logs(chain, now, after, total, counts);
         }
-        if (chain.jumps()) count_jumps_in_logs(chain, now, after, total, counts);
       }
     }
     for (int i = 0; i < n; ++i) posterior[i] = now[i] + beta[i];

@@ -16,24 +16,24 @@ namespace {
 constexpr double kLog2Pi = 1.8378770664093454835606594728112;
 
 // Weighted squared distance of one frame to every row of means; the hot loop of scoring.
-HRI_SIMD_CLONES
-void weighted_distances(const float* x, const float* means, const float* precisions, int num_rows,
-                        int dim, float* out) {
-  constexpr int kLanes = 16;
+template <class T>
+[[gnu::always_inline]] inline void weigh(const T* x, const T* means, const T* precisions,
+                                         int num_rows, int dim, T* out) {
+  constexpr int kLanes = 64 / sizeof(T);
   for (int r = 0; r < num_rows; ++r) {
-    const float* m = means + static_cast<std::ptrdiff_t>(r) * dim;
-    const float* p = precisions + static_cast<std::ptrdiff_t>(r) * dim;
-    float lanes[kLanes] = {};
+    const T* m = means + static_cast<std::ptrdiff_t>(r) * dim;
+    const T* p = precisions + static_cast<std::ptrdiff_t>(r) * dim;
+    T lanes[kLanes] = {};
     int d = 0;
     for (; d + kLanes <= dim; d += kLanes) {
       for (int l = 0; l < kLanes; ++l) {
-        const float diff = x[d + l] - m[d + l];
+        const T diff = x[d + l] - m[d + l];
         lanes[l] += diff * diff * p[d + l];
       }
     }
-    float sum = 0;
+    T sum = 0;
     for (; d < dim; ++d) {
-      const float diff = x[d] - m[d];
+      const T diff = x[d] - m[d];
       sum += diff * diff * p[d];
     }
     for (int width = kLanes / 2; width > 0; width /= 2) {
@@ -41,6 +41,18 @@ void weighted_distances(const float* x, const float* means, const float* precisi
     }
     out[r] = sum + lanes[0];
   }
+}
+
+HRI_SIMD_CLONES
+void weighted_distances(const float* x, const float* means, const float* precisions, int num_rows,
+                        int dim, float* out) {
+  weigh(x, means, precisions, num_rows, dim, out);
+}
+
+HRI_SIMD_CLONES
+void weighted_distances(const double* x, const double* means, const double* precisions,
+                        int num_rows, int dim, double* out) {
+  weigh(x, means, precisions, num_rows, dim, out);
 }
 
 template <class T>
@@ -124,10 +136,9 @@ void MixtureBank::log_densities_in_double(ConstMatrixRefF frames, double* out,
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     x = frames.row(t).cast<double>();
     double* row = components == nullptr ? buffer.data() + width : components + t * means_.rows();
-    for (Eigen::Index r = 0; r < means_.rows(); ++r) {
-      row[r] = constants_[r] -
-               0.5 * ((x - means_.row(r)).array().square() * precisions_.row(r).array()).sum();
-    }
+    weighted_distances(x.data(), means_.data(), precisions_.data(), static_cast<int>(means_.rows()),
+                       dim(), row);
+    for (Eigen::Index r = 0; r < means_.rows(); ++r) row[r] = constants_[r] - 0.5 * row[r];
     for (int j = 0; j < num_states(); ++j)
       out[t * num_states() + j] = log_sum_exp(row + static_cast<std::ptrdiff_t>(j) * k, k);
   }
