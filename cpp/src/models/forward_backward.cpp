@@ -27,7 +27,7 @@ class TransitionSums {
         dense_(chain.topology().kind == Topology::Kind::ergodic),
         x_(kBlock, chain.num_states(), 0),
         y_(kBlock, chain.num_states(), 0),
-        pairs_(chain.num_states(), chain.num_states(), 0),
+        pairs_(chain.num_states(), dense_ ? chain.num_states() : band_width(chain.topology()), 0),
         leave_(VectorD::Zero(chain.num_states())),
         land_(VectorD::Zero(chain.num_states())) {}
 
@@ -43,7 +43,10 @@ class TransitionSums {
     flush();
     const int n = chain_.num_states();
     for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) counts->band(i, j) += chain_.band()(i, j) * pairs_.row(i)[j];
+      const int first = chain_.topology().first_next(i);
+      const int end = chain_.topology().end_next(i);
+      for (int j = first; j < end; ++j)
+        counts->band(i, j) += chain_.band()(i, j) * pairs_.row(i)[j - first];
     }
     if (!chain_.jumps()) return;
     counts->leave += leave_;
@@ -51,6 +54,13 @@ class TransitionSums {
   }
 
  private:
+  static int band_width(const Topology& topology) {
+    int width = 0;
+    for (int i = 0; i < topology.num_states; ++i)
+      width = std::max(width, topology.end_next(i) - topology.first_next(i));
+    return width;
+  }
+
   void flush() {
     const int n = chain_.num_states();
     if (dense_) {
@@ -68,8 +78,9 @@ class TransitionSums {
     double landed = 0;
     for (int i = 0; i < n; ++i) {
       const int end = chain_.topology().end_next(i);
+      const int first = chain_.topology().first_next(i);
       double* row = pairs_.row(i);
-      for (int j = chain_.topology().first_next(i); j < end; ++j) row[j] += x[i] * y[j];
+      for (int j = first; j < end; ++j) row[j - first] += x[i] * y[j];
       if (!chain_.jumps()) continue;
       left += x[i] * chain_.leave()[i];
       landed += chain_.land()[i] * y[i];
@@ -86,7 +97,7 @@ class TransitionSums {
   int held_ = 0;
   PaddedMatrix x_;
   PaddedMatrix y_;
-  PaddedMatrix pairs_;
+  PaddedMatrix pairs_;  // row i begins with the first state that i leads to
   VectorD leave_;
   VectorD land_;
 };

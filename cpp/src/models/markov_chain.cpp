@@ -84,7 +84,6 @@ MarkovChain::MarkovChain(const Topology& topology, VectorD start, MatrixD band, 
 
 void MarkovChain::tabulate() {
   log_start_ = detail::safe_log(start_);
-  log_transition_ = detail::safe_log(transition_);
   if (jumps()) {
     log_leave_ = detail::safe_log(leave_);
     log_land_ = detail::safe_log(land_);
@@ -93,8 +92,9 @@ void MarkovChain::tabulate() {
   if (dense()) {
     forward_ = detail::PaddedMatrix(transition_);
     back_ = detail::PaddedMatrix(transition_.transpose());
-    log_forward_ = detail::PaddedMatrix(log_transition_, kMinusInf);
-    log_back_ = detail::PaddedMatrix(log_transition_.transpose(), kMinusInf);
+    const MatrixD logs = detail::safe_log(transition_);
+    log_forward_ = detail::PaddedMatrix(logs, kMinusInf);
+    log_back_ = detail::PaddedMatrix(logs.transpose(), kMinusInf);
     return;
   }
   const int longest = std::min(topology_.max_jump, n - 1);
@@ -104,7 +104,8 @@ void MarkovChain::tabulate() {
   for (int i = 0; i < n; ++i) {
     for (int j = topology_.first_next(i); j < topology_.end_next(i); ++j) {
       steps_.row(j - i + lowest_step_)[i] = band()(i, j);
-      log_steps_.row(j - i + lowest_step_)[i] = log_transition_(i, j);
+      if (transition_(i, j) > 0)
+        log_steps_.row(j - i + lowest_step_)[i] = std::log(transition_(i, j));
     }
   }
   if (topology_.kind != Topology::Kind::left_right || longest > 1) return;
@@ -219,12 +220,13 @@ int MarkovChain::best_previous(const double* x, int j, int best_leaver) const {
   }
   const int begin = topology_.first_previous(j);
   const int end = topology_.end_previous(j);
+  const auto score = [&](int i) { return x[i] + log_steps_.row(j - i + lowest_step_)[i]; };
   int best = begin;
   for (int i = begin + 1; i < end; ++i) {
-    if (x[i] + log_transition_(i, j) > x[best] + log_transition_(best, j)) best = i;
+    if (score(i) > score(best)) best = i;
   }
   if (!jumps() || (best_leaver >= begin && best_leaver < end)) return best;
-  const double in_band = x[best] + log_transition_(best, j);
+  const double in_band = score(best);
   const double jumped = x[best_leaver] + log_leave_[best_leaver] + log_land_[j];
   return jumped > in_band || (jumped == in_band && best_leaver < best) ? best_leaver : best;
 }

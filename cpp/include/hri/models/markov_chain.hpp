@@ -52,7 +52,6 @@ class MarkovChain {
   [[nodiscard]] bool jumps() const { return topology_.kind == Topology::Kind::rank_one_plus_band; }
 
   [[nodiscard]] const VectorD& log_start() const { return log_start_; }
-  [[nodiscard]] const MatrixD& log_transition() const { return log_transition_; }
 
   /// y[j] = sum over i of x[i] a_ij. x and y hold num_states values and do not overlap.
   void propagate(const double* x, double* y) const;
@@ -86,7 +85,6 @@ class MarkovChain {
   VectorD leave_;
   VectorD land_;
   VectorD log_start_;
-  MatrixD log_transition_;
   VectorD log_leave_;
   VectorD log_land_;
   // ergodic: the matrix and its transpose, and the same of logs.
