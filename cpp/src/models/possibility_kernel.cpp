@@ -27,33 +27,28 @@ namespace avx512 {
 #pragma GCC pop_options
 #endif
 
-// The functions for one kind of processor.
 template <class T>
-struct Kernels {
-  decltype(&baseline::advance_block<T>) advance;
-  decltype(&baseline::best_of_block<T>) best;
-};
-
-template <class T>
-Kernels<T> choose() {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
-    return {&avx512::advance_block<T>, &avx512::best_of_block<T>};
-  }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    return {&avx2::advance_block<T>, &avx2::best_of_block<T>};
-#endif
-  return {&baseline::advance_block<T>, &baseline::best_of_block<T>};
-}
-
-template <class T>
-const Kernels<T>& kernels() {
-  static const Kernels<T> chosen = choose<T>();
-  return chosen;
+const ChainKernels<T>& kernels() {
+  static const ChainKernels<T> best = chain_kernels<T>().back();
+  return best;
 }
 
 }  // namespace
+
+template <class T>
+std::vector<ChainKernels<T>> chain_kernels() {
+  std::vector<ChainKernels<T>> found = {
+      {"baseline", &baseline::advance_block<T>, &baseline::best_of_block<T>}};
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    found.push_back({"avx2", &avx2::advance_block<T>, &avx2::best_of_block<T>});
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
+    found.push_back({"avx512", &avx512::advance_block<T>, &avx512::best_of_block<T>});
+  }
+#endif
+  return found;
+}
 
 template <class T>
 void advance(const ChainBlock<T>& block, const ChainRule<T>& rule, const T* start,
@@ -63,8 +58,12 @@ void advance(const ChainBlock<T>& block, const ChainRule<T>& rule, const T* star
 
 template <class T>
 void best_of_lanes(const T* phi, const T* ends, int num_rows, int num_lanes, T floor, T* best) {
-  kernels<T>().best(phi, ends, num_rows, num_lanes, floor, best);
+  kernels<T>().best_of_lanes(phi, ends, num_rows, num_lanes, floor, best);
 }
+
+template std::vector<ChainKernels<float>> chain_kernels<float>();
+template std::vector<ChainKernels<double>> chain_kernels<double>();
+template std::vector<ChainKernels<std::int16_t>> chain_kernels<std::int16_t>();
 
 template void best_of_lanes<float>(const float*, const float*, int, int, float, float*);
 template void best_of_lanes<double>(const double*, const double*, int, int, double, double*);

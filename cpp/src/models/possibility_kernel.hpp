@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace hri::detail {
 
@@ -94,5 +95,16 @@ void advance(const ChainBlock<T>& block, const ChainRule<T>& rule, const T* star
 /// The best of phi + ends of every lane, -inf where nothing is possible (`floor` as in the rule).
 template <class T>
 void best_of_lanes(const T* phi, const T* ends, int num_rows, int num_lanes, T floor, T* best);
+
+/// The two functions above for one instruction set.
+template <class T>
+struct ChainKernels {
+  const char* name;
+  decltype(&detail::advance<T>) advance;
+  decltype(&detail::best_of_lanes<T>) best_of_lanes;
+};
+/// Those that this machine can run, the best one last; all give the same bits.
+template <class T>
+std::vector<ChainKernels<T>> chain_kernels();
 
 }  // namespace hri::detail

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "hri/core/error.hpp"
@@ -32,8 +33,10 @@ SymbolScorer<T>::SymbolScorer(const std::vector<DiscreteHmm>& models, const Vect
     : chains_(possibility_chains(models), rule, units), num_symbols_(models.front().num_symbols()) {
   const ChainLayout& layout = chains_.layout();
   const auto size = static_cast<std::size_t>(layout.block_size());
+  // Also where positions stand for no state: an entry takes any value down to the floor, which one
+  // that is as low as the floor would not.
   emissions_.assign(static_cast<std::size_t>(layout.num_blocks * num_symbols_) * size,
-                    PossibilityChains<T>::impossible());
+                    from_log<T>(-std::numeric_limits<double>::infinity(), units));
   for (int c = 0; c < layout.num_classes; ++c) {
     const MatrixD& b = models[static_cast<std::size_t>(c)].emission();
     const int block = layout.block(c);
