@@ -66,12 +66,15 @@ PossibilisticGaussianHmmSet PossibilisticGaussianHmmSet::train(
     const std::vector<std::vector<MatrixF>>& per_class, const GaussianMixtureHmmOptions& options,
     const PossibilisticRule& rule) {
   require(!per_class.empty(), "training needs at least one class");
-  std::vector<GaussianMixtureHmm> models;
+  detail::validate(rule);
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     if (per_class[c].empty())
       fail(ErrorKind::invalid_argument, "class " + std::to_string(c) + " has no sequence");
-    models.push_back(GaussianMixtureHmm::train(per_class[c], options));
   }
+  std::vector<GaussianMixtureHmm> models;
+  models.reserve(per_class.size());
+  for (const std::vector<MatrixF>& sequences : per_class)
+    models.push_back(GaussianMixtureHmm::train(sequences, options));
   return PossibilisticGaussianHmmSet(std::move(models), rule);
 }
 

@@ -9,6 +9,7 @@
 #include "forward_backward.hpp"
 #include "hri/core/error.hpp"
 #include "hri/models/possibilistic_hmm.hpp"
+#include "possibilistic_rule.hpp"
 
 namespace hri {
 namespace {
@@ -21,6 +22,7 @@ void check(const PossibilisticHmmOptions& o) {
   require(o.emission_floor >= 0 && o.emission_floor * o.num_symbols <= 1,
           "emission_floor must lie in 0..1/num_symbols");
   require(o.tolerance >= 0, "tolerance must not be negative");
+  detail::validate(o.rule);
 }
 
 // Counts one step of a path. With jumps a step in the band may have been either; it is shared as
@@ -88,9 +90,11 @@ DiscreteHmm train_class(const std::vector<SymbolSequence>& sequences,
   for (int iteration = 0; iteration < options.max_iterations && !report->converged; ++iteration) {
     double log_likelihood = 0;
     DiscreteHmm next = reestimate(sequences, model, options, &log_likelihood);
-    const MatrixD& before = model.chain().transition();
-    const double moved = std::max((next.chain().transition() - before).cwiseAbs().maxCoeff(),
-                                  (next.emission() - model.emission()).cwiseAbs().maxCoeff());
+    const MarkovChain& before = model.chain();
+    const double moved =
+        std::max({(next.chain().start() - before.start()).cwiseAbs().maxCoeff(),
+                  (next.chain().transition() - before.transition()).cwiseAbs().maxCoeff(),
+                  (next.emission() - model.emission()).cwiseAbs().maxCoeff()});
     model = std::move(next);
     report->log_likelihoods.push_back(log_likelihood);
     report->converged = moved < options.tolerance;

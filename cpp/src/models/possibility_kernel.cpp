@@ -28,24 +28,44 @@ namespace avx512 {
 #endif
 
 template <class T>
+constexpr ChainKernels<T> kBaseline{"baseline", &baseline::advance_block<T>,
+                                    &baseline::best_of_block<T>};
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+template <class T>
+constexpr ChainKernels<T> kAvx2{"avx2", &avx2::advance_block<T>, &avx2::best_of_block<T>};
+template <class T>
+constexpr ChainKernels<T> kAvx512{"avx512", &avx512::advance_block<T>, &avx512::best_of_block<T>};
+
+bool has_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
+bool has_avx512() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
+}
+#endif
+
+template <class T>
+ChainKernels<T> choose() {
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  if (has_avx512()) return kAvx512<T>;
+  if (has_avx2()) return kAvx2<T>;
+#endif
+  return kBaseline<T>;
+}
+
+template <class T>
 const ChainKernels<T>& kernels() {
-  static const ChainKernels<T> best = chain_kernels<T>().back();
-  return best;
+  static const ChainKernels<T> chosen = choose<T>();
+  return chosen;
 }
 
 }  // namespace
 
 template <class T>
 std::vector<ChainKernels<T>> chain_kernels() {
-  std::vector<ChainKernels<T>> found = {
-      {"baseline", &baseline::advance_block<T>, &baseline::best_of_block<T>}};
+  std::vector<ChainKernels<T>> found = {kBaseline<T>};
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    found.push_back({"avx2", &avx2::advance_block<T>, &avx2::best_of_block<T>});
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
-    found.push_back({"avx512", &avx512::advance_block<T>, &avx512::best_of_block<T>});
-  }
+  if (has_avx2()) found.push_back(kAvx2<T>);
+  if (has_avx512()) found.push_back(kAvx512<T>);
 #endif
   return found;
 }
