@@ -202,12 +202,7 @@ void MarkovChain::propagate_max(const double* x, double* y) const {
 }
 
 int MarkovChain::best_leaver(const double* x) const {
-  int best = 0;
-  if (!jumps()) return best;
-  for (int i = 1; i < num_states(); ++i) {
-    if (x[i] + log_leave_[i] > x[best] + log_leave_[best]) best = i;
-  }
-  return best;
+  return jumps() ? detail::dense_kernels().best_sum(x, log_leave_.data(), num_states()) : 0;
 }
 
 int MarkovChain::best_previous(const double* x, int j) const {
