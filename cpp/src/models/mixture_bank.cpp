@@ -154,12 +154,18 @@ MixtureBank MixtureBank::read(const ModelFile& file, const std::string& prefix) 
   const MatrixD weights = file.matrix_d(prefix + "weights");
   const MatrixD means = file.matrix_d(prefix + "means");
   const MatrixD variances = file.matrix_d(prefix + "variances");
-  const bool shapes = weights.size() > 0 && means.rows() == weights.size() && means.cols() > 0 &&
-                      variances.rows() == means.rows() && variances.cols() == means.cols();
-  if (!shapes || !(variances.minCoeff() > 0) || !(weights.minCoeff() >= 0) ||
+  const auto refuse = [&](const char* field, const std::string& what) {
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + field + "' " + what);
+  };
+  if (weights.size() == 0 || !(weights.minCoeff() >= 0) ||
       (weights.rowwise().sum().array() - 1.0).abs().maxCoeff() > 1e-6) {
-    fail(ErrorKind::format,
-         file.name() + ": field '" + prefix + "weights', means or variances: no mixture");
+    refuse("weights", "must hold rows >= 0 that sum to 1");
+  }
+  if (means.rows() != weights.size() || means.cols() == 0)
+    refuse("means", "must have one row a weight");
+  if (variances.rows() != means.rows() || variances.cols() != means.cols() ||
+      !(variances.minCoeff() > 0)) {
+    refuse("variances", "must be positive and of the shape of '" + prefix + "means'");
   }
   return MixtureBank(weights, means, variances);
 }

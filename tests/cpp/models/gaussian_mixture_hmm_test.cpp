@@ -207,5 +207,24 @@ TEST(GaussianMixtureHmm, StaysANumberWhereDensitiesVanish) {
   EXPECT_TRUE(model.posterior(frames).allFinite());
 }
 
+TEST(GaussianMixtureHmm, RefusesFilesByTheFieldThatIsWrong) {
+  ModelFile file;
+  GaussianMixtureHmm::train({staircase(10, 1)}, with_states(3, 2)).write(file, "m.");
+  const auto refused = [&](const char* field, const MatrixD& values) {
+    ModelFile bad = file;
+    bad.set_matrix(field, values);
+    return message_of<FormatError>([&] { return GaussianMixtureHmm::read(bad, "m."); });
+  };
+  EXPECT_EQ(refused("m.means", MatrixD(MatrixD::Zero(6, 2))), "nothing thrown");
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "'m.means'",
+                      refused("m.means", MatrixD(MatrixD::Zero(5, 2))));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "'m.variances'",
+                      refused("m.means", MatrixD(MatrixD::Zero(6, 3))));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "'m.variances'",
+                      refused("m.variances", MatrixD(MatrixD::Zero(6, 2))));
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "'m.weights'",
+                      refused("m.weights", MatrixD(MatrixD::Ones(3, 2))));
+}
+
 }  // namespace
 }  // namespace hri
