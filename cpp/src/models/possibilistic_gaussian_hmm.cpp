@@ -133,7 +133,7 @@ void PossibilisticGaussianHmmSet::log_possibilities(ConstMatrixRefF frames, Span
               conditioned ? scratch.levels.data() + t * layout.num_lanes : nullptr);
       }
     }
-    chains_->reset(&scratch.workspace);
+    chains_->reset(block, &scratch.workspace);
     chains_->advance(block, table, num_frames, &scratch.workspace);
     chains_->scores(block, scratch.workspace, scores.data());
     for (int c = first; c < end; ++c) {

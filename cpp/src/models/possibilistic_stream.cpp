@@ -47,7 +47,8 @@ PossibilisticHmmStream& PossibilisticHmmStream::operator=(PossibilisticHmmStream
     default;
 
 void PossibilisticHmmStream::reset() {
-  for (auto& workspace : state_->blocks) tables_->scorer.chains().reset(&workspace);
+  for (std::size_t b = 0; b < state_->blocks.size(); ++b)
+    tables_->scorer.chains().reset(static_cast<int>(b), &state_->blocks[b]);
   state_->block_active.assign(state_->blocks.size(), 1);
   state_->class_active.assign(static_cast<std::size_t>(num_classes_), 1);
   num_frames_ = 0;

@@ -32,15 +32,32 @@ bool only_stays_and_goes(const std::vector<PossibilityChain>& chains, Join join)
                      [](const PossibilityChain& c) { return c.band.diagonal().minCoeff() > 0; });
 }
 
+// What going on to state j saves compared with staying there, in steps; integers can hold so much.
+bool rises_fit(const std::vector<PossibilityChain>& chains, double units) {
+  for (const PossibilityChain& c : chains) {
+    for (Eigen::Index j = 1; j < c.band.rows(); ++j) {
+      const double go = from_log<std::int16_t>(std::log(c.band(j - 1, j)), units);
+      const double stay = from_log<std::int16_t>(std::log(c.band(j, j)), units);
+      if (go - stay > Bounds16::kLargestRise) return false;
+    }
+  }
+  return true;
+}
+
 template <class T>
-ChainLayout layout_of(const std::vector<PossibilityChain>& chains, Join join) {
+bool can_sweep(const std::vector<PossibilityChain>& chains, Join join, double units) {
+  return only_stays_and_goes(chains, join) && (!std::is_integral_v<T> || rises_fit(chains, units));
+}
+
+template <class T>
+ChainLayout layout_of(const std::vector<PossibilityChain>& chains, Join join, double units) {
   constexpr int kRegister = 64;
   // Two registers a row: while one waits for what its last frames came to, the other goes on.
   constexpr int kMostLanes = std::max(32, 2 * kRegister / static_cast<int>(sizeof(T)));
   static_assert(kMostLanes <= ChainLayout::kMaxLanes);
-  const bool sweeps = only_stays_and_goes(chains, join);
   return {static_cast<int>(chains.size()), chains.front().topology.num_states,
-          sweeps ? kRegister / static_cast<int>(sizeof(T)) : 0, kMostLanes};
+          can_sweep<T>(chains, join, units) ? kRegister / static_cast<int>(sizeof(T)) : 0,
+          kMostLanes};
 }
 
 }  // namespace
@@ -150,7 +167,7 @@ void ChainWorkspace<T>::reset(const ChainLayout& layout, int margin, T impossibl
   } else {
     values_.assign(total, impossible);
   }
-  scale_.assign(lanes, 0);
+  scale_.resize(lanes);
   state.phi = values_.data() + edge;
   state.next = state.phi + size + 2 * edge;
   state.lanes = state.next + size + edge;
@@ -161,7 +178,7 @@ void ChainWorkspace<T>::reset(const ChainLayout& layout, int margin, T impossibl
 template <class T>
 PossibilityChains<T>::PossibilityChains(const std::vector<PossibilityChain>& chains,
                                         const ChainRule<T>& rule, double units)
-    : layout_(layout_of<T>(chains, rule.join)), rule_(rule) {
+    : layout_(layout_of<T>(chains, rule.join, units)), rule_(rule) {
   rule_.floor = impossible();
   const auto total =
       static_cast<std::size_t>(layout_.num_blocks) * static_cast<std::size_t>(layout_.block_size());
@@ -185,10 +202,11 @@ PossibilityChains<T>::PossibilityChains(const std::vector<PossibilityChain>& cha
   }
   if (chains.front().topology.kind == Topology::Kind::ergodic) {
     tabulate_dense(chains, units);
-    return;
+  } else {
+    tabulate_bands(chains, units);
+    if (can_sweep<T>(chains, rule.join, units)) free_the_steps();
   }
-  tabulate_bands(chains, units);
-  if (only_stays_and_goes(chains, rule.join)) free_the_steps();
+  shift_starts();
 }
 
 template <class T>
@@ -272,9 +290,37 @@ void PossibilityChains<T>::free_the_steps() {
   }
 }
 
+// Integers begin as high as shifts will leave them, which gives the most room below.
 template <class T>
-void PossibilityChains<T>::reset(ChainWorkspace<T>* workspace) const {
+void PossibilityChains<T>::shift_starts() {
+  scales_.assign(static_cast<std::size_t>(layout_.num_blocks) * lanes(), 0);
+  if constexpr (std::is_integral_v<T>) {
+    const auto start = [this](int c, int j) -> T& {
+      return starts_[static_cast<std::size_t>(layout_.block(c) * layout_.block_size() +
+                                              layout_.position(c, j))];
+    };
+    for (int c = 0; c < layout_.num_classes; ++c) {
+      int best = Bounds16::kImpossible;
+      for (int j = 0; j < layout_.num_states; ++j) best = std::max<int>(best, start(c, j));
+      if (best == Bounds16::kImpossible) continue;
+      const int shift = Bounds16::kBest - best;
+      for (int j = 0; j < layout_.num_states; ++j) {
+        if (start(c, j) != Bounds16::kImpossible) start(c, j) = static_cast<T>(start(c, j) + shift);
+      }
+      const int lane = layout_.striped ? 0 : c % layout_.num_lanes;
+      scales_[static_cast<std::size_t>(layout_.block(c)) * lanes() +
+              static_cast<std::size_t>(lane)] = -shift;
+    }
+    std::replace(starts_.begin(), starts_.end(), static_cast<T>(Bounds16::kImpossible),
+                 static_cast<T>(Bounds16::kFloor));
+  }
+}
+
+template <class T>
+void PossibilityChains<T>::reset(int block, ChainWorkspace<T>* workspace) const {
   workspace->reset(layout_, margin_, impossible(), steps_ != Steps::as_given);
+  std::copy_n(scales_.data() + static_cast<std::size_t>(block) * lanes(), lanes(),
+              workspace->state.scale);
 }
 
 template <class T>

@@ -60,19 +60,15 @@ struct ChainLayout {
   [[nodiscard]] int block_size() const { return num_rows * num_lanes; }
 };
 
-/// What integers may hold. A value of the recursion lies between the floor, which is impossible,
-/// and the largest shift; the lowest entry of a table takes any of them to the floor or below, and
-/// still no sum of a value and an entry leaves 16 bits.
-struct Bounds16 {
-  static constexpr int kFloor = -12288;
-  static constexpr int kLargestShift = 4096;
-  static constexpr int kImpossible = kFloor - kLargestShift;
-  static constexpr int kLowestPossible = -4095;
-};
-
 /// A table entry. Integers stand for logs in steps of 1 / units.
 template <class T>
 T from_log(double log_value, double units);
+template <>
+float from_log<float>(double log_value, double units);
+template <>
+double from_log<double>(double log_value, double units);
+template <>
+std::int16_t from_log<std::int16_t>(double log_value, double units);
 
 /// The sum of two table entries.
 template <class T>
@@ -105,7 +101,7 @@ class PossibilityChains {
   /// state by state, because some transitions were shifted into them; (block_size) of each block.
   [[nodiscard]] const T* shift(int block) const { return at(shifts_, block); }
 
-  void reset(ChainWorkspace<T>* workspace) const;
+  void reset(int block, ChainWorkspace<T>* workspace) const;
   /// Frames of one block, see possibility_kernel.hpp.
   void advance(int block, const FrameTable<T>& frames, std::ptrdiff_t num_frames,
                ChainWorkspace<T>* workspace) const;
@@ -125,6 +121,8 @@ class PossibilityChains {
   void tabulate_bands(const std::vector<PossibilityChain>& chains, double units);
   void tabulate_dense(const std::vector<PossibilityChain>& chains, double units);
   void free_the_steps();
+  void shift_starts();
+  [[nodiscard]] std::size_t lanes() const { return static_cast<std::size_t>(layout_.num_lanes); }
 
   ChainLayout layout_;
   ChainRule<T> rule_;
@@ -132,6 +130,8 @@ class PossibilityChains {
   Steps steps_ = Steps::as_given;
   std::vector<int> offsets_;
   std::vector<T> starts_;
+  std::vector<typename ScaleOf<T>::Type>
+      scales_;            // (num_blocks, num_lanes): before the first frame
   std::vector<T> bands_;  // (num_blocks, num_bands, block_size)
   std::vector<T> leaves_;
   std::vector<T> lands_;

@@ -42,6 +42,21 @@ struct ChainBlock {
   bool striped = false;
 };
 
+/// What 16-bit integers may hold. Values of the recursion lie between the floor, which is
+/// impossible, and kMost; where a class is shifted its best value becomes kBest. kImpossible takes
+/// any value to the floor or below, and the sum of any value and any entry of a table fits into 16
+/// bits.
+struct Bounds16 {
+  static constexpr int kBest = 15500;
+  static constexpr int kLargestRise = 2048;   ///< what going on may save compared with staying
+  static constexpr int kLargestShift = 4096;  ///< from transitions into the values of one state
+  static constexpr int kMost = kBest + kLargestRise;
+  static constexpr int kFloor = -7600;
+  static constexpr int kImpossible = kFloor - kMost;
+  static constexpr int kLowestPossible = -4095;  ///< of one entry; two may add up
+  static_assert(kFloor + kImpossible >= -32768 && kMost - 2 * kLowestPossible < 32768);
+};
+
 /// What was taken out of phi adds up in these.
 template <class T>
 struct ScaleOf {

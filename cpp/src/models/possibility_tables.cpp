@@ -91,7 +91,7 @@ void SymbolScorer<T>::score(Span<const std::int32_t> symbols, double* out) const
   const ChainLayout& layout = chains_.layout();
   std::array<double, ChainLayout::kMaxLanes> scores;
   for (int block = 0; block < layout.num_blocks; ++block) {
-    chains_.reset(&workspace);
+    chains_.reset(block, &workspace);
     advance(block, symbols, &workspace);
     chains_.scores(block, workspace, scores.data());
     const int first = block * layout.classes_a_block();

@@ -53,6 +53,8 @@ def _summary(result: dict[str, object], indent: str = "") -> list[str]:
     if "accuracy_mean" in result:
         mean, std = float(str(result["accuracy_mean"])), float(str(result["accuracy_std"]))
         lines.append(f"{indent}accuracy\t{100 * mean:.1f} % ± {100 * std:.1f}")
+    if "same_decision_16_bit" in result:
+        lines.append(f"{indent}16 bits\t{100 * float(str(result['same_decision_16_bit'])):.2f} % of decisions the same")
     if "difference_to_hmm" in result:
         lines.append(f"{indent}difference\t{100 * float(str(result['difference_to_hmm'])):+.2f} points to the HMM")
     for key in ("target", "passed"):

@@ -141,8 +141,9 @@ TEST(FixedPointHmmSet, LosesNothingWhileAllFallsIntoItsRangeAndNeverFindsMore) {
             const double found = std::round(static_cast<double>(scores[c]) * fixed.units());
             ASSERT_LE(found, expected[c]);
             num_impossible += expected[c] == -kInfinity ? 1 : 0;
-            // Shifts are within 4096 of 0 on either side, the floor is at -12288.
-            if (!(expected[c] > -12288 + 4096)) continue;
+            using detail::Bounds16;
+            constexpr int kRange = Bounds16::kBest - Bounds16::kFloor - 2 * Bounds16::kLargestShift;
+            if (!(expected[c] > -kRange)) continue;
             ASSERT_EQ(found, expected[c]);
             ++num_exact;
           }

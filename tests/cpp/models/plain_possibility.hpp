@@ -94,6 +94,22 @@ std::vector<T> random_entries(std::ptrdiff_t count, Random* random) {
   return values;
 }
 
+// Integers start as high as shifts will leave them; what cannot start is at the floor.
+template <class T>
+void raise_starts(Tables<T>* t) {
+  if constexpr (kInteger<T>) {
+    for (const auto& chain : t->chains()) {
+      int best = Bounds16::kImpossible;
+      for (const std::size_t x : chain) best = std::max<int>(best, t->start[x]);
+      for (const std::size_t x : chain) {
+        T& start = t->start[x];
+        start = start == Bounds16::kImpossible ? static_cast<T>(Bounds16::kFloor)
+                                               : static_cast<T>(start + Bounds16::kBest - best);
+      }
+    }
+  }
+}
+
 enum class Structure { bands, jumps, dense };
 
 template <class T>
@@ -119,6 +135,7 @@ Tables<T> any_structure(Structure structure, int num_states, int num_lanes,
     // In some classes nothing leaves.
     for (std::size_t x = 0; x < t.leave.size(); x += 3) t.leave[x] = impossible<T>();
   }
+  raise_starts(&t);
   t.point();
   return t;
 }
@@ -145,6 +162,7 @@ Tables<T> left_right(Steps steps, bool striped, int num_rows, int num_lanes, Ran
       T stay = random_entry<T>(random);
       if (!(stay > impossible<T>())) stay = 0;
       T go = random_entry<T>(random);
+      if (kInteger<T> && go - stay > Bounds16::kLargestRise) go = stay;
       double shift = g + static_cast<double>(go) - static_cast<double>(stay);
       if (steps == Steps::free && !(std::abs(shift) <= most)) {
         go = stay;
@@ -162,6 +180,7 @@ Tables<T> left_right(Steps steps, bool striped, int num_rows, int num_lanes, Ran
             static_cast<T>(static_cast<double>(t.start[x]) - static_cast<double>(stay) - g);
     }
   }
+  raise_starts(&t);
   t.point();
   return t;
 }
@@ -239,7 +258,8 @@ class Plain {
   }
   T top() const {
     const W best = *std::max_element(phi_.begin(), phi_.end());
-    return best > static_cast<W>(floor_of<T>()) ? static_cast<T>(best) : T(0);
+    const W wanted = kInteger<T> ? Bounds16::kBest : 0;
+    return best > static_cast<W>(floor_of<T>()) ? static_cast<T>(best - wanted) : T(0);
   }
   void shift(T by) {
     scale_ += static_cast<double>(by);

@@ -20,9 +20,9 @@ class SymbolScorer;
 }
 
 /// Immutable; const calls are safe from several threads. Scores differ from the set's by rounding:
-/// at most 1 / units() a frame, and less than its root on average. What falls behind the best state
-/// of its own class by more than the 16 bits hold (18 in natural logs at the least) is taken for
-/// impossible.
+/// at most 1 / units() a frame, and less than its root on average. A state that falls behind the
+/// best of its own class by more than 16 bits hold (23100 steps, less what the class as a whole
+/// loses in four frames) is taken for impossible.
 class FixedPointHmmSet {
  public:
   /// Throws InvalidArgument unless the set's conjunction is product.
