@@ -75,7 +75,8 @@ void PossibilisticHmmStream::prune() {
     chains.scores(static_cast<int>(b), state_->blocks[b], lanes.data());
     const int first = static_cast<int>(b) * num_lanes;
     for (int l = 0; l < std::min(num_lanes, num_classes_ - first); ++l) {
-      scores[static_cast<std::size_t>(first + l)] = lanes[static_cast<std::size_t>(l)];
+      scores[static_cast<std::size_t>(first) + static_cast<std::size_t>(l)] =
+          lanes[static_cast<std::size_t>(l)];
       best = std::max(best, lanes[static_cast<std::size_t>(l)]);
     }
   }
@@ -84,7 +85,7 @@ void PossibilisticHmmStream::prune() {
     const int first = static_cast<int>(b) * num_lanes;
     state_->block_active[b] = 0;
     for (int l = 0; l < std::min(num_lanes, num_classes_ - first); ++l) {
-      const auto c = static_cast<std::size_t>(first + l);
+      const auto c = static_cast<std::size_t>(first) + static_cast<std::size_t>(l);
       if (state_->class_active[c] == 0) continue;
       if (scores[c] >= best - beam_) {
         state_->block_active[b] = 1;
@@ -109,7 +110,7 @@ void PossibilisticHmmStream::log_possibilities(Span<float> out) const {
     chains.scores(static_cast<int>(b), state_->blocks[b], lanes.data());
     const int first = static_cast<int>(b) * num_lanes;
     for (int l = 0; l < std::min(num_lanes, num_classes_ - first); ++l) {
-      const auto c = static_cast<std::size_t>(first + l);
+      const auto c = static_cast<std::size_t>(first) + static_cast<std::size_t>(l);
       const double score =
           state_->class_active[c] != 0 ? lanes[static_cast<std::size_t>(l)] : kMinusInf;
       out[c] = static_cast<float>(score);

@@ -14,6 +14,7 @@ namespace hri::detail {
 
 std::vector<PossibilityChain> possibility_chains(const std::vector<DiscreteHmm>& models) {
   std::vector<const MarkovChain*> chains;
+  chains.reserve(models.size());
   for (const DiscreteHmm& m : models) chains.push_back(&m.chain());
   return scaled_together(chains);
 }
@@ -57,7 +58,9 @@ template <class T>
 void SymbolScorer<T>::condition_symbols() {
   const ChainLayout& layout = chains_.layout();
   const T nothing = PossibilityChains<T>::impossible();
-  levels_.assign(static_cast<std::size_t>(layout.num_blocks * num_symbols_ * layout.num_lanes), 0);
+  levels_.assign(static_cast<std::size_t>(layout.num_blocks * num_symbols_) *
+                     static_cast<std::size_t>(layout.num_lanes),
+                 0);
   for (int r = 0; r < layout.num_blocks * num_symbols_; ++r) {
     T* row = emissions_.data() + static_cast<std::ptrdiff_t>(r) * layout.block_size();
     T* level = levels_.data() + static_cast<std::ptrdiff_t>(r) * layout.num_lanes;
