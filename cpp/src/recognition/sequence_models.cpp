@@ -7,6 +7,8 @@
 namespace hri {
 namespace {
 
+// Smallest emission, as a share of what every symbol would have if all were alike.
+constexpr double kEmissionFloor = 0.1;
 constexpr float kImpossible = -1e30F;  // stands for log 0, so that differences stay finite
 
 MatrixF stacked(const std::vector<std::vector<MatrixF>>& per_label) {
@@ -78,6 +80,7 @@ void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_l
                                   const StopCheck& should_stop) {
   CodebookOptions book;
   book.num_codewords = options_.num_codewords;
+  book.should_stop = should_stop;
   codebook_ = {Codebook::train_lbg(stacked(per_label), book)};
   std::vector<std::vector<std::vector<std::int32_t>>> symbols(per_label.size());
   for (std::size_t c = 0; c < per_label.size(); ++c) {
@@ -87,6 +90,8 @@ void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_l
   options.topology = left_right(options_.num_states);
   options.num_symbols = codebook_.front().size();
   options.max_iterations = options_.max_iterations;
+  options.emission_floor = kEmissionFloor / options.num_symbols;
+  options.seed = options_.seed;
   options.should_stop = should_stop;
   ptbhmm_ = {PossibilisticHmmSet::train(symbols, options)};
 }
