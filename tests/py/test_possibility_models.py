@@ -173,7 +173,8 @@ def test_bad_input_is_refused_by_name() -> None:
             scores(np.array([], int))
         with pytest.raises(InvalidArgument, match="out of range"):
             scores(np.array([2**40]))
-    for action in (possible.start, possible.transition, possible.emission, lambda c: possible.viterbi(c, symbols_of(1))):
+    one = symbols_of(1)
+    for action in (possible.start, possible.transition, possible.emission, lambda c: possible.viterbi(c, one)):
         for class_index in (-1, 3):
             with pytest.raises(InvalidArgument, match="class_index"):
                 action(class_index)
