@@ -20,7 +20,8 @@ class SymbolScorer;
 }
 
 /// Immutable; const calls are safe from several threads. Scores differ from the set's by rounding:
-/// at most 1 / units() a frame, and less than its root on average. A state that falls behind the
+/// at most 1 / units() a frame, and less than its root on average. A possibility below
+/// exp(-4095 / units()), but for 0, counts as that. A state that falls behind the
 /// best of its own class by more than 16 bits hold (23100 steps, less what the class as a whole
 /// loses in four frames) is taken for impossible.
 class FixedPointHmmSet {
