@@ -19,12 +19,10 @@ from hri.evaluation import make_noise, mix_noise
 from hri.fusion import RULES, FusedDecision, fuse
 from hri.media import Audio
 from hri.recognition import GestureRecognizer, WordRecognizer
-from hri.recognition.decision import UNKNOWN
 
-UNSEEN_VOICE = 42
-"""Number of the first scene's voice; these differ from those trained on in throat too, see `make_speaker`."""
-UNSEEN_SIGNER = 40
-CLIP_SIZE_PX = (480, 360)
+UNSEEN = 40
+"""Number of the first voice and signer that the scenes take: far beyond those trained on."""
+CLIP_SIZE_PX = (320, 240)
 _NUM_FRAMES = 30
 _SNR_DB = 0.0
 
@@ -38,11 +36,11 @@ class Script:
     title, text : str
         For the page.
     word : str
-        Label of the spoken word, or a word that was not learned.
+        Label of the spoken word.
     language : str
         "en" or "hi".
-    sign : str or None
-        Label of the signed digit; None without a camera.
+    sign : str
+        Label of the signed digit.
     noisy : bool
         White noise as loud as the voice.
     """
@@ -51,7 +49,7 @@ class Script:
     text: str
     word: str
     language: str
-    sign: str | None
+    sign: str
     noisy: bool = False
 
 
@@ -69,49 +67,22 @@ SCRIPTS = (
     ),
     Script(
         "STOP wins",
-        "The signer shows 5, the voice says <i>ruko</i>, Hindi for stop. A <i>stop</i> that is recognised in either "
-        "mode overrides the other.",
-        *("stop", "hi", "5"),
-    ),
-    Script(
-        "A word never learned",
-        "The voice says <i>banana</i>, which is no command, and there is no camera. The right answer is none.",
-        *("banana", "en", None),
+        "The signer shows 5, the voice says <i>stop</i>. Whatever the other mode says, the robot does not move.",
+        *("stop", "en", "5"),
     ),
 )
 
 
 @dataclass(frozen=True)
 class Scene:
-    """A script as played.
-
-    Attributes
-    ----------
-    script : Script
-    audio : Audio
-    frames : list of ndarray
-        BGR, `fps` a second; empty without a camera.
-    fps : float
-    features : ndarray of float32, shape (num_frames_with_hand, num_features)
-    decision : FusedDecision
-        By table 6.9.
-    by_rule : dict
-        The same by every rule.
-    """
+    """A script as played: what was heard and seen, and all decisions."""
 
     script: Script
     audio: Audio
     frames: list[NDArray[np.uint8]]
     fps: float
-    features: NDArray[np.float32]
     decision: FusedDecision
     by_rule: dict[str, FusedDecision]
-
-    @property
-    def right(self) -> bool:
-        """Whether the command was understood, or what is none was rejected."""
-        wanted = self.script.word if self.script.word in WORDS[self.script.language] else UNKNOWN
-        return self.decision.label == wanted
 
     def to_dict(self) -> dict[str, Any]:
         """As plain values that can be written as JSON."""
@@ -121,7 +92,6 @@ class Scene:
             "language": self.script.language,
             "signed": self.script.sign,
             "noise": f"white, {_SNR_DB:g} dB" if self.script.noisy else None,
-            "right": self.right,
             "decision": self.decision.to_dict(),
             "other_rules": {name: {"label": d.label, "confidence": d.confidence} for name, d in self.by_rule.items()},
         }
@@ -129,22 +99,17 @@ class Scene:
 
 def play(number: int, script: Script, words: WordRecognizer, signs: GestureRecognizer, seed: int) -> Scene:
     """Speak and draw `script` by people of its own, and decide."""
-    text = WORDS[script.language].get(script.word, script.word)
-    audio = speak(text, script.language, make_speaker(UNSEEN_VOICE + number, seed), seed=seed)
+    person = UNSEEN + number
+    audio = speak(WORDS[script.language][script.word], script.language, make_speaker(person, seed), seed=seed)
     if script.noisy:
         noise = make_noise("white", len(audio.samples), audio.sample_rate_hz, np.random.default_rng(seed))
         samples = mix_noise(audio.samples, noise, _SNR_DB)
         audio = Audio(samples / np.abs(samples).max(), audio.sample_rate_hz, audio.notes)
+    frames = draw_clip(make_signer(person, seed), script.sign, seed=seed, size_px=CLIP_SIZE_PX, num_frames=_NUM_FRAMES)
     heard = words.recognise(audio.samples, audio.sample_rate_hz)
-    frames: list[NDArray[np.uint8]] = []
-    features, seen = np.empty((0, 0), dtype=np.float32), None
-    if script.sign is not None:
-        signer = make_signer(UNSEEN_SIGNER + number, seed)
-        frames = draw_clip(signer, script.sign, seed=seed, size_px=CLIP_SIZE_PX, num_frames=_NUM_FRAMES)
-        features = signs.features(frames)
-        seen = signs.recognise_features(features)
+    seen = signs.recognise(frames)
     by_rule = {rule: fuse(heard, seen, rule=rule) for rule in RULES}
-    return Scene(script, audio, frames, CLIP_FPS, features, by_rule[RULES[0]], by_rule)
+    return Scene(script, audio, frames, CLIP_FPS, by_rule[RULES[0]], by_rule)
 
 
 def save(scene: Scene, directory: Path, number: int) -> None:
@@ -153,5 +118,4 @@ def save(scene: Scene, directory: Path, number: int) -> None:
     from hri.media import write_video
 
     _native.write_wav_pcm16(str(directory / f"scene{number + 1}.wav"), scene.audio.samples, scene.audio.sample_rate_hz)
-    if scene.frames:
-        write_video(directory / f"scene{number + 1}.mp4", scene.frames, scene.fps)
+    write_video(directory / f"scene{number + 1}.mp4", scene.frames, scene.fps)
