@@ -78,7 +78,7 @@ std::vector<std::vector<int>> cluster_frames(const std::vector<MatrixF>& sequenc
   constexpr std::ptrdiff_t kMostFrames = 20000;
   std::ptrdiff_t total = 0;
   for (const MatrixF& s : sequences) total += s.rows();
-  const std::ptrdiff_t every = (total + kMostFrames - 1) / kMostFrames;
+  const std::ptrdiff_t every = std::max<std::ptrdiff_t>(1, (total + kMostFrames - 1) / kMostFrames);
   MatrixD rows((total + every - 1) / every, global.mean.size());
   std::ptrdiff_t frame = 0;
   for (const MatrixF& s : sequences) {

@@ -296,8 +296,9 @@ void PossibilityChains<T>::shift_starts() {
   scales_.assign(static_cast<std::size_t>(layout_.num_blocks) * lanes(), 0);
   if constexpr (std::is_integral_v<T>) {
     const auto start = [this](int c, int j) -> T& {
-      return starts_[static_cast<std::size_t>(layout_.block(c) * layout_.block_size() +
-                                              layout_.position(c, j))];
+      const auto size = static_cast<std::size_t>(layout_.block_size());
+      return starts_[static_cast<std::size_t>(layout_.block(c)) * size +
+                     static_cast<std::size_t>(layout_.position(c, j))];
     };
     for (int c = 0; c < layout_.num_classes; ++c) {
       int best = Bounds16::kImpossible;
