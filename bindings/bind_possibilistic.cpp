@@ -97,13 +97,24 @@ void bind_set(py::module_& m) {
   cls.def(
       "log_possibilities_exact",
       [](const Set& self, const py::array& symbols) {
-        return to_array(self.log_possibilities_exact(as_integers(symbols, "symbols")));
+        const hri::SymbolSequence s = as_integers(symbols, "symbols");
+        hri::VectorD scores;
+        {
+          const py::gil_scoped_release release;
+          scores = self.log_possibilities_exact(s);
+        }
+        return to_array(scores);
       },
       py::arg("symbols"), "The same computed in float64.");
   cls.def(
       "classify",
       [](const Set& self, const py::array& symbols) {
-        const hri::Possibilities p = self.classify(as_integers(symbols, "symbols"));
+        const hri::SymbolSequence s = as_integers(symbols, "symbols");
+        hri::Possibilities p;
+        {
+          const py::gil_scoped_release release;
+          p = self.classify(s);
+        }
         return py::make_tuple(to_array(p.possibility), to_array(p.necessity));
       },
       py::arg("symbols"),
@@ -111,8 +122,13 @@ void bind_set(py::module_& m) {
   cls.def(
       "viterbi",
       [](const Set& self, int class_index, const py::array& symbols) {
+        const hri::SymbolSequence s = as_integers(symbols, "symbols");
         std::vector<int> path;
-        const double score = self.viterbi(class_index, as_integers(symbols, "symbols"), &path);
+        double score = 0;
+        {
+          const py::gil_scoped_release release;
+          score = self.viterbi(class_index, s, &path);
+        }
         return py::make_tuple(score, to_array(path));
       },
       py::arg("class_index"), py::arg("symbols"),
@@ -177,11 +193,30 @@ void bind_gaussian_set(py::module_& m) {
   cls.def(
       "classify",
       [](const Model& self, const FloatArray& frames) {
-        const hri::Possibilities p = self.classify(as_matrix(frames, "frames"));
+        const auto matrix = as_matrix(frames, "frames");
+        hri::Possibilities p;
+        {
+          const py::gil_scoped_release release;
+          p = self.classify(matrix);
+        }
         return py::make_tuple(to_array(p.possibility), to_array(p.necessity));
       },
       py::arg("frames"),
       "Possibility and necessity of each class, two float32 arrays of shape (num_classes,).");
+  cls.def(
+      "viterbi",
+      [](const Model& self, int class_index, const FloatArray& frames) {
+        const auto matrix = as_matrix(frames, "frames");
+        std::vector<int> path;
+        double score = 0;
+        {
+          const py::gil_scoped_release release;
+          score = self.viterbi(class_index, matrix, &path);
+        }
+        return py::make_tuple(score, to_array(path));
+      },
+      py::arg("class_index"), py::arg("frames"),
+      "Log possibility of the best path and the path, int32.");
   cls.def_property_readonly("models", &Model::models, "The HMMs before scaling.");
   cls.def_property_readonly("num_classes", &Model::num_classes);
   cls.def_property_readonly("dim", &Model::dim);

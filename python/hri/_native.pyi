@@ -1817,6 +1817,14 @@ class PossibilisticGaussianHmmSet:
         """
         log possibility of the frames under each class, float32, shape (num_classes,).
         """
+    def viterbi(
+        self,
+        class_index: typing.SupportsInt | typing.SupportsIndex,
+        frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    ) -> tuple[float, numpy.typing.NDArray[numpy.int32]]:
+        """
+        Log possibility of the best path and the path, int32.
+        """
     def with_class(self, model: GaussianMixtureHmm) -> PossibilisticGaussianHmmSet:
         """
         The set with one class more, which comes last; no other class is trained again.

@@ -83,6 +83,7 @@ MarkovChain::MarkovChain(const Topology& topology, VectorD start, MatrixD band, 
 }
 
 void MarkovChain::tabulate() {
+  detail::dense_kernels();  // the processor is asked now, so that no step allocates
   log_start_ = detail::safe_log(start_);
   if (jumps()) {
     log_leave_ = detail::safe_log(leave_);

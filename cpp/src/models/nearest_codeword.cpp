@@ -49,6 +49,7 @@ constexpr int kLanes = 16;
 
 CodewordTable::CodewordTable(const MatrixF& centroids)
     : middle_(centroids.cast<double>().colwise().mean().transpose().cast<float>()) {
+  find_nearest();  // the processor is asked now, so that no search allocates
   const Eigen::Index size = centroids.rows();
   const Eigen::Index dim = centroids.cols();
   const Eigen::Index num_blocks = (size + kBlock - 1) / kBlock;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "possibilistic_path.hpp"
 #include "possibilistic_rule.hpp"
 #include "possibility_chains.hpp"
 
@@ -145,6 +146,28 @@ void PossibilisticGaussianHmmSet::log_possibilities(ConstMatrixRefF frames, Span
 
 Possibilities PossibilisticGaussianHmmSet::classify(ConstMatrixRefF frames) const {
   return possibilities(log_possibilities(frames));
+}
+
+double PossibilisticGaussianHmmSet::viterbi(int class_index, ConstMatrixRefF frames,
+                                            std::vector<int>* path) const {
+  require(class_index >= 0 && class_index < num_classes(), "class_index out of range");
+  require(frames.rows() > 0, "frames must have at least one row");
+  VectorD best = VectorD::Constant(frames.rows(), -std::numeric_limits<double>::infinity());
+  MatrixD wanted;
+  std::vector<const MarkovChain*> chains;
+  for (int c = 0; c < num_classes(); ++c) {
+    const GaussianMixtureHmm& model = models_[static_cast<std::size_t>(c)];
+    MatrixD log_b;
+    model.bank().log_densities(frames, &log_b, nullptr);
+    best = best.cwiseMax(log_b.rowwise().maxCoeff());
+    if (c == class_index) wanted = std::move(log_b);
+    chains.push_back(&model.chain());
+  }
+  for (Eigen::Index t = 0; t < wanted.rows(); ++t) {
+    if (best[t] > -std::numeric_limits<double>::infinity()) wanted.row(t).array() -= best[t];
+  }
+  return detail::most_possible_path(
+      detail::scaled_together(chains)[static_cast<std::size_t>(class_index)], rule_, wanted, path);
 }
 
 void PossibilisticGaussianHmmSet::write(ModelFile& file, const std::string& prefix) const {

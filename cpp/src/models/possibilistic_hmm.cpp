@@ -9,26 +9,12 @@
 
 #include "forward_backward.hpp"
 #include "hri/core/error.hpp"
+#include "possibilistic_path.hpp"
 #include "possibilistic_rule.hpp"
 #include "possibility_tables.hpp"
 
 namespace hri {
 namespace {
-
-constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
-
-double join(Conjunction conjunction, double a, double b) {
-  if (conjunction == Conjunction::product) return a + b;
-  return conjunction == Conjunction::min ? std::min(a, b) : std::max(a, b);
-}
-
-// Shifts logs so that the best is 0, and gives what that took; nothing where all are impossible.
-double condition(VectorD* logs) {
-  const double top = logs->maxCoeff();
-  if (!(top > kMinusInf)) return 0;
-  logs->array() -= top;
-  return top;
-}
 
 bool same_shape(const DiscreteHmm& a, const DiscreteHmm& b) {
   return detail::same_topology(a.chain().topology(), b.chain().topology()) &&
@@ -94,48 +80,13 @@ double PossibilisticHmmSet::viterbi(int class_index, Span<const std::int32_t> sy
   check_class(class_index);
   require(!symbols.empty(), "symbols must not be empty");
   detail::check_symbols(symbols, num_symbols());
-  const VectorD log_start = detail::safe_log(start(class_index));
-  const MatrixD log_s = detail::safe_log(transition(class_index));
   const MatrixD log_b = detail::safe_log(emission(class_index));
-  const auto num_frames = static_cast<Eigen::Index>(symbols.size());
-  const bool jumps = models_.front().chain().jumps();
-  const bool conditioned = detail::is_conditioned(rule_);
-  const int n = num_states();
-  MatrixD phi(num_frames, n);
-  Matrix<int> from = Matrix<int>::Zero(num_frames, n);
-  double scale = 0;
-  for (Eigen::Index t = 0; t < num_frames; ++t) {
-    VectorD b = log_b.col(symbols[static_cast<std::size_t>(t)]);
-    if (conditioned) scale += condition(&b);
-    for (int j = 0; j < n; ++j) {
-      double came = t == 0 ? log_start[j] : kMinusInf;
-      const int end = jumps ? n : topology().end_previous(j);
-      for (int i = jumps ? 0 : topology().first_previous(j); t > 0 && i < end; ++i) {
-        const double value = join(rule_.conjunction, phi(t - 1, i), log_s(i, j));
-        if (value > came) {
-          came = value;
-          from(t, j) = i;
-        }
-      }
-      if (conditioned && b[j] < 0) came *= rule_.concentration;
-      phi(t, j) = join(rule_.conjunction, came, b[j]);
-    }
-    if (!conditioned) continue;
-    VectorD now = phi.row(t).transpose();
-    scale += condition(&now);
-    phi.row(t) = now.transpose();
-  }
-  int state = 0;
-  const double score = phi.row(num_frames - 1).maxCoeff(&state) + scale;
-  if (path == nullptr) return score;
-  path->clear();
-  if (!(score > kMinusInf)) return score;
-  path->resize(symbols.size());
-  for (Eigen::Index t = num_frames - 1; t >= 0; --t) {
-    (*path)[static_cast<std::size_t>(t)] = state;
-    state = from(t, state);
-  }
-  return score;
+  MatrixD frames(static_cast<Eigen::Index>(symbols.size()), num_states());
+  for (std::size_t t = 0; t < symbols.size(); ++t)
+    frames.row(static_cast<Eigen::Index>(t)) = log_b.col(symbols[t]).transpose();
+  return detail::most_possible_path(
+      detail::possibility_chains(models_)[static_cast<std::size_t>(class_index)], rule_, frames,
+      path);
 }
 
 void PossibilisticHmmSet::check_class(int class_index) const {

@@ -107,6 +107,7 @@ TEST(PossibilisticGaussianHmmSet, MatchesTheRecursionByBruteForce) {
         for (Eigen::Index c = 0; c < scores.size(); ++c) {
           const double e = expected[static_cast<std::size_t>(c)];
           ASSERT_NEAR(scores[c], e, 1e-4 * std::abs(e) + 1e-3);
+          ASSERT_NEAR(set.viterbi(static_cast<int>(c), frames), e, 1e-9 * std::abs(e) + 1e-9);
         }
       }
     }
@@ -128,6 +129,20 @@ TEST(PossibilisticGaussianHmmSet, TellsMovementsApart) {
     EXPECT_GT(right, 90);
     EXPECT_FLOAT_EQ(set.classify(movement(2, 1)).possibility.maxCoeff(), 1.0F);
   }
+}
+
+TEST(PossibilisticGaussianHmmSet, DecodesAsTheHmmDoesUnderProduct) {
+  const auto set = train(3, {Kind::left_right, 4, 1});
+  const MatrixF frames = movement(1, 77);
+  for (int c = 0; c < 3; ++c) {
+    std::vector<int> path;
+    std::vector<int> of_hmm;
+    set.viterbi(c, frames, &path);
+    set.models()[static_cast<std::size_t>(c)].viterbi(frames, &of_hmm);
+    EXPECT_EQ(path, of_hmm);
+  }
+  EXPECT_THROW(set.viterbi(3, frames), InvalidArgument);
+  EXPECT_THROW(set.viterbi(0, MatrixF(0, kDim)), InvalidArgument);
 }
 
 TEST(PossibilisticGaussianHmmSet, ScalesANewClassInWithoutTrainingTheOthers) {

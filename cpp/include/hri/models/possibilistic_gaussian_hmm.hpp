@@ -49,6 +49,10 @@ class PossibilisticGaussianHmmSet {
   /// Possibility and necessity of each class given the frames (eq. 5.14-5.15).
   [[nodiscard]] Possibilities classify(ConstMatrixRefF frames) const;
 
+  /// The most possible path of one class and its log possibility, computed in double; empty where
+  /// it is impossible.
+  double viterbi(int class_index, ConstMatrixRefF frames, std::vector<int>* path = nullptr) const;
+
   [[nodiscard]] int num_classes() const { return static_cast<int>(models_.size()); }
   [[nodiscard]] int dim() const { return models_.front().dim(); }
   [[nodiscard]] const Topology& topology() const { return models_.front().chain().topology(); }
