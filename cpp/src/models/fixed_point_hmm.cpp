@@ -14,8 +14,8 @@ namespace {
 
 // Resolution is worth having up to here; beyond it only the range would shrink.
 constexpr double kMostUnits = 320;
-// Every class is shifted to a best value of 0 after so many frames, and its best path may lose this
-// many steps in each of them; the rest of the range is left to the states behind it.
+// Every class is shifted back to one best value after so many frames, and its best path may lose
+// this many steps in each of them; the rest of the range is left to the states behind it.
 constexpr int kFramesBetweenShifts = 4;
 constexpr double kFallOfFrame = 3200;
 // What costs more (natural log) may exceed that: no path that uses such entries often is a best

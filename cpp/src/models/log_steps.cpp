@@ -18,24 +18,37 @@ double log_add(double a, double b) {
   return top == kMinusInf ? top : top + std::log(std::exp(a - top) + std::exp(b - top));
 }
 
+// The sums that `propagate` takes of exp(logs), scaled by the largest, into the second half of
+// `scratch`, and their logs into `out`. Gives the largest of `logs`; where that is -inf all is
+// impossible, and there are no sums.
+template <class Propagate>
+double scaled_sums(const double* logs, int n, double* scratch, double* out,
+                   const Propagate& propagate) {
+  const std::ptrdiff_t count = padded(n);
+  const DenseKernels& kernels = dense_kernels();
+  const double top = kernels.largest(logs, count);
+  if (top == kMinusInf) {
+    std::fill(out, out + count, kMinusInf);
+    return top;
+  }
+  double* sums = scratch + count;
+  std::fill(sums + n, sums + count, 1.0);
+  kernels.exponentials(logs, top, count, scratch);
+  propagate(scratch, sums);
+  kernels.logarithms(sums, top, count, out);
+  std::fill(out + n, out + count, kMinusInf);
+  return top;
+}
+
 }  // namespace
 
 void log_forward_step(const MarkovChain& chain, const double* before, double* scratch,
                       double* after) {
   const int n = chain.num_states();
-  const std::ptrdiff_t count = padded(n);
-  const DenseKernels& kernels = dense_kernels();
-  const double top = kernels.largest(before, count);
-  if (top == kMinusInf) {
-    std::fill(after, after + count, kMinusInf);
-    return;
-  }
-  double* sums = scratch + count;
-  std::fill(sums + n, sums + count, 1.0);
-  kernels.exponentials(before, top, count, scratch);
-  chain.propagate(scratch, sums);
-  kernels.logarithms(sums, top, count, after);
-  std::fill(after + n, after + count, kMinusInf);
+  const double top = scaled_sums(before, n, scratch, after,
+                                 [&chain](const double* x, double* y) { chain.propagate(x, y); });
+  if (top == kMinusInf) return;
+  const double* sums = scratch + padded(n);
   double left = 1;  // log probability of leaving by a jump; 1: not known yet
   for (int j = 0; j < n; ++j) {
     if (sums[j] > kSafeSum) continue;
@@ -52,19 +65,11 @@ void log_forward_step(const MarkovChain& chain, const double* before, double* sc
 void log_backward_step(const MarkovChain& chain, const double* after, double* scratch,
                        double* before) {
   const int n = chain.num_states();
-  const std::ptrdiff_t count = padded(n);
-  const DenseKernels& kernels = dense_kernels();
-  const double top = kernels.largest(after, count);
-  if (top == kMinusInf) {
-    std::fill(before, before + count, kMinusInf);
-    return;
-  }
-  double* sums = scratch + count;
-  std::fill(sums + n, sums + count, 1.0);
-  kernels.exponentials(after, top, count, scratch);
-  chain.propagate_back(scratch, sums);
-  kernels.logarithms(sums, top, count, before);
-  std::fill(before + n, before + count, kMinusInf);
+  const double top = scaled_sums(after, n, scratch, before, [&chain](const double* x, double* y) {
+    chain.propagate_back(x, y);
+  });
+  if (top == kMinusInf) return;
+  const double* sums = scratch + padded(n);
   double landed = 1;  // as `left` above
   for (int i = 0; i < n; ++i) {
     if (sums[i] > kSafeSum) continue;

@@ -3,7 +3,7 @@
 //
 // The product recursion of possibility-theory HMMs in 16-bit integers: logs turn products into
 // sums, so that additions and comparisons are all it takes. Twice the classes fit into a vector
-// register, and processors without floating point run it as it stands.
+// register, and floating point is used only to turn the final scores into natural logs.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,9 @@ class SymbolScorer;
 
 /// Immutable; const calls are safe from several threads. Scores differ from the set's by rounding:
 /// at most 1 / units() a frame, and less than its root on average. A possibility below
-/// exp(-4095 / units()), but for 0, counts as that. A state that falls behind the
-/// best of its own class by more than 16 bits hold (23100 steps, less what the class as a whole
-/// loses in four frames) is taken for impossible.
+/// exp(-4095 / units()), but for 0, counts as that. A state that falls behind the best of its own
+/// class by more than 16 bits hold (23100 steps, less what the class as a whole loses in four
+/// frames) is taken for impossible.
 class FixedPointHmmSet {
  public:
   /// Throws InvalidArgument unless the set's conjunction is product.
