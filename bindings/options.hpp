@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Options structs in Python: keyword constructor that refuses unknown names, attributes, as_dict(),
-// repr. Defaults stay in the C++ structs; a nested options field also takes a dict.
+// repr. Defaults stay in the C++ structs; a nested options field also takes a dict of the fields to
+// change.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -89,7 +90,11 @@ class OptionsBinder {
       }
       converted = members[value];
     } else if (py::isinstance<py::dict>(value) && py::hasattr(field_type, "as_dict")) {
-      converted = field_type(**py::reinterpret_borrow<py::dict>(value));
+      // Fields that the dict leaves out stay as they are: the outer struct may set them its own
+      // way.
+      const py::dict fields = self.attr(name.c_str()).attr("as_dict")();
+      fields.attr("update")(value);
+      converted = field_type(**fields);
     }
     try {
       self.attr(name.c_str()) = converted;

@@ -18,6 +18,7 @@ from hri.cli.main import COMMANDS
 from hri.cli.recognizers import parse_options
 from hri.datasets import Dataset
 from hri.errors import InvalidArgument
+from hri.studies import STUDIES
 
 
 def test_train_then_recognise_with_the_models_kept_per_user(hri, spoken: Path, signed: Path, tmp_path: Path):
@@ -90,6 +91,7 @@ def test_evaluate_gestures_of_unseen_persons(hri, signed: Path):
         (["evaluate", "speech", "--data", ".", "--noise", "white"], "--noise and --snr go together"),
         (["evaluate", "speech", "--data", ".", "--exposure", "0.5"], "--exposure is for gestures"),
         (["evaluate", "gesture", "--data", ".", "--noise", "pink", "--snr", "3"], "--noise is for speech"),
+        (["study", "fsdd-noise", "--only", "white"], "--only 'white' is not AXIS=VALUE"),
         (["train", "smell", "--data", "."], "'smell' is not one of 'speech', 'gesture'"),
         (["nonsense"], "No such command 'nonsense'"),
     ],
@@ -115,6 +117,8 @@ def test_bad_data_ends_with_3_and_one_line(hri, tmp_path: Path, spoken: Path):
         (("study", "nonsense"), "fusion-digits"),
         (("study", "fsdd"), "HRI_DATA"),
         (("study", "fsdd", "--data", tmp_path), "fsdd/recordings"),
+        (("study", "fsdd", "--data", tmp_path, "--only", "noise=pink"), "there are: none"),
+        (("study", "fsdd-noise", "--data", tmp_path, "--only", "noise=purple"), "white, pink, dishes, tap"),
         (("info", broken), "broken.wav"),
     ):
         result = hri(*arguments)
@@ -126,7 +130,7 @@ def test_bad_data_ends_with_3_and_one_line(hri, tmp_path: Path, spoken: Path):
 def test_study_list_names_every_study(hri):
     result = hri("study", "list")
     names = [line.split("\t")[0] for line in result.out.splitlines()]
-    assert names == ["fsdd", "hindi-digits", "hindi-words", "sign-digits", "fusion-digits", "ptbhmm-parity"]
+    assert names == list(STUDIES) and "fsdd" in names
     assert all("target: " in line for line in result.out.splitlines())
     assert [study["name"] for study in json.loads(hri("study", "list", "--json", "-").out)] == names
 

@@ -14,7 +14,17 @@ import pytest
 
 import hri
 from hri.errors import InvalidArgument
-from hri.evaluation import EvaluationResult, cross_validate, evaluate_split, expose, make_noise, mix_noise
+from hri.evaluation import (
+    AddNoise,
+    EvaluationResult,
+    active_power,
+    cross_validate,
+    evaluate_conditions,
+    evaluate_split,
+    expose,
+    make_noise,
+    mix_noise,
+)
 from hri.evaluation.result import FoldResult, Trial
 from hri.recognition import Decision, GestureRecognizer, NBest, WordRecognizer
 
@@ -93,7 +103,7 @@ def test_noise_is_in_the_test_clips_and_in_training_only_when_asked(spoken: Path
         assert len(both) == 2 * len(expected)
         for noise_too, alone in zip(both[len(expected) :], expected, strict=True):
             added = noise_too.astype("f8") - alone
-            assert 10 * np.log10(np.mean(alone.astype("f8") ** 2) / np.mean(added**2)) == pytest.approx(5, abs=1e-3)
+            assert 10 * np.log10(active_power(alone, 16000) / np.mean(added**2)) == pytest.approx(5, abs=1e-3)
 
 
 def test_training_on_one_folder_and_testing_on_another(spoken: Path) -> None:
@@ -148,9 +158,20 @@ def test_noise_has_the_ratio_asked_for(name: str, snr_db: float) -> None:
     rng = np.random.default_rng(0)
     speech = (0.1 * rng.normal(size=16000)).astype("f4")
     noise = make_noise(name, 16000, 16000, np.random.default_rng(1))
-    added = mix_noise(speech, noise, snr_db).astype("f8") - speech
+    added = mix_noise(speech, noise, snr_db, 16000).astype("f8") - speech
     ratio = np.mean(speech.astype("f8") ** 2) / np.mean(added**2)
     assert 10 * np.log10(ratio) == pytest.approx(snr_db, abs=1e-3)
+
+
+def test_pauses_do_not_count_in_the_level_of_speech() -> None:
+    tone = np.sin(np.arange(8000) * 0.3).astype("f4")
+    pause = 1e-3 * np.random.default_rng(0).standard_normal(24000).astype("f4")
+    assert active_power(np.concatenate([pause, tone]), 16000) == pytest.approx(0.5, rel=1e-3)
+    assert active_power(tone, 16000) == pytest.approx(0.5, rel=1e-3)
+    # Two levels of speech 10 dB apart both count.
+    assert active_power(np.concatenate([tone, tone * 10**-0.5]), 16000) == pytest.approx(0.275, rel=1e-3)
+    assert active_power(np.zeros(999, "f4"), 16000) == 0.0
+    assert active_power(np.ones(3, "f4"), 16000) == 1.0
 
 
 def test_pink_noise_falls_by_3_db_an_octave() -> None:
@@ -165,16 +186,51 @@ def test_noise_from_a_recording_is_cut_and_resampled(spoken: Path) -> None:
     assert noise.shape == (50000,) and noise.dtype == np.float32 and noise.std() > 0
     with pytest.raises(InvalidArgument, match="neither white nor pink nor a file"):
         make_noise("violet", 10, 8000, np.random.default_rng(0))
+    with pytest.raises(InvalidArgument, match="'middle' of a noise is none of all, first, second"):
+        make_noise(path, 10, 8000, np.random.default_rng(0), "middle")
+
+
+def test_training_and_test_hear_other_halves_of_a_noise(tmp_path: Path) -> None:
+    path = str(tmp_path / "steps.wav")
+    hri._native.write_wav_pcm16(path, np.repeat(np.array([0.25, 0.5], "f4"), 8000), 8000)
+    rng = np.random.default_rng(0)
+    for part, levels in (("first", {0.25}), ("second", {0.5}), ("all", {0.25, 0.5})):
+        pieces = [make_noise(path, 3000, 8000, rng, part) for _ in range(30)]
+        assert all(piece.shape == (3000,) for piece in pieces)
+        assert {round(float(x), 2) for piece in pieces for x in piece} == levels
+    assert set(np.round(make_noise(path, 9000, 8000, rng, "first"), 2)) == {np.float32(0.25)}, "goes round when short"
+    make_noise(path, 3000, 8000, rng, "first")[:] = 9.0
+    assert max(make_noise(path, 3000, 8000, rng, "first")) < 1, "the kept recording is nobody else's to change"
+
+
+def test_one_training_is_tested_under_every_condition(spoken: Path) -> None:
+    dataset = hri.Dataset.load(spoken)
+    noisy = AddNoise(["white", "pink"], [0.0, 10.0])
+    halved: list[int] = []
+
+    def front_end(samples: np.ndarray, rate: int) -> tuple[np.ndarray, int]:
+        halved.append(len(samples))
+        return samples[::2].copy(), rate // 2
+
+    Spy.trained_on, Spy.clips = [], []
+    results = evaluate_conditions(dataset, Spy, {"clean": None, "noisy": noisy}, train=[noisy], front_end=front_end)
+    assert list(results) == ["clean", "noisy"] and len(Spy.trained_on) == 3, "trained once a fold"
+    assert [len(clips) for clips in Spy.clips] == [24, 24, 24], "a noisy copy of each of 12 clips"
+    assert len(halved) == 3 * (24 + 2 * 6) and set(map(len, Spy.clips[0])) == {n // 2 for n in set(halved)}
+    assert results["clean"].mean > results["noisy"].mean or results["clean"].trials != results["noisy"].trials
+    assert results["noisy"].conditions["condition"] == "noisy"
+    again = evaluate_conditions(dataset, WordRecognizer, {"noisy": noisy}, train=[noisy], front_end=front_end)
+    assert again["noisy"].folds == results["noisy"].folds, "what a condition draws does not depend on the others"
 
 
 def test_conditions_out_of_range_are_refused(spoken: Path) -> None:
     x = np.ones(10, "f4")
     with pytest.raises(InvalidArgument, match=r"-30\.\.60"):
-        mix_noise(x, x, 99.0)
+        mix_noise(x, x, 99.0, 8000)
     with pytest.raises(InvalidArgument, match="no power"):
-        mix_noise(x, 0 * x, 10.0)
+        mix_noise(x, 0 * x, 10.0, 8000)
     with pytest.raises(InvalidArgument, match="shape"):
-        mix_noise(x, x[:5], 10.0)
+        mix_noise(x, x[:5], 10.0, 8000)
     with pytest.raises(InvalidArgument, match="exposure"):
         expose([np.zeros((2, 2, 3), np.uint8)], 0.0)
     with pytest.raises(InvalidArgument, match="go together"):

@@ -211,3 +211,8 @@ def test_options_out_of_range_are_named(clips: Clips, make, message: str) -> Non
         hri.WordRecognizer(no_such=1)
     with pytest.raises(ValueError, match="svn"):
         hri.GestureRecognizer(model="svn")
+
+
+def test_options_given_as_a_dict_change_only_what_they_name() -> None:
+    changed = hri.WordRecognizer(cepstra={"filter_bank": "hfcc"}).get_params()["cepstra"]
+    assert changed == hri.WordRecognizer().get_params()["cepstra"] | {"filter_bank": "hfcc"}

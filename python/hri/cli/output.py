@@ -61,8 +61,12 @@ def write_json(path: str | None, value: Any) -> None:
     text = json.dumps(value, indent=2, ensure_ascii=False, default=str) + "\n"
     if path == "-":
         click.echo(text, nl=False)
-        return
-    target = Path(path)
+    else:
+        write_text(Path(path), text)
+
+
+def write_text(target: Path, text: str) -> None:
+    """Write `text` to `target`; an old file stays whole if this fails."""
     target.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     try:

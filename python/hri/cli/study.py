@@ -4,11 +4,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
-from hri.cli.output import json_option, say, write_json
+from hri.cli.output import json_option, say, write_json, write_text
 from hri.cli.progress import progress_bars
-from hri.studies import STUDIES, get_study, run_study
+from hri.media.optional import import_optional
+from hri.studies import STUDIES, draw, get_study, run_study
+from hri.studies.tables import csv_text, markdown, table
 
 
 @click.command()
@@ -18,33 +22,80 @@ from hri.studies import STUDIES, get_study, run_study
     type=click.Path(exists=True, file_okay=False),
     help="Folder of recordings; otherwise what HRI_DATA names.",
 )
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    metavar="DIR",
+    help="Write NAME.md and NAME.csv (tables), NAME.png (plot) and NAME.json (everything) into this folder.",
+)
+@click.option(
+    "--only",
+    multiple=True,
+    metavar="AXIS=VALUE[,VALUE]",
+    help="Run a part of the study, such as noise=white,pink; 'hri study list' names the axes. May be given several "
+    "times.",
+)
 @json_option
-def study(name: str, data: str | None, json_path: str | None) -> int:
+def study(name: str, data: str | None, out: str | None, only: tuple[str, ...], json_path: str | None) -> int:
     """Repeat a measured claim of the project; exit code 1 if its target was missed.
 
     \b
     Examples:
       hri study list
-      hri study fsdd --data recordings/
+      hri study fsdd --data recordings/ --out results/
+      hri study fsdd-noise --data recordings/ --only noise=white --only front_end=plain
       HRI_DATA=recordings/ hri study fusion-digits --json fusion.json
     """
     if name == "list":
-        for entry in STUDIES.values():
-            say(f"{entry.name}\t{entry.summary}\ttarget: {entry.target}", json_path)
-        write_json(
-            json_path,
-            [{"name": s.name, "summary": s.summary, "target": s.target, "data": s.data} for s in STUDIES.values()],
-        )
+        _say_list(json_path)
         return 0
+    chosen = _parse_only(only)
+    found = get_study(name)
+    if out is not None:
+        import_optional("matplotlib", "plots", "to draw the results of studies")
+        Path(out).mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
-        result = run_study(get_study(name), data, progress)
+        result = run_study(found, data, progress, chosen)
     for line in _summary(result):
         say(line, json_path)
+    if "rows" in result:
+        for cells in table(result, found.layout):
+            say("\t".join(cells), json_path)
     write_json(json_path, result)
-    if not result["passed"]:
+    if out is not None:
+        place = Path(out) / name
+        write_text(place.with_suffix(".md"), markdown(result, found.layout))
+        write_text(place.with_suffix(".csv"), csv_text(result, found.layout))
+        write_json(str(place.with_suffix(".json")), result)
+        draw(result, found.layout, place.with_suffix(".png"))
+        click.echo(f"results: {place}.md .csv .json .png", err=True)
+    if result["passed"] is False:
         click.echo(f"hri: study {name} missed its target: {result['target']}", err=True)
         return 1
     return 0
+
+
+def _say_list(json_path: str | None) -> None:
+    for entry in STUDIES.values():
+        axes = "".join(f"\t{axis}: {', '.join(values)}" for axis, values in entry.axes.items())
+        say(f"{entry.name}\t{entry.summary}\ttarget: {entry.target}{axes}", json_path)
+    write_json(
+        json_path,
+        [
+            {"name": s.name, "summary": s.summary, "target": s.target, "data": s.data, "axes": dict(s.axes)}
+            for s in STUDIES.values()
+        ],
+    )
+
+
+def _parse_only(only: tuple[str, ...]) -> dict[str, list[str]]:
+    chosen: dict[str, list[str]] = {}
+    for text in only:
+        axis, equals, values = text.partition("=")
+        if not equals or not axis or not values:
+            raise click.UsageError(f"--only {text!r} is not AXIS=VALUE")
+        chosen.setdefault(axis, []).extend(values.split(","))
+    return chosen
 
 
 def _summary(result: dict[str, object], indent: str = "") -> list[str]:
@@ -58,8 +109,8 @@ def _summary(result: dict[str, object], indent: str = "") -> list[str]:
     if "difference_to_hmm" in result:
         lines.append(f"{indent}difference\t{100 * float(str(result['difference_to_hmm'])):+.2f} points to the HMM")
     for key in ("target", "passed"):
-        if key in result:
-            value = result[key]
+        value = result.get(key)
+        if value is not None:
             lines.append(f"{indent}{key}\t{('no', 'yes')[value] if isinstance(value, bool) else value}")
     for key, value in result.items():
         if isinstance(value, dict) and (inner := _summary(value, indent + "  ")):

@@ -103,7 +103,7 @@ def play(number: int, script: Script, words: WordRecognizer, signs: GestureRecog
     audio = speak(WORDS[script.language][script.word], script.language, make_speaker(person, seed), seed=seed)
     if script.noisy:
         noise = make_noise("white", len(audio.samples), audio.sample_rate_hz, np.random.default_rng(seed))
-        samples = mix_noise(audio.samples, noise, _SNR_DB)
+        samples = mix_noise(audio.samples, noise, _SNR_DB, audio.sample_rate_hz)
         audio = Audio(samples / np.abs(samples).max(), audio.sample_rate_hz, audio.notes)
     frames = draw_clip(make_signer(person, seed), script.sign, seed=seed, size_px=CLIP_SIZE_PX, num_frames=_NUM_FRAMES)
     heard = words.recognise(audio.samples, audio.sample_rate_hz)

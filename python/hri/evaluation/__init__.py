@@ -2,15 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Honest accuracy: people are never shared between training and test."""
 
-from hri.evaluation.conditions import expose, make_noise, mix_noise
+from hri.evaluation.conditions import Condition, FrontEnd, expose
 from hri.evaluation.evaluate import cross_validate, evaluate_split
+from hri.evaluation.noise import AddNoise, active_power, make_noise, mix_noise
 from hri.evaluation.result import EvaluationResult, FoldResult, Trial
+from hri.evaluation.speech import evaluate_conditions
 
 __all__ = [
+    "AddNoise",
+    "Condition",
     "EvaluationResult",
     "FoldResult",
+    "FrontEnd",
     "Trial",
+    "active_power",
     "cross_validate",
+    "evaluate_conditions",
     "evaluate_split",
     "expose",
     "make_noise",

@@ -12,9 +12,11 @@ import numpy as np
 
 from hri.datasets import Dataset, Fold
 from hri.errors import InvalidArgument
-from hri.evaluation.conditions import expose, make_noise, mix_noise
+from hri.evaluation.conditions import expose
+from hri.evaluation.noise import AddNoise
 from hri.evaluation.result import EvaluationResult, FoldResult, Trial
-from hri.media import read_audio, read_frames
+from hri.evaluation.speech import SpeechRunner
+from hri.media import read_frames
 from hri.recognition import GestureRecognizer, WordRecognizer
 
 Progress = Callable[[str, int, int], None]
@@ -49,9 +51,10 @@ def cross_validate(
     seed : int
         Of folds, of the persons drawn, and of noise.
     noise, snr_db : str and float, optional
-        Added to the test clips: see `make_noise`.
+        Added to the test clips: see `make_noise` and `mix_noise`.
     train_noise : bool
-        Also train on a copy of each clip with the same noise at the same SNR.
+        Also train on a copy of each clip with such noise at the same SNR; of a recorded noise, training then takes
+        the first half and the test the second.
     exposure : float, optional
         Factor on the pixels of the test pictures.
     progress : callable, optional
@@ -71,8 +74,8 @@ def cross_validate(
     else:
         folds = dataset.folds_stratified(num_folds or 5, seed)
         conditions["folds"] = "stratified by label: persons are not known, so test people may have been met"
-    runner = _runner(dataset, make_recognizer, conditions, progress)
-    return EvaluationResult(dataset.labels, [runner.run(fold) for fold in folds], conditions)
+    run = _runner(dataset, make_recognizer, conditions, progress)
+    return EvaluationResult(dataset.labels, [run(fold) for fold in folds], conditions)
 
 
 def evaluate_split(
@@ -102,8 +105,8 @@ def evaluate_split(
     conditions = _conditions(train.kind, seed, noise, snr_db, train_noise, exposure)
     both = Dataset(train.root, train.kind, [*train.samples, *test.samples])
     fold = Fold(str(test.root.name), list(range(len(train))), list(range(len(train), len(both))))
-    runner = _runner(both, make_recognizer, conditions, progress)
-    return EvaluationResult(train.labels, [runner.run(fold)], conditions)
+    run = _runner(both, make_recognizer, conditions, progress)
+    return EvaluationResult(train.labels, [run(fold)], conditions)
 
 
 def _with_fewer_persons(fold: Fold, dataset: Dataset, num_persons: int, seed: int) -> Fold:
@@ -140,56 +143,15 @@ def _runner(
     make_recognizer: Callable[[], Recognizer],
     conditions: dict[str, Any],
     progress: Progress | None,
-) -> _SpeechRunner | _GestureRunner:
-    kind = _SpeechRunner if dataset.kind == "speech" else _GestureRunner
-    return kind(dataset, make_recognizer, conditions, progress or (lambda what, done, total: None))
-
-
-class _SpeechRunner:
-    """Clips are read once; the noise of a clip depends on the seed and its place alone, not on the fold."""
-
-    def __init__(
-        self, dataset: Dataset, make: Callable[[], Any], conditions: dict[str, Any], progress: Progress
-    ) -> None:
-        self._samples = dataset.samples
-        self._make = make
-        self._progress = progress
-        self._train_noise = conditions["train_noise"]
-        self._clean: list[Any] = []
-        self._noisy: list[Any] = []
-        self._rates: list[int] = []
-        for done, sample in enumerate(dataset.samples):
-            audio = read_audio(sample.path)
-            self._clean.append(audio.samples)
-            self._rates.append(audio.sample_rate_hz)
-            progress("reading", done + 1, len(dataset))
-            if conditions["noise"] is None:
-                continue
-            rng = np.random.default_rng([conditions["seed"], done])
-            noise = make_noise(conditions["noise"], len(audio.samples), audio.sample_rate_hz, rng)
-            self._noisy.append(mix_noise(audio.samples, noise, conditions["snr_db"]))
-
-    def run(self, fold: Fold) -> FoldResult:
-        recognizer = self._make()
-        indices = list(fold.train)
-        clips = [self._clean[i] for i in indices]
-        if self._train_noise and self._noisy:
-            clips += [self._noisy[i] for i in indices]
-            indices += indices
-        recognizer.fit(
-            clips,
-            [self._samples[i].label for i in indices],
-            sample_rate_hz=[self._rates[i] for i in indices],
-            groups=[self._samples[i].person for i in indices],
-            progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
-        )
-        tested = self._noisy or self._clean
-        trials = []
-        for done, i in enumerate(fold.test):
-            decision = recognizer.recognise(tested[i], self._rates[i])
-            trials.append(Trial(i, self._samples[i].label, decision))
-            self._progress(f"testing {fold.name}", done + 1, len(fold.test))
-        return FoldResult(fold.name, tuple(trials))
+) -> Callable[[Fold], FoldResult]:
+    say = progress or (lambda what, done, total: None)
+    if dataset.kind == "gesture":
+        return _GestureRunner(dataset, make_recognizer, conditions, say).run
+    noise, snr_db, train_noise = conditions["noise"], conditions["snr_db"], conditions["train_noise"]
+    test = None if noise is None else AddNoise([noise], [snr_db], "second" if train_noise else "all")
+    train = [AddNoise([noise], [snr_db], "first")] if train_noise else []
+    runner = SpeechRunner(dataset, make_recognizer, {"": test}, train, conditions["seed"], None, say)
+    return lambda fold: runner.run(fold)[""]
 
 
 class _GestureRunner:

@@ -3,10 +3,13 @@
 """Measured claims on real recordings: ``hri study list``, ``hri study NAME --data DIR``."""
 
 from hri.errors import InvalidArgument
-from hri.studies import fusion, parity, signs, speech
-from hri.studies.registry import Study, find_data, run_study
+from hri.studies import fusion, noise, parity, signs, speech
+from hri.studies.pictures import draw
+from hri.studies.registry import Layout, Study, find_data, run_study
 
-STUDIES: dict[str, Study] = {s.name: s for s in (*speech.STUDIES, *signs.STUDIES, *fusion.STUDIES, *parity.STUDIES)}
+_MODULES = (speech, noise, signs, fusion, parity)
+
+STUDIES: dict[str, Study] = {study.name: study for module in _MODULES for study in module.STUDIES}
 
 
 def get_study(name: str) -> Study:
@@ -16,4 +19,4 @@ def get_study(name: str) -> Study:
     return STUDIES[name]
 
 
-__all__ = ["STUDIES", "Study", "find_data", "get_study", "run_study"]
+__all__ = ["STUDIES", "Layout", "Study", "draw", "find_data", "get_study", "run_study"]

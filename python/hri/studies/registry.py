@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,38 @@ from hri.errors import InvalidArgument
 
 Progress = Callable[[str, int, int], None]
 """Called with (what is being done, steps done, steps in all)."""
+
+
+def within(progress: Progress, name: str) -> Progress:
+    """Progress of a part of a study: tells its name too."""
+    return lambda what, done, total: progress(f"{name}: {what}", done, total)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How the rows of a result are shown.
+
+    A result's ``"rows"`` are dicts: what was varied, and what was measured as ``{measure}_mean``, ``{measure}_std``.
+
+    Attributes
+    ----------
+    columns : str
+        What is varied along the columns of the table; "" puts every row of the result into a row of the table.
+    x : str
+        What is varied along the picture's horizontal axis, such as an SNR; "" draws bars.
+    panel : str
+        What is varied from panel to panel; "" draws one panel.
+    measure : str
+        What was measured.
+    percent : bool
+        Whether that is a share, shown in percent.
+    """
+
+    columns: str = ""
+    x: str = ""
+    panel: str = ""
+    measure: str = "accuracy"
+    percent: bool = True
 
 
 @dataclass(frozen=True)
@@ -32,14 +64,20 @@ class Study:
         What it should show, in words.
     run : callable
         ``run(data_dir, progress)`` gives a dict that can be written as JSON; its ``"passed"`` says whether the
-        target was met.
+        target was met, None where there is none to meet. With `axes`, also ``run(data_dir, progress, **chosen)``.
+    layout : Layout
+        How tables and pictures show it.
+    axes : mapping of str to sequence of str
+        What of it can be run alone: ``chosen`` gives some of the values of some axes.
     """
 
     name: str
     summary: str
     data: tuple[str, ...]
     target: str
-    run: Callable[[Path, Progress], dict[str, Any]]
+    run: Callable[..., dict[str, Any]]
+    layout: Layout = Layout()
+    axes: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
 def find_data(directory: str | os.PathLike[str] | None = None) -> Path:
@@ -59,10 +97,42 @@ def find_data(directory: str | os.PathLike[str] | None = None) -> Path:
     return path
 
 
-def run_study(study: Study, directory: str | os.PathLike[str] | None, progress: Progress) -> dict[str, Any]:
-    """Run `study` on the recordings in `directory`; the result also names the study, its target and its seed."""
+def run_study(
+    study: Study,
+    directory: str | os.PathLike[str] | None,
+    progress: Progress,
+    only: Mapping[str, Sequence[str]] | None = None,
+) -> dict[str, Any]:
+    """Run `study` on the recordings in `directory`; the result also names the study, its target and its seed.
+
+    Parameters
+    ----------
+    study : Study
+    directory : path-like, optional
+        See `find_data`.
+    progress : callable
+        Called with (what, done, total).
+    only : mapping of str to sequence of str, optional
+        Run only these values of these axes of the study.
+
+    Raises
+    ------
+    InvalidArgument
+        For data that is not there, or an axis or value that the study does not have (lists those it has).
+    """
+    chosen = {axis: _chosen(study, axis, values) for axis, values in (only or {}).items()}
     data_dir = find_data(directory)
     missing = [name for name in study.data if not (data_dir / name).exists()]
     if missing:
         raise InvalidArgument(f"study {study.name}: {data_dir} has no folder {', '.join(missing)}")
-    return {"study": study.name, "target": study.target, **study.run(data_dir, progress)}
+    return {"study": study.name, "target": study.target, **study.run(data_dir, progress, **chosen)}
+
+
+def _chosen(study: Study, axis: str, values: Sequence[str]) -> tuple[str, ...]:
+    if axis not in study.axes:
+        there = ", ".join(study.axes) or "none"
+        raise InvalidArgument(f"study {study.name} has no axis '{axis}'; there are: {there}")
+    for value in values:
+        if value not in study.axes[axis]:
+            raise InvalidArgument(f"axis {axis} has no '{value}'; there are: {', '.join(study.axes[axis])}")
+    return tuple(values)

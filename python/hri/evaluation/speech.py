@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Spoken words under several conditions: trained once a fold, tested under each."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from hri.datasets import Dataset, Fold
+from hri.evaluation.conditions import Condition, FrontEnd, Samples
+from hri.evaluation.result import EvaluationResult, FoldResult, Trial
+from hri.media import read_audio
+
+Progress = Callable[[str, int, int], None]
+_TRAIN, _TEST = 0, 1
+
+
+class SpeechRunner:
+    """Clips are read once; what is random in a clip follows from the seed, the condition and the clip's place in the
+    data set, not from the fold.
+
+    Parameters
+    ----------
+    dataset : Dataset
+    make_recognizer : callable
+        Gives a new, untrained recogniser for every fold.
+    tests : mapping of str to Condition or None
+        Every test clip is heard under each; None leaves it as it is.
+    train : sequence of Condition
+        Training also gets a copy of every clip under each of these.
+    seed : int
+    front_end : FrontEnd, optional
+        Done to every clip, after the condition.
+    progress : callable
+        Called with (what, done, total).
+    """
+
+    def __init__(
+        self,
+        dataset: Dataset,
+        make_recognizer: Callable[[], Any],
+        tests: Mapping[str, Condition | None],
+        train: Sequence[Condition],
+        seed: int,
+        front_end: FrontEnd | None,
+        progress: Progress,
+    ) -> None:
+        self._samples = dataset.samples
+        self._make = make_recognizer
+        self._tests = tests
+        self._train = train
+        self._seed = seed
+        self._front_end = front_end
+        self._progress = progress
+        self._clips: list[tuple[Samples, int]] = []
+        for done, sample in enumerate(dataset.samples):
+            audio = read_audio(sample.path)
+            self._clips.append((audio.samples, audio.sample_rate_hz))
+            progress("reading", done + 1, len(dataset))
+
+    def _heard(self, index: int, condition: Condition | None, *key: int) -> tuple[Samples, int]:
+        samples, rate = self._clips[index]
+        if condition is not None:
+            samples = condition(samples, rate, np.random.default_rng([self._seed, *key, index]))
+        return (samples, rate) if self._front_end is None else self._front_end(samples, rate)
+
+    def run(self, fold: Fold) -> dict[str, FoldResult]:
+        """Train without the held-out persons and test under every condition."""
+        recognizer = self._make()
+        heard = [self._heard(i, None) for i in fold.train]
+        for number, added in enumerate(self._train):
+            heard += [self._heard(i, added, _TRAIN, number) for i in fold.train]
+        indices = fold.train * (1 + len(self._train))
+        recognizer.fit(
+            [samples for samples, _ in heard],
+            [self._samples[i].label for i in indices],
+            sample_rate_hz=[rate for _, rate in heard],
+            groups=[self._samples[i].person for i in indices],
+            progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
+        )
+        results = {}
+        for name, condition in self._tests.items():
+            key = zlib.crc32(name.encode())
+            trials = []
+            for done, i in enumerate(fold.test):
+                decision = recognizer.recognise(*self._heard(i, condition, _TEST, key))
+                trials.append(Trial(i, self._samples[i].label, decision))
+                self._progress(f"testing {fold.name} {name}".rstrip(), done + 1, len(fold.test))
+            results[name] = FoldResult(fold.name, tuple(trials))
+        return results
+
+
+def evaluate_conditions(
+    dataset: Dataset,
+    make_recognizer: Callable[[], Any],
+    tests: Mapping[str, Condition | None],
+    *,
+    train: Sequence[Condition] = (),
+    num_folds: int | None = None,
+    seed: int = 0,
+    front_end: FrontEnd | None = None,
+    progress: Progress | None = None,
+) -> dict[str, EvaluationResult]:
+    """Accuracy on speakers the recogniser has not met, under several conditions from one training.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        Of speech, with the person of every recording.
+    make_recognizer : callable
+        Gives a new, untrained recogniser for every fold: `WordRecognizer`, or anything with its `fit` and `recognise`.
+    tests : mapping of str to Condition or None
+        Such as ``{"clean": None, "10 dB": AddNoise(["white"], [10.0])}``.
+    train : sequence of Condition
+        Training also gets a copy of every clip under each of these.
+    num_folds : int, optional
+        Folds by person; None holds out one person at a time.
+    seed : int
+        Of folds and of what is random in the conditions.
+    front_end : FrontEnd, optional
+        Done to every clip of training and test after the condition.
+    progress : callable, optional
+        Called with (what, done, total).
+
+    Returns
+    -------
+    dict of str to EvaluationResult
+        In the order of `tests`.
+
+    Raises
+    ------
+    InvalidArgument
+        For recordings without persons, or fewer than two persons.
+    """
+    say = progress or (lambda what, done, total: None)
+    folds = dataset.folds_by_person(num_folds, seed)
+    runner = SpeechRunner(dataset, make_recognizer, tests, train, seed, front_end, say)
+    found = [runner.run(fold) for fold in folds]
+    common = {"seed": seed, "folds": "by person"}
+    return {
+        name: EvaluationResult(dataset.labels, [results[name] for results in found], {**common, "condition": name})
+        for name in tests
+    }

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Results of studies as pictures."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from typing import Any
+
+from hri.media.optional import import_optional
+from hri.studies.registry import Layout
+from hri.studies.tables import Row, axes_of, result_rows
+
+
+def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
+    """Write the picture of a result (PNG, SVG or PDF by suffix): lines over `Layout.x`, or bars; bars of error are
+    the spread over the persons held out.
+
+    Raises
+    ------
+    ImportError
+        Without matplotlib; says how to install it.
+    """
+    import_optional("matplotlib", "plots", "pictures of studies")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    rows = [row for row in result_rows(result, layout) if row.get(f"{layout.measure}_mean") is not None]
+    panels = list(dict.fromkeys(row.get(layout.panel, "") for row in rows)) or [""]
+    wide = 4.6 if layout.x else 2.5 + 0.28 * max(1, len(rows) // len(panels))
+    figure = Figure(figsize=(max(4.6, min(wide, 14.0)) * len(panels), 4.2), layout="constrained")
+    FigureCanvasAgg(figure)
+    every = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
+    for axes, panel in zip(every, panels, strict=True):
+        members = [row for row in rows if row.get(layout.panel, "") == panel]
+        (_lines if layout.x else _bars)(axes, members, layout)
+        axes.set_title(str(panel))
+        axes.grid(alpha=0.3)
+    every[0].set_ylabel(f"{layout.measure}{', %' if layout.percent else ''}")
+    figure.suptitle(str(result["study"]))
+    figure.savefig(fspath(path), dpi=110)
+
+
+def _values(rows: list[Row], layout: Layout) -> tuple[list[float], list[float]]:
+    scale = 100.0 if layout.percent else 1.0
+    means = [scale * row[f"{layout.measure}_mean"] for row in rows]
+    return means, [scale * (row.get(f"{layout.measure}_std") or 0.0) for row in rows]
+
+
+def _name(row: Row, keys: list[str]) -> str:
+    return ", ".join(str(row[key]) for key in keys if row.get(key, "") != "")
+
+
+def _lines(axes: Any, rows: list[Row], layout: Layout) -> None:
+    keys = [axis for axis in axes_of(rows) if axis not in (layout.x, layout.panel)]
+    places = list(dict.fromkeys(row[layout.x] for row in rows))
+    numbers = all(isinstance(place, int | float) for place in places)
+    series: dict[str, list[Row]] = {}
+    for row in rows:
+        series.setdefault(_name(row, keys), []).append(row)
+    for name, members in series.items():
+        means, spreads = _values(members, layout)
+        x = [row[layout.x] if numbers else places.index(row[layout.x]) for row in members]
+        axes.errorbar(x, means, spreads, label=name, marker="o", capsize=2, linewidth=1.2, alpha=0.85)
+    if not numbers:
+        axes.set_xticks(range(len(places)), [str(place) for place in places], rotation=20)
+    axes.set_xlabel(layout.x.replace("_", " "))
+    if any(series):
+        axes.legend(fontsize="x-small")
+
+
+def _bars(axes: Any, rows: list[Row], layout: Layout) -> None:
+    keys = [axis for axis in axes_of(rows) if axis != layout.panel]
+    means, spreads = _values(rows, layout)
+    axes.bar(range(len(rows)), means, yerr=spreads, capsize=2, color="steelblue")
+    axes.set_xticks(range(len(rows)), [_name(row, keys) for row in rows], rotation=75, ha="right", fontsize="x-small")
