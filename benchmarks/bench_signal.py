@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Wavelets, cepstra and resampling against PyWavelets, librosa and SciPy."""
+"""Wavelets and resampling against PyWavelets and SciPy."""
 
 from __future__ import annotations
 
@@ -64,33 +64,6 @@ def dwt2_picture() -> Timed:
     )
 
 
-def cepstra() -> Timed:
-    """13 mel cepstra (26 filters, 25 ms every 10 ms, FFT of 512) of 10 s at 16 kHz, with two orders of deltas."""
-    import librosa
-
-    audio = _audio(10.0)
-    computer = _native.CepstraComputer(
-        _native.CepstraOptions(sample_rate_hz=RATE_HZ, pre_emphasis=0.0, low_hz=0.0, normalisation="none", lifter=0.0)
-    )
-
-    settings = {"sr": RATE_HZ, "n_fft": 512, "win_length": 400, "hop_length": 160, "window": np.hamming(400)}
-    mel = {"n_mels": 26, "htk": True, "norm": None, "center": False}
-
-    def peer() -> np.ndarray:
-        # librosa puts the window in the middle of the FFT's 512 samples, we at their start.
-        power = librosa.feature.melspectrogram(y=np.pad(audio, 56), **settings, **mel)
-        static = librosa.feature.mfcc(S=np.log(np.maximum(power, 1e-10)), n_mfcc=13)
-        velocity = librosa.feature.delta(static, width=5, mode="nearest")
-        return np.vstack([static, velocity, librosa.feature.delta(velocity, width=5, mode="nearest")])
-
-    ours, theirs = computer.compute(audio), peer().T
-    count = min(len(ours), len(theirs))
-    assert np.allclose(ours[:count, :13], theirs[:count, :13], atol=2e-3)
-    inside = slice(4, count - 4)
-    assert np.allclose(ours[inside], theirs[inside], atol=2e-3)
-    return medians(lambda: computer.compute(audio), peer)
-
-
 def resample() -> Timed:
     """10 s from 44.1 kHz to 16 kHz."""
     from scipy.signal import resample_poly
@@ -108,6 +81,5 @@ BENCHES = [
     Bench("dwt_word", dwt_word, "PyWavelets"),
     Bench("wavedec_word", wavedec_word, "PyWavelets"),
     Bench("dwt2_picture", dwt2_picture, "PyWavelets"),
-    Bench("cepstra", cepstra, "librosa"),
     Bench("resample", resample, "SciPy"),
 ]

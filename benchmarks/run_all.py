@@ -14,6 +14,7 @@ import json
 import sys
 from pathlib import Path
 
+import bench_cepstra
 import bench_classifiers
 import bench_codebook
 import bench_hmm
@@ -21,7 +22,7 @@ import bench_possibility
 import bench_signal
 import bench_vision
 
-MODULES = (bench_signal, bench_hmm, bench_possibility, bench_codebook, bench_classifiers, bench_vision)
+MODULES = (bench_signal, bench_cepstra, bench_hmm, bench_possibility, bench_codebook, bench_classifiers, bench_vision)
 ALL = {bench.name: bench for module in MODULES for bench in module.BENCHES}
 
 

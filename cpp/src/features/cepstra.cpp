@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cepstra_kernels.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 #include "hri/signal/framing.hpp"
+#include "hri/signal/lanes.hpp"
 
 namespace hri {
 namespace {
@@ -63,6 +65,22 @@ MatrixF lifted_dct(const CepstraOptions& o) {
   return dct;
 }
 
+// What a thread needs while it computes; it grows to the largest it has met.
+struct Workspace {
+  std::vector<float> first_frame;
+  std::vector<const float*> frames;
+  LaneBuffer samples;
+  LaneBuffer spectrum;
+  LaneBuffer power;
+  LaneBuffer logs;
+  LaneBuffer cepstra;
+};
+
+Workspace& workspace() {
+  thread_local Workspace w;
+  return w;
+}
+
 }  // namespace
 
 CepstraComputer::CepstraComputer(const CepstraOptions& options)
@@ -103,24 +121,41 @@ void CepstraComputer::compute(Span<const float> audio, MatrixRefF out) const {
   }
 }
 
+// Frames side by side: several at a time go through every step together.
 void CepstraComputer::compute_static(Span<const float> audio, MatrixRefF out) const {
-  thread_local std::vector<float> frame;
-  thread_local std::vector<float> power;
-  thread_local VectorF energies;
-  frame.assign(static_cast<std::size_t>(fft_.size()), 0.0F);
-  power.resize(static_cast<std::size_t>(fft_.num_bins()));
-  energies.resize(bank_.num_filters());
-  const auto alpha = static_cast<float>(options_.pre_emphasis);
-  for (Eigen::Index t = 0; t < out.rows(); ++t) {
-    const auto start = static_cast<std::size_t>(t) * static_cast<std::size_t>(frame_shift_);
-    const float* x = audio.data() + start;
-    frame[0] = window_[0] * (x[0] - alpha * (start == 0 ? x[0] : x[-1]));
-    for (std::size_t n = 1; n < window_.size(); ++n)
-      frame[n] = window_[n] * (x[n] - alpha * x[n - 1]);
-    fft_.power_spectrum(frame, power);
-    bank_.apply(power, {energies.data(), static_cast<std::size_t>(energies.size())});
-    energies = energies.cwiseMax(kEnergyFloor).array().log().matrix();
-    out.row(t).head(dct_.rows()).noalias() = (dct_ * energies).transpose();
+  const detail::CepstraKernels& kernels = detail::cepstra_kernels();
+  const auto lanes = static_cast<std::size_t>(kernels.num_lanes);
+  const detail::FrameTable frame_table{frame_length_, fft_.size(), window_.data(),
+                                       static_cast<float>(options_.pre_emphasis)};
+  Workspace& work = workspace();
+  work.first_frame.resize(static_cast<std::size_t>(frame_length_) + 1);
+  work.frames.resize(lanes);
+  work.samples.resize((static_cast<std::size_t>(frame_length_) + 1) * lanes);
+  work.spectrum.resize(static_cast<std::size_t>(fft_.size()) * lanes);
+  work.power.resize(static_cast<std::size_t>(fft_.num_bins()) * lanes);
+  work.logs.resize(static_cast<std::size_t>(bank_.num_filters()) * lanes);
+  work.cepstra.resize(static_cast<std::size_t>(num_static()) * lanes);
+  // Nothing comes before the first sample: it stands for that itself.
+  const auto length = static_cast<std::size_t>(frame_length_);
+  std::copy_n(audio.data(), length, work.first_frame.begin() + 1);
+  work.first_frame[0] = audio[0];
+  for (Eigen::Index first = 0; first < out.rows(); first += kernels.num_lanes) {
+    const auto count = std::min<Eigen::Index>(kernels.num_lanes, out.rows() - first);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      // Lanes beyond the last frame repeat it.
+      const Eigen::Index t = first + std::min(static_cast<Eigen::Index>(l), count - 1);
+      work.frames[l] = t == 0 ? work.first_frame.data() : audio.data() + t * frame_shift_ - 1;
+    }
+    interleave({work.frames.data(), lanes}, length + 1, work.samples);
+    kernels.condition(frame_table, work.samples.data(), work.spectrum.data());
+    fft_.power_spectra(work.spectrum, work.power);
+    kernels.log_energies(bank_.table(), kEnergyFloor, work.power.data(), work.logs.data());
+    kernels.project(dct_.data(), num_static(), bank_.num_filters(), work.logs.data(),
+                    work.cepstra.data());
+    for (Eigen::Index l = 0; l < count; ++l) {
+      for (Eigen::Index c = 0; c < num_static(); ++c)
+        out(first + l, c) = work.cepstra[static_cast<std::size_t>(c * kernels.num_lanes + l)];
+    }
   }
 }
 

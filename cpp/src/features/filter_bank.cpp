@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cepstra_kernels.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 
@@ -99,27 +100,34 @@ FilterBank::FilterBank(const FilterBankOptions& options, int sample_rate_hz, int
   weights_ = MatrixF::Zero(static_cast<Eigen::Index>(triangles.size()), bins);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const FilterTriangle& t = triangles[i];
-    Support support{bins, 0};
+    int begin = bins;
+    int end = 0;
     for (int k = 0; k < bins; ++k) {
       const double f = static_cast<double>(k) * sample_rate_hz / fft_size;
       const double w = f <= t.centre_hz ? (f - t.low_hz) / (t.centre_hz - t.low_hz)
                                         : (t.high_hz - f) / (t.high_hz - t.centre_hz);
       if (!(w > 0)) continue;
       weights_(static_cast<Eigen::Index>(i), k) = static_cast<float>(w);
-      support.begin = std::min(support.begin, k);
-      support.end = k + 1;
+      begin = std::min(begin, k);
+      end = k + 1;
     }
-    supports_.push_back(support);
+    supports_.insert(supports_.end(), {begin, end});
   }
 }
 
+detail::FilterTable FilterBank::table() const {
+  return {num_filters(), num_bins(), weights_.data(), supports_.data()};
+}
+
 void FilterBank::apply(Span<const float> power, Span<float> out) const {
-  require(power.size() == static_cast<std::size_t>(num_bins()) && out.size() == supports_.size(),
+  require(power.size() == static_cast<std::size_t>(num_bins()) &&
+              out.size() == static_cast<std::size_t>(num_filters()),
           "filter bank input must have num_bins() values, output num_filters()");
-  for (std::size_t i = 0; i < supports_.size(); ++i) {
-    const Support s = supports_[i];
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const int begin = supports_[2 * i];
+    const int end = supports_[2 * i + 1];
     const float* w = weights_.data() + static_cast<Eigen::Index>(i) * weights_.cols();
-    out[i] = s.end > s.begin ? dot(power.data() + s.begin, w + s.begin, s.end - s.begin) : 0.0F;
+    out[i] = end > begin ? dot(power.data() + begin, w + begin, end - begin) : 0.0F;
   }
 }
 

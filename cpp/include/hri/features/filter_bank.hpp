@@ -12,6 +12,10 @@
 
 namespace hri {
 
+namespace detail {
+struct FilterTable;
+}
+
 enum class FilterBankKind : std::uint8_t { mel, hfcc };
 
 struct FilterBankOptions {
@@ -52,16 +56,15 @@ class FilterBank {
   /// Weights, shape (num_filters, num_bins).
   [[nodiscard]] const MatrixF& weights() const { return weights_; }
 
+  /// What the kernels for frames side by side need.
+  [[nodiscard]] detail::FilterTable table() const;
+
   /// Energy of every filter: `power` (num_bins) to `out` (num_filters). Allocates nothing.
   void apply(Span<const float> power, Span<float> out) const;
 
  private:
-  struct Support {
-    int begin = 0;
-    int end = 0;
-  };
   MatrixF weights_;
-  std::vector<Support> supports_;  // bins where a filter is not zero
+  std::vector<int> supports_;  // first bin where a filter is not zero, and the one past the last
 };
 
 }  // namespace hri

@@ -6,35 +6,12 @@
 #pragma once
 
 #include <cstddef>
-#include <new>
 #include <vector>
 
+#include "hri/core/cache_line.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri::detail {
-
-template <class T>
-struct CacheLineAllocator {
-  using value_type = T;
-  static constexpr std::align_val_t kAlignment{64};
-
-  CacheLineAllocator() = default;
-  template <class U>
-  // NOLINTNEXTLINE(google-explicit-constructor): containers rebind
-  CacheLineAllocator(const CacheLineAllocator<U>& /*other*/) {}
-  T* allocate(std::size_t count) {
-    return static_cast<T*>(::operator new(count * sizeof(T), kAlignment));
-  }
-  void deallocate(T* memory, std::size_t /*count*/) { ::operator delete(memory, kAlignment); }
-  template <class U>
-  bool operator==(const CacheLineAllocator<U>& /*other*/) const {
-    return true;
-  }
-  template <class U>
-  bool operator!=(const CacheLineAllocator<U>& /*other*/) const {
-    return false;
-  }
-};
 
 using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
 
