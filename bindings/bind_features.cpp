@@ -7,6 +7,7 @@
 
 #include "arrays.hpp"
 #include "hri/features/cepstra.hpp"
+#include "hri/features/time_normalisation.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
@@ -87,4 +88,13 @@ void bind_features(py::module_& m) {
           },
           py::arg("audio"),
           "Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.");
+
+  m.def(
+      "normalise_time",
+      [](const hri_bind::FloatArray& frames, int num_rows) {
+        return hri_bind::to_array(
+            hri::normalise_time(hri_bind::as_matrix(frames, "frames"), num_rows));
+      },
+      py::arg("frames"), py::arg("num_rows"),
+      "Frames stretched or squeezed to num_rows rows by linear interpolation, float32.");
 }

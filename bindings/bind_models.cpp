@@ -7,12 +7,14 @@
 
 #include <functional>
 
+#include "hri/models/distance_classifier.hpp"
 #include "hri/models/distances.hpp"
 #include "hri/models/gaussian_bayes.hpp"
 #include "hri/models/knn.hpp"
 #include "hri/models/linear_svm.hpp"
 #include "hri/models/pca.hpp"
 #include "hri/models/possibility.hpp"
+#include "hri/models/possibility_classifier.hpp"
 #include "model_inputs.hpp"
 #include "options.hpp"
 
@@ -46,7 +48,7 @@ py::array_t<float> per_row(const Model& model, const FloatArray& rows,
   return to_array(values);
 }
 
-// What the three classifiers of rows share.
+// What the classifiers of rows share.
 template <class Model, class Options>
 void bind_classifier(py::class_<Model>& cls, const std::function<void(Options*)>& prepare) {
   cls.def_static(
@@ -141,6 +143,39 @@ void bind_bayes(py::module_& m) {
       py::arg("rows"), "log p(row | class), shapes as decision_values.");
 }
 
+void bind_distance_classifier(py::module_& m) {
+  py::enum_<hri::ClassDistance>(m, "ClassDistance")
+      .value("euclidean", hri::ClassDistance::euclidean)
+      .value("manhattan", hri::ClassDistance::manhattan)
+      .value("mahalanobis", hri::ClassDistance::mahalanobis)
+      .value("bhattacharyya", hri::ClassDistance::bhattacharyya);
+  py::class_<hri::DistanceClassifierOptions> options(m, "DistanceClassifierOptions",
+                                                     "Options of DistanceClassifier.");
+  hri_bind::options(options)
+      .field("metric", &hri::DistanceClassifierOptions::metric)
+      .field("shrinkage", &hri::DistanceClassifierOptions::shrinkage);
+  py::class_<hri::DistanceClassifier> cls(
+      m, "DistanceClassifier",
+      "The class whose mean is nearest (thesis table 6.5); decision values are negative "
+      "distances.");
+  bind_classifier<hri::DistanceClassifier, hri::DistanceClassifierOptions>(cls, {});
+}
+
+void bind_possibility_classifier(py::module_& m) {
+  py::class_<hri::PossibilityClassifier> cls(
+      m, "PossibilityClassifier",
+      "Gaussian class densities divided by the largest (thesis eq. 5.14-5.15); decision values are "
+      "log possibilities.");
+  bind_classifier<hri::PossibilityClassifier, hri::GaussianBayesOptions>(cls, {});
+  cls.def(
+      "classify",
+      [](const hri::PossibilityClassifier& self, const FloatArray& row) {
+        const hri::Possibilities p = self.classify(as_span(row, "row"));
+        return py::make_tuple(to_array(p.possibility), to_array(p.necessity));
+      },
+      py::arg("row"), "Possibility and necessity of every class, each of shape (num_classes,).");
+}
+
 void bind_knn(py::module_& m) {
   py::class_<hri::KnnOptions> options(m, "KnnOptions", "Options of Knn.");
   hri_bind::options(options).field("num_neighbours", &hri::KnnOptions::num_neighbours);
@@ -209,4 +244,6 @@ void bind_models(py::module_& m) {
   bind_svm(m);
   bind_bayes(m);
   bind_knn(m);
+  bind_distance_classifier(m);
+  bind_possibility_classifier(m);
 }

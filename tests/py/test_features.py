@@ -130,3 +130,15 @@ def test_impossible_options_are_named(fields: dict, message: str) -> None:
         _native.CepstraComputer(_native.CepstraOptions(**fields))
     with pytest.raises(TypeError, match="no_such_field"):
         _native.CepstraOptions(no_such_field=1)
+
+
+@pytest.mark.parametrize("num_rows", [1, 2, 7, 40])
+def test_time_normalisation_is_linear_interpolation(num_rows: int) -> None:
+    from scipy.interpolate import interp1d
+
+    frames = np.random.default_rng(3).normal(size=(11, 3)).astype("f4")
+    places = np.array([5.0]) if num_rows == 1 else np.linspace(0, 10, num_rows)
+    expected = interp1d(np.arange(11), frames.astype("f8"), axis=0)(places)
+    np.testing.assert_allclose(_native.normalise_time(frames, num_rows), expected, atol=1e-6)
+    with pytest.raises(InvalidArgument, match="num_rows must be at least 1"):
+        _native.normalise_time(frames, 0)

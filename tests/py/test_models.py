@@ -162,7 +162,77 @@ def test_possibilities_give_an_honest_confidence() -> None:
     assert _native.necessity_of([0.9, 0.7, 0.8, 0.3], [0, 2]) == pytest.approx(0.3)
 
 
-CLASSIFIERS = [_native.LinearSvm, _native.GaussianBayes, _native.Knn]
+@pytest.mark.parametrize("metric", ["euclidean", "manhattan", "mahalanobis"])
+def test_distances_to_class_means_match_scipy(metric: str) -> None:
+    from scipy.spatial.distance import cdist
+    from sklearn.covariance import empirical_covariance, shrunk_covariance
+
+    rows, classes = blobs(4, 30, 1.0, 20)
+    test, _ = blobs(4, 10, 1.0, 21)
+    options = _native.DistanceClassifierOptions(metric=metric, shrinkage=0.2)
+    ours = _native.DistanceClassifier.train(rows, classes, 4, options).decision_values(test)
+    own = rows.astype("f8")
+    means = np.stack([own[classes == c].mean(axis=0) for c in range(4)])
+    within = shrunk_covariance(empirical_covariance(own - means[classes], assume_centered=True), 0.2)
+    name = {"manhattan": "cityblock"}.get(metric, metric)
+    peer = cdist(test, means, name, **({"VI": np.linalg.inv(within)} if metric == "mahalanobis" else {}))
+    np.testing.assert_allclose(ours, -peer, rtol=1e-5)
+
+
+def test_nearest_mean_decides_as_scikit_learn() -> None:
+    from sklearn.neighbors import NearestCentroid
+
+    rows, classes = blobs(5, 30, 1.0, 22)
+    test, _ = blobs(5, 40, 1.0, 23)
+    ours = _native.DistanceClassifier.train(rows, classes, 5).decision_values(test).argmax(axis=1)
+    np.testing.assert_array_equal(ours, NearestCentroid().fit(rows, classes).predict(test))
+
+
+def test_bhattacharyya_distances_are_those_of_gaussians() -> None:
+    from sklearn.covariance import empirical_covariance, shrunk_covariance
+
+    rows, classes = blobs(3, 40, 1.0, 24)
+    test, _ = blobs(3, 5, 1.0, 25)
+    options = _native.DistanceClassifierOptions(metric="bhattacharyya", shrinkage=0.1)
+    ours = _native.DistanceClassifier.train(rows, classes, 3, options).decision_values(test)
+    own = rows.astype("f8")
+    means = np.stack([own[classes == c].mean(axis=0) for c in range(3)])
+    within = shrunk_covariance(empirical_covariance(own - means[classes], assume_centered=True), 0.1)
+    for c in range(3):
+        covariance = shrunk_covariance(empirical_covariance(own[classes == c]), 0.1)
+        mean = 0.5 * (covariance + within)
+        logs = [np.linalg.slogdet(m)[1] for m in (mean, covariance, within)]
+        for row, value in zip(test.astype("f8"), ours[:, c], strict=True):
+            squared = (row - means[c]) @ np.linalg.solve(mean, row - means[c])
+            assert -value == pytest.approx(squared / 8 + 0.5 * (logs[0] - 0.5 * (logs[1] + logs[2])), rel=1e-4)
+
+
+def test_possibilities_of_classes_are_densities_over_the_largest() -> None:
+    from scipy.stats import multivariate_normal
+
+    rows, classes = blobs(3, 40, 1.0, 26)
+    options = _native.GaussianBayesOptions(covariance="full", shrinkage=0.0)
+    model = _native.PossibilityClassifier.train(rows, classes, 3, options)
+    own = rows.astype("f8")
+    gaussians = [
+        multivariate_normal(own[classes == c].mean(axis=0), np.cov(own[classes == c].T, bias=True)) for c in range(3)
+    ]
+    for row in rows[::7]:
+        densities = np.array([g.pdf(row.astype("f8")) for g in gaussians])
+        possibility, necessity = model.classify(row)
+        np.testing.assert_allclose(possibility, densities / densities.max(), rtol=1e-4)
+        others = np.sort(possibility)[-2]
+        assert necessity[possibility.argmax()] == pytest.approx(1 - others, abs=1e-6) and (necessity > 0).sum() <= 1
+        np.testing.assert_allclose(model.decision_values(row), np.log(possibility), rtol=1e-3, atol=1e-5)
+
+
+CLASSIFIERS = [
+    _native.LinearSvm,
+    _native.GaussianBayes,
+    _native.Knn,
+    _native.DistanceClassifier,
+    _native.PossibilityClassifier,
+]
 
 
 @pytest.mark.parametrize("model", CLASSIFIERS)

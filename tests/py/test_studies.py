@@ -15,8 +15,10 @@ import pytest
 from conftest import RATE_HZ
 from hri import _native, studies
 from hri.errors import InvalidArgument
-from hri.studies import noise, tables
+from hri.studies import distance, noise, tables, tempo, training_size
 from hri.studies.registry import Layout
+from hri.studies.word_classifiers import CLASSIFIERS
+from hri.studies.word_features import FEATURES, approximation, read_words
 
 
 @pytest.fixture(scope="module")
@@ -25,6 +27,9 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory, spoken: Path) -> Path:
     folder = tmp_path_factory.mktemp("data")
     (folder / "fsdd").mkdir()
     (folder / "fsdd" / "recordings").symlink_to(spoken)
+    (folder / "hindi_words").mkdir()
+    for part in ("digits", "words"):
+        (folder / "hindi_words" / part).symlink_to(spoken)
     (folder / "noise").mkdir()
     rng = np.random.default_rng(0)
     for file in noise.NOISES.values():
@@ -99,3 +104,69 @@ def test_a_part_of_a_study_without_its_target_is_no_miss(data_dir: Path) -> None
     assert first["passed"] is None and first == second
     with pytest.raises(InvalidArgument, match="no axis 'speaker'; there are: front_end, training, noise"):
         studies.run_study(study, data_dir, lambda *progress: None, {"speaker": ["theo"]})
+
+
+def run(name: str, data_dir: Path, **only: list[str]) -> dict:
+    return studies.run_study(studies.get_study(name), data_dir, lambda *progress: None, only)
+
+
+def test_every_classifier_tells_tones_of_unseen_speakers_apart(data_dir: Path) -> None:
+    result = run("speech-classifiers", data_dir, data=["fsdd"])
+    assert {(row["features"], row["classifier"]) for row in result["rows"]} == {
+        (features, classifier) for features in FEATURES for classifier in CLASSIFIERS
+    }
+    for row in result["rows"]:
+        assert set(row["per_fold"]) == {"low", "middle", "high"} and row["accuracy_mean"] >= 0.8, row
+    again = run("speech-classifiers", data_dir, data=["fsdd"], classifier=["ptbhmm"], features=["mfcc"])
+    assert again["rows"] == [r for r in result["rows"] if (r["classifier"], r["features"]) == ("ptbhmm", "mfcc")]
+
+
+def test_more_training_is_measured_step_by_step(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(training_size, "SPEAKERS", (1, 2))
+    monkeypatch.setitem(training_size.SAMPLES, "fsdd", (1, 3))
+    result = run("training-samples", data_dir, data=["fsdd"], classifier=["euclidean"])
+    assert [(row["speakers"], row["samples"]) for row in result["rows"]] == [(1, 1), (1, 3), (2, 1), (2, 3)]
+    words = read_words(data_dir, "fsdd", lambda *progress: None)
+    train = [i for i, word in enumerate(words) if word.person != "low"]
+    drawn = training_size.drawn(words, train, ["high"], 2, 0)
+    assert len(drawn) == 4 and {(words[i].person, words[i].label) for i in drawn} == {("high", "1"), ("high", "2")}
+    assert (
+        drawn == training_size.drawn(words, train, ["high"], 2, 0) != training_size.drawn(words, train, ["high"], 2, 1)
+    )
+
+
+def test_levels_of_a_wavelet_start_from_none(data_dir: Path) -> None:
+    result = run("wavelet-levels", data_dir, data=["fsdd"], wavelet=["haar", "db6"], classifier=["bayes"])
+    none = [row for row in result["rows"] if row["level"] == 0 and row["noise"] == "clean"]
+    assert none[0]["per_fold"] == none[1]["per_fold"] and none[0]["accuracy_mean"] == 1.0
+    assert {row["level"] for row in result["rows"]} == {0, 1, 2, 3, 4}
+
+
+def test_an_approximation_keeps_the_lower_band_at_its_level() -> None:
+    time_s = np.arange(RATE_HZ) / RATE_HZ
+    low, high = (np.sin(2 * np.pi * hz * time_s).astype("f4") for hz in (300.0, 3000.0))
+    assert np.std(approximation(low)) == pytest.approx(np.std(low), rel=0.02)
+    assert np.std(approximation(high)) < 0.05 and len(approximation(high)) == RATE_HZ // 8
+
+
+def test_slow_and_fast_words_are_measured(data_dir: Path) -> None:
+    pytest.importorskip("audiotsm")
+    result = run("speech-tempo", data_dir, data=["hindi-words"], training=["natural"])
+    found = {row["tempo"]: row["accuracy_mean"] for row in result["rows"]}
+    assert list(found) == list(tempo.FACTORS) and found[1.0] >= 0.9
+    assert all(0 <= row["no_input_mean"] <= 1 for row in result["rows"])
+
+
+def test_words_from_across_a_room_are_measured(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("pyroomacoustics")
+    monkeypatch.setattr(distance, "DISTANCES_M", (0.5, 3.0))
+    monkeypatch.setattr(distance, "NUM_PLACES", 2)
+    (data_dir / "room").mkdir(exist_ok=True)
+    click = np.zeros(2000, "f4")
+    click[[10, 700]] = 0.5, 0.2
+    _native.write_wav_pcm16(str(data_dir / distance.RECORDED_RESPONSE), click, RATE_HZ)
+    result = run("speech-distance", data_dir, data=["fsdd"])
+    places = [(row["training"], row["ambience"], row["distance"]) for row in result["rows"]]
+    assert len(set(places)) == len(places) == 2 * 2 * 4
+    assert [place[2] for place in places[:4]] == ["close", "0.5 m", "3 m", "recorded room"]
+    assert result["rows"][0]["accuracy_mean"] >= 0.9

@@ -110,11 +110,15 @@ def mix_noise(samples: Samples, noise: Samples, snr_db: float, sample_rate_hz: i
         raise InvalidArgument(f"samples and noise differ in shape: {samples.shape}, {noise.shape}")
     if not -30 <= snr_db <= 60:
         raise InvalidArgument(f"snr_db must lie in -30..60, got {snr_db}")
+    return (samples + noise_at(noise, active_power(samples, sample_rate_hz), snr_db)).astype(np.float32)
+
+
+def noise_at(noise: Samples, speech_power: float, snr_db: float) -> Samples:
+    """`noise` scaled to lie `snr_db` below speech of a mean power. Raises InvalidArgument for noise without power."""
     power = float(np.mean(np.square(noise, dtype=np.float64)))
     if not power > 0:
         raise InvalidArgument("noise has no power")
-    wanted = active_power(samples, sample_rate_hz) / 10 ** (snr_db / 10)
-    return (samples + noise * np.sqrt(wanted / power)).astype(np.float32)
+    return (noise * np.sqrt(speech_power / 10 ** (snr_db / 10) / power)).astype(np.float32)
 
 
 @dataclass(frozen=True)

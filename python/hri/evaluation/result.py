@@ -108,7 +108,7 @@ class EvaluationResult:
 
     def plot_confusion(self, path: str | PathLike[str]) -> None:
         """Write the confusion matrix as a picture (PNG, SVG or PDF by suffix)."""
-        import_optional("matplotlib", "plots", "confusion plots")
+        import_optional("matplotlib", "plots", "to draw the confusion matrix")
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 

@@ -3,11 +3,22 @@
 """Measured claims on real recordings: ``hri study list``, ``hri study NAME --data DIR``."""
 
 from hri.errors import InvalidArgument
-from hri.studies import fusion, noise, parity, signs, speech
+from hri.studies import (
+    classifiers,
+    distance,
+    fusion,
+    noise,
+    parity,
+    signs,
+    speech,
+    tempo,
+    training_size,
+    wavelets,
+)
 from hri.studies.pictures import draw
 from hri.studies.registry import Layout, Study, find_data, run_study
 
-_MODULES = (speech, noise, signs, fusion, parity)
+_MODULES = (speech, noise, distance, tempo, classifiers, training_size, wavelets, signs, fusion, parity)
 
 STUDIES: dict[str, Study] = {study.name: study for module in _MODULES for study in module.STUDIES}
 

@@ -21,7 +21,7 @@ def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
     ImportError
         Without matplotlib; says how to install it.
     """
-    import_optional("matplotlib", "plots", "pictures of studies")
+    import_optional("matplotlib", "plots", "to draw studies")
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

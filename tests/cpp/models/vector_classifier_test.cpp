@@ -7,9 +7,11 @@
 #include <thread>
 
 #include "hri/core/error.hpp"
+#include "hri/models/distance_classifier.hpp"
 #include "hri/models/gaussian_bayes.hpp"
 #include "hri/models/knn.hpp"
 #include "hri/models/linear_svm.hpp"
+#include "hri/models/possibility_classifier.hpp"
 #include "models/model_testing.hpp"
 
 namespace hri {
@@ -35,13 +37,22 @@ struct BayesDiagonal : Case<GaussianBayes, GaussianBayesOptions> {
     return GaussianBayes::train(rows, classes, num_classes, {CovarianceKind::diagonal, 0.0});
   }
 };
+template <ClassDistance metric>
+struct Nearest : Case<DistanceClassifier, DistanceClassifierOptions> {
+  static DistanceClassifier train(ConstMatrixRefF rows, Span<const int> classes, int num_classes) {
+    return DistanceClassifier::train(rows, classes, num_classes, {metric, 0.1});
+  }
+};
 
 template <class T>
 class VectorClassifier : public ::testing::Test {};
 
 using Classifiers =
     ::testing::Types<Case<LinearSvm, LinearSvmOptions>, Case<GaussianBayes, GaussianBayesOptions>,
-                     BayesFull, BayesDiagonal, Case<Knn, KnnOptions>>;
+                     BayesFull, BayesDiagonal, Case<Knn, KnnOptions>,
+                     Nearest<ClassDistance::euclidean>, Nearest<ClassDistance::manhattan>,
+                     Nearest<ClassDistance::mahalanobis>, Nearest<ClassDistance::bhattacharyya>,
+                     Case<PossibilityClassifier, GaussianBayesOptions>>;
 TYPED_TEST_SUITE(VectorClassifier, Classifiers);
 
 TYPED_TEST(VectorClassifier, TellsSeparateClassesApart) {

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Speech from across a room: impulse responses simulated or recorded, and the noise of the room."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.errors import InvalidArgument
+from hri.evaluation.conditions import Samples
+from hri.evaluation.noise import active_power, make_noise, noise_at
+from hri.media import read_audio
+from hri.media.optional import import_optional
+
+REFERENCE_M = 0.5
+"""Simulated responses have a direct sound of gain 1 at this distance."""
+_WALL_M = 0.4
+"""Nobody stands nearer to a wall, and no microphone."""
+_TRIES = 1000
+
+
+@dataclass(frozen=True)
+class Room:
+    """A box-shaped room.
+
+    Attributes
+    ----------
+    size_m : tuple of float
+        Length, width, height.
+    reverberation_s : float
+        Time in which sound falls by 60 dB (RT60).
+    """
+
+    size_m: tuple[float, float, float] = (7.0, 5.0, 2.8)
+    reverberation_s: float = 0.4
+
+
+@dataclass(frozen=True)
+class Response:
+    """What a microphone hears of a click: `samples` at `sample_rate_hz`."""
+
+    samples: NDArray[np.float32]
+    sample_rate_hz: int
+
+    @classmethod
+    def read(cls, path: str) -> Response:
+        """A recorded response; its strongest sample gets gain 1."""
+        audio = read_audio(path)
+        return cls(audio.samples / np.abs(audio.samples).max(), audio.sample_rate_hz)
+
+    def at(self, sample_rate_hz: int) -> NDArray[np.float32]:
+        """Resampled, as loud as it was."""
+        if sample_rate_hz == self.sample_rate_hz:
+            return self.samples
+        resampled = np.asarray(_native.resample(self.samples, self.sample_rate_hz, sample_rate_hz))
+        return resampled * np.float32(self.sample_rate_hz / sample_rate_hz)
+
+
+def simulate_response(room: Room, distance_m: float, sample_rate_hz: int, rng: np.random.Generator) -> Response:
+    """By the image-source method, a speaker and a microphone `distance_m` apart at a place drawn at random.
+
+    Both are 1.2 to 1.7 m above the floor. The direct sound has gain 0.5 m / `distance_m`.
+
+    Raises
+    ------
+    InvalidArgument
+        For a distance for which the room has no place.
+    ImportError
+        Without pyroomacoustics; says how to install it.
+    """
+    acoustics = import_optional("pyroomacoustics", "studies", "to simulate rooms")
+    low = np.array([_WALL_M, _WALL_M, 1.2])
+    high = np.array([room.size_m[0] - _WALL_M, room.size_m[1] - _WALL_M, 1.7])
+    for _ in range(_TRIES):
+        microphone, angle = rng.uniform(low, high), rng.uniform(0, 2 * np.pi)
+        rise = rng.uniform(1.2, 1.7) - microphone[2]
+        flat = np.sqrt(max(distance_m**2 - rise**2, 0.0))
+        speaker = microphone + np.array([flat * np.cos(angle), flat * np.sin(angle), rise])
+        if np.all(speaker >= low - 1e-9) and np.all(speaker <= high + 1e-9) and flat > 0:
+            break
+    else:
+        raise InvalidArgument(f"a room of {room.size_m} m has no place for {distance_m} m")
+    absorption, order = acoustics.inverse_sabine(room.reverberation_s, room.size_m)
+    box = acoustics.ShoeBox(room.size_m, fs=sample_rate_hz, materials=acoustics.Material(absorption), max_order=order)
+    box.add_source(speaker)
+    box.add_microphone(microphone)
+    box.compute_rir()
+    samples = REFERENCE_M * np.asarray(box.rir[0][0])  # which has gain 1 at 1 m
+    return Response(samples.astype(np.float32), sample_rate_hz)
+
+
+@dataclass(frozen=True, eq=False)
+class InRoom:
+    """A condition: the clip as heard through a response, with the room's own noise.
+
+    Attributes
+    ----------
+    responses : sequence of Response
+        One is drawn for each clip.
+    noises : sequence of str
+        As `make_noise` takes them, one is drawn for each clip; none for a silent room.
+    snr_db : float
+        Level of the dry clip over the noise: what is heard at a gain of 1.
+    part : str
+        Which part of recorded noises.
+    """
+
+    responses: Sequence[Response]
+    noises: Sequence[str] = ()
+    snr_db: float = 30.0
+    part: str = "all"
+
+    def __call__(self, samples: Samples, sample_rate_hz: int, rng: np.random.Generator) -> Samples:
+        """The clip in the room, longer by the room's echo."""
+        response = self.responses[int(rng.integers(len(self.responses)))]
+        heard = convolve(samples, response.at(sample_rate_hz))
+        if not self.noises:
+            return heard
+        name = self.noises[int(rng.integers(len(self.noises)))]
+        noise = make_noise(name, len(heard), sample_rate_hz, rng, self.part)
+        return heard + noise_at(noise, active_power(samples, sample_rate_hz), self.snr_db)
+
+
+def convolve(samples: Samples, response: NDArray[np.float32]) -> Samples:
+    """Linear convolution, len(samples) + len(response) - 1 samples."""
+    length = len(samples) + len(response) - 1
+    size = 1 << (length - 1).bit_length()
+    spectrum = np.fft.rfft(samples, size) * np.fft.rfft(response, size)
+    return np.fft.irfft(spectrum, size)[:length].astype(np.float32)
+
+
+@lru_cache(maxsize=64)
+def responses_at(room: Room, distance_m: float, sample_rate_hz: int, count: int, seed: int) -> tuple[Response, ...]:
+    """`count` simulated responses at one distance, at places drawn with `seed`."""
+    rng = np.random.default_rng([seed, round(1000 * distance_m)])
+    return tuple(simulate_response(room, distance_m, sample_rate_hz, rng) for _ in range(count))

@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Words from across a room (thesis table 6.7): simulated rooms, and one response that was recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hri.evaluation.conditions import Condition, Samples
+from hri.evaluation.room import InRoom, Response, Room, responses_at
+from hri.studies.noise import noise_paths
+from hri.studies.registry import Layout, Progress, Study
+from hri.studies.sweeps import SEED, Trainings, sweep, told
+
+DISTANCES_M = (0.5, 1.0, 2.0, 3.0, 4.0)
+TEST_ROOM = Room((7.0, 5.0, 2.8), 0.4)
+TRAINING_ROOM = Room((6.0, 6.5, 3.2), 0.55)
+NUM_PLACES = 8
+"""Responses a distance; each clip draws one."""
+RESPONSE_RATE_HZ = 16000
+SNR_DB = 30.0
+"""Of speech at half a metre over the noise of the room, which stays the same at any distance."""
+AMBIENCE = ("silent", "noisy")
+TRAINING = ("close", "with rooms")
+DATA = ("fsdd", "hindi-digits", "hindi-words")
+CLOSE, RECORDED = "close", "recorded room"
+RECORDED_RESPONSE = "room/rir_clap.wav"
+
+
+class _AnyDistance:
+    """Training in another room at any of the distances."""
+
+    def __init__(self, noises: Sequence[str]) -> None:
+        self._noises = noises
+
+    def __call__(self, samples: Samples, sample_rate_hz: int, rng: np.random.Generator) -> Samples:
+        distance = DISTANCES_M[int(rng.integers(len(DISTANCES_M)))]
+        responses = responses_at(TRAINING_ROOM, distance, RESPONSE_RATE_HZ, NUM_PLACES, SEED + 1)
+        return InRoom(responses, self._noises, SNR_DB, "first")(samples, sample_rate_hz, rng)
+
+
+def _run(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    data: Sequence[str] = DATA,
+    training: Sequence[str] = TRAINING,
+    ambience: Sequence[str] = AMBIENCE,
+) -> dict[str, Any]:
+    noises = {"silent": (), "noisy": (noise_paths(data_dir)["pink"],)}
+    recorded = [Response.read(str(data_dir / RECORDED_RESPONSE))]
+    tests: dict[str, Condition | None] = {CLOSE: None}
+    for choice in ambience:
+        heard = partial(InRoom, noises=noises[choice], snr_db=SNR_DB, part="second")
+        for done, distance in enumerate(DISTANCES_M):
+            places = responses_at(TEST_ROOM, distance, RESPONSE_RATE_HZ, NUM_PLACES, SEED)
+            tests[f"{choice} {distance}"] = heard(places)
+            progress(f"simulating a {choice} room", done + 1, len(DISTANCES_M))
+        tests[f"{choice} {RECORDED}"] = heard(recorded)
+    added: Trainings = {"close": [], "with rooms": [_AnyDistance(noises["noisy"])]}
+    rows = []
+    for name in data:
+        found = sweep(data_dir, name, tests, {choice: added[choice] for choice in training}, progress)
+        for (_, trained), measured in found.items():
+            for choice in ambience:
+                place = {"data": name, "training": trained, "ambience": choice}
+                rows.append({**place, "distance": CLOSE, **measured[CLOSE]})
+                for distance in DISTANCES_M:
+                    rows.append({**place, "distance": f"{distance:g} m", **measured[f"{choice} {distance}"]})
+                rows.append({**place, "distance": RECORDED, **measured[f"{choice} {RECORDED}"]})
+    rooms = {"test_room": vars(TEST_ROOM), "training_room": vars(TRAINING_ROOM), "snr_db": SNR_DB}
+    return told(rows, rooms=rooms)
+
+
+STUDIES = (
+    Study(
+        "speech-distance",
+        "words from 0.5 to 4 m (thesis table 6.7) in simulated rooms, silent and with steady noise, and through a "
+        "recorded response; leave one of 4 speakers out",
+        ("fsdd/recordings", "hindi_words/digits", "hindi_words/words", "noise", "room"),
+        "none: a comparison",
+        _run,
+        Layout(columns="distance", x="distance", panel="data"),
+        {"data": DATA, "training": TRAINING, "ambience": AMBIENCE},
+    ),
+)

@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The recogniser as it is under many conditions: what the studies of noise, tempo and distance share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hri.datasets import Dataset
+from hri.evaluation import EvaluationResult, evaluate_conditions
+from hri.evaluation.conditions import Condition
+from hri.recognition import WordRecognizer
+from hri.recognition.decision import NO_INPUT
+from hri.studies.front_ends import FRONT_ENDS
+from hri.studies.registry import Progress, within
+from hri.studies.tables import Row, statistics
+from hri.studies.word_features import WORD_FOLDERS
+
+SEED = 0
+Trainings = Mapping[str, Sequence[Condition]]
+"""By name, what is added to the clean recordings for training."""
+
+
+def measured(result: EvaluationResult) -> Row:
+    """Accuracy by person, and the share of clips in which nobody was heard."""
+    unheard = [np.mean([t.decision.status == NO_INPUT for t in fold.trials]) for fold in result.folds]
+    per_fold = {fold.name: fold.accuracy for fold in result.folds}
+    return {**statistics(per_fold), "no_input_mean": float(np.mean(unheard)), "no_input_std": float(np.std(unheard))}
+
+
+def sweep(
+    data_dir: Path,
+    name: str,
+    tests: Mapping[str, Condition | None],
+    trainings: Trainings,
+    progress: Progress,
+    front_ends: Iterable[str] = ("plain",),
+) -> dict[tuple[str, str], dict[str, Row]]:
+    """What was measured, by (front end, training) and test, on a data set of `WORD_FOLDERS`."""
+    dataset = Dataset.load(data_dir / WORD_FOLDERS[name], "speech")
+    found = {}
+    for variant in front_ends:
+        choice = FRONT_ENDS[variant]
+        for trained, added in trainings.items():
+            results = evaluate_conditions(
+                dataset,
+                partial(WordRecognizer, **choice.options),
+                tests,
+                train=added,
+                seed=SEED,
+                front_end=choice.prepare,
+                progress=within(progress, f"{name}, {variant}, {trained}"),
+            )
+            found[variant, trained] = {test: measured(result) for test, result in results.items()}
+    return found
+
+
+def told(rows: list[Row], passed: bool | None = None, **more: Any) -> dict[str, Any]:
+    """A result with what every sweep tells."""
+    return {"seed": SEED, "options": WordRecognizer().get_params(), **more, "rows": rows, "passed": passed}

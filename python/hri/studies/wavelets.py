@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Does a wavelet help? Levels of the approximation (thesis section 6.2.2) and wavelets, clean and in noise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+from hri.evaluation import AddNoise
+from hri.evaluation.conditions import Condition
+from hri.studies.classifiers import accuracies, persons_held_out
+from hri.studies.noise import noise_paths
+from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.tables import Row, statistics
+from hri.studies.word_classifiers import CLASSIFIERS
+from hri.studies.word_features import FeatureKind, SpokenWord, all_frames, approximation_kind, read_words
+
+DATA = ("fsdd", "hindi-words")
+WAVELETS = ("haar", "db2", "db6", "sym8")
+LEVELS = (1, 2, 3, 4)
+CHOICES = ("bayes", "hmm")
+SNR_DB = 10.0
+NOISES = ("white", "pink")
+HFCC = {"filter_bank": "hfcc"}
+METHODS: dict[str, Callable[[str, int, dict[str, Any]], FeatureKind]] = {"approximation": approximation_kind}
+"""Both readings of noise reduction; each gives a kind of features from (wavelet, level, options of the cepstra)."""
+
+
+def _measure(
+    kind: FeatureKind, heard: dict[str, list[SpokenWord]], classifier: Sequence[str], progress: Progress
+) -> dict[tuple[str, str], Row]:
+    """By classifier and condition; trained on clean words."""
+    frames = {told: all_frames(clips, kind, told, progress) for told, clips in heard.items()}
+    words = heard["clean"]
+    folds = list(persons_held_out(words))
+    measured: dict[tuple[str, str], Row] = {}
+    for choice in classifier:
+        per_fold: dict[str, dict[str, float]] = {told: {} for told in heard}
+        for done, (person, train, test) in enumerate(folds):
+            found = accuracies(CLASSIFIERS[choice], words, train, test, frames["clean"], frames)
+            for told, share in found.items():
+                per_fold[told][person] = share
+            progress(choice, done + 1, len(folds))
+        measured |= {(choice, told): statistics(shares) for told, shares in per_fold.items()}
+    return measured
+
+
+def _run(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    data: Sequence[str] = DATA,
+    method: Sequence[str] = tuple(METHODS),
+    wavelet: Sequence[str] = WAVELETS,
+    classifier: Sequence[str] = CHOICES,
+) -> dict[str, Any]:
+    paths = noise_paths(data_dir)
+    conditions: dict[str, Condition | None] = {"clean": None}
+    conditions |= {f"{name} {SNR_DB:g} dB": AddNoise([paths[name]], [SNR_DB]) for name in NOISES}
+    rows = []
+    for name in data:
+        heard = {told: read_words(data_dir, name, progress, condition) for told, condition in conditions.items()}
+        plain = _measure(FeatureKind(HFCC), heard, classifier, within(progress, name))
+        for how, family in product(method, wavelet):
+            by_level = {0: plain}
+            for level in LEVELS:
+                kind = METHODS[how](family, level, HFCC)
+                by_level[level] = _measure(kind, heard, classifier, within(progress, f"{name}, {family} {level}"))
+            for choice, told in plain:
+                place = {"data": name, "classifier": choice, "noise": told, "method": how, "wavelet": family}
+                rows += [{**place, "level": level, **found[choice, told]} for level, found in by_level.items()]
+    return {"seed": 0, "snr_db": SNR_DB, "rows": rows, "passed": None}
+
+
+STUDIES = (
+    Study(
+        "wavelet-levels",
+        "HFCC of words from a wavelet's approximation at levels 0 (none) to 4 of 16 kHz (thesis section 6.2.2), by "
+        "wavelet; trained clean, tested clean and in noise at 10 dB; leave one of 4 speakers out",
+        ("fsdd/recordings", "hindi_words/words", "noise"),
+        "none: a comparison",
+        _run,
+        Layout(columns="level", x="level", panel="noise"),
+        {"data": DATA, "method": tuple(METHODS), "wavelet": WAVELETS, "classifier": CHOICES},
+    ),
+)
