@@ -21,8 +21,18 @@ import bench_hmm
 import bench_possibility
 import bench_signal
 import bench_vision
+import bench_wavelets
 
-MODULES = (bench_signal, bench_cepstra, bench_hmm, bench_possibility, bench_codebook, bench_classifiers, bench_vision)
+MODULES = (
+    bench_wavelets,
+    bench_signal,
+    bench_cepstra,
+    bench_hmm,
+    bench_possibility,
+    bench_codebook,
+    bench_classifiers,
+    bench_vision,
+)
 ALL = {bench.name: bench for module in MODULES for bench in module.BENCHES}
 
 

@@ -91,6 +91,7 @@ __all__: list[str] = [
     "idwt2",
     "initial_start",
     "initial_transition",
+    "max_dwt_level",
     "necessity_of",
     "normalise_time",
     "orientation_histogram",
@@ -100,8 +101,10 @@ __all__: list[str] = [
     "read_wav",
     "resample",
     "wavedec",
+    "wavedec2",
     "wavelet_names",
     "waverec",
+    "waverec2",
     "write_wav_pcm16",
 ]
 
@@ -181,53 +184,6 @@ class Wav:
     @property
     def samples(self) -> numpy.typing.NDArray[numpy.float32]: ...
 
-class Border:
-    """
-    What stands beyond the ends of a signal, by PyWavelets' names.
-
-    Members:
-
-      symmetric
-
-      zero
-
-      constant
-
-      periodic
-
-      reflect
-
-      periodization
-    """
-
-    __members__: typing.ClassVar[dict[str, Border]]
-    constant: typing.ClassVar[Border]
-    periodic: typing.ClassVar[Border]
-    periodization: typing.ClassVar[Border]
-    reflect: typing.ClassVar[Border]
-    symmetric: typing.ClassVar[Border]
-    zero: typing.ClassVar[Border]
-    @typing.overload
-    def __eq__(self, other: Border) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: Border) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class ActivityOptions:
     """
     Where somebody speaks in a clip.
@@ -266,6 +222,62 @@ class ActivityOptions:
     def silence_dbfs(self) -> float: ...
     @silence_dbfs.setter
     def silence_dbfs(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Border:
+    """
+    What stands beyond the ends of a signal, by PyWavelets' names.
+
+    Members:
+
+      symmetric
+
+      zero
+
+      constant
+
+      periodic
+
+      reflect
+
+      periodization
+
+      smooth
+
+      antisymmetric
+
+      antireflect
+    """
+
+    __members__: typing.ClassVar[dict[str, Border]]
+    antireflect: typing.ClassVar[Border]
+    antisymmetric: typing.ClassVar[Border]
+    constant: typing.ClassVar[Border]
+    periodic: typing.ClassVar[Border]
+    periodization: typing.ClassVar[Border]
+    reflect: typing.ClassVar[Border]
+    smooth: typing.ClassVar[Border]
+    symmetric: typing.ClassVar[Border]
+    zero: typing.ClassVar[Border]
+    @typing.overload
+    def __eq__(self, other: Border) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Border) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
 
 class FilterBankKind:
     """
@@ -2512,6 +2524,11 @@ def initial_transition(
     Row-stochastic start values without jumps, shape (num_states, num_states).
     """
 
+def max_dwt_level(num_samples: typing.SupportsInt | typing.SupportsIndex, wavelet: str) -> int:
+    """
+    Levels until the border reaches every coefficient.
+    """
+
 def necessity_of(
     distribution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     event: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
@@ -2586,7 +2603,33 @@ def wavedec(
     Several levels, [approximation, coarsest detail, ..., finest detail].
     """
 
-def wavelet_names() -> list[str]: ...
+@typing.overload
+def wavedec2(
+    image: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> list:
+    """
+    Several levels of an image, [approximation, coarsest details, ..., finest details].
+    """
+
+@typing.overload
+def wavedec2(
+    image: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> list:
+    """
+    Several levels of an image, [approximation, coarsest details, ..., finest details].
+    """
+
+def wavelet_names() -> list[str]:
+    """
+    Names of all wavelets, as PyWavelets has them.
+    """
+
 @typing.overload
 def waverec(
     coefficients: list[numpy.typing.NDArray[numpy.float32]],
@@ -2607,6 +2650,30 @@ def waverec(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The inverse of wavedec.
+    """
+
+@typing.overload
+def waverec2(
+    approx: numpy.typing.NDArray[numpy.float32],
+    details: list[typing.Annotated[list[numpy.typing.NDArray[numpy.float32]], "FixedSize(3)"]],
+    wavelet: str,
+    border: Border,
+    shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The inverse of wavedec2.
+    """
+
+@typing.overload
+def waverec2(
+    approx: numpy.typing.NDArray[numpy.float64],
+    details: list[typing.Annotated[list[numpy.typing.NDArray[numpy.float64]], "FixedSize(3)"]],
+    wavelet: str,
+    border: Border,
+    shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The inverse of wavedec2.
     """
 
 def write_wav_pcm16(

@@ -26,6 +26,7 @@ CPP = {
 PYTHON = {
     "errors": set(),
     "media": {"errors"},
+    "wavelets": {"errors"},
     "datasets": {"errors", "media"},
     "recognition": {"errors"},
     "training": {"errors", "media", "datasets", "recognition"},

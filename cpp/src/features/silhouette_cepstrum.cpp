@@ -7,7 +7,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/features/hand_crop.hpp"
-#include "hri/signal/dwt.hpp"
+#include "hri/signal/dwt2.hpp"
 
 namespace hri {
 namespace {

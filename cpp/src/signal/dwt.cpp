@@ -4,216 +4,180 @@
 
 #include <algorithm>
 
+#include "border_extension.hpp"
+#include "dwt_lines.hpp"
 #include "hri/core/error.hpp"
-#include "hri/core/simd.hpp"
 
 namespace hri {
+namespace detail {
 namespace {
 
-// Index of the sample that stands at position i of the extended signal, or -1 for a zero.
-std::ptrdiff_t extended_index(std::ptrdiff_t i, std::ptrdiff_t n, Border border) {
-  if (i >= 0 && i < n) return i;
-  switch (border) {
-    case Border::zero:
-      return -1;
-    case Border::constant:
-      return i < 0 ? 0 : n - 1;
-    case Border::symmetric: {
-      const std::ptrdiff_t m = ((i % (2 * n)) + 2 * n) % (2 * n);
-      return m < n ? m : 2 * n - 1 - m;
-    }
-    case Border::reflect: {
-      if (n == 1) return 0;
-      const std::ptrdiff_t period = 2 * n - 2;
-      const std::ptrdiff_t m = ((i % period) + period) % period;
-      return m < n ? m : period - m;
-    }
-    case Border::periodic:
-      return ((i % n) + n) % n;
-    case Border::periodization: {
-      // A signal of odd length repeats its last sample once to become even.
-      const std::ptrdiff_t period = n + n % 2;
-      return std::min(((i % period) + period) % period, n - 1);
-    }
-  }
-  return -1;
-}
+constexpr std::ptrdiff_t kBlock = 1024;  // outputs at a time: what lies between stays in the cache
+constexpr std::ptrdiff_t kMaxHalf = kMaxTaps / 2;
+constexpr std::ptrdiff_t kWide = 16;  // as many outputs as the widest register takes
 
-// out[k] = sum_j taps[j] x[2 k + offset - j] for both filters at once.
+// Samples dealt into even and odd ones, each of them shifted against itself.
 template <class T>
-inline void convolve_pairs(const T* x, const T* low, const T* high, std::size_t num_taps,
-                           std::size_t count, T* approx, T* detail) {
-  // Eight outputs side by side: the inner loops run over outputs, which vectorises for every filter
-  // length.
-  constexpr std::size_t kBlock = 8;
-  std::size_t k = 0;
-  for (; k + kBlock <= count; k += kBlock) {
-    T a[kBlock] = {};
-    T d[kBlock] = {};
-    for (std::size_t j = 0; j < num_taps; ++j) {
-      const T* from = x + 2 * k + (num_taps - 1 - j);
-      for (std::size_t b = 0; b < kBlock; ++b) {
-        a[b] += low[j] * from[2 * b];
-        d[b] += high[j] * from[2 * b];
-      }
+class Dealt {
+ public:
+  explicit Dealt(const FilterPair<T>& filters) : filters_(filters) {
+    for (std::ptrdiff_t i = 0; i < filters.num_taps / 2; ++i) {
+      rows_[2 * i] = even_ + i;
+      rows_[2 * i + 1] = odd_ + i;
     }
-    std::copy(a, a + kBlock, approx + k);
-    std::copy(d, d + kBlock, detail + k);
   }
-  for (; k < count; ++k) {
-    T a = 0;
-    T d = 0;
-    for (std::size_t j = 0; j < num_taps; ++j) {
-      const T v = x[2 * k + (num_taps - 1 - j)];
-      a += low[j] * v;
-      d += high[j] * v;
-    }
-    approx[k] = a;
-    detail[k] = d;
+  // `count` <= kBlock outputs from the samples that they read.
+  void analyse(const T* samples, std::ptrdiff_t count, T* approx, T* detail) {
+    loops_.split(samples, count + filters_.num_taps / 2 - 1, even_, odd_);
+    loops_.weigh(rows_, filters_.low.data(), filters_.high.data(),
+                 static_cast<int>(filters_.num_taps), count, approx, detail);
   }
-}
 
-HRI_SIMD_CLONES
-void convolve_float(const float* x, const float* low, const float* high, std::size_t num_taps,
-                    std::size_t count, float* approx, float* detail) {
-  convolve_pairs(x, low, high, num_taps, count, approx, detail);
-}
-
-HRI_SIMD_CLONES
-void convolve_double(const double* x, const double* low, const double* high, std::size_t num_taps,
-                     std::size_t count, double* approx, double* detail) {
-  convolve_pairs(x, low, high, num_taps, count, approx, detail);
-}
-
-void convolve(const float* x, const float* low, const float* high, std::size_t num_taps,
-              std::size_t count, float* approx, float* detail) {
-  convolve_float(x, low, high, num_taps, count, approx, detail);
-}
-void convolve(const double* x, const double* low, const double* high, std::size_t num_taps,
-              std::size_t count, double* approx, double* detail) {
-  convolve_double(x, low, high, num_taps, count, approx, detail);
-}
-
-template <class T>
-std::vector<T> converted(const std::vector<double>& taps) {
-  return {taps.begin(), taps.end()};
-}
+ private:
+  const PairLoops<T>& loops_ = pair_loops<T>();
+  const FilterPair<T>& filters_;
+  alignas(64) T even_[kBlock + kMaxHalf];  // a cache line's bounds
+  alignas(64) T odd_[kBlock + kMaxHalf];
+  const T* rows_[kMaxTaps];
+};
 
 }  // namespace
+
+template <class T>
+void analyse_extended(const T* samples, const FilterPair<T>& filters, std::ptrdiff_t count,
+                      T* approx, T* detail) {
+  Dealt<T> dealt(filters);
+  for (std::ptrdiff_t k = 0; k < count; k += kBlock)
+    dealt.analyse(samples + 2 * k, std::min(kBlock, count - k), approx + k, detail + k);
+}
+
+template <class T>
+void analyse_line(const T* x, std::ptrdiff_t n, const FilterPair<T>& filters, Border border,
+                  std::ptrdiff_t count, T* approx, T* detail) {
+  Dealt<T> dealt(filters);
+  const std::ptrdiff_t first = first_read(filters.num_taps, border);
+  const auto some = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    T extended[2 * (kMaxHalf + kWide) + kMaxTaps];
+    for (std::ptrdiff_t k = begin; k < end;) {
+      std::ptrdiff_t now = std::min(kBlock, end - k);
+      const T* samples = x + 2 * k + first;
+      if (2 * k + first < 0 || 2 * (k + now - 1) + first + filters.num_taps > n) {
+        now = std::min(now, kMaxHalf + kWide);
+        extend(x, n, border, 2 * k + first, 2 * now + filters.num_taps - 2, extended);
+        samples = extended;
+      }
+      dealt.analyse(samples, now, approx + k, detail + k);
+      k += now;
+    }
+  };
+  // Whole registers at the edges, and between them outputs that read samples only.
+  const std::ptrdiff_t left = std::min(count, (-first / 2 + kWide) / kWide * kWide);
+  const std::ptrdiff_t inside = (n - first - filters.num_taps) / 2 + 1 - left;
+  const std::ptrdiff_t right = left + std::max<std::ptrdiff_t>(inside, 0) / kWide * kWide;
+  some(0, left);
+  some(left, right);
+  some(right, count);
+}
+
+template <class T>
+void synthesise_line(const T* approx, const T* detail, std::ptrdiff_t count,
+                     const FilterPair<T>& filters, Border border, std::ptrdiff_t size, T* x) {
+  const PairLoops<T>& loops = pair_loops<T>();
+  const std::ptrdiff_t half = filters.num_taps / 2;
+  const PairPlaces places = pair_places(filters.num_taps, border);
+  const std::ptrdiff_t num_pairs = (size + places.late + 1) / 2;
+  T even[kBlock];
+  T odd[kBlock];
+  const T* rows[kMaxTaps];
+  for (std::ptrdiff_t p = 0; p < num_pairs;) {
+    const std::ptrdiff_t begin = p + places.offset;  // the first coefficient read
+    std::ptrdiff_t now = std::min({kBlock, num_pairs - p, count - half + 1 - begin});
+    T around[2][2 * kMaxHalf];
+    const T* bands[2] = {approx + begin, detail + begin};
+    if (begin < 0 || now <= 0) {
+      // Coefficients on both sides of an end, which only periodization asks for.
+      now = std::min(kMaxHalf, num_pairs - p);
+      if (begin < 0) now = std::min(now, -begin);
+      extend(approx, count, Border::periodic, begin, now + half - 1, around[0]);
+      extend(detail, count, Border::periodic, begin, now + half - 1, around[1]);
+      bands[0] = around[0];
+      bands[1] = around[1];
+    }
+    for (std::ptrdiff_t u = 0; u < half; ++u) {
+      rows[2 * u] = bands[0] + u;
+      rows[2 * u + 1] = bands[1] + u;
+    }
+    loops.weigh(rows, filters.low.data(), filters.high.data(), static_cast<int>(filters.num_taps),
+                now, even, odd);
+    std::ptrdiff_t i = 0;
+    std::ptrdiff_t whole = now;  // pairs of which both samples are wanted
+    if (2 * p - places.late < 0) {
+      x[0] = odd[0];
+      i = 1;
+    }
+    if (2 * (p + now) - places.late > size) {
+      --whole;
+      if (whole >= i) x[size - 1] = even[whole];
+    }
+    if (whole > i) loops.join(even + i, odd + i, whole - i, x + 2 * (p + i) - places.late);
+    p += now;
+  }
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): T is a type
+#define HRI_INSTANTIATE_LINES(T)                                                             \
+  template void analyse_line<T>(const T*, std::ptrdiff_t, const FilterPair<T>&, Border,      \
+                                std::ptrdiff_t, T*, T*);                                     \
+  template void analyse_extended<T>(const T*, const FilterPair<T>&, std::ptrdiff_t, T*, T*); \
+  template void synthesise_line<T>(const T*, const T*, std::ptrdiff_t, const FilterPair<T>&, \
+                                   Border, std::ptrdiff_t, T*);
+// NOLINTEND(bugprone-macro-parentheses)
+HRI_INSTANTIATE_LINES(float)
+HRI_INSTANTIATE_LINES(double)
+#undef HRI_INSTANTIATE_LINES
+
+}  // namespace detail
 
 std::size_t dwt_length(std::size_t num_samples, std::size_t num_taps, Border border) {
   if (border == Border::periodization) return (num_samples + 1) / 2;
   return (num_samples + num_taps - 1) / 2;
 }
 
+std::size_t idwt_length(std::size_t num_coefficients, std::size_t num_taps, Border border) {
+  const std::size_t twice = 2 * num_coefficients;
+  if (border == Border::periodization) return twice;
+  return twice + 2 > num_taps ? twice + 2 - num_taps : 0;
+}
+
 template <class T>
 void dwt(Span<const T> x, const Wavelet& wavelet, Border border, Span<T> approx, Span<T> detail) {
-  const std::size_t taps = wavelet.dec_lo.size();
-  const std::size_t count = dwt_length(x.size(), taps, border);
+  const auto filters = detail::analysis_filters<T>(wavelet);
+  const std::size_t count = dwt_length(x.size(), wavelet.dec_lo.size(), border);
   require(!x.empty(), "signal must not be empty");
   require(approx.size() == count && detail.size() == count,
           "approx and detail must have dwt_length() values");
-  // Output k reads positions 2 k + shift - (taps - 1) .. 2 k + shift of the signal.
-  const std::ptrdiff_t shift =
-      border == Border::periodization ? static_cast<std::ptrdiff_t>(taps / 2) : 1;
-  const std::ptrdiff_t first = shift - static_cast<std::ptrdiff_t>(taps) + 1;
-  const auto n = static_cast<std::ptrdiff_t>(x.size());
-  thread_local std::vector<T> extended;
-  extended.resize(2 * count + taps);
-  for (std::size_t i = 0; i < extended.size(); ++i) {
-    const std::ptrdiff_t at = first + static_cast<std::ptrdiff_t>(i);
-    if (at >= 0 && at < n) {
-      const auto run = static_cast<std::size_t>(
-          std::min<std::ptrdiff_t>(n - at, static_cast<std::ptrdiff_t>(extended.size() - i)));
-      std::copy(x.data() + at, x.data() + at + run, extended.data() + i);
-      i += run - 1;
-      continue;
-    }
-    const std::ptrdiff_t from = extended_index(at, n, border);
-    extended[i] = from < 0 ? T(0) : x[static_cast<std::size_t>(from)];
-  }
-  const std::vector<T> low = converted<T>(wavelet.dec_lo);
-  const std::vector<T> high = converted<T>(wavelet.dec_hi);
-  convolve(extended.data(), low.data(), high.data(), taps, count, approx.data(), detail.data());
+  detail::analyse_line(x.data(), static_cast<std::ptrdiff_t>(x.size()), filters, border,
+                       static_cast<std::ptrdiff_t>(count), approx.data(), detail.data());
 }
 
 template <class T>
 void idwt(Span<const T> approx, Span<const T> detail, const Wavelet& wavelet, Border border,
           Span<T> x) {
-  const auto taps = static_cast<std::ptrdiff_t>(wavelet.rec_lo.size());
-  const auto count = static_cast<std::ptrdiff_t>(approx.size());
-  require(count > 0 && detail.size() == approx.size(),
+  const auto filters = detail::synthesis_filters<T>(wavelet);
+  require(!approx.empty() && detail.size() == approx.size(),
           "approx and detail must have the same size, at least 1");
-  const bool wrap = border == Border::periodization;
-  const std::ptrdiff_t full = wrap ? 2 * count : 2 * count - taps + 2;
-  const auto size = static_cast<std::ptrdiff_t>(x.size());
-  require(full > 0 && (size == full || size == full - 1),
+  const std::size_t full = idwt_length(approx.size(), wavelet.rec_lo.size(), border);
+  require(full > 0 && (x.size() == full || x.size() + 1 == full),
           "x does not fit the number of coefficients");
-  const std::ptrdiff_t shift = wrap ? taps / 2 - 1 : taps - 2;
-  std::fill(x.begin(), x.end(), T(0));
-  // x[i] collects rec[j] c[k] where 2 k + j - shift = i, around the end for periodization.
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    for (std::ptrdiff_t j = 0; j < taps; ++j) {
-      std::ptrdiff_t i = 2 * k + j - shift;
-      if (wrap) i = ((i % full) + full) % full;
-      if (i < 0 || i >= size) continue;
-      x[static_cast<std::size_t>(i)] +=
-          static_cast<T>(wavelet.rec_lo[static_cast<std::size_t>(j)]) *
-              approx[static_cast<std::size_t>(k)] +
-          static_cast<T>(wavelet.rec_hi[static_cast<std::size_t>(j)]) *
-              detail[static_cast<std::size_t>(k)];
-    }
-  }
+  detail::synthesise_line(approx.data(), detail.data(), static_cast<std::ptrdiff_t>(approx.size()),
+                          filters, border, static_cast<std::ptrdiff_t>(x.size()), x.data());
 }
 
-template <class T>
-WaveletDecomposition<T> wavedec(Span<const T> x, const Wavelet& wavelet, Border border,
-                                int num_levels) {
-  require(num_levels >= 1 && num_levels <= 62, "num_levels must lie in 1..62");
-  WaveletDecomposition<T> result;
-  result.num_samples = x.size();
-  std::vector<T> approx(x.begin(), x.end());
-  for (int level = 0; level < num_levels; ++level) {
-    const std::size_t count = dwt_length(approx.size(), wavelet.dec_lo.size(), border);
-    std::vector<T> next(count);
-    std::vector<T> detail(count);
-    dwt<T>(Span<const T>(approx), wavelet, border, Span<T>(next), Span<T>(detail));
-    result.coefficients.insert(result.coefficients.begin(), std::move(detail));
-    approx = std::move(next);
-  }
-  result.coefficients.insert(result.coefficients.begin(), std::move(approx));
-  return result;
-}
-
-template <class T>
-std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavelet& wavelet,
-                       Border border) {
-  const auto& c = decomposition.coefficients;
-  require(c.size() >= 2, "a decomposition needs an approximation and at least one detail");
-  std::vector<T> approx = c.front();
-  const std::size_t taps = wavelet.rec_lo.size();
-  for (std::size_t level = 1; level < c.size(); ++level) {
-    const std::vector<T>& detail = c[level];
-    require(approx.size() == detail.size() || approx.size() == detail.size() + 1,
-            "coefficients of one level do not fit the next");
-    approx.resize(detail.size());  // one coefficient too many where the signal above had odd length
-    const std::size_t twice = 2 * detail.size();
-    require(border == Border::periodization ? twice > 0 : twice + 2 > taps,
-            "too few coefficients for the wavelet");
-    const std::size_t full = border == Border::periodization ? twice : twice + 2 - taps;
-    std::vector<T> above(full);
-    idwt<T>(Span<const T>(approx), Span<const T>(detail), wavelet, border, Span<T>(above));
-    approx = std::move(above);
-  }
-  approx.resize(std::min(approx.size(), decomposition.num_samples));
-  return approx;
-}
-
-#define HRI_INSTANTIATE_DWT(T)                                                             \
-  template void dwt<T>(Span<const T>, const Wavelet&, Border, Span<T>, Span<T>);           \
-  template void idwt<T>(Span<const T>, Span<const T>, const Wavelet&, Border, Span<T>);    \
-  template WaveletDecomposition<T> wavedec<T>(Span<const T>, const Wavelet&, Border, int); \
-  template std::vector<T> waverec<T>(const WaveletDecomposition<T>&, const Wavelet&, Border);
+// NOLINTBEGIN(bugprone-macro-parentheses): T is a type
+#define HRI_INSTANTIATE_DWT(T)                                                   \
+  template void dwt<T>(Span<const T>, const Wavelet&, Border, Span<T>, Span<T>); \
+  template void idwt<T>(Span<const T>, Span<const T>, const Wavelet&, Border, Span<T>);
+// NOLINTEND(bugprone-macro-parentheses)
 HRI_INSTANTIATE_DWT(float)
 HRI_INSTANTIATE_DWT(double)
 #undef HRI_INSTANTIATE_DWT

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "hri/signal/dwt2.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,13 +9,13 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
-#include "hri/signal/dwt.hpp"
 
 namespace hri {
 namespace {
 
-constexpr Border kBorders[] = {Border::symmetric, Border::zero,    Border::constant,
-                               Border::periodic,  Border::reflect, Border::periodization};
+constexpr Border kBorders[] = {Border::symmetric, Border::zero,          Border::constant,
+                               Border::periodic,  Border::reflect,       Border::periodization,
+                               Border::smooth,    Border::antisymmetric, Border::antireflect};
 
 MatrixD noise(Eigen::Index rows, Eigen::Index cols) {
   Random random(static_cast<std::uint64_t>(100 * rows + cols));
@@ -34,9 +36,11 @@ TEST(Dwt2, IsUndoneForEveryWaveletBorderAndParity) {
   for (const std::string& name : wavelet_names()) {
     const Wavelet& w = wavelet(name);
     // dmey is orthonormal to 1e-3 only.
-    const double tolerance_d = name == "dmey" ? 5e-2 : 1e-9;
-    const double tolerance_f = name == "dmey" ? 5e-2 : 2e-5;
     for (const Border border : kBorders) {
+      // Straight lines climb far above the picture under long filters.
+      const double climb = border == Border::smooth ? 4 : 1;
+      const double tolerance_d = climb * (name == "dmey" ? 5e-2 : 1e-9);
+      const double tolerance_f = climb * (name == "dmey" ? 5e-2 : 2e-5);
       for (const auto& [rows, cols] : {std::pair{1, 1}, {6, 6}, {7, 12}, {12, 7}, {9, 9}}) {
         const MatrixD image = noise(rows, cols);
         EXPECT_LT(round_trip_error<double>(image, w, border), tolerance_d)
@@ -51,6 +55,7 @@ TEST(Dwt2, IsUndoneForEveryWaveletBorderAndParity) {
 TEST(Dwt2, KeepsEnergyWhereTheImageWrapsAround) {
   const MatrixD image = noise(16, 24);
   for (const std::string& name : wavelet_names()) {
+    if (name.find("bio") != std::string::npos) continue;  // not orthogonal
     const Dwt2<double> d = dwt2<double>(image, wavelet(name), Border::periodization);
     ASSERT_EQ(d.approx.rows(), 8);
     ASSERT_EQ(d.approx.cols(), 12);

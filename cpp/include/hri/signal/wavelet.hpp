@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Orthogonal wavelet filters by PyWavelets' names: haar, db1..db20, sym2..sym20, coif1..coif5,
-// dmey. The thesis's "Daubechies-6" is ambiguous: db6 has 12 taps, D6 = db3 has 6.
+// Wavelet filters by PyWavelets' names: haar, db1..db38, sym2..sym20, coif1..coif17, dmey, and the
+// biorthogonal bior1.1..bior6.8 and rbio1.1..rbio6.8. The thesis's "Daubechies-6" is ambiguous: db6
+// has 12 taps, D6 = db3 has 6.
 #pragma once
 
 #include <string>
@@ -11,8 +12,9 @@
 
 namespace hri {
 
-/// Analysis (dec) and synthesis (rec) filters of one length. dec_hi is the quadrature mirror of
-/// dec_lo, dec_hi[k] = (-1)^(k+1) rec_lo[k] with rec_lo the reverse of dec_lo; for db2 that is the
+/// Analysis (dec) and synthesis (rec) filters of one length. High-pass filters are quadrature
+/// mirrors of the other side's low-pass: dec_hi[k] = (-1)^(k+1) rec_lo[k], rec_hi[k] = (-1)^k
+/// dec_lo[k]. For an orthogonal wavelet rec_lo is the reverse of dec_lo; dec_hi of db2 is the
 /// (c3, -c2, c1, -c0) which the thesis prints without its c1.
 struct Wavelet {
   std::string name;

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One level of one line, without the checks: what the transforms of signals, pictures and packets
+// share.
+#pragma once
+
+#include <cstddef>
+
+#include "filter_pair.hpp"
+#include "hri/signal/dwt.hpp"
+
+namespace hri::detail {
+
+/// n >= 1 samples to count = dwt_length(n) coefficients of each band.
+template <class T>
+void analyse_line(const T* x, std::ptrdiff_t n, const FilterPair<T>& filters, Border border,
+                  std::ptrdiff_t count, T* approx, T* detail);
+
+/// count >= 1 coefficients to the first `size` <= idwt_length(count) samples.
+template <class T>
+void synthesise_line(const T* approx, const T* detail, std::ptrdiff_t count,
+                     const FilterPair<T>& filters, Border border, std::ptrdiff_t size, T* x);
+
+/// The same from the samples that the outputs read, borders included: 2 count + taps - 2 of them.
+template <class T>
+void analyse_extended(const T* samples, const FilterPair<T>& filters, std::ptrdiff_t count,
+                      T* approx, T* detail);
+
+}  // namespace hri::detail
