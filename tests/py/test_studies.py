@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
 from pathlib import Path
 
 import cv2
@@ -170,3 +171,13 @@ def test_words_from_across_a_room_are_measured(data_dir: Path, monkeypatch: pyte
     assert len(set(places)) == len(places) == 2 * 2 * 4
     assert [place[2] for place in places[:4]] == ["close", "0.5 m", "3 m", "recorded room"]
     assert result["rows"][0]["accuracy_mean"] >= 0.9
+
+
+@pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="no espeak-ng")
+def test_synthetic_voices_are_added_to_people(data_dir: Path) -> None:
+    result = run("synthetic-speakers", data_dir, data=["fsdd"], real=["0", "2"], synthetic=["0", "8"])
+    found = {(row["real"], row["synthetic"]): row for row in result["rows"]}
+    assert set(found) == {(0, 8), (2, 0), (2, 8)}, "no training on nobody"
+    assert found[2, 0]["accuracy_mean"] >= 0.9 and set(found[2, 0]["per_fold"]) == {"low", "middle", "high"}
+    with pytest.raises(InvalidArgument, match="axis real has no '9'"):
+        run("synthetic-speakers", data_dir, real=["9"])

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +52,41 @@ def test_speech_depends_on_its_arguments_alone() -> None:
         speak("three", "en", make_speaker(2), 1, 6),
     ):
         assert not np.array_equal(first.samples, other.samples)
+
+
+@needs_espeak
+def test_a_shorter_vocal_tract_moves_resonances_up_and_not_the_pace() -> None:
+    centres, lengths = [], []
+    for tract in (0.85, 1.0, 1.2):
+        audio = speak("three", "en", replace(make_speaker(0), tract=tract))
+        power = np.abs(np.fft.rfft(audio.samples)) ** 2
+        hz = np.fft.rfftfreq(len(audio.samples), 1 / audio.sample_rate_hz)
+        voiced = (hz > 1200) & (hz < 4000)
+        centres.append(float((hz * power)[voiced].sum() / power[voiced].sum()))
+        lengths.append(audio.duration_s)
+    assert centres[0] < centres[1] < centres[2]
+    assert max(lengths) < 1.15 * min(lengths)
+
+
+@needs_espeak
+def test_voices_of_many_speakers_differ() -> None:
+    speakers = [make_speaker(index) for index in range(48)]
+    assert len({speaker.variant for speaker in speakers}) == 48
+    spoken = [speak("one", "en", speaker).samples for speaker in speakers[::6]]
+    assert len({len(samples) for samples in spoken}) == len(spoken)
+    assert {speaker.tract for speaker in speakers[:12]} == {1.0}
+    assert all(0.88 <= speaker.tract <= 1.14 for speaker in speakers)
+
+
+@needs_espeak
+def test_the_command_makes_a_corpus_of_any_words(hri, tmp_path: Path) -> None:
+    out = tmp_path / "words"
+    result = hri("corpus", "speech", "go=चलो", "stop=रुको", "--language", "hi", "--out", out, "--speakers", 2)
+    assert result.code == 0 and "8 synthetic recordings of 2 words by 2 voices" in result.out
+    dataset = Dataset.load(out)
+    assert dataset.synthetic and dataset.labels == ["go", "stop"] and len(dataset) == 8
+    assert hri("corpus", "speech", "--language", "de", "--out", out).code == 2
+    assert hri("corpus", "speech", "go", "go=walk", "--out", out).code == 2
 
 
 @needs_espeak

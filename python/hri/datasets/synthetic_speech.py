@@ -45,6 +45,26 @@ DIGIT_WORDS: dict[str, dict[str, str]] = {
 
 _ACCENTS = {"en": ("en-gb", "en-us", "en-gb-scotland", "en-gb-x-rp", "en-029")}
 _VOICE_VARIANTS = ("m1", "f2", "m3", "f1", "m7", "f4", "m4", "f3", "m2", "f5", "m6", "m5")
+_MORE_VARIANTS = (
+    *("adam", "Andrea", "Alex", "aunty", "Andy", "belinda", "benjamin", "Annie", "boris", "linda", "caleb", "grandma"),
+    *("david", "steph", "Denis", "shelby", "ed", "anika", "gustave", "Alicia", "Hugo", "steph2", "john", "steph3"),
+    *(
+        "Marco",
+        "Michael",
+        "miguel",
+        "norbert",
+        "paul",
+        "pedro",
+        "quincy",
+        "robert",
+        "sandro",
+        "travis",
+        "victor",
+        "zac",
+    ),
+)
+_HIGH_VOICES = {"Andrea", "aunty", "belinda", "Annie", "linda", "grandma", "steph", "shelby", "anika", "Alicia"}
+_HIGH_VOICES |= {"steph2", "steph3", "f1", "f2", "f3", "f4", "f5"}
 _MARGIN_S = 0.1
 _TIMEOUT_S = 60
 
@@ -67,6 +87,8 @@ class Speaker:
         Words a minute.
     noise_db : float
         Floor of the recording, relative to the loudest sample.
+    tract : float
+        Factor on the frequencies of the throat's resonances, 0.5..2: above 1 is a shorter vocal tract.
     """
 
     name: str
@@ -75,21 +97,23 @@ class Speaker:
     pitch: int
     rate: int
     noise_db: float
+    tract: float = 1.0
 
 
 def make_speaker(index: int, seed: int = 0) -> Speaker:
-    """The speaker with this number; the first twelve differ in throat, all in pitch and pace."""
+    """The speaker with this number.
+
+    The first 48 differ in throat, all in pitch and pace; from the thirteenth on also in the length of the vocal tract,
+    as people do.
+    """
     rng = np.random.default_rng((seed, 0x57EA, index))
-    variant = _VOICE_VARIANTS[index % len(_VOICE_VARIANTS)]
-    low, high = (25, 55) if variant.startswith("m") else (45, 75)
-    return Speaker(
-        name=f"voice{index + 1:02d}",
-        variant=variant,
-        accent=index,
-        pitch=int(rng.integers(low, high)),
-        rate=int(rng.integers(125, 185)),
-        noise_db=float(rng.uniform(-58.0, -42.0)),
-    )
+    variants = _VOICE_VARIANTS + _MORE_VARIANTS
+    variant = variants[index % len(variants)]
+    low, high = (45, 75) if variant in _HIGH_VOICES else (25, 55)
+    pitch, rate = int(rng.integers(low, high)), int(rng.integers(125, 185))
+    noise_db = float(rng.uniform(-58.0, -42.0))
+    tract = float(rng.uniform(0.88, 1.14)) if index >= len(_VOICE_VARIANTS) else 1.0
+    return Speaker(f"voice{index + 1:02d}", variant, index, pitch, rate, noise_db, tract)
 
 
 def speak(text: str, language: str = "en", speaker: Speaker | None = None, take: int = 0, seed: int = 0) -> Audio:
@@ -125,8 +149,12 @@ def speak(text: str, language: str = "en", speaker: Speaker | None = None, take:
     voice = f"{accents[speaker.accent % len(accents)]}+{speaker.variant}"
     pitch = int(np.clip(speaker.pitch + rng.integers(-5, 6), 0, 99))
     rate = int(np.clip(speaker.rate + rng.integers(-12, 13), 80, 400))
-    audio = _synthesise(text, voice, pitch, rate)
+    # Resonances move by playing the word at another rate; pitch moves with them, the pace is made up for.
+    audio = _synthesise(text, voice, pitch, round(rate / speaker.tract))
     word = _trimmed(audio.samples)
+    if speaker.tract != 1.0:
+        played_hz = round(audio.sample_rate_hz * speaker.tract)
+        word = np.asarray(_native.resample(word, played_hz, audio.sample_rate_hz))
     if word.size == 0:
         raise InvalidArgument(f"text {text!r} gives no sound in language {language!r}")
     margin = np.zeros(round(_MARGIN_S * audio.sample_rate_hz), dtype=np.float32)

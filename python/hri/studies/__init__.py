@@ -11,6 +11,7 @@ from hri.studies import (
     parity,
     signs,
     speech,
+    synthetic_speakers,
     tempo,
     training_size,
     wavelets,
@@ -18,7 +19,19 @@ from hri.studies import (
 from hri.studies.pictures import draw
 from hri.studies.registry import Layout, Study, find_data, run_study
 
-_MODULES = (speech, noise, distance, tempo, classifiers, training_size, wavelets, signs, fusion, parity)
+_MODULES = (
+    speech,
+    noise,
+    distance,
+    tempo,
+    synthetic_speakers,
+    classifiers,
+    training_size,
+    wavelets,
+    signs,
+    fusion,
+    parity,
+)
 
 STUDIES: dict[str, Study] = {study.name: study for module in _MODULES for study in module.STUDIES}
 
