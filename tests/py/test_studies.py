@@ -19,7 +19,7 @@ from hri.errors import InvalidArgument
 from hri.studies import distance, noise, tables, tempo, training_size
 from hri.studies.registry import Layout
 from hri.studies.word_classifiers import CLASSIFIERS
-from hri.studies.word_features import FEATURES, approximation, read_words
+from hri.studies.word_features import FEATURES, approximation, load_words, read_words
 
 
 @pytest.fixture(scope="module")
@@ -171,6 +171,17 @@ def test_words_from_across_a_room_are_measured(data_dir: Path, monkeypatch: pyte
     assert len(set(places)) == len(places) == 2 * 2 * 4
     assert [place[2] for place in places[:4]] == ["close", "0.5 m", "3 m", "recorded room"]
     assert result["rows"][0]["accuracy_mean"] >= 0.9
+
+
+def test_fewer_takes_are_done_sooner_and_said(hri, data_dir: Path, tmp_path: Path) -> None:
+    words = load_words(data_dir, "fsdd", 2)
+    assert len(words) == 12 and {sample.take for sample in words.samples} == {"0", "1"}
+    only = ("--only", "data=fsdd", "--only", "classifier=knn", "--only", "features=mfcc")
+    result = hri("study", "speech-classifiers", "--data", data_dir, "--takes", 2, "--out", tmp_path, *only)
+    assert result.code == 0
+    assert json.loads((tmp_path / "speech-classifiers.json").read_text())["takes"] == 2
+    assert "the first 2 recordings" in (tmp_path / "speech-classifiers.md").read_text()
+    assert hri("study", "fsdd", "--data", data_dir, "--takes", 2).code == 3
 
 
 @pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="no espeak-ng")

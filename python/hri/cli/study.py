@@ -35,15 +35,23 @@ from hri.studies.tables import csv_text, markdown, table
     help="Run a part of the study, such as noise=white,pink; 'hri study list' names the axes. May be given several "
     "times.",
 )
+@click.option(
+    "--takes",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Only the first N recordings of every word by every person, where the study allows it.",
+)
 @json_option
-def study(name: str, data: str | None, out: str | None, only: tuple[str, ...], json_path: str | None) -> int:
+def study(
+    name: str, data: str | None, out: str | None, only: tuple[str, ...], takes: int | None, json_path: str | None
+) -> int:
     """Repeat a measured claim of the project; exit code 1 if its target was missed.
 
     \b
     Examples:
       hri study list
       hri study fsdd --data recordings/ --out results/
-      hri study fsdd-noise --data recordings/ --only noise=white --only front_end=plain
+      hri study fsdd-noise --data recordings/ --only noise=white --takes 10
       HRI_DATA=recordings/ hri study fusion-digits --json fusion.json
     """
     if name == "list":
@@ -55,7 +63,7 @@ def study(name: str, data: str | None, out: str | None, only: tuple[str, ...], j
         import_optional("matplotlib", "plots", "to draw the results of studies")
         Path(out).mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
-        result = run_study(found, data, progress, chosen)
+        result = run_study(found, data, progress, chosen, takes)
     for line in _summary(result):
         say(line, json_path)
     if "rows" in result:

@@ -49,10 +49,11 @@ def _run(
     data: Sequence[str] = DATA,
     features: Sequence[str] = tuple(FEATURES),
     classifier: Sequence[str] = tuple(CLASSIFIERS),
+    takes: int | None = None,
 ) -> dict[str, Any]:
     rows = []
     for name in data:
-        words = read_words(data_dir, name, progress)
+        words = read_words(data_dir, name, progress, takes)
         for kind in features:
             say = within(progress, name)
             frames = all_frames(words, FEATURES[kind], kind, say)
@@ -77,7 +78,8 @@ STUDIES = (
         tuple(WORD_FOLDERS.values()),
         "none: a comparison",
         _run,
-        Layout(columns="features", panel="data"),
-        {"data": DATA, "features": tuple(FEATURES), "classifier": tuple(CLASSIFIERS)},
+        layout=Layout(columns="features", panel="data"),
+        axes={"data": DATA, "features": tuple(FEATURES), "classifier": tuple(CLASSIFIERS)},
+        thins=True,
     ),
 )

@@ -51,6 +51,7 @@ def _run(
     data: Sequence[str] = DATA,
     training: Sequence[str] = TRAINING,
     ambience: Sequence[str] = AMBIENCE,
+    takes: int | None = None,
 ) -> dict[str, Any]:
     noises = {"silent": (), "noisy": (noise_paths(data_dir)["pink"],)}
     recorded = [Response.read(str(data_dir / RECORDED_RESPONSE))]
@@ -65,7 +66,7 @@ def _run(
     added: Trainings = {"close": [], "with rooms": [_AnyDistance(noises["noisy"])]}
     rows = []
     for name in data:
-        found = sweep(data_dir, name, tests, {choice: added[choice] for choice in training}, progress)
+        found = sweep(data_dir, name, tests, {choice: added[choice] for choice in training}, progress, takes=takes)
         for (_, trained), measured in found.items():
             for choice in ambience:
                 place = {"data": name, "training": trained, "ambience": choice}
@@ -85,7 +86,8 @@ STUDIES = (
         ("fsdd/recordings", "hindi_words/digits", "hindi_words/words", "noise", "room"),
         "none: a comparison",
         _run,
-        Layout(columns="distance", x="distance", panel="data"),
-        {"data": DATA, "training": TRAINING, "ambience": AMBIENCE},
+        layout=Layout(columns="distance", x="distance", panel="data"),
+        axes={"data": DATA, "training": TRAINING, "ambience": AMBIENCE},
+        thins=True,
     ),
 )

@@ -40,13 +40,14 @@ def _run(
     front_end: Sequence[str] = tuple(FRONT_ENDS),
     training: Sequence[str] = TRAINING,
     noise: Sequence[str] = tuple(NOISES),
+    takes: int | None = None,
 ) -> dict[str, Any]:
     paths = noise_paths(data_dir)
     tests: dict[str, Condition | None] = {CLEAN: None}
     for name in noise:
         tests |= {f"{name} {snr_db} dB": AddNoise([paths[name]], [snr_db], "second") for snr_db in SNRS_DB}
     added = {"clean": [], "noisy": [AddNoise(list(paths.values()), TRAINING_SNRS_DB, "first")]}
-    found = sweep(data_dir, "fsdd", tests, {name: added[name] for name in training}, progress, front_end)
+    found = sweep(data_dir, "fsdd", tests, {name: added[name] for name in training}, progress, front_end, takes)
     rows = []
     for (variant, trained), measured in found.items():
         for name in noise:
@@ -71,7 +72,8 @@ STUDIES = (
         f"white noise at 10 dB: >= {100 * TARGETS['clean']:.0f} % trained clean, "
         f">= {100 * TARGETS['noisy']:.0f} % with noise",
         _run,
-        Layout(columns="snr_db", x="snr_db", panel="noise"),
-        {"front_end": tuple(FRONT_ENDS), "training": TRAINING, "noise": tuple(NOISES)},
+        layout=Layout(columns="snr_db", x="snr_db", panel="noise"),
+        axes={"front_end": tuple(FRONT_ENDS), "training": TRAINING, "noise": tuple(NOISES)},
+        thins=True,
     ),
 )

@@ -69,6 +69,8 @@ class Study:
         How tables and pictures show it.
     axes : mapping of str to sequence of str
         What of it can be run alone: ``chosen`` gives some of the values of some axes.
+    thins : bool
+        Whether ``run(..., takes=N)`` takes the first N recordings of every word by every person, to be done sooner.
     """
 
     name: str
@@ -78,6 +80,7 @@ class Study:
     run: Callable[..., dict[str, Any]]
     layout: Layout = Layout()
     axes: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    thins: bool = False
 
 
 def find_data(directory: str | os.PathLike[str] | None = None) -> Path:
@@ -102,6 +105,7 @@ def run_study(
     directory: str | os.PathLike[str] | None,
     progress: Progress,
     only: Mapping[str, Sequence[str]] | None = None,
+    takes: int | None = None,
 ) -> dict[str, Any]:
     """Run `study` on the recordings in `directory`; the result also names the study, its target and its seed.
 
@@ -114,18 +118,29 @@ def run_study(
         Called with (what, done, total).
     only : mapping of str to sequence of str, optional
         Run only these values of these axes of the study.
+    takes : int, optional
+        Only the first recordings of every word by every person; the result says so.
 
     Raises
     ------
     InvalidArgument
-        For data that is not there, or an axis or value that the study does not have (lists those it has).
+        For data that is not there, an axis or value that the study does not have (lists those it has), or `takes` of a
+        study that needs all recordings.
     """
-    chosen = {axis: _chosen(study, axis, values) for axis, values in (only or {}).items()}
+    chosen: dict[str, Any] = {axis: _chosen(study, axis, values) for axis, values in (only or {}).items()}
+    if takes is not None:
+        if not study.thins:
+            raise InvalidArgument(f"study {study.name} needs all recordings: it takes no takes")
+        if takes < 1:
+            raise InvalidArgument(f"takes is {takes}, must be at least 1")
+        chosen["takes"] = takes
     data_dir = find_data(directory)
     missing = [name for name in study.data if not (data_dir / name).exists()]
     if missing:
         raise InvalidArgument(f"study {study.name}: {data_dir} has no folder {', '.join(missing)}")
-    return {"study": study.name, "target": study.target, **study.run(data_dir, progress, **chosen)}
+    found = study.run(data_dir, progress, **chosen)
+    thinned = {} if takes is None else {"takes": takes}
+    return {"study": study.name, "target": study.target, **thinned, **found}
 
 
 def _chosen(study: Study, axis: str, values: Sequence[str]) -> tuple[str, ...]:

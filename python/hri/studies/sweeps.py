@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, evaluate_conditions
 from hri.evaluation.conditions import Condition
 from hri.recognition import WordRecognizer
@@ -19,7 +18,7 @@ from hri.recognition.decision import NO_INPUT
 from hri.studies.front_ends import FRONT_ENDS
 from hri.studies.registry import Progress, within
 from hri.studies.tables import Row, statistics
-from hri.studies.word_features import WORD_FOLDERS
+from hri.studies.word_features import load_words
 
 SEED = 0
 Trainings = Mapping[str, Sequence[Condition]]
@@ -40,9 +39,10 @@ def sweep(
     trainings: Trainings,
     progress: Progress,
     front_ends: Iterable[str] = ("plain",),
+    takes: int | None = None,
 ) -> dict[tuple[str, str], dict[str, Row]]:
     """What was measured, by (front end, training) and test, on a data set of `WORD_FOLDERS`."""
-    dataset = Dataset.load(data_dir / WORD_FOLDERS[name], "speech")
+    dataset = load_words(data_dir, name, takes)
     found = {}
     for variant in front_ends:
         choice = FRONT_ENDS[variant]

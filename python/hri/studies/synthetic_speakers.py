@@ -17,7 +17,7 @@ from hri.evaluation.speech import SpeechRunner
 from hri.recognition import WordRecognizer
 from hri.studies.registry import Layout, Progress, Study, within
 from hri.studies.sweeps import SEED, measured, told
-from hri.studies.word_features import WORD_FOLDERS
+from hri.studies.word_features import WORD_FOLDERS, load_words
 
 WORDS: dict[str, dict[str, dict[str, str]]] = {
     "fsdd": {"en": DIGIT_WORDS["en"]},
@@ -59,11 +59,12 @@ def _run(
     data: Sequence[str] = tuple(WORDS),
     real: Sequence[str] = tuple(map(str, REAL)),
     synthetic: Sequence[str] = tuple(map(str, SYNTHETIC)),
+    takes: int | None = None,
 ) -> dict[str, Any]:
     rows = []
     most = max(map(int, synthetic))
     for name in data:
-        recorded = Dataset.load(data_dir / WORD_FOLDERS[name], "speech")
+        recorded = load_words(data_dir, name, takes)
         words = {
             language: {label: text for label, text in table.items() if label in recorded.labels}
             for language, table in WORDS[name].items()
@@ -81,7 +82,7 @@ def _run(
                 result = EvaluationResult(recorded.labels, [runner.run(fold)[""] for fold in folds])
                 place = {"data": name, "real": num_real, "synthetic": num_synthetic}
                 rows.append({**place, **measured(result)})
-    return told(rows, takes=TAKES)
+    return told(rows, synthetic_takes=TAKES)
 
 
 STUDIES = (
@@ -92,7 +93,8 @@ STUDIES = (
         tuple(WORD_FOLDERS[name] for name in WORDS),
         "none: a comparison",
         _run,
-        Layout(columns="synthetic", x="synthetic", panel="data"),
-        {"data": tuple(WORDS), "real": tuple(map(str, REAL)), "synthetic": tuple(map(str, SYNTHETIC))},
+        layout=Layout(columns="synthetic", x="synthetic", panel="data"),
+        axes={"data": tuple(WORDS), "real": tuple(map(str, REAL)), "synthetic": tuple(map(str, SYNTHETIC))},
+        thins=True,
     ),
 )

@@ -84,6 +84,8 @@ def markdown(result: Row, layout: Layout) -> str:
     lines = [f"# {result['study']}", "", f"target: {result['target']}", ""]
     if isinstance(result.get("passed"), bool):
         lines[2:3] = [f"target: {result['target']} ({'met' if result['passed'] else 'missed'})"]
+    if "takes" in result:
+        lines += [f"the first {result['takes']} recordings of every word by every person", ""]
     if layout.columns:
         lines += [f"{layout.measure}{', %' if layout.percent else ''}, mean ± spread over persons held out", ""]
     lines += ["| " + " | ".join(cells) + " |" for cells in (header, ["---"] * len(header), *rows)]

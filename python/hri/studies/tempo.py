@@ -20,13 +20,18 @@ DATA = ("fsdd", "hindi-digits", "hindi-words")
 
 
 def _run(
-    data_dir: Path, progress: Progress, *, data: Sequence[str] = DATA, training: Sequence[str] = TRAINING
+    data_dir: Path,
+    progress: Progress,
+    *,
+    data: Sequence[str] = DATA,
+    training: Sequence[str] = TRAINING,
+    takes: int | None = None,
 ) -> dict[str, Any]:
     tests: dict[str, Condition | None] = {str(f): None if f == 1.0 else ChangeTempo(f) for f in FACTORS}
     added = {"natural": [], "with other tempos": [ChangeTempo(0.7), ChangeTempo(1.4)]}
     rows = []
     for name in data:
-        found = sweep(data_dir, name, tests, {choice: added[choice] for choice in training}, progress)
+        found = sweep(data_dir, name, tests, {choice: added[choice] for choice in training}, progress, takes=takes)
         for (_, trained), measured in found.items():
             rows += [{"data": name, "training": trained, "tempo": f, **measured[str(f)]} for f in FACTORS]
     return told(rows)
@@ -40,7 +45,8 @@ STUDIES = (
         ("fsdd/recordings", "hindi_words/digits", "hindi_words/words"),
         "none: a comparison",
         _run,
-        Layout(columns="tempo", x="tempo", panel="data"),
-        {"data": DATA, "training": TRAINING},
+        layout=Layout(columns="tempo", x="tempo", panel="data"),
+        axes={"data": DATA, "training": TRAINING},
+        thins=True,
     ),
 )

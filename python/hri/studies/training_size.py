@@ -39,17 +39,23 @@ def drawn(
 
 
 def _run(
-    data_dir: Path, progress: Progress, *, data: Sequence[str] = DATA, classifier: Sequence[str] = CHOICES
+    data_dir: Path,
+    progress: Progress,
+    *,
+    data: Sequence[str] = DATA,
+    classifier: Sequence[str] = CHOICES,
+    takes: int | None = None,
 ) -> dict[str, Any]:
     rows = []
     for name in data:
-        words = read_words(data_dir, name, progress)
+        words = read_words(data_dir, name, progress, takes)
         frames = all_frames(words, FEATURES[FEATURE], name, progress)
         folds = list(persons_held_out(words))
-        total, done = len(classifier) * len(SPEAKERS) * len(SAMPLES[name]) * len(folds), 0
+        counts = [count for count in SAMPLES[name] if takes is None or count <= takes]
+        total, done = len(classifier) * len(SPEAKERS) * len(counts) * len(folds), 0
         for choice in classifier:
             for num_speakers in SPEAKERS:
-                for count in SAMPLES[name]:
+                for count in counts:
                     per_fold = {}
                     for person, train, test in folds:
                         # Every choice of speakers once, or one of them for every seed.
@@ -82,7 +88,8 @@ STUDIES = (
         ("fsdd/recordings", "hindi_words/words"),
         "none: a comparison",
         _run,
-        Layout(columns="samples", x="samples", panel="data"),
-        {"data": DATA, "classifier": CHOICES},
+        layout=Layout(columns="samples", x="samples", panel="data"),
+        axes={"data": DATA, "classifier": CHOICES},
+        thins=True,
     ),
 )

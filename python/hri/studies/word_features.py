@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -46,11 +47,30 @@ class SpokenWord:
     band_hz: float
 
 
-def read_words(
-    data_dir: Path, name: str, progress: Progress, condition: Condition | None = None, seed: int = 0
-) -> list[SpokenWord]:
-    """Every recording of a data set of `WORD_FOLDERS`; what a condition adds moves no end point."""
+def load_words(data_dir: Path, name: str, takes: int | None = None) -> Dataset:
+    """A data set of `WORD_FOLDERS`, with the first `takes` recordings of every word by every person."""
     dataset = Dataset.load(data_dir / WORD_FOLDERS[name], "speech")
+    if takes is None:
+        return dataset
+    met: Counter[tuple[str, str]] = Counter()
+    kept = []
+    for sample in dataset.samples:
+        met[sample.person, sample.label] += 1
+        if met[sample.person, sample.label] <= takes:
+            kept.append(sample)
+    return Dataset(dataset.root, "speech", kept)
+
+
+def read_words(
+    data_dir: Path,
+    name: str,
+    progress: Progress,
+    takes: int | None = None,
+    condition: Condition | None = None,
+    seed: int = 0,
+) -> list[SpokenWord]:
+    """Every recording of `load_words`; what a condition adds moves no end point."""
+    dataset = load_words(data_dir, name, takes)
     words = []
     for done, sample in enumerate(dataset.samples):
         audio = read_audio(sample.path)
@@ -85,18 +105,19 @@ class FeatureKind:
     def frames(self, samples: Samples, band_hz: float) -> Frames:
         """Cepstra 0-12, deltas and accelerations, mean normalised, shape (num_frames, num_features)."""
         prepared = samples if self.prepare is None else self.prepare(samples)
-        computer = _computer(RATE_HZ // self.rate_divisor, band_hz, tuple(self.options.items()))
-        least = int(np.ceil(RATE_HZ // self.rate_divisor * computer.options.frame_length_ms / 1000))
+        rate_hz = RATE_HZ // self.rate_divisor
+        computer = _computer(rate_hz, band_hz, self.options)
+        least = int(np.ceil(rate_hz * computer.options.frame_length_ms / 1000))
         if len(prepared) < least:
             prepared = np.pad(prepared, (0, least - len(prepared)))
         return computer.compute(prepared)
 
 
-def _computer(rate_hz: int, band_hz: float, options: tuple[tuple[str, Any], ...]) -> Any:
+def _computer(rate_hz: int, band_hz: float, options: dict[str, Any]) -> Any:
     """Fewer filters where there is less to hear: as many for an octave as over the full band."""
     band = min(band_hz, rate_hz / 2)
     filters = round(NUM_FILTERS * _mel(band) / _mel(RATE_HZ / 2)) if band < RATE_HZ / 4 else NUM_FILTERS
-    named = {"num_filters": filters, "num_cepstra": min(NUM_CEPSTRA, filters - 1), **dict(options)}
+    named = {"num_filters": filters, "num_cepstra": min(NUM_CEPSTRA, filters - 1), **options}
     return _native.CepstraComputer(_native.CepstraOptions(sample_rate_hz=rate_hz, high_hz=band, **named))
 
 
@@ -105,22 +126,22 @@ def _mel(hz: float) -> float:
 
 
 def approximation(samples: Samples, wavelet: str = WAVELET, level: int = LEVEL) -> Samples:
-    """The level's approximation coefficients: the sound below 8 kHz / 2^level, at 16 kHz / 2^level."""
+    """The level's approximation: the sound below 8 kHz / 2^level, at 16 kHz / 2^level."""
     coefficients = _native.wavedec(samples, wavelet, _native.Border.periodization, level)
     return np.ascontiguousarray(coefficients[0] / np.float32(2.0 ** (level / 2)))
 
 
 def approximation_kind(wavelet: str, level: int, options: dict[str, Any]) -> FeatureKind:
-    """Cepstra of the approximation (thesis section 6.2.2)."""
-    if level == 0:
-        return FeatureKind(options)
+    """Cepstra of the approximation (thesis section 6.2.2, as it reads)."""
     return FeatureKind(options, partial(approximation, wavelet=wavelet, level=level), 2**level)
 
 
+HFCC = {"filter_bank": "hfcc"}
+
 FEATURES: dict[str, FeatureKind] = {
     "mfcc": FeatureKind(),
-    "hfcc": FeatureKind({"filter_bank": "hfcc"}),
-    f"dwt{LEVEL}+hfcc": approximation_kind(WAVELET, LEVEL, {"filter_bank": "hfcc"}),
+    "hfcc": FeatureKind(HFCC),
+    f"dwt{LEVEL}+hfcc": approximation_kind(WAVELET, LEVEL, HFCC),
 }
 """By name, as the thesis compares them; "dwt3" are features of the third level's approximation."""
 
