@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Cepstra against librosa: 10 s at 16 kHz, frames of 25 ms every 10 ms, 26 filters, FFT of 512."""
+"""Cepstra against librosa and kaldi-native-fbank: 10 s at 16 kHz, frames of 25 ms every 10 ms, FFT of 512."""
 
 from __future__ import annotations
 
@@ -67,6 +67,31 @@ def mfcc() -> Timed:
     return ours, peer, {"us_a_frame": 1e6 * ours / count, "librosa_us_a_frame": 1e6 * peer / count}
 
 
+def mfcc_kaldi() -> Timed:
+    """13 mel cepstra of 10 s at 16 kHz as Kaldi makes them, of 26 filters."""
+    import kaldi_native_fbank as knf
+
+    audio = _audio()
+    options = _native.CepstraOptions.kaldi(RATE_HZ)
+    options.num_filters = 26
+    computer = _native.CepstraComputer(options)
+    settings = knf.MfccOptions()
+    settings.frame_opts.dither = 0
+    settings.mel_opts.num_bins = 26
+    integers = (32768 * audio).tolist()  # it takes lists faster than arrays
+
+    def peer() -> list[np.ndarray]:
+        extractor = knf.OnlineMfcc(settings)
+        extractor.accept_waveform(RATE_HZ, integers)
+        extractor.input_finished()
+        return [extractor.get_frame(i) for i in range(extractor.num_frames_ready)]
+
+    ours = computer.compute(audio)
+    assert np.allclose(ours, np.stack(peer()), rtol=1e-4, atol=1e-2)
+    seconds = medians(lambda: computer.compute(audio), peer, 31)
+    return *seconds, {"us_a_frame": 1e6 * seconds[0] / len(ours), "kaldi_us_a_frame": 1e6 * seconds[1] / len(ours)}
+
+
 def hfcc() -> Timed:
     """The same with the filters of HFCC, whose bank librosa is given."""
     ours, peer, count = _against_librosa("hfcc")
@@ -101,5 +126,6 @@ def mfcc_deltas() -> Timed:
 BENCHES = [
     Bench("mfcc", mfcc, "librosa"),
     Bench("hfcc", hfcc, "librosa"),
+    Bench("mfcc_kaldi", mfcc_kaldi, "kaldi-native-fbank"),
     Bench("mfcc_deltas", mfcc_deltas, "librosa"),
 ]

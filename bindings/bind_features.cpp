@@ -6,78 +6,99 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "hri/features/cepstra.hpp"
+#include "hri/features/cepstra_stream.hpp"
+#include "hri/features/spectral_envelope.hpp"
 #include "hri/features/time_normalisation.hpp"
+#include "hri/signal/linear_prediction.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
 
-void bind_features(py::module_& m) {
-  py::enum_<hri::FilterBankKind>(m, "FilterBankKind")
-      .value("mel", hri::FilterBankKind::mel)
-      .value("hfcc", hri::FilterBankKind::hfcc);
+namespace {
+
+using Options = hri::CepstraOptions;
+using Computer = hri::CepstraComputer;
+using Stream = hri::CepstraStream;
+
+void bind_options(py::module_& m) {
+  py::enum_<hri::CepstraKind>(m, "CepstraKind")
+      .value("filter_bank", hri::CepstraKind::filter_bank)
+      .value("linear_prediction", hri::CepstraKind::linear_prediction);
+  py::enum_<hri::FramePadding>(m, "FramePadding")
+      .value("none", hri::FramePadding::none)
+      .value("centred", hri::FramePadding::centred);
+  py::enum_<hri::WindowKind>(m, "WindowKind")
+      .value("hamming", hri::WindowKind::hamming)
+      .value("hann", hri::WindowKind::hann)
+      .value("hann_periodic", hri::WindowKind::hann_periodic)
+      .value("povey", hri::WindowKind::povey)
+      .value("rectangular", hri::WindowKind::rectangular);
   py::enum_<hri::Normalisation>(m, "Normalisation")
       .value("none", hri::Normalisation::none)
       .value("level", hri::Normalisation::level)
       .value("mean", hri::Normalisation::mean)
-      .value("mean_variance", hri::Normalisation::mean_variance);
+      .value("mean_variance", hri::Normalisation::mean_variance)
+      .value("running_mean", hri::Normalisation::running_mean)
+      .value("running_mean_variance", hri::Normalisation::running_mean_variance);
 
-  py::class_<hri::FilterBankOptions> bank(m, "FilterBankOptions",
-                                          "Triangular filters over a power spectrum.");
-  hri_bind::options(bank)
-      .field("kind", &hri::FilterBankOptions::kind)
-      .field("num_filters", &hri::FilterBankOptions::num_filters)
-      .field("low_hz", &hri::FilterBankOptions::low_hz)
-      .field("high_hz", &hri::FilterBankOptions::high_hz)
-      .field("erb_factor", &hri::FilterBankOptions::erb_factor)
-      .field("warp", &hri::FilterBankOptions::warp);
-  m.def(
-      "filter_bank",
-      [](const hri::FilterBankOptions& options, int sample_rate_hz, int fft_size) {
-        return hri_bind::to_array(hri::FilterBank(options, sample_rate_hz, fft_size).weights());
-      },
-      py::arg("options"), py::arg("sample_rate_hz"), py::arg("fft_size"),
-      "Weights, float32, shape (num_filters, fft_size / 2 + 1).");
-  m.def(
-      "filter_edges",
-      [](const hri::FilterBankOptions& options, int sample_rate_hz) {
-        const auto triangles = hri::filter_triangles(options, sample_rate_hz);
-        hri::MatrixD edges(static_cast<Eigen::Index>(triangles.size()), 3);
-        for (Eigen::Index i = 0; i < edges.rows(); ++i) {
-          const auto& t = triangles[static_cast<std::size_t>(i)];
-          edges.row(i) << t.low_hz, t.centre_hz, t.high_hz;
-        }
-        return hri_bind::to_array(edges);
-      },
-      py::arg("options"), py::arg("sample_rate_hz"),
-      "Low, centre and high frequency in Hz, shape (num_filters, 3).");
-
-  py::class_<hri::CepstraOptions> cepstra(m, "CepstraOptions", "Cepstra of speech (MFCC, HFCC).");
+  py::class_<Options> cepstra(m, "CepstraOptions", "Cepstra of speech (MFCC, HFCC, LPCC).");
   hri_bind::options(cepstra)
-      .field("sample_rate_hz", &hri::CepstraOptions::sample_rate_hz)
-      .field("frame_length_ms", &hri::CepstraOptions::frame_length_ms)
-      .field("frame_shift_ms", &hri::CepstraOptions::frame_shift_ms)
-      .field("pre_emphasis", &hri::CepstraOptions::pre_emphasis)
-      .field("filter_bank", &hri::CepstraOptions::filter_bank)
-      .field("num_filters", &hri::CepstraOptions::num_filters)
-      .field("low_hz", &hri::CepstraOptions::low_hz)
-      .field("high_hz", &hri::CepstraOptions::high_hz)
-      .field("erb_factor", &hri::CepstraOptions::erb_factor)
-      .field("warp", &hri::CepstraOptions::warp)
-      .field("num_cepstra", &hri::CepstraOptions::num_cepstra)
-      .field("use_c0", &hri::CepstraOptions::use_c0)
-      .field("lifter", &hri::CepstraOptions::lifter)
-      .field("normalisation", &hri::CepstraOptions::normalisation)
-      .field("delta_orders", &hri::CepstraOptions::delta_orders)
-      .field("delta_window", &hri::CepstraOptions::delta_window);
-  py::class_<hri::CepstraComputer>(m, "CepstraComputer", "Cepstra of whole clips.")
-      .def(py::init<const hri::CepstraOptions&>(), py::arg("options") = hri::CepstraOptions{})
-      .def_property_readonly("options", &hri::CepstraComputer::options)
-      .def_property_readonly("num_features", &hri::CepstraComputer::num_features)
-      .def("num_frames", &hri::CepstraComputer::num_frames, py::arg("num_samples"))
+      .field("sample_rate_hz", &Options::sample_rate_hz)
+      .field("frame_length_ms", &Options::frame_length_ms)
+      .field("frame_shift_ms", &Options::frame_shift_ms)
+      .field("padding", &Options::padding)
+      .field("sample_scale", &Options::sample_scale)
+      .field("remove_dc", &Options::remove_dc)
+      .field("pre_emphasis", &Options::pre_emphasis)
+      .field("frame_pre_emphasis", &Options::frame_pre_emphasis)
+      .field("window", &Options::window)
+      .field("fft_size", &Options::fft_size)
+      .field("kind", &Options::kind)
+      .field("lpc_order", &Options::lpc_order)
+      .field("filter_bank", &Options::filter_bank)
+      .field("num_filters", &Options::num_filters)
+      .field("low_hz", &Options::low_hz)
+      .field("high_hz", &Options::high_hz)
+      .field("erb_factor", &Options::erb_factor)
+      .field("warp", &Options::warp)
+      .field("warp_low_hz", &Options::warp_low_hz)
+      .field("warp_high_hz", &Options::warp_high_hz)
+      .field("mel_scale", &Options::mel_scale)
+      .field("filter_axis", &Options::filter_axis)
+      .field("unit_area", &Options::unit_area)
+      .field("use_power", &Options::use_power)
+      .field("energy_floor", &Options::energy_floor)
+      .field("decibels", &Options::decibels)
+      .field("top_db", &Options::top_db)
+      .field("num_cepstra", &Options::num_cepstra)
+      .field("use_c0", &Options::use_c0)
+      .field("use_energy", &Options::use_energy)
+      .field("htk_c0", &Options::htk_c0)
+      .field("lifter", &Options::lifter)
+      .field("rasta_pole", &Options::rasta_pole)
+      .field("normalisation", &Options::normalisation)
+      .field("running_s", &Options::running_s)
+      .field("delta_orders", &Options::delta_orders)
+      .field("delta_window", &Options::delta_window);
+  cepstra
+      .def_static("htk", &Options::htk, py::arg("sample_rate_hz") = 16000,
+                  "HTK's MFCC_0 by the configuration of the HTK book: c1 .. c12, c0.")
+      .def_static("kaldi", &Options::kaldi, py::arg("sample_rate_hz") = 16000,
+                  "Kaldi's compute-mfcc-feats by its defaults, without dither: log energy, c1 .. "
+                  "c12.")
+      .def_static("librosa", &Options::librosa, py::arg("sample_rate_hz") = 22050,
+                  "librosa.feature.mfcc by its defaults: 20 cepstra of 128 filters.");
+}
+
+void bind_computer(py::module_& m) {
+  py::class_<Computer>(m, "CepstraComputer", "Cepstra of whole clips.")
+      .def(py::init<const Options&>(), py::arg("options") = Options{})
+      .def_property_readonly("options", &Computer::options)
+      .def_property_readonly("num_features", &Computer::num_features)
+      .def("num_frames", &Computer::num_frames, py::arg("num_samples"))
       .def(
           "compute",
-          [](const hri::CepstraComputer& self, const hri_bind::FloatArray& audio) {
+          [](const Computer& self, const hri_bind::FloatArray& audio) {
             const auto samples = hri_bind::as_span(audio, "audio");
             py::array_t<float> out({static_cast<py::ssize_t>(self.num_frames(samples.size())),
                                     static_cast<py::ssize_t>(self.num_features())});
@@ -88,7 +109,94 @@ void bind_features(py::module_& m) {
           },
           py::arg("audio"),
           "Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.");
+}
 
+// The first `count` rows, for which `rows` was made.
+py::array_t<float> first_rows(const hri::MatrixF& rows, int count) {
+  py::array_t<float> out({static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(rows.cols())});
+  std::copy_n(rows.data(), count * rows.cols(), out.mutable_data());
+  return out;
+}
+
+void bind_stream(py::module_& m) {
+  py::class_<Stream>(m, "CepstraStream",
+                     "Cepstra of audio that comes in blocks: the numbers of CepstraComputer, to "
+                     "the bit. One thread at a time.")
+      .def(py::init<const Options&>(), py::arg("options"))
+      .def_property_readonly("options", &Stream::options)
+      .def_property_readonly("num_features", &Stream::num_features)
+      .def(
+          "push",
+          [](Stream& self, const hri_bind::FloatArray& audio) {
+            const auto samples = hri_bind::as_span(audio, "audio");
+            hri::MatrixF rows(self.max_frames(samples.size()), self.num_features());
+            int count = 0;
+            {
+              const py::gil_scoped_release release;
+              count = self.push(samples, rows);
+            }
+            return first_rows(rows, count);
+          },
+          py::arg("audio"), "Frames that are now complete, float32, shape (any, num_features).")
+      .def(
+          "finish",
+          [](Stream& self, bool keep_normalisation) {
+            hri::MatrixF rows(self.max_frames(0), self.num_features());
+            const int count = self.finish(rows, keep_normalisation);
+            return first_rows(rows, count);
+          },
+          py::arg("keep_normalisation") = false,
+          "The frames that are left; then a new utterance may begin.")
+      .def("reset", &Stream::reset, py::arg("keep_normalisation") = false);
+}
+
+void bind_linear_prediction(py::module_& m) {
+  m.def(
+      "linear_prediction",
+      [](const hri_bind::DoubleArray& frame, int order) {
+        const auto x = hri_bind::as_span(frame, "frame");
+        hri::require(order >= 1, "order must be at least 1");
+        std::vector<double> r(static_cast<std::size_t>(order) + 1);
+        std::vector<double> a(static_cast<std::size_t>(order));
+        hri::autocorrelation(x, r);
+        const double gain = hri::levinson_durbin(r, a);
+        return std::make_pair(hri_bind::to_array(a), gain);
+      },
+      py::arg("frame"), py::arg("order"),
+      "(a, gain): x[n] is predicted as -a[0] x[n-1] - ..., by the autocorrelation method.");
+  m.def(
+      "lpc_cepstrum",
+      [](const hri_bind::DoubleArray& a, double gain, int num_cepstra) {
+        hri::require(num_cepstra >= 0, "num_cepstra must not be negative");
+        std::vector<double> c(static_cast<std::size_t>(num_cepstra) + 1);
+        hri::lpc_cepstrum(hri_bind::as_span(a, "a"), gain, c);
+        return hri_bind::to_array(c);
+      },
+      py::arg("a"), py::arg("gain"), py::arg("num_cepstra"),
+      "c0 .. c_num of the log spectrum ln(gain / |A|^2) = c0 + 2 sum of c_n cos(n w).");
+}
+
+}  // namespace
+
+void bind_features(py::module_& m) {
+  bind_options(m);
+  bind_computer(m);
+  bind_stream(m);
+  bind_linear_prediction(m);
+  m.def(
+      "spectral_envelope",
+      [](const hri_bind::FloatArray& cepstra, int num_bins) {
+        const hri::MatrixF rows = hri_bind::as_matrix(cepstra, "cepstra");
+        if (num_bins < 1) throw py::value_error("num_bins must be at least 1");
+        hri::MatrixF out(rows.rows(), num_bins);
+        for (Eigen::Index t = 0; t < rows.rows(); ++t)
+          hri::spectral_envelope(hri::row_span(rows, t),
+                                 {out.data() + t * num_bins, static_cast<std::size_t>(num_bins)});
+        return hri_bind::to_array(out);
+      },
+      py::arg("cepstra"), py::arg("num_bins"),
+      "exp(sum of c_i cos(pi i t / num_bins)), t = 1 .. num_bins, of rows c_1, c_2, ...; shape "
+      "(num_frames, num_bins) (thesis eq. 3.34-3.36).");
   m.def(
       "normalise_time",
       [](const hri_bind::FloatArray& frames, int num_rows) {

@@ -11,6 +11,7 @@
 #include "hri/models/distances.hpp"
 #include "hri/models/gaussian_bayes.hpp"
 #include "hri/models/knn.hpp"
+#include "hri/models/lda.hpp"
 #include "hri/models/linear_svm.hpp"
 #include "hri/models/pca.hpp"
 #include "hri/models/possibility.hpp"
@@ -101,6 +102,41 @@ void bind_pca(py::module_& m) {
   cls.def_property_readonly("mean", [](const hri::Pca& self) { return to_array(self.mean()); });
   cls.def_property_readonly("variances",
                             [](const hri::Pca& self) { return to_array(self.variances()); });
+  bind_files(cls);
+}
+
+void bind_lda(py::module_& m) {
+  py::class_<hri::LdaOptions> options(m, "LdaOptions", "Options of Lda.");
+  hri_bind::options(options)
+      .field("num_components", &hri::LdaOptions::num_components)
+      .field("shrinkage", &hri::LdaOptions::shrinkage);
+  py::class_<hri::Lda> cls(m, "Lda", "Linear discriminant analysis.");
+  cls.def_static(
+      "train",
+      [](const FloatArray& rows, const py::array& classes, int num_classes,
+         const hri::LdaOptions& how) {
+        const auto matrix = as_matrix(rows, "rows");
+        const std::vector<int> labels = as_integers(classes, "classes");
+        const py::gil_scoped_release release;
+        return hri::Lda::train(matrix, labels, num_classes, how);
+      },
+      py::arg("rows"), py::arg("classes"), py::arg("num_classes"),
+      py::arg_v("options", hri::LdaOptions(), "..."),
+      "Directions along which classes (num_rows,) in 0..num_classes - 1 lie farthest apart.");
+  cls.def(
+      "transform",
+      [](const hri::Lda& self, const FloatArray& rows) {
+        return to_array(self.transform(as_matrix(rows, "rows")));
+      },
+      py::arg("rows"), "Shape (num_rows, num_components), float32.");
+  cls.def_property_readonly("num_components", &hri::Lda::num_components);
+  cls.def_property_readonly("dim", &hri::Lda::dim);
+  cls.def_property_readonly("components",
+                            [](const hri::Lda& self) { return to_array(self.components()); });
+  cls.def_property_readonly("mean", [](const hri::Lda& self) { return to_array(self.mean()); });
+  cls.def_property_readonly(
+      "ratios", [](const hri::Lda& self) { return to_array(self.ratios()); },
+      "Variance between classes over variance within, falling.");
   bind_files(cls);
 }
 
@@ -241,6 +277,7 @@ void bind_models(py::module_& m) {
   bind_distances(m);
   bind_possibility(m);
   bind_pca(m);
+  bind_lda(m);
   bind_svm(m);
   bind_bayes(m);
   bind_knn(m);

@@ -13,6 +13,7 @@ namespace py = pybind11;
 void bind_io(py::module_& m);
 void bind_signal(py::module_& m);
 void bind_wavelets(py::module_& m);
+void bind_filter_bank(py::module_& m);
 void bind_features(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_codebook(py::module_& m);
@@ -80,6 +81,7 @@ PYBIND11_MODULE(_native, m) {
   bind_io(m);
   bind_signal(m);
   bind_wavelets(m);
+  bind_filter_bank(m);
   bind_features(m);
   bind_hand_features(m);
   bind_codebook(m);

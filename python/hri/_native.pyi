@@ -15,8 +15,9 @@ __all__: list[str] = [
     "ActivityOptions",
     "Border",
     "CepstraComputer",
+    "CepstraKind",
     "CepstraOptions",
-    "ClassDistance",
+    "CepstraStream",
     "Codebook",
     "CodebookOptions",
     "CodebookReport",
@@ -28,13 +29,13 @@ __all__: list[str] = [
     "DiscreteHmmOptions",
     "DiscreteHmmStream",
     "Distance",
-    "DistanceClassifier",
-    "DistanceClassifierOptions",
     "Error",
+    "FilterAxis",
     "FilterBankKind",
     "FilterBankOptions",
     "FixedPointHmmSet",
     "FormatError",
+    "FramePadding",
     "GaussianBayes",
     "GaussianBayesOptions",
     "GaussianMixture",
@@ -52,9 +53,12 @@ __all__: list[str] = [
     "IoError",
     "Knn",
     "KnnOptions",
+    "Lda",
+    "LdaOptions",
     "LinearSvm",
     "LinearSvmOptions",
     "MarkovChain",
+    "MelScale",
     "ModelFile",
     "MultiStreamCodebook",
     "NBest",
@@ -67,7 +71,6 @@ __all__: list[str] = [
     "PossibilisticHmmStream",
     "PossibilisticRule",
     "PossibilisticTraining",
-    "PossibilityClassifier",
     "SequenceModelKind",
     "SequenceModelOptions",
     "SilhouetteCepstrumComputer",
@@ -77,6 +80,7 @@ __all__: list[str] = [
     "Topology",
     "TrainingReport",
     "Wav",
+    "WindowKind",
     "WordRecognizer",
     "WordRecognizerOptions",
     "bhattacharyya_gaussian",
@@ -91,20 +95,19 @@ __all__: list[str] = [
     "idwt2",
     "initial_start",
     "initial_transition",
-    "max_dwt_level",
+    "linear_prediction",
+    "lpc_cepstrum",
     "necessity_of",
-    "normalise_time",
     "orientation_histogram",
     "parse_wav",
     "possibilities",
     "possibility_of",
     "read_wav",
     "resample",
+    "spectral_envelope",
     "wavedec",
-    "wavedec2",
     "wavelet_names",
     "waverec",
-    "waverec2",
     "write_wav_pcm16",
 ]
 
@@ -184,6 +187,53 @@ class Wav:
     @property
     def samples(self) -> numpy.typing.NDArray[numpy.float32]: ...
 
+class Border:
+    """
+    What stands beyond the ends of a signal, by PyWavelets' names.
+
+    Members:
+
+      symmetric
+
+      zero
+
+      constant
+
+      periodic
+
+      reflect
+
+      periodization
+    """
+
+    __members__: typing.ClassVar[dict[str, Border]]
+    constant: typing.ClassVar[Border]
+    periodic: typing.ClassVar[Border]
+    periodization: typing.ClassVar[Border]
+    reflect: typing.ClassVar[Border]
+    symmetric: typing.ClassVar[Border]
+    zero: typing.ClassVar[Border]
+    @typing.overload
+    def __eq__(self, other: Border) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Border) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class ActivityOptions:
     """
     Where somebody speaks in a clip.
@@ -223,62 +273,6 @@ class ActivityOptions:
     @silence_dbfs.setter
     def silence_dbfs(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
-class Border:
-    """
-    What stands beyond the ends of a signal, by PyWavelets' names.
-
-    Members:
-
-      symmetric
-
-      zero
-
-      constant
-
-      periodic
-
-      reflect
-
-      periodization
-
-      smooth
-
-      antisymmetric
-
-      antireflect
-    """
-
-    __members__: typing.ClassVar[dict[str, Border]]
-    antireflect: typing.ClassVar[Border]
-    antisymmetric: typing.ClassVar[Border]
-    constant: typing.ClassVar[Border]
-    periodic: typing.ClassVar[Border]
-    periodization: typing.ClassVar[Border]
-    reflect: typing.ClassVar[Border]
-    smooth: typing.ClassVar[Border]
-    symmetric: typing.ClassVar[Border]
-    zero: typing.ClassVar[Border]
-    @typing.overload
-    def __eq__(self, other: Border) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: Border) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class FilterBankKind:
     """
     Members:
@@ -312,6 +306,223 @@ class FilterBankKind:
     @property
     def value(self) -> int: ...
 
+class MelScale:
+    """
+    Members:
+
+      htk
+
+      slaney
+    """
+
+    __members__: typing.ClassVar[dict[str, MelScale]]
+    htk: typing.ClassVar[MelScale]
+    slaney: typing.ClassVar[MelScale]
+    @typing.overload
+    def __eq__(self, other: MelScale) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: MelScale) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class FilterAxis:
+    """
+    Members:
+
+      hz
+
+      mel
+    """
+
+    __members__: typing.ClassVar[dict[str, FilterAxis]]
+    hz: typing.ClassVar[FilterAxis]
+    mel: typing.ClassVar[FilterAxis]
+    @typing.overload
+    def __eq__(self, other: FilterAxis) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: FilterAxis) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class FilterBankOptions:
+    """
+    Triangular filters over a power spectrum.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    axis: FilterAxis
+    kind: FilterBankKind
+    mel_scale: MelScale
+    unit_area: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def erb_factor(self) -> float: ...
+    @erb_factor.setter
+    def erb_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def high_hz(self) -> float: ...
+    @high_hz.setter
+    def high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def low_hz(self) -> float: ...
+    @low_hz.setter
+    def low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def num_filters(self) -> int: ...
+    @num_filters.setter
+    def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def warp(self) -> float: ...
+    @warp.setter
+    def warp(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def warp_high_hz(self) -> float: ...
+    @warp_high_hz.setter
+    def warp_high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def warp_low_hz(self) -> float: ...
+    @warp_low_hz.setter
+    def warp_low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class CepstraKind:
+    """
+    Members:
+
+      filter_bank
+
+      linear_prediction
+    """
+
+    __members__: typing.ClassVar[dict[str, CepstraKind]]
+    filter_bank: typing.ClassVar[CepstraKind]
+    linear_prediction: typing.ClassVar[CepstraKind]
+    @typing.overload
+    def __eq__(self, other: CepstraKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: CepstraKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class FramePadding:
+    """
+    Members:
+
+      none
+
+      centred
+    """
+
+    __members__: typing.ClassVar[dict[str, FramePadding]]
+    centred: typing.ClassVar[FramePadding]
+    none: typing.ClassVar[FramePadding]
+    @typing.overload
+    def __eq__(self, other: FramePadding) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: FramePadding) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class WindowKind:
+    """
+    Members:
+
+      hamming
+
+      hann
+
+      hann_periodic
+
+      povey
+
+      rectangular
+    """
+
+    __members__: typing.ClassVar[dict[str, WindowKind]]
+    hamming: typing.ClassVar[WindowKind]
+    hann: typing.ClassVar[WindowKind]
+    hann_periodic: typing.ClassVar[WindowKind]
+    povey: typing.ClassVar[WindowKind]
+    rectangular: typing.ClassVar[WindowKind]
+    @typing.overload
+    def __eq__(self, other: WindowKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: WindowKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class Normalisation:
     """
     Members:
@@ -323,6 +534,10 @@ class Normalisation:
       mean
 
       mean_variance
+
+      running_mean
+
+      running_mean_variance
     """
 
     __members__: typing.ClassVar[dict[str, Normalisation]]
@@ -330,6 +545,8 @@ class Normalisation:
     mean: typing.ClassVar[Normalisation]
     mean_variance: typing.ClassVar[Normalisation]
     none: typing.ClassVar[Normalisation]
+    running_mean: typing.ClassVar[Normalisation]
+    running_mean_variance: typing.ClassVar[Normalisation]
     @typing.overload
     def __eq__(self, other: Normalisation) -> bool: ...
     @typing.overload
@@ -351,47 +568,42 @@ class Normalisation:
     @property
     def value(self) -> int: ...
 
-class FilterBankOptions:
-    """
-    Triangular filters over a power spectrum.
-    """
-
-    __hash__: typing.ClassVar[None] = None
-    kind: FilterBankKind
-    def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
-    def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
-    @property
-    def erb_factor(self) -> float: ...
-    @erb_factor.setter
-    def erb_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def high_hz(self) -> float: ...
-    @high_hz.setter
-    def high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def low_hz(self) -> float: ...
-    @low_hz.setter
-    def low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def num_filters(self) -> int: ...
-    @num_filters.setter
-    def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def warp(self) -> float: ...
-    @warp.setter
-    def warp(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-
 class CepstraOptions:
     """
-    Cepstra of speech (MFCC, HFCC).
+    Cepstra of speech (MFCC, HFCC, LPCC).
     """
 
     __hash__: typing.ClassVar[None] = None
+    decibels: bool
+    filter_axis: FilterAxis
     filter_bank: FilterBankKind
+    frame_pre_emphasis: bool
+    htk_c0: bool
+    kind: CepstraKind
+    mel_scale: MelScale
     normalisation: Normalisation
+    padding: FramePadding
+    remove_dc: bool
+    unit_area: bool
     use_c0: bool
+    use_energy: bool
+    use_power: bool
+    window: WindowKind
+    @staticmethod
+    def htk(sample_rate_hz: typing.SupportsInt | typing.SupportsIndex = 16000) -> CepstraOptions:
+        """
+        HTK's MFCC_0 by the configuration of the HTK book: c1 .. c12, c0.
+        """
+    @staticmethod
+    def kaldi(sample_rate_hz: typing.SupportsInt | typing.SupportsIndex = 16000) -> CepstraOptions:
+        """
+        Kaldi's compute-mfcc-feats by its defaults, without dither: log energy, c1 .. c12.
+        """
+    @staticmethod
+    def librosa(sample_rate_hz: typing.SupportsInt | typing.SupportsIndex = 22050) -> CepstraOptions:
+        """
+        librosa.feature.mfcc by its defaults: 20 cepstra of 128 filters.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __init__(self, **kwargs) -> None: ...
     def __repr__(self) -> str: ...
@@ -405,9 +617,17 @@ class CepstraOptions:
     @delta_window.setter
     def delta_window(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
+    def energy_floor(self) -> float: ...
+    @energy_floor.setter
+    def energy_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def erb_factor(self) -> float: ...
     @erb_factor.setter
     def erb_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def fft_size(self) -> int: ...
+    @fft_size.setter
+    def fft_size(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def frame_length_ms(self) -> float: ...
     @frame_length_ms.setter
@@ -429,6 +649,10 @@ class CepstraOptions:
     @low_hz.setter
     def low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def lpc_order(self) -> int: ...
+    @lpc_order.setter
+    def lpc_order(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
     def num_cepstra(self) -> int: ...
     @num_cepstra.setter
     def num_cepstra(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -441,13 +665,37 @@ class CepstraOptions:
     @pre_emphasis.setter
     def pre_emphasis(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def rasta_pole(self) -> float: ...
+    @rasta_pole.setter
+    def rasta_pole(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def running_s(self) -> float: ...
+    @running_s.setter
+    def running_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def sample_rate_hz(self) -> int: ...
     @sample_rate_hz.setter
     def sample_rate_hz(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
+    def sample_scale(self) -> float: ...
+    @sample_scale.setter
+    def sample_scale(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def top_db(self) -> float: ...
+    @top_db.setter
+    def top_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def warp(self) -> float: ...
     @warp.setter
     def warp(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def warp_high_hz(self) -> float: ...
+    @warp_high_hz.setter
+    def warp_high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def warp_low_hz(self) -> float: ...
+    @warp_low_hz.setter
+    def warp_low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class CepstraComputer:
     """
@@ -461,6 +709,27 @@ class CepstraComputer:
         Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.
         """
     def num_frames(self, num_samples: typing.SupportsInt | typing.SupportsIndex) -> int: ...
+    @property
+    def num_features(self) -> int: ...
+    @property
+    def options(self) -> CepstraOptions: ...
+
+class CepstraStream:
+    """
+    Cepstra of audio that comes in blocks: the numbers of CepstraComputer, to the bit. One thread at a time.
+    """
+    def __init__(self, options: CepstraOptions) -> None: ...
+    def finish(self, keep_normalisation: bool = False) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        The frames that are left; then a new utterance may begin.
+        """
+    def push(
+        self, audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Frames that are now complete, float32, shape (any, num_features).
+        """
+    def reset(self, keep_normalisation: bool = False) -> None: ...
     @property
     def num_features(self) -> int: ...
     @property
@@ -791,6 +1060,68 @@ class Pca:
     @property
     def variances(self) -> numpy.typing.NDArray[numpy.float32]: ...
 
+class LdaOptions:
+    """
+    Options of Lda.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_components(self) -> int: ...
+    @num_components.setter
+    def num_components(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def shrinkage(self) -> float: ...
+    @shrinkage.setter
+    def shrinkage(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Lda:
+    """
+    Linear discriminant analysis.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> Lda:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: LdaOptions = ...,
+    ) -> Lda:
+        """
+        Directions along which classes (num_rows,) in 0..num_classes - 1 lie farthest apart.
+        """
+    def transform(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Shape (num_rows, num_components), float32.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def components(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def dim(self) -> int: ...
+    @property
+    def mean(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def num_components(self) -> int: ...
+    @property
+    def ratios(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Variance between classes over variance within, falling.
+        """
+
 class LinearSvmOptions:
     """
     Options of LinearSvm.
@@ -999,139 +1330,6 @@ class Knn:
         Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
         """
     def nearest_distance(self, row: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float: ...
-    def write(self, file: ModelFile, prefix: str) -> None:
-        """
-        Adds the model to a ModelFile.
-        """
-    @property
-    def dim(self) -> int: ...
-    @property
-    def num_classes(self) -> int: ...
-
-class ClassDistance:
-    """
-    Members:
-
-      euclidean
-
-      manhattan
-
-      mahalanobis
-
-      bhattacharyya
-    """
-
-    __members__: typing.ClassVar[dict[str, ClassDistance]]
-    bhattacharyya: typing.ClassVar[ClassDistance]
-    euclidean: typing.ClassVar[ClassDistance]
-    mahalanobis: typing.ClassVar[ClassDistance]
-    manhattan: typing.ClassVar[ClassDistance]
-    @typing.overload
-    def __eq__(self, other: ClassDistance) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: ClassDistance) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class DistanceClassifierOptions:
-    """
-    Options of DistanceClassifier.
-    """
-
-    __hash__: typing.ClassVar[None] = None
-    metric: ClassDistance
-    def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
-    def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
-    @property
-    def shrinkage(self) -> float: ...
-    @shrinkage.setter
-    def shrinkage(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-
-class DistanceClassifier:
-    """
-    The class whose mean is nearest (thesis table 6.5); decision values are negative distances.
-    """
-    @staticmethod
-    def read(file: ModelFile, prefix: str) -> DistanceClassifier:
-        """
-        Reads what `write` added; raises FormatError naming the field that does not fit.
-        """
-    @staticmethod
-    def train(
-        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
-        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
-        num_classes: typing.SupportsInt | typing.SupportsIndex,
-        options: DistanceClassifierOptions = ...,
-    ) -> DistanceClassifier:
-        """
-        Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.
-
-        Raises InvalidArgument for values not finite (names the row) or a class without a row.
-        """
-    def decision_values(
-        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
-    ) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
-        """
-    def write(self, file: ModelFile, prefix: str) -> None:
-        """
-        Adds the model to a ModelFile.
-        """
-    @property
-    def dim(self) -> int: ...
-    @property
-    def num_classes(self) -> int: ...
-
-class PossibilityClassifier:
-    """
-    Gaussian class densities divided by the largest (thesis eq. 5.14-5.15); decision values are log possibilities.
-    """
-    @staticmethod
-    def read(file: ModelFile, prefix: str) -> PossibilityClassifier:
-        """
-        Reads what `write` added; raises FormatError naming the field that does not fit.
-        """
-    @staticmethod
-    def train(
-        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
-        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
-        num_classes: typing.SupportsInt | typing.SupportsIndex,
-        options: GaussianBayesOptions = ...,
-    ) -> PossibilityClassifier:
-        """
-        Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.
-
-        Raises InvalidArgument for values not finite (names the row) or a class without a row.
-        """
-    def classify(
-        self, row: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
-    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
-        """
-        Possibility and necessity of every class, each of shape (num_classes,).
-        """
-    def decision_values(
-        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
-    ) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
-        """
     def write(self, file: ModelFile, prefix: str) -> None:
         """
         Adds the model to a ModelFile.
@@ -2524,9 +2722,20 @@ def initial_transition(
     Row-stochastic start values without jumps, shape (num_states, num_states).
     """
 
-def max_dwt_level(num_samples: typing.SupportsInt | typing.SupportsIndex, wavelet: str) -> int:
+def linear_prediction(
+    frame: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], order: typing.SupportsInt | typing.SupportsIndex
+) -> tuple[numpy.typing.NDArray[numpy.float64], float]:
     """
-    Levels until the border reaches every coefficient.
+    (a, gain): x[n] is predicted as -a[0] x[n-1] - ..., by the autocorrelation method.
+    """
+
+def lpc_cepstrum(
+    a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    gain: typing.SupportsFloat | typing.SupportsIndex,
+    num_cepstra: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    c0 .. c_num of the log spectrum ln(gain / |A|^2) = c0 + 2 sum of c_n cos(n w).
     """
 
 def necessity_of(
@@ -2535,13 +2744,6 @@ def necessity_of(
 ) -> float:
     """
     N(A) = 1 - Pi(not A) (thesis eq. 4.2).
-    """
-
-def normalise_time(
-    frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], num_rows: typing.SupportsInt | typing.SupportsIndex
-) -> numpy.typing.NDArray[numpy.float32]:
-    """
-    Frames stretched or squeezed to num_rows rows by linear interpolation, float32.
     """
 
 def orientation_histogram(
@@ -2581,6 +2783,14 @@ def resample(
     Band-limited change of sampling rate.
     """
 
+def spectral_envelope(
+    cepstra: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    num_bins: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    exp(sum of c_i cos(pi i t / num_bins)), t = 1 .. num_bins, of rows c_1, c_2, ...; shape (num_frames, num_bins) (thesis eq. 3.34-3.36).
+    """
+
 @typing.overload
 def wavedec(
     x: numpy.typing.NDArray[numpy.float32],
@@ -2603,33 +2813,7 @@ def wavedec(
     Several levels, [approximation, coarsest detail, ..., finest detail].
     """
 
-@typing.overload
-def wavedec2(
-    image: numpy.typing.NDArray[numpy.float32],
-    wavelet: str,
-    border: Border,
-    num_levels: typing.SupportsInt | typing.SupportsIndex,
-) -> list:
-    """
-    Several levels of an image, [approximation, coarsest details, ..., finest details].
-    """
-
-@typing.overload
-def wavedec2(
-    image: numpy.typing.NDArray[numpy.float64],
-    wavelet: str,
-    border: Border,
-    num_levels: typing.SupportsInt | typing.SupportsIndex,
-) -> list:
-    """
-    Several levels of an image, [approximation, coarsest details, ..., finest details].
-    """
-
-def wavelet_names() -> list[str]:
-    """
-    Names of all wavelets, as PyWavelets has them.
-    """
-
+def wavelet_names() -> list[str]: ...
 @typing.overload
 def waverec(
     coefficients: list[numpy.typing.NDArray[numpy.float32]],
@@ -2650,30 +2834,6 @@ def waverec(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The inverse of wavedec.
-    """
-
-@typing.overload
-def waverec2(
-    approx: numpy.typing.NDArray[numpy.float32],
-    details: list[typing.Annotated[list[numpy.typing.NDArray[numpy.float32]], "FixedSize(3)"]],
-    wavelet: str,
-    border: Border,
-    shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
-) -> numpy.typing.NDArray[numpy.float32]:
-    """
-    The inverse of wavedec2.
-    """
-
-@typing.overload
-def waverec2(
-    approx: numpy.typing.NDArray[numpy.float64],
-    details: list[typing.Annotated[list[numpy.typing.NDArray[numpy.float64]], "FixedSize(3)"]],
-    wavelet: str,
-    border: Border,
-    shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
-) -> numpy.typing.NDArray[numpy.float64]:
-    """
-    The inverse of wavedec2.
     """
 
 def write_wav_pcm16(

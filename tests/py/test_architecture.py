@@ -25,6 +25,7 @@ CPP = {
 }
 PYTHON = {
     "errors": set(),
+    "features": {"errors"},
     "media": {"errors"},
     "wavelets": {"errors"},
     "datasets": {"errors", "media"},
@@ -36,6 +37,7 @@ PYTHON = {
     "studies": {"errors", "media", "datasets", "evaluation", "fusion", "recognition"},
     "cli": {
         "errors",
+        "features",
         "media",
         "datasets",
         "recognition",

@@ -10,6 +10,7 @@
 #pragma STDC FP_CONTRACT OFF
 #elif defined(__GNUC__)
 #pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("no-math-errno")  // square roots are instructions
 #endif
 
 namespace hri::detail {

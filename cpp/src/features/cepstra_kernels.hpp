@@ -14,9 +14,13 @@ namespace hri::detail {
 /// What is done to a frame before its spectrum.
 struct FrameTable {
   int length = 0;
-  int fft_size = 0;
-  const float* window = nullptr;
+  int num_rows = 0;               ///< to be written: the frame and zeros behind it
+  const float* window = nullptr;  ///< times the scale of the samples
   float pre_emphasis = 0;
+  bool begins_anew = false;  ///< what came before the frame is thought to equal its beginning
+  bool remove_dc = false;
+  float energy_scale = 1;  ///< square of the scale of the samples
+  float energy_floor = 1e-10F;
 };
 
 /// Weights of filters over the bins of a power spectrum.
@@ -30,13 +34,18 @@ struct FilterTable {
 struct CepstraKernels {
   const char* name;
   int num_lanes;
-  /// Pre-emphasis and window. `samples` has length + 1 rows, the first being what came before the
-  /// frame; `out` has fft_size rows, zero beyond the frame.
-  void (*condition)(const FrameTable& table, const float* samples, float* out);
+  /// Mean, pre-emphasis and window. `samples` has length + 1 rows, the first being what came before
+  /// the frame. The log energy before pre-emphasis goes to `log_energy` (one row; null: not
+  /// wanted).
+  void (*condition)(const FrameTable& table, const float* samples, float* out, float* log_energy);
+  /// Square roots in place.
+  void (*take_roots)(int num_rows, float* rows);
   /// Logarithm of what every filter lets through, at least log(floor); floor is a normal number.
   void (*log_energies)(const FilterTable& table, float floor, const float* power, float* out);
-  /// Row r of `out` is the sum over c of matrix(r, c) times row c of `in`.
-  void (*project)(const float* matrix, int num_rows, int num_columns, const float* in, float* out);
+  /// Row r of `out` is the sum over c of matrix(r, c) times row c of `in`, which counts as `lowest`
+  /// where it is below.
+  void (*project)(const float* matrix, int num_rows, int num_columns, float lowest, const float* in,
+                  float* out);
 };
 
 /// Those of the widest instruction set this machine has; num_lanes is hri::num_lanes().

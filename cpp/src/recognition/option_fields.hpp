@@ -23,19 +23,40 @@ void visit_cepstra(V&& v, O& o) {
   v("cepstra.sample_rate_hz", o.sample_rate_hz);
   v("cepstra.frame_length_ms", o.frame_length_ms);
   v("cepstra.frame_shift_ms", o.frame_shift_ms);
+  v("cepstra.padding", o.padding);
+  v("cepstra.sample_scale", o.sample_scale);
+  v("cepstra.remove_dc", o.remove_dc);
   v("cepstra.pre_emphasis", o.pre_emphasis);
+  v("cepstra.frame_pre_emphasis", o.frame_pre_emphasis);
+  v("cepstra.window", o.window);
+  v("cepstra.fft_size", o.fft_size);
+  v("cepstra.kind", o.kind);
+  v("cepstra.lpc_order", o.lpc_order);
   v("cepstra.filter_bank", o.filter_bank);
   v("cepstra.num_filters", o.num_filters);
   v("cepstra.low_hz", o.low_hz);
   v("cepstra.high_hz", o.high_hz);
   v("cepstra.erb_factor", o.erb_factor);
+  v("cepstra.warp", o.warp);
+  v("cepstra.warp_low_hz", o.warp_low_hz);
+  v("cepstra.warp_high_hz", o.warp_high_hz);
+  v("cepstra.mel_scale", o.mel_scale);
+  v("cepstra.filter_axis", o.filter_axis);
+  v("cepstra.unit_area", o.unit_area);
+  v("cepstra.use_power", o.use_power);
+  v("cepstra.energy_floor", o.energy_floor);
+  v("cepstra.decibels", o.decibels);
+  v("cepstra.top_db", o.top_db);
   v("cepstra.num_cepstra", o.num_cepstra);
   v("cepstra.use_c0", o.use_c0);
+  v("cepstra.use_energy", o.use_energy);
+  v("cepstra.htk_c0", o.htk_c0);
   v("cepstra.lifter", o.lifter);
+  v("cepstra.rasta_pole", o.rasta_pole);
+  v("cepstra.normalisation", o.normalisation);
+  v("cepstra.running_s", o.running_s);
   v("cepstra.delta_orders", o.delta_orders);
   v("cepstra.delta_window", o.delta_window);
-  v("cepstra.normalisation", o.normalisation);
-  v("cepstra.warp", o.warp);
 }
 
 template <class V, class O>

@@ -16,13 +16,16 @@ int num_frames(std::size_t num_samples, int frame_length, int frame_shift) {
   return 1 + static_cast<int>((num_samples - length) / static_cast<std::size_t>(frame_shift));
 }
 
-std::vector<float> hamming_window(int size) {
+std::vector<float> make_window(WindowKind kind, int size) {
   require(size >= 1, "window size must be at least 1");
   constexpr double kTwoPi = 6.283185307179586476925;
   std::vector<float> window(static_cast<std::size_t>(size), 1.0F);
-  for (int n = 0; size > 1 && n < size; ++n) {
-    window[static_cast<std::size_t>(n)] =
-        static_cast<float>(0.54 - 0.46 * std::cos(kTwoPi * n / (size - 1)));
+  if (kind == WindowKind::rectangular || size == 1) return window;
+  const double period = kind == WindowKind::hann_periodic ? size : size - 1;
+  const double share = kind == WindowKind::hamming ? 0.46 : 0.5;
+  for (std::size_t n = 0; n < window.size(); ++n) {
+    const double value = (1 - share) - share * std::cos(kTwoPi * static_cast<double>(n) / period);
+    window[n] = static_cast<float>(kind == WindowKind::povey ? std::pow(value, 0.85) : value);
   }
   return window;
 }

@@ -85,12 +85,18 @@ TEST(CepstraKernels, GiveTheBitsOfEachOther) {
     LaneBuffer logs(kFilters * lanes);
     LaneBuffer cepstra(7 * lanes);
     const LaneBuffer input = spread(samples);
-    kernels->condition({50, 64, window.data(), 0.97F}, input.data(), frame.data());
+    LaneBuffer energy(lanes);
+    detail::FrameTable table;
+    table.length = 50;
+    table.num_rows = 64;
+    table.window = window.data();
+    table.pre_emphasis = 0.97F;
+    kernels->condition(table, input.data(), frame.data(), energy.data());
     kernels->log_energies({kFilters, kBins, weights.data(), supports.data()}, 1e-10F,
                           spread(power).data(), logs.data());
-    kernels->project(matrix.data(), 7, kFilters, logs.data(), cepstra.data());
+    kernels->project(matrix.data(), 7, kFilters, 1.5F, logs.data(), cepstra.data());
     std::vector<float> found;
-    for (const LaneBuffer* rows : {&frame, &logs, &cepstra}) {
+    for (const LaneBuffer* rows : {&frame, &logs, &cepstra, &energy}) {
       for (std::size_t i = 0; i < rows->size(); ++i) {
         if (i % lanes < 4) found.push_back((*rows)[i]);
       }

@@ -126,7 +126,7 @@ TEST(Framing, CountsWholeFrames) {
   EXPECT_EQ(num_frames(400, 400, 160), 1);
   EXPECT_EQ(num_frames(559, 400, 160), 1);
   EXPECT_EQ(num_frames(560, 400, 160), 2);
-  const std::vector<float> window = hamming_window(5);
+  const std::vector<float> window = make_window(WindowKind::hamming, 5);
   EXPECT_NEAR(window[0], 0.08, 1e-6);
   EXPECT_NEAR(window[2], 1.0, 1e-6);
   EXPECT_EQ(window[0], window[4]);

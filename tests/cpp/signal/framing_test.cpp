@@ -30,14 +30,14 @@ TEST(Framing, RefusesEmptyFramesAndShifts) {
   for (const int bad : {0, -1}) {
     EXPECT_THROW(num_frames(100, bad, 1), InvalidArgument);
     EXPECT_THROW(num_frames(100, 10, bad), InvalidArgument);
-    EXPECT_THROW(hamming_window(bad), InvalidArgument);
+    EXPECT_THROW(make_window(WindowKind::hamming, bad), InvalidArgument);
   }
 }
 
 TEST(Hamming, IsSymmetricAndFollowsItsFormula) {
-  EXPECT_EQ(hamming_window(1), std::vector<float>{1});
+  EXPECT_EQ(make_window(WindowKind::hamming, 1), std::vector<float>{1});
   for (const int size : {2, 3, 64, 399, 400}) {
-    const std::vector<float> w = hamming_window(size);
+    const std::vector<float> w = make_window(WindowKind::hamming, size);
     ASSERT_EQ(w.size(), static_cast<std::size_t>(size));
     for (std::size_t n = 0; n < w.size(); ++n) {
       EXPECT_FLOAT_EQ(w[n], w[w.size() - 1 - n]) << size << " " << n;
@@ -46,7 +46,7 @@ TEST(Hamming, IsSymmetricAndFollowsItsFormula) {
     }
     EXPECT_NEAR(w[0], 0.08, 1e-7);
   }
-  EXPECT_NEAR(hamming_window(9)[2], 0.54, 1e-7);  // a quarter of the way, where the cosine is 0
+  EXPECT_NEAR(make_window(WindowKind::hamming, 9)[2], 0.54, 1e-7);  // a quarter of the way, where the cosine is 0
 }
 
 }  // namespace

@@ -1,45 +1,19 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cepstra of speech (MFCC and HFCC): pre-emphasis, Hamming frames, power spectrum, filter bank,
-// log, DCT, lifter, normalisation, deltas (thesis sections 3.1.3 and 6.2.3; the log of eq. 3.32 is
-// the one its text speaks of).
+// Cepstra of speech: pre-emphasis, windowed frames, power spectrum, filter bank, log, DCT, lifter,
+// normalisation, deltas (MFCC and HFCC; thesis sections 3.1.3 and 6.2.3; the log of eq. 3.32 is the
+// one its text speaks of), or frames, linear prediction, cepstrum (LPCC).
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "hri/core/types.hpp"
+#include "hri/features/cepstra_options.hpp"
 #include "hri/features/filter_bank.hpp"
 #include "hri/signal/fft.hpp"
 
 namespace hri {
-
-enum class Normalisation : std::uint8_t {
-  none,
-  level,          ///< subtract the utterance mean of c0 only: loudness goes, the channel stays
-  mean,           ///< subtract the utterance mean of every coefficient
-  mean_variance,  ///< the same, then divide by the standard deviation
-};
-
-struct CepstraOptions {
-  int sample_rate_hz = 16000;
-  double frame_length_ms = 25;  ///< 1..1000
-  double frame_shift_ms = 10;   ///< 1..1000
-  double pre_emphasis = 0.97;   ///< 0 (off) .. 1
-  FilterBankKind filter_bank = FilterBankKind::mel;
-  int num_filters = 26;   ///< 1..512
-  double low_hz = 100;    ///< lower edge of the first filter
-  double high_hz = 0;     ///< upper edge of the last filter; 0 means the Nyquist rate
-  double erb_factor = 1;  ///< bandwidth factor E of HFCC-E
-  double warp = 1;        ///< vocal-tract-length factor on the filter frequencies, 0.5..2
-  int num_cepstra = 12;   ///< c1 .. c_num, 1..num_filters - 1
-  bool use_c0 = true;     ///< put c0 (log energy of all filters) in front
-  double lifter = 22;     ///< HTK's sine lifter, not negative; 0 turns it off
-  Normalisation normalisation = Normalisation::mean;
-  int delta_orders = 2;  ///< 0 static only, 1 deltas, 2 and accelerations
-  int delta_window = 2;  ///< frames on each side of the regression, 1..10
-};
 
 /// Immutable; const calls are safe from several threads.
 class CepstraComputer {
@@ -53,6 +27,8 @@ class CepstraComputer {
   [[nodiscard]] int frame_length() const { return frame_length_; }
   [[nodiscard]] int frame_shift() const { return frame_shift_; }
   [[nodiscard]] int num_frames(std::size_t num_samples) const;
+  /// Frames that the running normalisations remember.
+  [[nodiscard]] double running_frames() const;
 
   /// Features of mono audio at options().sample_rate_hz, rows = frames, shape (num_frames,
   /// num_features). Throws InvalidArgument "too short" for less than one frame, and for a sample
@@ -61,24 +37,32 @@ class CepstraComputer {
   /// The same into `out`; allocates nothing once a thread has met this frame length.
   void compute(Span<const float> audio, MatrixRefF out) const;
 
+  /// Static cepstra as they are before anything is done along time, shape (frames.size(),
+  /// num_static). Every frame is frame_length() + 1 samples, the first being what came before it.
+  void compute_frames(Span<const float* const> frames, MatrixRefF out) const;
+
  private:
+  struct Workspace;
+  static Workspace& workspace();
+  void set_dct();
+  [[nodiscard]] Eigen::Index column_of(int n) const;  // of cepstrum n
+  [[nodiscard]] const float* frame_at(Span<const float> audio, std::ptrdiff_t t,
+                                      Span<float> edge) const;
   void compute_static(Span<const float> audio, MatrixRefF out) const;
+  void condition(Span<const float* const> frames, float* log_energy, Workspace* work) const;
+  void log_energies(Span<const float* const> frames, float* logs, Workspace* work) const;
+  void project(const float* logs, float lowest, MatrixRefF out, Workspace* work) const;
+  void predict(Span<const float* const> frames, MatrixRefF out, Workspace* work) const;
 
   CepstraOptions options_;
   int frame_length_;
   int frame_shift_;
+  int c0_column_;  // -1: none
   RealFft fft_;
   FilterBank bank_;
-  std::vector<float> window_;
-  MatrixF dct_;  // (num_static, num_filters), lifter included
+  std::vector<float> window_;  // times the scale of the samples
+  MatrixF dct_;                // rows as the columns of the features; lifter and unit included
+  std::vector<double> lifts_;  // by cepstra, from c0, whose lift is the unit of the log
 };
-
-/// Regression deltas of columns [0, width) of `frames` into columns [width, 2 width): HTK's formula
-/// over `window` frames on each side, edge frames repeated.
-void append_deltas(MatrixRefF frames, int first_column, int width, int window);
-
-/// Normalises columns [0, width) over all rows; constant columns become zero. `c0_column` is where
-/// `level` works (-1: no c0).
-void normalise(MatrixRefF frames, int width, Normalisation kind, int c0_column);
 
 }  // namespace hri

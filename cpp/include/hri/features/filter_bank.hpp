@@ -18,6 +18,17 @@ struct FilterTable;
 
 enum class FilterBankKind : std::uint8_t { mel, hfcc };
 
+enum class MelScale : std::uint8_t {
+  htk,     ///< 2595 log10(1 + f / 700)
+  slaney,  ///< linear up to 1 kHz, logarithmic above (Slaney's Auditory Toolbox, librosa)
+};
+
+/// Along which axis the sides of a triangle are straight.
+enum class FilterAxis : std::uint8_t {
+  hz,
+  mel,  ///< as in HTK and Kaldi
+};
+
 struct FilterBankOptions {
   FilterBankKind kind = FilterBankKind::mel;
   int num_filters = 26;  ///< 1..512
@@ -26,6 +37,14 @@ struct FilterBankOptions {
   double erb_factor =
       1;            ///< E of HFCC-E, 0.1..10: filters E times as wide as an ear's; ignored by mel
   double warp = 1;  ///< vocal-tract-length factor on all filter frequencies, 0.5..2
+  /// Below warp_low_hz * max(1, 1 / warp) and above warp_high_hz * min(1, 1 / warp) the warp is a
+  /// straight line that leaves low_hz and high_hz where they are (piecewise-linear, as in HTK and
+  /// Kaldi, whose factor is 1 / warp). Both 0: it does not bend.
+  double warp_low_hz = 0;
+  double warp_high_hz = 0;
+  MelScale mel_scale = MelScale::htk;  ///< of the mel bank's spacing; HFCC has HTK's
+  FilterAxis axis = FilterAxis::hz;
+  bool unit_area = false;  ///< weights times 2 / (high - low), Hz
 };
 
 /// Edges and centre of one triangle, Hz: 0 at low, 1 at centre, 0 at high.
@@ -35,8 +54,8 @@ struct FilterTriangle {
   double high_hz = 0;
 };
 
-double hz_to_mel(double hz);  ///< 2595 log10(1 + f / 700)
-double mel_to_hz(double mel);
+double hz_to_mel(double hz, MelScale scale = MelScale::htk);
+double mel_to_hz(double mel, MelScale scale = MelScale::htk);
 /// Equivalent rectangular bandwidth in Hz at `centre_hz` (thesis eq. 6.10 with its units put
 /// right).
 double equivalent_rectangular_bandwidth(double centre_hz, double erb_factor);

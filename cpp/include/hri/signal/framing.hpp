@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace hri {
@@ -12,8 +13,15 @@ namespace hri {
 /// How many whole frames of `frame_length` fit, one every `frame_shift` samples; both at least 1.
 int num_frames(std::size_t num_samples, int frame_length, int frame_shift);
 
-/// Symmetric Hamming window 0.54 - 0.46 cos(2 pi n / (size - 1)), as HTK and the thesis use; size
-/// >= 1.
-std::vector<float> hamming_window(int size);
+enum class WindowKind : std::uint8_t {
+  hamming,        ///< 0.54 - 0.46 cos(2 pi n / (size - 1)), as HTK and the thesis use
+  hann,           ///< 0.5 - 0.5 cos(2 pi n / (size - 1))
+  hann_periodic,  ///< 0.5 - 0.5 cos(2 pi n / size), as librosa uses
+  povey,          ///< hann to the power of 0.85, as Kaldi uses
+  rectangular,
+};
+
+/// A window of `size` >= 1 samples.
+std::vector<float> make_window(WindowKind kind, int size);
 
 }  // namespace hri
