@@ -18,6 +18,7 @@ __all__: list[str] = [
     "CepstraKind",
     "CepstraOptions",
     "CepstraStream",
+    "ClassDistance",
     "Codebook",
     "CodebookOptions",
     "CodebookReport",
@@ -29,6 +30,8 @@ __all__: list[str] = [
     "DiscreteHmmOptions",
     "DiscreteHmmStream",
     "Distance",
+    "DistanceClassifier",
+    "DistanceClassifierOptions",
     "Error",
     "FilterAxis",
     "FilterBankKind",
@@ -71,6 +74,7 @@ __all__: list[str] = [
     "PossibilisticHmmStream",
     "PossibilisticRule",
     "PossibilisticTraining",
+    "PossibilityClassifier",
     "SequenceModelKind",
     "SequenceModelOptions",
     "SilhouetteCepstrumComputer",
@@ -98,6 +102,7 @@ __all__: list[str] = [
     "linear_prediction",
     "lpc_cepstrum",
     "necessity_of",
+    "normalise_time",
     "orientation_histogram",
     "parse_wav",
     "possibilities",
@@ -1330,6 +1335,139 @@ class Knn:
         Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
         """
     def nearest_distance(self, row: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float: ...
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def num_classes(self) -> int: ...
+
+class ClassDistance:
+    """
+    Members:
+
+      euclidean
+
+      manhattan
+
+      mahalanobis
+
+      bhattacharyya
+    """
+
+    __members__: typing.ClassVar[dict[str, ClassDistance]]
+    bhattacharyya: typing.ClassVar[ClassDistance]
+    euclidean: typing.ClassVar[ClassDistance]
+    mahalanobis: typing.ClassVar[ClassDistance]
+    manhattan: typing.ClassVar[ClassDistance]
+    @typing.overload
+    def __eq__(self, other: ClassDistance) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: ClassDistance) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class DistanceClassifierOptions:
+    """
+    Options of DistanceClassifier.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    metric: ClassDistance
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def shrinkage(self) -> float: ...
+    @shrinkage.setter
+    def shrinkage(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class DistanceClassifier:
+    """
+    The class whose mean is nearest (thesis table 6.5); decision values are negative distances.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> DistanceClassifier:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: DistanceClassifierOptions = ...,
+    ) -> DistanceClassifier:
+        """
+        Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.
+
+        Raises InvalidArgument for values not finite (names the row) or a class without a row.
+        """
+    def decision_values(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def num_classes(self) -> int: ...
+
+class PossibilityClassifier:
+    """
+    Gaussian class densities divided by the largest (thesis eq. 5.14-5.15); decision values are log possibilities.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> PossibilityClassifier:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: GaussianBayesOptions = ...,
+    ) -> PossibilityClassifier:
+        """
+        Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.
+
+        Raises InvalidArgument for values not finite (names the row) or a class without a row.
+        """
+    def classify(
+        self, row: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
+        """
+        Possibility and necessity of every class, each of shape (num_classes,).
+        """
+    def decision_values(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
+        """
     def write(self, file: ModelFile, prefix: str) -> None:
         """
         Adds the model to a ModelFile.
@@ -2744,6 +2882,13 @@ def necessity_of(
 ) -> float:
     """
     N(A) = 1 - Pi(not A) (thesis eq. 4.2).
+    """
+
+def normalise_time(
+    frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], num_rows: typing.SupportsInt | typing.SupportsIndex
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Frames stretched or squeezed to num_rows rows by linear interpolation, float32.
     """
 
 def orientation_histogram(
