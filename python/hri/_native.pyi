@@ -101,6 +101,7 @@ __all__: list[str] = [
     "initial_transition",
     "linear_prediction",
     "lpc_cepstrum",
+    "max_dwt_level",
     "necessity_of",
     "normalise_time",
     "orientation_histogram",
@@ -111,8 +112,10 @@ __all__: list[str] = [
     "resample",
     "spectral_envelope",
     "wavedec",
+    "wavedec2",
     "wavelet_names",
     "waverec",
+    "waverec2",
     "write_wav_pcm16",
 ]
 
@@ -192,53 +195,6 @@ class Wav:
     @property
     def samples(self) -> numpy.typing.NDArray[numpy.float32]: ...
 
-class Border:
-    """
-    What stands beyond the ends of a signal, by PyWavelets' names.
-
-    Members:
-
-      symmetric
-
-      zero
-
-      constant
-
-      periodic
-
-      reflect
-
-      periodization
-    """
-
-    __members__: typing.ClassVar[dict[str, Border]]
-    constant: typing.ClassVar[Border]
-    periodic: typing.ClassVar[Border]
-    periodization: typing.ClassVar[Border]
-    reflect: typing.ClassVar[Border]
-    symmetric: typing.ClassVar[Border]
-    zero: typing.ClassVar[Border]
-    @typing.overload
-    def __eq__(self, other: Border) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: Border) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class ActivityOptions:
     """
     Where somebody speaks in a clip.
@@ -277,6 +233,62 @@ class ActivityOptions:
     def silence_dbfs(self) -> float: ...
     @silence_dbfs.setter
     def silence_dbfs(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Border:
+    """
+    What stands beyond the ends of a signal, by PyWavelets' names.
+
+    Members:
+
+      symmetric
+
+      zero
+
+      constant
+
+      periodic
+
+      reflect
+
+      periodization
+
+      smooth
+
+      antisymmetric
+
+      antireflect
+    """
+
+    __members__: typing.ClassVar[dict[str, Border]]
+    antireflect: typing.ClassVar[Border]
+    antisymmetric: typing.ClassVar[Border]
+    constant: typing.ClassVar[Border]
+    periodic: typing.ClassVar[Border]
+    periodization: typing.ClassVar[Border]
+    reflect: typing.ClassVar[Border]
+    smooth: typing.ClassVar[Border]
+    symmetric: typing.ClassVar[Border]
+    zero: typing.ClassVar[Border]
+    @typing.overload
+    def __eq__(self, other: Border) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Border) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
 
 class FilterBankKind:
     """
@@ -2876,6 +2888,11 @@ def lpc_cepstrum(
     c0 .. c_num of the log spectrum ln(gain / |A|^2) = c0 + 2 sum of c_n cos(n w).
     """
 
+def max_dwt_level(num_samples: typing.SupportsInt | typing.SupportsIndex, wavelet: str) -> int:
+    """
+    Levels until the border reaches every coefficient.
+    """
+
 def necessity_of(
     distribution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     event: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
@@ -2958,7 +2975,33 @@ def wavedec(
     Several levels, [approximation, coarsest detail, ..., finest detail].
     """
 
-def wavelet_names() -> list[str]: ...
+@typing.overload
+def wavedec2(
+    image: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> list:
+    """
+    Several levels of an image, [approximation, coarsest details, ..., finest details].
+    """
+
+@typing.overload
+def wavedec2(
+    image: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> list:
+    """
+    Several levels of an image, [approximation, coarsest details, ..., finest details].
+    """
+
+def wavelet_names() -> list[str]:
+    """
+    Names of all wavelets, as PyWavelets has them.
+    """
+
 @typing.overload
 def waverec(
     coefficients: list[numpy.typing.NDArray[numpy.float32]],
@@ -2979,6 +3022,30 @@ def waverec(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The inverse of wavedec.
+    """
+
+@typing.overload
+def waverec2(
+    approx: numpy.typing.NDArray[numpy.float32],
+    details: list[typing.Annotated[list[numpy.typing.NDArray[numpy.float32]], "FixedSize(3)"]],
+    wavelet: str,
+    border: Border,
+    shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The inverse of wavedec2.
+    """
+
+@typing.overload
+def waverec2(
+    approx: numpy.typing.NDArray[numpy.float64],
+    details: list[typing.Annotated[list[numpy.typing.NDArray[numpy.float64]], "FixedSize(3)"]],
+    wavelet: str,
+    border: Border,
+    shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The inverse of wavedec2.
     """
 
 def write_wav_pcm16(
