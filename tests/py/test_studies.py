@@ -55,12 +55,12 @@ def test_statistics_are_over_persons() -> None:
 
 def test_a_table_spreads_one_axis_over_its_columns() -> None:
     assert tables.table(RESULT, Layout(columns="snr_db")) == [
-        ["features", "snr_db 20", "snr_db 10"],
-        ["mfcc", "70.0 ± 0.0", "65.0 ± 5.0"],
-        ["hfcc", "", "90.0 ± 10.0"],
+        ["features", "snr_db 10", "snr_db 20"],
+        ["mfcc", "65.0 ± 5.0", "70.0 ± 0.0"],
+        ["hfcc", "90.0 ± 10.0", ""],
     ]
     text = tables.markdown(RESULT, Layout(columns="snr_db"))
-    assert "target: to be shown (met)" in text and "| mfcc | 70.0 ± 0.0 | 65.0 ± 5.0 |" in text
+    assert "target: to be shown (met)" in text and "| mfcc | 65.0 ± 5.0 | 70.0 ± 0.0 |" in text
 
 
 def test_the_csv_holds_every_fold_in_full() -> None:

@@ -71,6 +71,8 @@ def table(result: Row, layout: Layout) -> list[list[str]]:
         return [header, *cells]
     down = [axis for axis in axes if axis != layout.columns]
     across = list(dict.fromkeys(row[layout.columns] for row in rows))
+    if all(isinstance(value, int | float) for value in across):
+        across.sort()
     lines: dict[tuple[str, ...], dict[Any, str]] = {}
     for row in rows:
         lines.setdefault(tuple(str(row.get(a, "")) for a in down), {})[row[layout.columns]] = show(row, layout)

@@ -96,16 +96,22 @@ class FeatureKind:
     prepare : callable, optional
         What is done to the samples before; what it gives is at `rate_divisor` times less than 16 kHz.
     rate_divisor : int
+    at_band : bool
+        Whether to work at twice the band that was recorded, where linear prediction must not model emptiness.
     """
 
     options: dict[str, Any] = field(default_factory=dict)
     prepare: Callable[[Samples], Samples] | None = None
     rate_divisor: int = 1
+    at_band: bool = False
 
     def frames(self, samples: Samples, band_hz: float) -> Frames:
         """Cepstra 0-12, deltas and accelerations, mean normalised, shape (num_frames, num_features)."""
         prepared = samples if self.prepare is None else self.prepare(samples)
         rate_hz = RATE_HZ // self.rate_divisor
+        if self.at_band and 2 * band_hz < rate_hz:
+            prepared = np.asarray(_native.resample(prepared, rate_hz, round(2 * band_hz)))
+            rate_hz = round(2 * band_hz)
         computer = _computer(rate_hz, band_hz, self.options)
         least = int(np.ceil(rate_hz * computer.options.frame_length_ms / 1000))
         if len(prepared) < least:
@@ -141,6 +147,7 @@ HFCC = {"filter_bank": "hfcc"}
 FEATURES: dict[str, FeatureKind] = {
     "mfcc": FeatureKind(),
     "hfcc": FeatureKind(HFCC),
+    "lpcc": FeatureKind({"kind": "linear_prediction"}, at_band=True),
     f"dwt{LEVEL}+hfcc": approximation_kind(WAVELET, LEVEL, HFCC),
 }
 """By name, as the thesis compares them; "dwt3" are features of the third level's approximation."""
