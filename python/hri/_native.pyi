@@ -591,21 +591,6 @@ class CepstraOptions:
     """
 
     __hash__: typing.ClassVar[None] = None
-    decibels: bool
-    filter_axis: FilterAxis
-    filter_bank: FilterBankKind
-    frame_pre_emphasis: bool
-    htk_c0: bool
-    kind: CepstraKind
-    mel_scale: MelScale
-    normalisation: Normalisation
-    padding: FramePadding
-    remove_dc: bool
-    unit_area: bool
-    use_c0: bool
-    use_energy: bool
-    use_power: bool
-    window: WindowKind
     @staticmethod
     def htk(sample_rate_hz: typing.SupportsInt | typing.SupportsIndex = 16000) -> CepstraOptions:
         """
@@ -626,93 +611,264 @@ class CepstraOptions:
     def __repr__(self) -> str: ...
     def as_dict(self) -> dict: ...
     @property
-    def delta_orders(self) -> int: ...
+    def decibels(self) -> bool:
+        """
+        10 log10 in place of ln
+        """
+    @decibels.setter
+    def decibels(self, arg0: bool) -> None: ...
+    @property
+    def delta_orders(self) -> int:
+        """
+        0..2
+        """
     @delta_orders.setter
     def delta_orders(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def delta_window(self) -> int: ...
+    def delta_window(self) -> int:
+        """
+        frames on each side of the regression, 1..10
+        """
     @delta_window.setter
     def delta_window(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def energy_floor(self) -> float: ...
+    def energy_floor(self) -> float:
+        """
+        below the log, 1e-30..1e30
+        """
     @energy_floor.setter
     def energy_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def erb_factor(self) -> float: ...
+    def erb_factor(self) -> float:
+        """
+        bandwidth factor E of HFCC-E, 0.1..10
+        """
     @erb_factor.setter
     def erb_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def fft_size(self) -> int: ...
+    def fft_size(self) -> int:
+        """
+        even, at least the frame's samples; 0: the next power of two
+        """
     @fft_size.setter
     def fft_size(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def frame_length_ms(self) -> float: ...
+    def filter_axis(self) -> FilterAxis:
+        """
+        along which the sides of filters are straight: hz or mel
+        """
+    @filter_axis.setter
+    def filter_axis(self, arg0: FilterAxis) -> None: ...
+    @property
+    def filter_bank(self) -> FilterBankKind:
+        """
+        mel or hfcc
+        """
+    @filter_bank.setter
+    def filter_bank(self, arg0: FilterBankKind) -> None: ...
+    @property
+    def frame_length_ms(self) -> float:
+        """
+        1..1000
+        """
     @frame_length_ms.setter
     def frame_length_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def frame_shift_ms(self) -> float: ...
+    def frame_pre_emphasis(self) -> bool:
+        """
+        every frame begins anew, as in HTK and Kaldi
+        """
+    @frame_pre_emphasis.setter
+    def frame_pre_emphasis(self, arg0: bool) -> None: ...
+    @property
+    def frame_shift_ms(self) -> float:
+        """
+        1..1000
+        """
     @frame_shift_ms.setter
     def frame_shift_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def high_hz(self) -> float: ...
+    def high_hz(self) -> float:
+        """
+        upper edge of the last filter; 0: the Nyquist rate
+        """
     @high_hz.setter
     def high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def lifter(self) -> float: ...
+    def htk_c0(self) -> bool:
+        """
+        c0 (or the energy) behind the others, and c0 sqrt(2) times as large
+        """
+    @htk_c0.setter
+    def htk_c0(self, arg0: bool) -> None: ...
+    @property
+    def kind(self) -> CepstraKind:
+        """
+        filter_bank (MFCC, HFCC) or linear_prediction (LPCC)
+        """
+    @kind.setter
+    def kind(self, arg0: CepstraKind) -> None: ...
+    @property
+    def lifter(self) -> float:
+        """
+        HTK's sine lifter; 0: off
+        """
     @lifter.setter
     def lifter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def low_hz(self) -> float: ...
+    def low_hz(self) -> float:
+        """
+        lower edge of the first filter
+        """
     @low_hz.setter
     def low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def lpc_order(self) -> int: ...
+    def lpc_order(self) -> int:
+        """
+        1..64
+        """
     @lpc_order.setter
     def lpc_order(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def num_cepstra(self) -> int: ...
+    def mel_scale(self) -> MelScale:
+        """
+        htk or slaney
+        """
+    @mel_scale.setter
+    def mel_scale(self, arg0: MelScale) -> None: ...
+    @property
+    def normalisation(self) -> Normalisation:
+        """
+        of an utterance or running
+        """
+    @normalisation.setter
+    def normalisation(self, arg0: Normalisation) -> None: ...
+    @property
+    def num_cepstra(self) -> int:
+        """
+        c1 .. c_num, 1..num_filters - 1
+        """
     @num_cepstra.setter
     def num_cepstra(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def num_filters(self) -> int: ...
+    def num_filters(self) -> int:
+        """
+        1..512
+        """
     @num_filters.setter
     def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def pre_emphasis(self) -> float: ...
+    def padding(self) -> FramePadding:
+        """
+        none, or zeros around the audio so that frame t has sample t * shift in its middle
+        """
+    @padding.setter
+    def padding(self, arg0: FramePadding) -> None: ...
+    @property
+    def pre_emphasis(self) -> float:
+        """
+        0 (off) .. 1
+        """
     @pre_emphasis.setter
     def pre_emphasis(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def rasta_pole(self) -> float: ...
+    def rasta_pole(self) -> float:
+        """
+        of the RASTA filter, below 1; 0: off
+        """
     @rasta_pole.setter
     def rasta_pole(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def running_s(self) -> float: ...
+    def remove_dc(self) -> bool:
+        """
+        subtract the mean of every frame
+        """
+    @remove_dc.setter
+    def remove_dc(self, arg0: bool) -> None: ...
+    @property
+    def running_s(self) -> float:
+        """
+        memory of the running normalisations
+        """
     @running_s.setter
     def running_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def sample_rate_hz(self) -> int: ...
+    def sample_rate_hz(self) -> int:
+        """
+        1000..384000
+        """
     @sample_rate_hz.setter
     def sample_rate_hz(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def sample_scale(self) -> float: ...
+    def sample_scale(self) -> float:
+        """
+        32768: as if samples were 16-bit integers
+        """
     @sample_scale.setter
     def sample_scale(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def top_db(self) -> float: ...
+    def top_db(self) -> float:
+        """
+        filters this far below the loudest of the utterance are raised to that; 0: off
+        """
     @top_db.setter
     def top_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def warp(self) -> float: ...
+    def unit_area(self) -> bool:
+        """
+        filters of equal area, not of equal height
+        """
+    @unit_area.setter
+    def unit_area(self, arg0: bool) -> None: ...
+    @property
+    def use_c0(self) -> bool:
+        """
+        put c0 in front
+        """
+    @use_c0.setter
+    def use_c0(self, arg0: bool) -> None: ...
+    @property
+    def use_energy(self) -> bool:
+        """
+        log energy of the frame in the place of c0
+        """
+    @use_energy.setter
+    def use_energy(self, arg0: bool) -> None: ...
+    @property
+    def use_power(self) -> bool:
+        """
+        False: filters over the magnitude
+        """
+    @use_power.setter
+    def use_power(self, arg0: bool) -> None: ...
+    @property
+    def warp(self) -> float:
+        """
+        vocal-tract-length factor on the filter frequencies, 0.5..2
+        """
     @warp.setter
     def warp(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def warp_high_hz(self) -> float: ...
+    def warp_high_hz(self) -> float:
+        """
+        where the warp bends back to high_hz; 0: it does not
+        """
     @warp_high_hz.setter
     def warp_high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def warp_low_hz(self) -> float: ...
+    def warp_low_hz(self) -> float:
+        """
+        where the warp bends back to low_hz; 0: it does not
+        """
     @warp_low_hz.setter
     def warp_low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def window(self) -> WindowKind:
+        """
+        laid over every frame
+        """
+    @window.setter
+    def window(self, arg0: WindowKind) -> None: ...
 
 class CepstraComputer:
     """

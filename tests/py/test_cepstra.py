@@ -216,3 +216,8 @@ def test_any_fft_size_will_do() -> None:
         bank = _native.filter_bank(_native.FilterBankOptions(), 16000, size).astype("f8")
         logs = np.log(np.abs(np.fft.rfft(windowed(x), size)) ** 2 @ bank.T)
         np.testing.assert_allclose(ours[:, 0], logs.sum(axis=1) / np.sqrt(26), rtol=1e-5)
+
+
+def test_every_option_tells_what_it_is() -> None:
+    for name in CepstraOptions().as_dict():
+        assert getattr(CepstraOptions, name).__doc__, name
