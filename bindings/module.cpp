@@ -14,6 +14,7 @@ void bind_io(py::module_& m);
 void bind_signal(py::module_& m);
 void bind_wavelets(py::module_& m);
 void bind_filter_bank(py::module_& m);
+void bind_end_points(py::module_& m);
 void bind_features(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_codebook(py::module_& m);
@@ -82,6 +83,7 @@ PYBIND11_MODULE(_native, m) {
   bind_signal(m);
   bind_wavelets(m);
   bind_filter_bank(m);
+  bind_end_points(m);
   bind_features(m);
   bind_hand_features(m);
   bind_codebook(m);

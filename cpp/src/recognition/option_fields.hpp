@@ -64,9 +64,10 @@ void visit_activity(V&& v, O& o) {
   v("activity.frame_ms", o.frame_ms);
   v("activity.shift_ms", o.shift_ms);
   v("activity.silence_dbfs", o.silence_dbfs);
-  v("activity.min_range_db", o.min_range_db);
   v("activity.margin_db", o.margin_db);
   v("activity.max_depth_db", o.max_depth_db);
+  v("activity.min_voicing", o.min_voicing);
+  v("activity.max_gap_ms", o.max_gap_ms);
   v("activity.padding_ms", o.padding_ms);
 }
 

@@ -119,9 +119,10 @@ TEST(FindSpeech, RefusesOptionsOutOfRange) {
   const Case cases[] = {{&ActivityOptions::frame_ms, 1, 1000, "frame_ms"},
                         {&ActivityOptions::shift_ms, 1, 1000, "shift_ms"},
                         {&ActivityOptions::silence_dbfs, -120, 0, "silence_dbfs"},
-                        {&ActivityOptions::min_range_db, 0, 60, "min_range_db"},
                         {&ActivityOptions::margin_db, 0, 60, "margin_db"},
                         {&ActivityOptions::max_depth_db, 1, 120, "max_depth_db"},
+                        {&ActivityOptions::min_voicing, 0, 10, "min_voicing"},
+                        {&ActivityOptions::max_gap_ms, 0, 2000, "max_gap_ms"},
                         {&ActivityOptions::padding_ms, 0, 1000, "padding_ms"}};
   for (const Case& c : cases) {
     for (const double good : {c.low, c.high}) {

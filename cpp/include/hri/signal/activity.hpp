@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where somebody speaks in a clip: frame energy against the clip's own noise floor and peak, so
-// that neither the level nor stationary noise matters.
+// Where somebody speaks in a clip. Speech is voiced sound, sustained for a few frames, above the
+// noise of its band; a word reaches from there as far as anything stands out of the noise. Neither
+// the level nor stationary noise matters, and noise alone is no speech however loud it is.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +13,14 @@
 namespace hri {
 
 struct ActivityOptions {
-  double frame_ms = 25;  ///< 1..1000
-  double shift_ms = 10;  ///< 1..1000
-  double silence_dbfs =
-      -60;                   ///< a clip whose loudest frame stays below this holds nothing, -120..0
-  double min_range_db = 6;   ///< loudest frame over the noise floor; steady noise has less, 0..60
-  double margin_db = 6;      ///< speech is this much above the noise floor, 0..60
-  double max_depth_db = 30;  ///< and never more than this below the loudest frame, 1..120
-  double padding_ms = 30;    ///< kept before and after, 0..1000
+  double frame_ms = 25;       ///< 1..1000
+  double shift_ms = 10;       ///< 1..1000
+  double silence_dbfs = -70;  ///< frames below this hold nothing, -120..0
+  double margin_db = 4;       ///< a sound is this much above the noise, over all bands, 0..60
+  double max_depth_db = 30;   ///< and never more than this below the loudest voiced frame, 1..120
+  double min_voicing = 1.15;  ///< how long and how clearly voiced a word is at least, 0..10
+  double max_gap_ms = 300;    ///< silence within a word, as before a plosive, 0..2000
+  double padding_ms = 30;     ///< kept before and after, 0..1000
 };
 
 /// Samples [first, last) hold the word; `found` is false where nobody speaks.

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// End points: in a clip, and in a stream.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "hri/signal/activity.hpp"
+#include "hri/signal/activity_meter.hpp"
+#include "hri/signal/endpointer.hpp"
+#include "options.hpp"
+
+namespace py = pybind11;
+using hri_bind::as_span;
+using hri_bind::to_array;
+
+namespace {
+
+void bind_clips(py::module_& m) {
+  py::class_<hri::ActivityOptions> options(m, "ActivityOptions",
+                                           "Where somebody speaks in a clip.");
+  hri_bind::options(options)
+      .field("frame_ms", &hri::ActivityOptions::frame_ms)
+      .field("shift_ms", &hri::ActivityOptions::shift_ms)
+      .field("silence_dbfs", &hri::ActivityOptions::silence_dbfs)
+      .field("margin_db", &hri::ActivityOptions::margin_db)
+      .field("max_depth_db", &hri::ActivityOptions::max_depth_db)
+      .field("min_voicing", &hri::ActivityOptions::min_voicing)
+      .field("max_gap_ms", &hri::ActivityOptions::max_gap_ms)
+      .field("padding_ms", &hri::ActivityOptions::padding_ms);
+  m.def(
+      "find_speech",
+      [](const hri_bind::FloatArray& audio, int sample_rate_hz,
+         const hri::ActivityOptions& o) -> py::object {
+        const auto samples = as_span(audio, "audio");
+        hri::SpeechBounds b;
+        {
+          const py::gil_scoped_release release;
+          b = hri::find_speech(samples, sample_rate_hz, o);
+        }
+        if (!b.found) return py::none();
+        return py::make_tuple(b.first, b.last);
+      },
+      py::arg("audio"), py::arg("sample_rate_hz"), py::arg("options") = hri::ActivityOptions{},
+      "(first, last) sample of the word, or None where nobody speaks.");
+  m.def(
+      "activity_frames",
+      [](const hri_bind::FloatArray& audio, int sample_rate_hz, const hri::ActivityOptions& o) {
+        const auto samples = as_span(audio, "audio");
+        hri::ActivityMeter meter(sample_rate_hz, o);
+        hri::MatrixF rows(static_cast<Eigen::Index>(samples.size() / meter.frame_shift() + 1),
+                          static_cast<Eigen::Index>(2 + meter.num_bands()));
+        Eigen::Index count = 0;
+        {
+          const py::gil_scoped_release release;
+          for (std::size_t at = 0; at < samples.size();) {
+            hri::ActivityFrame frame;
+            bool complete = false;
+            at += meter.take(samples.subspan(at, samples.size() - at), &frame, &complete);
+            if (!complete) break;
+            rows(count, 0) = frame.level_db;
+            rows(count, 1) = frame.voicing;
+            for (Eigen::Index b = 0; b < meter.num_bands(); ++b)
+              rows(count, 2 + b) = frame.band_db[static_cast<std::size_t>(b)];
+            ++count;
+          }
+        }
+        return to_array(hri::MatrixF(rows.topRows(count)));
+      },
+      py::arg("audio"), py::arg("sample_rate_hz"), py::arg("options") = hri::ActivityOptions{},
+      "What end points are found from, a row a frame: level (dB), voicing (0..1), then the level "
+      "of "
+      "each band (dB).");
+}
+
+// Every event in these samples; the stream goes on.
+std::vector<hri::Endpoint> push(hri::Endpointer& self, const hri_bind::FloatArray& block) {
+  const auto samples = as_span(block, "samples");
+  std::vector<hri::Endpoint> events;
+  const py::gil_scoped_release release;
+  for (std::size_t at = 0; at < samples.size();) {
+    hri::Endpoint event;
+    at += self.consume(samples.subspan(at, samples.size() - at), &event);
+    if (event.kind != hri::EndpointKind::none) events.push_back(event);
+  }
+  return events;
+}
+
+std::vector<hri::Endpoint> finish(hri::Endpointer& self) {
+  std::vector<hri::Endpoint> events;
+  const py::gil_scoped_release release;
+  for (hri::Endpoint e = self.finish(); e.kind != hri::EndpointKind::none; e = self.finish())
+    events.push_back(e);
+  return events;
+}
+
+void bind_streams(py::module_& m) {
+  py::class_<hri::EndpointerOptions> options(m, "EndpointerOptions",
+                                             "When an utterance in a stream begins and ends.");
+  hri_bind::options(options)
+      .field("activity", &hri::EndpointerOptions::activity)
+      .field("hangover_ms", &hri::EndpointerOptions::hangover_ms)
+      .field("context_ms", &hri::EndpointerOptions::context_ms)
+      .field("max_utterance_ms", &hri::EndpointerOptions::max_utterance_ms);
+  py::enum_<hri::EndpointKind>(m, "EndpointKind")
+      .value("none", hri::EndpointKind::none)
+      .value("speech_start", hri::EndpointKind::speech_start)
+      .value("speech_end", hri::EndpointKind::speech_end)
+      .value("speech_dropped", hri::EndpointKind::speech_dropped);
+  py::class_<hri::Endpoint>(m, "Endpoint",
+                            "An event; positions are samples since the stream began.")
+      .def_readonly("kind", &hri::Endpoint::kind)
+      .def_readonly("at", &hri::Endpoint::at)
+      .def_readonly("first", &hri::Endpoint::first)
+      .def_readonly("last", &hri::Endpoint::last)
+      .def_readonly("segment_first", &hri::Endpoint::segment_first)
+      .def_readonly("segment_last", &hri::Endpoint::segment_last)
+      .def_readonly("cut", &hri::Endpoint::cut);
+  py::class_<hri::Endpointer>(m, "Endpointer",
+                              "Finds utterances in a stream, whatever the size of its blocks.")
+      .def(py::init<int, const hri::EndpointerOptions&>(), py::arg("sample_rate_hz"),
+           py::arg("options") = hri::EndpointerOptions{})
+      .def("push", &push, py::arg("samples"), "The events in the next samples of the stream.")
+      .def("finish", &finish, "The last events; the next stream may begin.")
+      .def_property_readonly("options", &hri::Endpointer::options)
+      .def_property_readonly("num_samples", &hri::Endpointer::num_samples)
+      .def_property_readonly("in_speech", &hri::Endpointer::in_speech)
+      .def_property_readonly("level_db", &hri::Endpointer::level_db)
+      .def_property_readonly("excess_db", &hri::Endpointer::excess_db);
+}
+
+}  // namespace
+
+void bind_end_points(py::module_& m) {
+  bind_clips(m);
+  bind_streams(m);
+}

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Utterances in a stream, found as they are spoken. A sound that stands out of the noise becomes
+// speech when it is voiced, and ends when silence has lasted; its end points are then those that
+// find_speech would give for the utterance and the silence around it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "hri/core/types.hpp"
+#include "hri/signal/activity.hpp"
+
+namespace hri {
+
+struct EndpointerOptions {
+  ActivityOptions activity;
+  double hangover_ms = 300;        ///< silence that ends an utterance, 50..5000
+  double context_ms = 300;         ///< noise kept before an utterance, to know it by, 50..5000
+  double max_utterance_ms = 5000;  ///< what goes on for longer is cut, 500..60000
+};
+
+enum class EndpointKind : std::uint8_t {
+  none,
+  speech_start,    ///< somebody speaks since `first`
+  speech_end,      ///< and has ended: [first, last) is the utterance
+  speech_dropped,  ///< what seemed to be speech was none
+};
+
+/// An event in the stream; all positions are samples since its beginning.
+struct Endpoint {
+  EndpointKind kind = EndpointKind::none;
+  std::size_t at = 0;  ///< as many samples had been heard when this was decided
+  std::size_t first = 0;
+  std::size_t last = 0;
+  std::size_t segment_first = 0;  ///< the utterance with the noise around it, for a recogniser that
+  std::size_t segment_last = 0;   ///< finds the end points itself
+  bool cut = false;               ///< it reached max_utterance_ms
+};
+
+/// One stream. Block sizes do not matter: the same samples give the same events at the same places.
+/// Nothing is allocated after construction. Not to be shared by threads.
+class Endpointer {
+ public:
+  /// Throws InvalidArgument for options out of range and a rate outside 1000..384000 Hz.
+  Endpointer(int sample_rate_hz, const EndpointerOptions& options);
+  ~Endpointer();
+  Endpointer(Endpointer&&) noexcept;
+  Endpointer& operator=(Endpointer&&) noexcept;
+
+  /// Hears samples up to the next event, and says how many; call again with the rest. Throws
+  /// InvalidArgument for a sample that is not finite, by its number in the stream, before it hears
+  /// any.
+  std::size_t consume(Span<const float> samples, Endpoint* event);
+
+  /// The stream has ended: an event if there is another one; call until there is none. Then the
+  /// next stream may begin.
+  Endpoint finish();
+
+  [[nodiscard]] const EndpointerOptions& options() const;
+  [[nodiscard]] std::size_t num_samples() const;  ///< heard so far
+  [[nodiscard]] bool in_speech() const;
+  [[nodiscard]] float level_db() const;   ///< of the last frame, relative to full scale
+  [[nodiscard]] float excess_db() const;  ///< how far that stands out of the noise
+
+ private:
+  class Stream;
+  std::unique_ptr<Stream> stream_;
+};
+
+}  // namespace hri
