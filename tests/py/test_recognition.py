@@ -63,7 +63,7 @@ def test_unseen_takes_and_persons_are_recognised(clips: Clips, model: str) -> No
 
 
 def test_decision_is_told_whole(words: hri.WordRecognizer, clips: Clips) -> None:
-    decision = words.recognise(clips[0][0], RATE_HZ)
+    decision = words.recognise(clips[0][-2], RATE_HZ)
     assert (decision.mode, decision.status, decision.label) == ("speech", "recognised", "rise")
     assert [entry.label for entry in decision.nbest] == ["rise", "fall"]
     assert decision.nbest[0].probability == decision.confidence >= decision.nbest[1].probability
