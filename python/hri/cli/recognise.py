@@ -11,7 +11,7 @@ import click
 
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import default_model
+from hri.cli.recognizers import kept_model
 from hri.errors import Error, InvalidArgument
 from hri.fusion import RULES, FusedDecision, fuse
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, read_audio, read_frames, write_image
@@ -75,12 +75,12 @@ def recognise(
         raise click.UsageError("--gui needs --backend pybullet")
     heard = seen = None
     if speech is not None:
-        words = WordRecognizer.load(speech_model or _kept("speech"))
+        words = WordRecognizer.load(speech_model or kept_model("speech"))
         audio = read_audio(speech)
         heard = words.recognise(audio.samples, audio.sample_rate_hz)
         _describe(heard, speech, [*audio.notes, *heard.notes], top)
     if gesture is not None:
-        signs = GestureRecognizer.load(gesture_model or _kept("gesture"))
+        signs = GestureRecognizer.load(gesture_model or kept_model("gesture"))
         seen = signs.recognise(read_frames(gesture).frames)
         _describe(seen, gesture, seen.notes, top)
     decision = fuse(heard, seen, rule=rule)
@@ -94,15 +94,6 @@ def recognise(
         raise
     finally:
         write_json(json_path, {**decision.to_dict(), "robot": answer})
-
-
-def _kept(mode: str) -> Path:
-    path = default_model(mode)
-    if not path.is_file():
-        raise InvalidArgument(
-            f"there is no {mode} model yet: run 'hri train {mode} --data DIR', or give --{mode}-model FILE"
-        )
-    return path
 
 
 def _describe(decision: Decision, path: str, notes: Any, top: int) -> None:

@@ -47,6 +47,14 @@ def default_model(mode: str) -> Path:
     return user_data_path("hri") / f"{mode}.hri"
 
 
+def kept_model(mode: str) -> Path:
+    """The model kept per user. Raises InvalidArgument that says how to make it when there is none."""
+    path = default_model(mode)
+    if not path.is_file():
+        raise InvalidArgument(f"there is no {mode} model yet: run 'hri train {mode} --data DIR', or name a model file")
+    return path
+
+
 def load_dataset(directory: str, mode: str, pattern: str | None) -> Dataset:
     """`Dataset.load`; recordings that do not fit the pattern are told of on standard error."""
     dataset = Dataset.load(directory, mode, pattern)

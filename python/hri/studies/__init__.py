@@ -6,6 +6,8 @@ from hri.errors import InvalidArgument
 from hri.studies import (
     classifiers,
     distance,
+    endpoints,
+    false_alarms,
     fusion,
     noise,
     parity,
@@ -25,6 +27,8 @@ _MODULES = (
     distance,
     tempo,
     synthetic_speakers,
+    endpoints,
+    false_alarms,
     classifiers,
     training_size,
     wavelets,

@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What a live session tells: one event at a time, one line of JSON each."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from typing import Any
+
+from hri.recognition.decision import Decision, plain
+
+LISTENING = "listening"
+LEVEL = "level"
+SPEECH_START = "speech_start"
+SPEECH_END = "speech_end"
+SPEECH_DROPPED = "speech_dropped"
+DECISION = "decision"
+OVERFLOW = "overflow"
+STALL = "stall"
+ENDED = "ended"
+
+
+@dataclass(frozen=True)
+class Event:
+    """One thing that happened in a stream of sound.
+
+    Attributes
+    ----------
+    time : float
+        Seconds of sound since the stream began, by counting samples.
+    event : str
+        "listening", "level", "speech_start", "speech_end", "speech_dropped" (what seemed to be speech was none),
+        "decision", "overflow", "stall" or "ended".
+    fields : dict
+        What belongs to this kind of event, see docs/listening.md.
+    decision : Decision or None
+        Of a "decision".
+    """
+
+    time: float
+    event: str
+    fields: dict[str, Any] = field(default_factory=dict)
+    decision: Decision | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain values that can be written as JSON."""
+        result: dict[str, Any] = plain({"time": round(self.time, 4), "event": self.event, "mode": "speech"})
+        return result | dict(plain(self.fields))
+
+    def to_json(self) -> str:
+        """As one line of JSON."""
+        return json.dumps(self.to_dict(), ensure_ascii=False)
+
+
+def decision_fields(decision: Decision, locale: str, model: str) -> dict[str, Any]:
+    """A decision by the names of ROS's LiveSpeech, and what that message has no place for."""
+    recognised = decision.status == "recognised"
+    return {
+        "incremental": "",
+        "final": decision.label if recognised else "",
+        "confidence": decision.confidence,
+        "locale": locale,
+        "status": decision.status,
+        "rejected": not recognised,
+        "evidence": decision.evidence,
+        "nbest": [
+            {"label": entry.label, "probability": entry.probability, "log_score": entry.log_score}
+            for entry in decision.nbest
+        ],
+        "notes": list(decision.notes),
+        "model": model,
+    }
