@@ -18,6 +18,7 @@ import bench_cepstra
 import bench_classifiers
 import bench_codebook
 import bench_hmm
+import bench_latency
 import bench_possibility
 import bench_signal
 import bench_vision
@@ -32,6 +33,7 @@ MODULES = (
     bench_codebook,
     bench_classifiers,
     bench_vision,
+    bench_latency,
 )
 ALL = {bench.name: bench for module in MODULES for bench in module.BENCHES}
 

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""How long after a word its decision stands, on the live path."""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+import time
+
+import numpy as np
+
+from hri import read_audio
+from hri.datasets.synthetic_speech import make_speaker, make_speech_corpus, speak
+from hri.live import ArraySource, Listener
+from hri.recognition import WordRecognizer
+from timing import Bench, Timed
+
+WORDS = [
+    *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"),
+    *("stop", "start", "left", "right", "up", "down", "forward", "backward", "hello", "goodbye"),
+    *("kitchen", "window", "table", "bottle", "robot", "follow", "carry", "open", "close", "home"),
+]
+SPEAKERS = 4
+BUDGET_S = 0.010
+BLOCK_S = 0.02
+
+
+class _Clocked(ArraySource):
+    """Knows when it gave its last block."""
+
+    given_s = 0.0
+
+    def read(self) -> np.ndarray | None:
+        block = super().read()
+        self.given_s = time.perf_counter()
+        return block
+
+
+def word_latency() -> Timed:
+    """From the block of sound in which a word is found to have ended to its decision; 30 synthetic words, 4 voices.
+
+    The peer is the budget of 10 ms. The detector waits for silence before it calls a word ended: "waited_ms" is that
+    wait, from the word's last sample, and comes on top.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        dataset = make_speech_corpus(folder, {"en": WORDS}, num_speakers=SPEAKERS, takes=1)
+        audio = [read_audio(s.path) for s in dataset.samples]
+        words = WordRecognizer().fit(
+            [a.samples for a in audio],
+            [s.label for s in dataset.samples],
+            sample_rate_hz=[a.sample_rate_hz for a in audio],
+            groups=[s.person for s in dataset.samples],
+        )
+    assert len(words.classes_) == len(WORDS) == 30
+    listener = Listener(words, level_interval_s=0.1)
+    latency_s, waited_ms, block_s, right = [], [], [], 0
+    voice = make_speaker(SPEAKERS)
+    for word in WORDS:
+        spoken = speak(word, "en", voice)
+        rate = spoken.sample_rate_hz
+        floor = 1e-3 * np.random.default_rng(0).standard_normal(len(spoken.samples) + rate + rate // 2)
+        stream = floor.astype(np.float32)
+        stream[rate // 2 : rate // 2 + len(spoken.samples)] += spoken.samples
+        end_s = 0.5 + len(spoken.samples) / rate - 0.1  # the synthesiser's margin
+        source = _Clocked(stream, rate)
+        before = time.perf_counter()
+        for event in listener.listen(source):
+            if event.decision is None:
+                continue
+            latency_s.append(time.perf_counter() - source.given_s)
+            waited_ms.append(1000 * (event.time - end_s))
+            right += event.decision.nbest[0].label == word
+        block_s.append((time.perf_counter() - before - sum(latency_s[-1:])) / (len(stream) / rate / BLOCK_S))
+    assert len(latency_s) == len(WORDS), "a word was not heard, or heard twice"
+    assert right > len(WORDS) // 2, "the models understand nothing"
+    details = {
+        "slowest_ms": 1000 * max(latency_s),
+        "waited_ms": statistics.median(waited_ms),
+        "block_of_20_ms_takes_ms": 1000 * statistics.median(block_s),
+        "right_of_30": float(right),
+    }
+    return statistics.median(latency_s), BUDGET_S, details
+
+
+BENCHES = [Bench("word_latency", word_latency, "10 ms budget")]
