@@ -15,6 +15,7 @@ void bind_signal(py::module_& m);
 void bind_wavelets(py::module_& m);
 void bind_filter_bank(py::module_& m);
 void bind_end_points(py::module_& m);
+void bind_wavelet_tools(py::module_& m);
 void bind_features(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_codebook(py::module_& m);
@@ -84,6 +85,7 @@ PYBIND11_MODULE(_native, m) {
   bind_wavelets(m);
   bind_filter_bank(m);
   bind_end_points(m);
+  bind_wavelet_tools(m);
   bind_features(m);
   bind_hand_features(m);
   bind_codebook(m);

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from hri.evaluation import cross_validate
     from hri.fusion import FusedDecision, fuse
     from hri.media import read_audio, read_frames
+    from hri.noise_reduction import denoise
     from hri.recognition import Decision, GestureRecognizer, NBest, WordRecognizer
     from hri.robot import gesture_trajectory, open_robot, render_video
     from hri.training import train
@@ -39,6 +40,7 @@ _HOMES = {
     "WordRecognizer": "hri.recognition",
     "WordRecognizerOptions": "hri._native",
     "cross_validate": "hri.evaluation",
+    "denoise": "hri.noise_reduction",
     "fuse": "hri.fusion",
     "gesture_trajectory": "hri.robot",
     "open_robot": "hri.robot",
@@ -61,6 +63,7 @@ __all__ = [
     "WordRecognizerOptions",
     "__version__",
     "cross_validate",
+    "denoise",
     "fuse",
     "gesture_trajectory",
     "open_robot",

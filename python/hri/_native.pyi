@@ -69,6 +69,7 @@ __all__: list[str] = [
     "ModelFile",
     "MultiStreamCodebook",
     "NBest",
+    "NoiseEstimate",
     "Normalisation",
     "OrientationHistogramOptions",
     "Pca",
@@ -81,25 +82,35 @@ __all__: list[str] = [
     "PossibilityClassifier",
     "SequenceModelKind",
     "SequenceModelOptions",
+    "ShrinkageOptions",
     "SilhouetteCepstrumComputer",
     "SilhouetteCepstrumOptions",
     "StateChoice",
     "StateChoiceOptions",
+    "ThresholdRule",
+    "ThresholdShape",
     "Topology",
     "TrainingReport",
     "Wav",
+    "WaveletStream32",
+    "WaveletStream64",
+    "WaveletStreamOptions",
     "WindowKind",
     "WordRecognizer",
     "WordRecognizerOptions",
     "activity_frames",
+    "approximate",
+    "best_basis",
     "bhattacharyya_gaussian",
     "choose_num_states",
+    "denoise",
     "distance",
     "dwt",
     "dwt2",
     "filter_bank",
     "filter_edges",
     "find_speech",
+    "frequency_order",
     "idwt",
     "idwt2",
     "initial_start",
@@ -108,17 +119,22 @@ __all__: list[str] = [
     "lpc_cepstrum",
     "max_dwt_level",
     "necessity_of",
+    "noise_level",
     "normalise_time",
     "orientation_histogram",
     "parse_wav",
     "possibilities",
     "possibility_of",
     "read_wav",
+    "reconstruct_packets",
     "resample",
+    "shrink",
+    "shrinkage_threshold",
     "spectral_envelope",
     "wavedec",
     "wavedec2",
     "wavelet_names",
+    "wavelet_packets",
     "waverec",
     "waverec2",
     "write_wav_pcm16",
@@ -548,6 +564,202 @@ class Endpointer:
     def num_samples(self) -> int: ...
     @property
     def options(self) -> EndpointerOptions: ...
+
+class ThresholdRule:
+    """
+    How a threshold follows from the noise.
+
+    Members:
+
+      universal
+
+      sure
+
+      bayes
+    """
+
+    __members__: typing.ClassVar[dict[str, ThresholdRule]]
+    bayes: typing.ClassVar[ThresholdRule]
+    sure: typing.ClassVar[ThresholdRule]
+    universal: typing.ClassVar[ThresholdRule]
+    @typing.overload
+    def __eq__(self, other: ThresholdRule) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: ThresholdRule) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class ThresholdShape:
+    """
+    What becomes of details at a threshold.
+
+    Members:
+
+      soft
+
+      hard
+
+      garrote
+    """
+
+    __members__: typing.ClassVar[dict[str, ThresholdShape]]
+    garrote: typing.ClassVar[ThresholdShape]
+    hard: typing.ClassVar[ThresholdShape]
+    soft: typing.ClassVar[ThresholdShape]
+    @typing.overload
+    def __eq__(self, other: ThresholdShape) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: ThresholdShape) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class NoiseEstimate:
+    """
+    Where a level's noise is measured.
+
+    Members:
+
+      quietest
+
+      per_level
+
+      finest
+    """
+
+    __members__: typing.ClassVar[dict[str, NoiseEstimate]]
+    finest: typing.ClassVar[NoiseEstimate]
+    per_level: typing.ClassVar[NoiseEstimate]
+    quietest: typing.ClassVar[NoiseEstimate]
+    @typing.overload
+    def __eq__(self, other: NoiseEstimate) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: NoiseEstimate) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class ShrinkageOptions:
+    """
+    Noise reduction by wavelets.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    border: Border
+    noise: NoiseEstimate
+    rule: ThresholdRule
+    shape: ThresholdShape
+    wavelet: str
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_levels(self) -> int:
+        """
+        0: five, or as many as fit.
+        """
+    @num_levels.setter
+    def num_levels(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def strength(self) -> float:
+        """
+        Factor of all thresholds.
+        """
+    @strength.setter
+    def strength(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class WaveletStreamOptions:
+    """
+    What a stream of samples is transformed by.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    wavelet: str
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_levels(self) -> int: ...
+    @num_levels.setter
+    def num_levels(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class WaveletStream32:
+    """
+    The transform of a signal that arrives in pieces.
+    """
+    def __init__(self, options: WaveletStreamOptions) -> None: ...
+    def finish(self) -> list:
+        """
+        The rest, as if zeros followed; then it starts anew.
+        """
+    def push(self, samples: numpy.typing.NDArray[numpy.float32]) -> list:
+        """
+        Coefficients that have become final: [approximation, coarsest detail, ..., finest].
+        """
+    def reset(self) -> None:
+        """
+        Forgets what was pushed.
+        """
+
+class WaveletStream64:
+    """
+    The transform of a signal that arrives in pieces.
+    """
+    def __init__(self, options: WaveletStreamOptions) -> None: ...
+    def finish(self) -> list:
+        """
+        The rest, as if zeros followed; then it starts anew.
+        """
+    def push(self, samples: numpy.typing.NDArray[numpy.float64]) -> list:
+        """
+        Coefficients that have become final: [approximation, coarsest detail, ..., finest].
+        """
+    def reset(self) -> None:
+        """
+        Forgets what was pushed.
+        """
 
 class CepstraKind:
     """
@@ -2988,6 +3200,40 @@ def activity_frames(
     What end points are found from, a row a frame: level (dB), voicing (0..1), then the level of each band (dB).
     """
 
+@typing.overload
+def approximate(
+    x: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The approximation of a level, as loud as the signal.
+    """
+
+@typing.overload
+def approximate(
+    x: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The approximation of a level, as loud as the signal.
+    """
+
+@typing.overload
+def best_basis(packets: list[numpy.typing.NDArray[numpy.float32]]) -> list[tuple[int, int]]:
+    """
+    (level, index) of the nodes with the least entropy.
+    """
+
+@typing.overload
+def best_basis(packets: list[numpy.typing.NDArray[numpy.float64]]) -> list[tuple[int, int]]:
+    """
+    (level, index) of the nodes with the least entropy.
+    """
+
 def bhattacharyya_gaussian(
     mean_a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     covariance_a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
@@ -3014,6 +3260,22 @@ def choose_num_states(
 ) -> StateChoice:
     """
     The number of states, out of `candidates`, whose models explain the sequences best: by BIC, or by the likelihood of sequences held out of training.
+    """
+
+@typing.overload
+def denoise(
+    x: numpy.typing.NDArray[numpy.float32], options: ShrinkageOptions = ...
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The signal without its noise, of the same length.
+    """
+
+@typing.overload
+def denoise(
+    x: numpy.typing.NDArray[numpy.float64], options: ShrinkageOptions = ...
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The signal without its noise, of the same length.
     """
 
 def distance(
@@ -3090,6 +3352,11 @@ def find_speech(
 ) -> typing.Any:
     """
     (first, last) sample of the word, or None where nobody speaks.
+    """
+
+def frequency_order(level: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
+    """
+    Natural indices of a level's nodes by rising frequency.
     """
 
 @typing.overload
@@ -3183,6 +3450,18 @@ def necessity_of(
     N(A) = 1 - Pi(not A) (thesis eq. 4.2).
     """
 
+@typing.overload
+def noise_level(details: numpy.typing.NDArray[numpy.float32]) -> float:
+    """
+    Standard deviation of noise, by the median of details.
+    """
+
+@typing.overload
+def noise_level(details: numpy.typing.NDArray[numpy.float64]) -> float:
+    """
+    Standard deviation of noise, by the median of details.
+    """
+
 def normalise_time(
     frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], num_rows: typing.SupportsInt | typing.SupportsIndex
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -3218,6 +3497,32 @@ def read_wav(path: str) -> Wav:
     Reads PCM or float WAV, averaged to mono; raises FormatError naming file and field.
     """
 
+@typing.overload
+def reconstruct_packets(
+    packets: list[numpy.typing.NDArray[numpy.float32]],
+    basis: collections.abc.Sequence[
+        tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
+    ],
+    wavelet: str,
+    border: Border,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The signal from the nodes of a basis.
+    """
+
+@typing.overload
+def reconstruct_packets(
+    packets: list[numpy.typing.NDArray[numpy.float64]],
+    basis: collections.abc.Sequence[
+        tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
+    ],
+    wavelet: str,
+    border: Border,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The signal from the nodes of a basis.
+    """
+
 def resample(
     samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
     from_hz: typing.SupportsInt | typing.SupportsIndex,
@@ -3225,6 +3530,48 @@ def resample(
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Band-limited change of sampling rate.
+    """
+
+@typing.overload
+def shrink(
+    details: numpy.typing.NDArray[numpy.float32],
+    threshold: typing.SupportsFloat | typing.SupportsIndex,
+    shape: ThresholdShape,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Details with a threshold applied.
+    """
+
+@typing.overload
+def shrink(
+    details: numpy.typing.NDArray[numpy.float64],
+    threshold: typing.SupportsFloat | typing.SupportsIndex,
+    shape: ThresholdShape,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Details with a threshold applied.
+    """
+
+@typing.overload
+def shrinkage_threshold(
+    details: numpy.typing.NDArray[numpy.float32],
+    noise: typing.SupportsFloat | typing.SupportsIndex,
+    num_samples: typing.SupportsInt | typing.SupportsIndex,
+    rule: ThresholdRule,
+) -> float:
+    """
+    The threshold for the details of one level.
+    """
+
+@typing.overload
+def shrinkage_threshold(
+    details: numpy.typing.NDArray[numpy.float64],
+    noise: typing.SupportsFloat | typing.SupportsIndex,
+    num_samples: typing.SupportsInt | typing.SupportsIndex,
+    rule: ThresholdRule,
+) -> float:
+    """
+    The threshold for the details of one level.
     """
 
 def spectral_envelope(
@@ -3282,6 +3629,28 @@ def wavedec2(
 def wavelet_names() -> list[str]:
     """
     Names of all wavelets, as PyWavelets has them.
+    """
+
+@typing.overload
+def wavelet_packets(
+    x: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> list:
+    """
+    Nodes of all levels, the signal's first, in natural order.
+    """
+
+@typing.overload
+def wavelet_packets(
+    x: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: Border,
+    num_levels: typing.SupportsInt | typing.SupportsIndex,
+) -> list:
+    """
+    Nodes of all levels, the signal's first, in natural order.
     """
 
 @typing.overload

@@ -12,23 +12,28 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from hri import _native
-from hri._native import Border, max_dwt_level, wavelet_names
+from hri._native import Border, frequency_order, max_dwt_level, wavelet_names
 from hri.errors import InvalidArgument
 
 __all__ = [
+    "WaveletStream",
+    "best_basis",
     "dwt",
     "dwt2",
+    "frequency_order",
     "idwt",
     "idwt2",
     "max_dwt_level",
     "wavedec",
     "wavedec2",
     "wavelet_names",
+    "wavelet_packets",
     "waverec",
     "waverec2",
+    "waverec_packets",
 ]
 
 Array = NDArray[Any]
@@ -142,6 +147,79 @@ def waverec2(
     return _native.waverec2(_real(approximation), bands, wavelet, _border(border), shape)
 
 
+def wavelet_packets(x: ArrayLike, wavelet: str, border: str = "symmetric", num_levels: int = 1) -> list[Array]:
+    """Wavelet packets: details are split as approximations are.
+
+    Parameters
+    ----------
+    x, wavelet, border
+        As for `dwt`.
+    num_levels : int
+        1..20.
+
+    Returns
+    -------
+    list of ndarray
+        Item l has a row for each of the 2**l nodes of level l; item 0 is the signal. Rows stand in natural order:
+        the binary digits of an index are the way from the top, 1 for the detail. ``packets[l][frequency_order(l)]``
+        has them by rising frequency.
+    """
+    return _native.wavelet_packets(_contiguous(x), wavelet, _border(border), num_levels)
+
+
+def best_basis(packets: Sequence[ArrayLike]) -> list[tuple[int, int]]:
+    """The nodes (level, index) that together describe the signal with the least Shannon entropy of energy."""
+    return _native.best_basis([_contiguous(level) for level in packets])
+
+
+def waverec_packets(
+    packets: Sequence[ArrayLike], basis: Sequence[tuple[int, int]], wavelet: str, border: str = "symmetric"
+) -> Array:
+    """The signal from the nodes (level, index) of `basis` alone, which cover the signal exactly once.
+
+    Raises
+    ------
+    InvalidArgument
+        For nodes that do not, and for packets that no signal has.
+    """
+    levels = [_contiguous(level) for level in packets]
+    return _native.reconstruct_packets(levels, list(basis), wavelet, _border(border))
+
+
+class WaveletStream:
+    """The transform of a signal that arrives in pieces.
+
+    All coefficients together, after `finish`, are those of ``wavedec(x, wavelet, "zero", num_levels)``, to the bit.
+
+    Parameters
+    ----------
+    wavelet : str
+    num_levels : int
+        1..30.
+    dtype : dtype
+        float32 or float64: of samples and coefficients.
+    """
+
+    def __init__(self, wavelet: str, num_levels: int, dtype: DTypeLike = np.float32) -> None:
+        self.dtype = np.dtype(dtype)
+        if self.dtype.char not in "fd":
+            raise InvalidArgument(f"dtype must be float32 or float64, got {self.dtype}")
+        kind = _native.WaveletStream32 if self.dtype.char == "f" else _native.WaveletStream64
+        self._stream = kind(_native.WaveletStreamOptions(wavelet=wavelet, num_levels=num_levels))
+
+    def push(self, samples: ArrayLike) -> list[Array]:
+        """The coefficients that have become final, in the order of `wavedec`; each array may be empty."""
+        return self._stream.push(np.ascontiguousarray(samples, dtype=self.dtype))
+
+    def finish(self) -> list[Array]:
+        """The rest, as if zeros followed; then the stream starts anew."""
+        return self._stream.finish()
+
+    def reset(self) -> None:
+        """Forget what was pushed."""
+        self._stream.reset()
+
+
 def _border(name: str) -> Border:
     try:
         return _BORDERS[name]
@@ -153,3 +231,7 @@ def _real(values: ArrayLike) -> Array:
     """As an array of float32 or float64; complex numbers and text are refused."""
     array = np.asarray(values)
     return array if array.dtype.char in "fd" else array.astype(np.float64, casting="safe")
+
+
+def _contiguous(values: ArrayLike) -> Array:
+    return np.ascontiguousarray(_real(values))

@@ -150,6 +150,15 @@ def test_an_approximation_keeps_the_lower_band_at_its_level() -> None:
     assert np.std(approximation(high)) < 0.05 and len(approximation(high)) == RATE_HZ // 8
 
 
+def test_noise_taken_out_is_measured(data_dir: Path) -> None:
+    result = run("denoise", data_dir, threshold=["bayes"], noise=["white"])
+    gains = {(row["threshold"], row["shape"], row["estimate"]): row["gain_db_mean"] for row in result["rows"]}
+    assert len(gains) == len(result["rows"]) == 3 * 3 + 3
+    # Tones with pauses in white noise.
+    assert gains["bayes", "soft", "quietest"] > 3.0
+    assert set(result["rows"][0]["per_fold"]) == {"low", "middle", "high"}
+
+
 def test_slow_and_fast_words_are_measured(data_dir: Path) -> None:
     pytest.importorskip("audiotsm")
     result = run("speech-tempo", data_dir, data=["hindi-words"], training=["natural"])

@@ -31,6 +31,7 @@ COMMANDS = {
     "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on people who were not trained on."),
     "corpus": ("hri.cli.corpus:corpus", "Make recordings of words that nobody has recorded, by a synthesiser."),
     "features": ("hri.cli.features:features", "Cepstra of a recording: MFCC, HFCC, LPCC, as a table or a plot."),
+    "denoise": ("hri.cli.denoise:denoise", "Take noise out of a recording by wavelets."),
     "study": ("hri.cli.study:study", "Repeat a measured claim of the project."),
     "robot": ("hri.robot.cli:robot", "Check motions of HOAP-2, carry them out in simulation, film them."),
     "info": ("hri.cli.info:info", "Tell what is installed, or what a model file holds."),

@@ -5,6 +5,7 @@
 from hri.errors import InvalidArgument
 from hri.studies import (
     classifiers,
+    denoise,
     distance,
     endpoints,
     false_alarms,
@@ -32,6 +33,7 @@ _MODULES = (
     classifiers,
     training_size,
     wavelets,
+    denoise,
     signs,
     fusion,
     parity,

@@ -9,6 +9,7 @@
 #include "allocations/allocation_counter.hpp"
 #include "hri/signal/dwt.hpp"
 #include "hri/signal/dwt2.hpp"
+#include "hri/signal/wavelet_stream.hpp"
 
 namespace hri {
 namespace {
@@ -61,6 +62,22 @@ TEST(Wavelets, AllocateNothingTheSecondTime) {
     expect_pictures_without_allocation<float>(border);
     expect_pictures_without_allocation<double>(border);
   }
+}
+
+TEST(WaveletStreams, AllocateNothingAtAll) {
+  WaveletStream<float> stream({"db6", 4});
+  const std::vector<float> x(5000, 1.0F);
+  double sum = 0;
+  const auto sink = [&sum](int band, Span<const float> values) {
+    for (const float v : values) sum += band * static_cast<double>(v);
+  };
+  EXPECT_EQ(allocations_of([&] {
+              stream.push(x, sink);
+              stream.push(Span<const float>(x).subspan(0, 7), sink);
+              stream.finish(sink);
+            }),
+            0);
+  EXPECT_NE(sum, 0);
 }
 
 }  // namespace
