@@ -112,6 +112,9 @@ void bind_words(py::module_& m) {
       .field("level_stream", &hri::WordRecognizerOptions::level_stream)
       .field("num_warps", &hri::WordRecognizerOptions::num_warps)
       .field("warp_step", &hri::WordRecognizerOptions::warp_step)
+      .field("noise_copies", &hri::WordRecognizerOptions::noise_copies)
+      .field("noise_low_db", &hri::WordRecognizerOptions::noise_low_db)
+      .field("noise_high_db", &hri::WordRecognizerOptions::noise_high_db)
       .field("false_reject_rate", &hri::WordRecognizerOptions::false_reject_rate);
 
   py::class_<hri::WordRecognizer>(m, "WordRecognizer",

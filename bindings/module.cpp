@@ -23,6 +23,7 @@ void bind_models(py::module_& m);
 void bind_hmm(py::module_& m);
 void bind_possibilistic(py::module_& m);
 void bind_recognition(py::module_& m);
+void bind_adaptation(py::module_& m);
 
 namespace {
 
@@ -93,4 +94,5 @@ PYBIND11_MODULE(_native, m) {
   bind_hmm(m);
   bind_possibilistic(m);
   bind_recognition(m);
+  bind_adaptation(m);
 }

@@ -26,6 +26,10 @@ MixtureBank with_wide_component(const MixtureBank& bank, const GlobalStatistics&
 
 }  // namespace
 
+GaussianMixture::GaussianMixture(MixtureBank bank) : bank_(std::move(bank)) {
+  require(bank_.num_states() == 1, "a mixture over single frames has one state");
+}
+
 GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtureOptions& options,
                                        TrainingReport* report) {
   require(options.num_mixtures >= 1 && options.num_mixtures <= 4096,

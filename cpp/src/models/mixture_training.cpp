@@ -217,6 +217,16 @@ void MixtureAccumulator::add(ConstMatrixRefF frames, const MatrixD& gamma,
   }
 }
 
+void MixtureAccumulator::add_prior(const MixtureBank& prior, double frames_per_state) {
+  const Eigen::Index k = prior.num_mixtures();
+  for (Eigen::Index r = 0; r < counts_.size(); ++r) {
+    const double frames = frames_per_state * prior.weights()(r / k, r % k);
+    counts_[r] += frames;
+    sums_.row(r) += frames * prior.means().row(r);
+    squares_.row(r) += frames * (prior.variances().row(r) + prior.means().row(r).cwiseAbs2());
+  }
+}
+
 MixtureBank MixtureAccumulator::estimate(const MixtureBank& previous,
                                          const BankEstimation& options) const {
   MatrixD weights = previous.weights();

@@ -86,6 +86,9 @@ void visit_word(V&& v, O& o) {
   v("level_stream", o.level_stream);
   v("num_warps", o.num_warps);
   v("warp_step", o.warp_step);
+  v("noise_copies", o.noise_copies);
+  v("noise_low_db", o.noise_low_db);
+  v("noise_high_db", o.noise_high_db);
   v("false_reject_rate", o.false_reject_rate);
 }
 

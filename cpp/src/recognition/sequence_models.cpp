@@ -9,6 +9,7 @@ namespace {
 
 // Smallest emission, as a share of what every symbol would have if all were alike.
 constexpr double kEmissionFloor = 0.1;
+constexpr int kSharedIterations = 2;
 constexpr float kImpossible = -1e30F;  // stands for log 0, so that differences stay finite
 
 MatrixF stacked(const std::vector<std::vector<MatrixF>>& per_label) {
@@ -94,6 +95,36 @@ void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_l
   options.seed = options_.seed;
   options.should_stop = should_stop;
   ptbhmm_ = {PossibilisticHmmSet::train(symbols, options)};
+}
+
+SequenceModels SequenceModels::adapted(const std::vector<std::vector<MatrixF>>& per_label,
+                                       const AdaptationOptions& options) const {
+  require(options_.model == SequenceModelKind::hmm,
+          "only models of the kind hmm adapt, these are ptbhmm");
+  require(per_label.size() == hmms_.size(), "per_label needs one list a class");
+  SequenceModels result = *this;
+  std::vector<MatrixF> all;
+  for (const auto& sequences : per_label) all.insert(all.end(), sequences.begin(), sequences.end());
+  if (all.empty()) return result;
+  // First what holds for all words, heard or not: words that were heard would otherwise explain the
+  // voice or the noise better than the rest and win whatever is said.
+  for (int i = 0; i < kSharedIterations; ++i) {
+    const LinearAdaptation shared = estimate_linear_adaptation(
+        result.hmms_, per_label, options.shared_frames, options.should_stop);
+    for (GaussianMixtureHmm& hmm : result.hmms_)
+      hmm = GaussianMixtureHmm(hmm.chain(), shared.apply(hmm.bank()));
+    result.garbage_.front() = GaussianMixture(shared.apply(result.garbage_.front().bank()));
+  }
+  if (!options.each_word) return result;
+  const MapAdaptationOptions of_words{options.prior_frames, options.num_iterations,
+                                      options.should_stop};
+  for (std::size_t c = 0; c < per_label.size(); ++c)
+    result.hmms_[c] = adapt_map(result.hmms_[c], per_label[c], of_words);
+  // As many imagined frames as all states of all words have.
+  MapAdaptationOptions of_garbage = of_words;
+  of_garbage.prior_frames *= static_cast<double>(hmms_.size()) * hmms_.front().num_states();
+  result.garbage_.front() = adapt_map(result.garbage_.front(), all, of_garbage);
+  return result;
 }
 
 VectorF SequenceModels::scores(ConstMatrixRefF frames) const {

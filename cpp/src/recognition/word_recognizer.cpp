@@ -69,13 +69,19 @@ VectorF WordRecognizer::scores(Span<const float> samples, int sample_rate_hz) co
 }
 
 Decision WordRecognizer::recognise(Span<const float> samples, int sample_rate_hz) const {
+  std::vector<MatrixF> word_frames;
+  return recognise(samples, sample_rate_hz, &word_frames);
+}
+
+Decision WordRecognizer::recognise(Span<const float> samples, int sample_rate_hz,
+                                   std::vector<MatrixF>* word_frames) const {
   Decision decision;
   std::vector<std::string> notes;
   const std::vector<float> word = locate(samples, sample_rate_hz, &notes);
   if (!word.empty()) {
-    const std::vector<MatrixF> word_frames = frames(word);
-    const VectorF word_scores = score(word_frames);
-    decision = calibration_.decide(word_scores, evidence(word_frames, word_scores), labels_);
+    *word_frames = frames(word);
+    const VectorF word_scores = score(*word_frames);
+    decision = calibration_.decide(word_scores, evidence(*word_frames, word_scores), labels_);
   }
   decision.notes = std::move(notes);
   return decision;

@@ -8,7 +8,9 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
+#include "hri/core/random.hpp"
 #include "hri/recognition/word_recognizer.hpp"
+#include "training_noise.hpp"
 
 namespace hri {
 namespace {
@@ -71,12 +73,12 @@ class WordTrainer {
   }
 
  private:
-  // What is kept of one sample: per warp (1 first), the frames of every stream.
+  // What is kept of one sample: the frames of every stream, first as it is, then of each copy.
   struct Prepared {
     int label = 0;
     int fold = 0;
     std::string group;
-    std::vector<std::vector<MatrixF>> warped;
+    std::vector<std::vector<MatrixF>> variants;
   };
 
   void prepare(const WordSample& sample, std::size_t index) {
@@ -101,8 +103,22 @@ class WordTrainer {
     Prepared p;
     p.label = label_index(result_.labels_, sample.label);
     p.group = sample.group;
-    for (const WordRecognizer& front : fronts_) p.warped.push_back(front.frames(word));
+    for (const WordRecognizer& front : fronts_) p.variants.push_back(front.frames(word));
+    add_noisy_variants(word, index, &p);
     prepared_.push_back(std::move(p));
+  }
+
+  // Copies with noise, their warps in turn; the noise of a sample depends on the seed and its place
+  // alone.
+  void add_noisy_variants(const std::vector<float>& word, std::size_t index, Prepared* p) const {
+    const WordRecognizerOptions& o = result_.options_;
+    Random random(o.models.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
+    for (int copy = 0; copy < o.noise_copies; ++copy) {
+      const double snr_db = o.noise_low_db + random.uniform() * (o.noise_high_db - o.noise_low_db);
+      const std::vector<float> noisy = detail::with_noise(word, snr_db, &random);
+      const std::size_t warp = (index + static_cast<std::size_t>(copy)) % fronts_.size();
+      p->variants.push_back(fronts_[warp].frames(noisy));
+    }
   }
 
   int assign_folds() {
@@ -128,7 +144,7 @@ class WordTrainer {
       std::vector<std::vector<MatrixF>> per_label(result_.labels_.size());
       for (const Prepared& p : prepared_) {
         if (p.fold == left_out) continue;
-        for (const auto& streams : p.warped)
+        for (const auto& streams : p.variants)
           per_label[static_cast<std::size_t>(p.label)].push_back(streams[s]);
       }
       for (std::size_t c = 0; c < per_label.size(); ++c) {
@@ -146,8 +162,8 @@ class WordTrainer {
     if (!train_without(fold)) return;  // without every class there is nothing to calibrate on
     for (const Prepared& p : prepared_) {
       if (p.fold != fold) continue;
-      const VectorF scores = result_.score(p.warped.front());
-      held_out->push_back({scores, p.label, result_.evidence(p.warped.front(), scores)});
+      const VectorF scores = result_.score(p.variants.front());
+      held_out->push_back({scores, p.label, result_.evidence(p.variants.front(), scores)});
     }
   }
 
@@ -163,6 +179,11 @@ WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
                                      const StopCheck& should_stop) {
   require(options.num_warps == 1 || options.num_warps == 3 || options.num_warps == 5,
           "num_warps must be 1, 3 or 5");
+  require(options.noise_copies >= 0 && options.noise_copies <= 10,
+          "noise_copies must lie in 0..10");
+  require(options.noise_low_db >= -20 && options.noise_low_db <= options.noise_high_db &&
+              options.noise_high_db <= 100,
+          "noise_low_db and noise_high_db must lie in -20..100, in this order");
   require(options.warp_step >= 0 && options.warp_step <= 0.2, "warp_step must lie in 0..0.2");
   require(options.false_reject_rate >= 0 && options.false_reject_rate <= 0.5,
           "false_reject_rate must lie in 0..0.5");

@@ -31,6 +31,9 @@ struct GaussianMixtureOptions {
 /// Immutable; const calls are safe from several threads.
 class GaussianMixture {
  public:
+  /// Throws InvalidArgument for a bank that has not one state.
+  explicit GaussianMixture(MixtureBank bank);
+
   /// Throws InvalidArgument for no rows or values not finite.
   static GaussianMixture train(ConstMatrixRefF rows, const GaussianMixtureOptions& options,
                                TrainingReport* report = nullptr);
@@ -45,7 +48,6 @@ class GaussianMixture {
   static GaussianMixture read(const ModelFile& file, const std::string& prefix);
 
  private:
-  explicit GaussianMixture(MixtureBank bank) : bank_(std::move(bank)) {}
   MixtureBank bank_;
 };
 

@@ -80,9 +80,19 @@ class MixtureAccumulator {
   void add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& components,
            const MatrixD& densities);
 
+  /// Adds imagined frames, as `prior` would have given them: `frames_per_state` of every state,
+  /// shared by its components as their weights say.
+  void add_prior(const MixtureBank& prior, double frames_per_state);
+
   /// The re-estimated bank; states and components without data keep `previous`.
   [[nodiscard]] MixtureBank estimate(const MixtureBank& previous,
                                      const BankEstimation& options) const;
+
+  /// Of every component: weight of its frames (num_states * num_mixtures), their weighted sum and
+  /// sum of squares, (num_states * num_mixtures, dim).
+  [[nodiscard]] const VectorD& counts() const { return counts_; }
+  [[nodiscard]] const MatrixD& sums() const { return sums_; }
+  [[nodiscard]] const MatrixD& squares() const { return squares_; }
 
  private:
   VectorD counts_;

@@ -14,6 +14,8 @@
 #include "hri/models/codebook.hpp"
 #include "hri/models/gaussian_mixture.hpp"
 #include "hri/models/gaussian_mixture_hmm.hpp"
+#include "hri/models/linear_adaptation.hpp"
+#include "hri/models/map_adaptation.hpp"
 #include "hri/models/possibilistic_hmm.hpp"
 #include "hri/models/stop_check.hpp"
 
@@ -35,6 +37,16 @@ struct SequenceModelOptions {
   std::uint64_t seed = 0;
 };
 
+/// How models are adapted to a speaker, a microphone or a room: first all of them together
+/// (linear_adaptation.hpp), then each to its own words (map_adaptation.hpp).
+struct AdaptationOptions {
+  double shared_frames = 400;  ///< imagined frames that hold the common change back, > 0
+  double prior_frames = 5;     ///< frames a state that weigh as much as the training, > 0
+  int num_iterations = 3;      ///< EM iterations of the second part, 1..1000
+  bool each_word = true;       ///< false leaves the second part out
+  StopCheck should_stop;
+};
+
 /// Immutable but for `train`; const calls are safe from several threads.
 class SequenceModels {
  public:
@@ -43,6 +55,12 @@ class SequenceModels {
 
   /// Replaces the models; `per_label[c]` holds the frames of every sample of class c.
   void train(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop);
+
+  /// These models adapted to new data: `per_label[c]` holds the frames of the new samples of class
+  /// c, which may be none. The garbage model follows them all, so that ratios to it stay what they
+  /// were. Throws InvalidArgument for models that cannot adapt (ptbhmm).
+  [[nodiscard]] SequenceModels adapted(const std::vector<std::vector<MatrixF>>& per_label,
+                                       const AdaptationOptions& options) const;
 
   /// Log score of every class (natural log; -1e30 for impossible), shape (num_classes,).
   [[nodiscard]] VectorF scores(ConstMatrixRefF frames) const;

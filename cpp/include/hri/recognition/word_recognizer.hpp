@@ -21,7 +21,10 @@
 namespace hri {
 
 struct WordRecognizerOptions {
-  WordRecognizerOptions() { cepstra.sample_rate_hz = 0; }
+  WordRecognizerOptions() {
+    cepstra.sample_rate_hz = 0;
+    activity.padding_ms = 60;
+  }
 
   CepstraOptions
       cepstra;  ///< sample_rate_hz 0 (default) takes the lowest training rate, at most 16000
@@ -30,7 +33,10 @@ struct WordRecognizerOptions {
   bool trim = true;             ///< cut silence before and after the word
   bool level_stream = true;  ///< a second stream votes, whose cepstra are normalised in level only
   int num_warps = 3;         ///< training copies with warped frequency axis: 1 (none), 3 or 5
-  double warp_step = 0.08;   ///< step of the warp factor between copies, 0..0.2
+  int noise_copies = 2;  ///< training copies of every word with noise added, warped in turn, 0..10
+  double noise_low_db = 10;   ///< least signal-to-noise ratio of these copies, -20..100
+  double noise_high_db = 25;  ///< and the largest; each copy has its own, at random
+  double warp_step = 0.08;    ///< step of the warp factor between copies, 0..0.2
   double false_reject_rate =
       0.02;  ///< share of correct held-out words that the threshold may reject, 0..0.5
 };
@@ -84,11 +90,15 @@ class WordRecognizer {
   /// The word in the clip at the model's rate; empty when nobody speaks.
   [[nodiscard]] std::vector<float> locate(Span<const float> samples, int sample_rate_hz,
                                           std::vector<std::string>* notes) const;
+  /// Recognises, and tells the frames of every stream; none where nobody speaks.
+  [[nodiscard]] Decision recognise(Span<const float> samples, int sample_rate_hz,
+                                   std::vector<MatrixF>* frames) const;
   /// The frames of `word` for every stream.
   [[nodiscard]] std::vector<MatrixF> frames(Span<const float> word) const;
   [[nodiscard]] VectorF score(const std::vector<MatrixF>& frames) const;
   [[nodiscard]] float evidence(const std::vector<MatrixF>& frames, const VectorF& scores) const;
 
+  friend class SpeakerAdapter;
   friend class WordTrainer;
 
   WordRecognizerOptions options_;

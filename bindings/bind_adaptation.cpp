@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Adaptation to a speaker. The Python class hri.SpeakerAdapter wraps this one.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "hri/recognition/speaker_adapter.hpp"
+#include "options.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+using hri_bind::as_span;
+using hri_bind::FloatArray;
+
+// Polled before every word: raises what Ctrl-C left pending.
+bool python_wants_to_stop() {
+  const py::gil_scoped_acquire gil;
+  return PyErr_CheckSignals() != 0;
+}
+
+}  // namespace
+
+void bind_adaptation(py::module_& m) {
+  py::class_<hri::SpeakerAdapterOptions> options(m, "SpeakerAdapterOptions",
+                                                 "Options of SpeakerAdapter.");
+  hri_bind::options(options)
+      .field("words_per_label", &hri::SpeakerAdapterOptions::words_per_label)
+      .field("shared_frames", &hri::SpeakerAdapterOptions::shared_frames)
+      .field("prior_frames", &hri::SpeakerAdapterOptions::prior_frames)
+      .field("num_iterations", &hri::SpeakerAdapterOptions::num_iterations)
+      .field("trusted_share", &hri::SpeakerAdapterOptions::trusted_share)
+      .field("max_words", &hri::SpeakerAdapterOptions::max_words);
+
+  py::class_<hri::SpeakerAdapter>(m, "SpeakerAdapter",
+                                  "A word recogniser that gets used to a speaker.")
+      .def(py::init<hri::WordRecognizer, const hri::SpeakerAdapterOptions&>(),
+           py::arg("recognizer"), py::arg("options") = hri::SpeakerAdapterOptions{})
+      .def(
+          "recognise",
+          [](hri::SpeakerAdapter& self, const FloatArray& samples, int sample_rate_hz) {
+            const auto audio = as_span(samples, "samples");
+            const py::gil_scoped_release release;
+            return self.recognise(audio, sample_rate_hz);
+          },
+          py::arg("samples"), py::arg("sample_rate_hz"))
+      .def(
+          "learn",
+          [](hri::SpeakerAdapter& self, const FloatArray& samples, int sample_rate_hz,
+             const std::string& label) {
+            const auto audio = as_span(samples, "samples");
+            const py::gil_scoped_release release;
+            self.learn(audio, sample_rate_hz, label);
+          },
+          py::arg("samples"), py::arg("sample_rate_hz"), py::arg("label"))
+      .def(
+          "update", [](hri::SpeakerAdapter& self) { self.update(python_wants_to_stop); },
+          py::call_guard<py::gil_scoped_release>())
+      .def("reset", &hri::SpeakerAdapter::reset)
+      .def_property_readonly("update_due", &hri::SpeakerAdapter::update_due)
+      .def_property_readonly("num_words", &hri::SpeakerAdapter::num_words)
+      .def_property_readonly("recognizer", [](const hri::SpeakerAdapter& self) {
+        return hri::WordRecognizer(self.recognizer());
+      });
+}
