@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from hri.fusion import FusedDecision, fuse
     from hri.media import read_audio, read_frames
     from hri.noise_reduction import denoise
-    from hri.recognition import Decision, GestureRecognizer, NBest, WordRecognizer
+    from hri.recognition import Decision, GestureRecognizer, NBest, SpeakerAdapter, WordRecognizer
     from hri.robot import gesture_trajectory, open_robot, render_video
     from hri.training import train
 
@@ -37,6 +37,7 @@ _HOMES = {
     "GestureRecognizerOptions": "hri._native",
     "HandFeatureOptions": "hri._native",
     "NBest": "hri.recognition",
+    "SpeakerAdapter": "hri.recognition",
     "WordRecognizer": "hri.recognition",
     "WordRecognizerOptions": "hri._native",
     "cross_validate": "hri.evaluation",
@@ -59,6 +60,7 @@ __all__ = [
     "GestureRecognizerOptions",
     "HandFeatureOptions",
     "NBest",
+    "SpeakerAdapter",
     "WordRecognizer",
     "WordRecognizerOptions",
     "__version__",

@@ -28,6 +28,7 @@ COMMANDS = {
     "train": ("hri.cli.train:train", "Train a recogniser on a folder of recordings."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
+    "adapt": ("hri.cli.adapt:adapt", "Let a model of words get used to a speaker or a room."),
     "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on people who were not trained on."),
     "corpus": ("hri.cli.corpus:corpus", "Make recordings of words that nobody has recorded, by a synthesiser."),
     "features": ("hri.cli.features:features", "Cepstra of a recording: MFCC, HFCC, LPCC, as a table or a plot."),

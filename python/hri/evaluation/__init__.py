@@ -6,7 +6,7 @@ from hri.evaluation.conditions import Condition, FrontEnd, expose
 from hri.evaluation.evaluate import cross_validate, evaluate_split
 from hri.evaluation.noise import AddNoise, active_power, make_noise, mix_noise
 from hri.evaluation.result import EvaluationResult, FoldResult, Trial
-from hri.evaluation.speech import evaluate_conditions
+from hri.evaluation.speech import adapting, evaluate_conditions
 
 __all__ = [
     "AddNoise",
@@ -16,6 +16,7 @@ __all__ = [
     "FrontEnd",
     "Trial",
     "active_power",
+    "adapting",
     "cross_validate",
     "evaluate_conditions",
     "evaluate_split",

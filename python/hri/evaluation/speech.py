@@ -11,12 +11,19 @@ from typing import Any
 import numpy as np
 
 from hri.datasets import Dataset, Fold
+from hri.errors import InvalidArgument
 from hri.evaluation.conditions import Condition, FrontEnd, Samples
 from hri.evaluation.result import EvaluationResult, FoldResult, Trial
 from hri.media import read_audio
+from hri.recognition import SpeakerAdapter
 
 Progress = Callable[[str, int, int], None]
-_TRAIN, _TEST = 0, 1
+_TRAIN, _TEST, _ORDER = 0, 1, 2
+
+
+def adapting(test: str) -> str:
+    """The name under which `evaluate_conditions` tells what was measured of a test while adapting."""
+    return f"{test}, adapting".removeprefix(", ")
 
 
 class SpeechRunner:
@@ -37,6 +44,8 @@ class SpeechRunner:
         Done to every clip, after the condition.
     progress : callable
         Called with (what, done, total).
+    adapt : bool
+        Also hear every test in random order with a `SpeakerAdapter`, which nobody tells what was said.
     """
 
     def __init__(
@@ -48,8 +57,10 @@ class SpeechRunner:
         seed: int,
         front_end: FrontEnd | None,
         progress: Progress,
+        adapt: bool = False,
     ) -> None:
         self._samples = dataset.samples
+        self._adapt = adapt
         self._make = make_recognizer
         self._tests = tests
         self._train = train
@@ -84,14 +95,23 @@ class SpeechRunner:
         )
         results = {}
         for name, condition in self._tests.items():
-            key = zlib.crc32(name.encode())
-            trials = []
-            for done, i in enumerate(fold.test):
-                decision = recognizer.recognise(*self._heard(i, condition, _TEST, key))
-                trials.append(Trial(i, self._samples[i].label, decision))
-                self._progress(f"testing {fold.name} {name}".rstrip(), done + 1, len(fold.test))
-            results[name] = FoldResult(fold.name, tuple(trials))
+            heard_as = (condition, zlib.crc32(name.encode()))
+            results[name] = self._test(fold, name, recognizer, fold.test, *heard_as)
+            if self._adapt:
+                order = np.random.default_rng([self._seed, _ORDER]).permutation(fold.test).tolist()
+                listener = SpeakerAdapter(recognizer)
+                results[adapting(name)] = self._test(fold, adapting(name), listener, order, *heard_as)
         return results
+
+    def _test(
+        self, fold: Fold, name: str, listener: Any, order: Sequence[int], condition: Condition | None, key: int
+    ) -> FoldResult:
+        trials = []
+        for done, i in enumerate(order):
+            decision = listener.recognise(*self._heard(i, condition, _TEST, key))
+            trials.append(Trial(i, self._samples[i].label, decision))
+            self._progress(f"testing {fold.name} {name}".rstrip(), done + 1, len(order))
+        return FoldResult(fold.name, tuple(trials))
 
 
 def evaluate_conditions(
@@ -103,6 +123,7 @@ def evaluate_conditions(
     num_folds: int | None = None,
     seed: int = 0,
     front_end: FrontEnd | None = None,
+    adapt: bool = False,
     progress: Progress | None = None,
 ) -> dict[str, EvaluationResult]:
     """Accuracy on speakers the recogniser has not met, under several conditions from one training.
@@ -123,25 +144,30 @@ def evaluate_conditions(
         Of folds and of what is random in the conditions.
     front_end : FrontEnd, optional
         Done to every clip of training and test after the condition.
+    adapt : bool
+        Also hear the words of each test, in random order, with a `SpeakerAdapter`: every word is decided by what was
+        learned from those before it, of which nobody told what they were. Test folds have to be of one person each.
     progress : callable, optional
         Called with (what, done, total).
 
     Returns
     -------
     dict of str to EvaluationResult
-        In the order of `tests`.
+        In the order of `tests`; what was measured while adapting has the name that `adapting` gives.
 
     Raises
     ------
     InvalidArgument
-        For recordings without persons, or fewer than two persons.
+        For recordings without persons, fewer than two persons, or `adapt` with several persons in a fold.
     """
     say = progress or (lambda what, done, total: None)
     folds = dataset.folds_by_person(num_folds, seed)
-    runner = SpeechRunner(dataset, make_recognizer, tests, train, seed, front_end, say)
+    if adapt and any(len({dataset.samples[i].person for i in fold.test}) > 1 for fold in folds):
+        raise InvalidArgument("adapt needs folds that hold out one person each")
+    runner = SpeechRunner(dataset, make_recognizer, tests, train, seed, front_end, say, adapt)
     found = [runner.run(fold) for fold in folds]
     common = {"seed": seed, "folds": "by person"}
     return {
         name: EvaluationResult(dataset.labels, [results[name] for results in found], {**common, "condition": name})
-        for name in tests
+        for name in found[0]
     }

@@ -4,6 +4,7 @@
 
 from hri.recognition.decision import Decision, NBest
 from hri.recognition.gesture import GestureRecognizer
+from hri.recognition.speaker import SpeakerAdapter
 from hri.recognition.word import WordRecognizer
 
-__all__ = ["Decision", "GestureRecognizer", "NBest", "WordRecognizer"]
+__all__ = ["Decision", "GestureRecognizer", "NBest", "SpeakerAdapter", "WordRecognizer"]

@@ -9,48 +9,16 @@
 #include <thread>
 
 #include "hri/core/error.hpp"
-#include "hri/core/random.hpp"
 #include "hri/io/wav.hpp"
+#include "recognition/tone_words.hpp"
 
 namespace hri {
 namespace {
 
-constexpr int kRateHz = 16000;
-
-// A gliding tone between pauses.
-std::vector<float> tone(double base_hz, double slope_hz_per_s, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<float> x(kRateHz);
-  for (std::size_t n = 0; n < x.size(); ++n) {
-    const double t = static_cast<double>(n) / kRateHz - 0.25;
-    const bool sounds = t >= 0 && t < 0.5;
-    const double phase = 6.283185307 * (base_hz * t + 0.5 * slope_hz_per_s * t * t);
-    x[n] = static_cast<float>((sounds ? 0.3 * std::sin(phase) : 0.0) + 0.001 * random.normal());
-  }
-  return x;
-}
-
-struct Clips {
-  std::vector<std::vector<float>> audio;
-  std::vector<WordSample> samples;
-};
-
-// Rising and falling tones by three persons, three takes each.
-Clips clips() {
-  Clips result;
-  result.audio.reserve(18);
-  std::uint64_t seed = 0;
-  for (const char* person : {"low", "middle", "high"}) {
-    const double base_hz = 500 + 50.0 * static_cast<double>(seed / 6);
-    for (int take = 0; take < 3; ++take) {
-      for (const bool rises : {true, false}) {
-        result.audio.push_back(tone(base_hz, rises ? 800 : -350, seed++));
-        result.samples.push_back({result.audio.back(), kRateHz, rises ? "rise" : "fall", person});
-      }
-    }
-  }
-  return result;
-}
+using testing_data::Clips;
+using testing_data::kRateHz;
+using testing_data::tone;
+using testing_data::tone_clips;
 
 class WordRecognizerOf : public ::testing::TestWithParam<SequenceModelKind> {
  protected:
@@ -62,7 +30,7 @@ class WordRecognizerOf : public ::testing::TestWithParam<SequenceModelKind> {
 };
 
 TEST_P(WordRecognizerOf, RecognisesSomebodyItHasNotHeard) {
-  const Clips all = clips();
+  const Clips all = tone_clips();
   std::vector<WordSample> train;
   for (const WordSample& s : all.samples) {
     if (s.group != "middle") train.push_back(s);
@@ -78,7 +46,7 @@ TEST_P(WordRecognizerOf, RecognisesSomebodyItHasNotHeard) {
 }
 
 TEST_P(WordRecognizerOf, LoadsWhatItSavedToTheBit) {
-  const Clips all = clips();
+  const Clips all = tone_clips();
   const WordRecognizer recognizer = WordRecognizer::train(all.samples, options());
   const ModelFile file = recognizer.to_model_file();
   const WordRecognizer again =
@@ -92,7 +60,7 @@ TEST_P(WordRecognizerOf, LoadsWhatItSavedToTheBit) {
 }
 
 TEST_P(WordRecognizerOf, StopsWhenAsked) {
-  const Clips all = clips();
+  const Clips all = tone_clips();
   int polls = 0;
   EXPECT_THROW(WordRecognizer::train(all.samples, options(), {}, [&] { return ++polls == 3; }),
                Interrupted);
@@ -109,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Models, WordRecognizerOf,
                          model_name);
 
 TEST(WordRecognizer, HearsNothingInSilence) {
-  const Clips all = clips();
+  const Clips all = tone_clips();
   const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});
   for (const float level : {0.0F, 0.3F}) {
     const Decision d = recognizer.recognise(std::vector<float>(8000, level), kRateHz);
@@ -119,7 +87,7 @@ TEST(WordRecognizer, HearsNothingInSilence) {
 }
 
 TEST(WordRecognizer, RefusesBadAudioAndBadSets) {
-  const Clips all = clips();
+  const Clips all = tone_clips();
   const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});
   std::vector<float> broken = all.audio[0];
   broken[123] = std::numeric_limits<float>::quiet_NaN();
@@ -148,7 +116,7 @@ TEST(WordRecognizer, RefusesBadAudioAndBadSets) {
 }
 
 TEST(WordRecognizer, RefusesModelsOfAnotherKindOrWithHoles) {
-  const Clips all = clips();
+  const Clips all = tone_clips();
   ModelFile file = WordRecognizer::train(all.samples, {}).to_model_file();
   ModelFile other = file;
   other.set_kind("gesture_recognizer");
@@ -161,7 +129,7 @@ TEST(WordRecognizer, RefusesModelsOfAnotherKindOrWithHoles) {
 }
 
 TEST(WordRecognizer, AnswersTheSameInEveryThread) {
-  const Clips all = clips();
+  const Clips all = tone_clips();
   const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});
   const VectorF expected = recognizer.scores(all.audio[0], kRateHz);
   std::vector<VectorF> found(4);

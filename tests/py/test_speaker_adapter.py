@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Getting used to a speaker: from Python and from the command line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hri as package
+from conftest import PERSONS, RATE_HZ, tone_word
+from hri import _native
+from hri.datasets import Dataset
+from hri.errors import InvalidArgument
+from hri.evaluation import adapting, evaluate_conditions
+
+
+@pytest.fixture(scope="module")
+def words() -> package.WordRecognizer:
+    clips = [
+        (tone_word(base_hz, slope, 7 * take + number), label, person)
+        for number, (person, base_hz) in enumerate(PERSONS.items())
+        for take in range(3)
+        for label, slope in (("1", 800.0), ("2", -350.0))
+    ]
+    x, y, persons = map(list, zip(*clips, strict=True))
+    return package.WordRecognizer().fit(x, y, sample_rate_hz=RATE_HZ, groups=persons)
+
+
+def strange(slope: float, seed: int) -> np.ndarray:
+    return tone_word(1100.0, slope, seed)
+
+
+def test_words_that_were_named_are_learned(words: package.WordRecognizer) -> None:
+    adapter = package.SpeakerAdapter(words, words_per_label=0)
+    for seed in range(3):
+        adapter.learn(strange(800.0, seed), RATE_HZ, "1")
+        adapter.learn(strange(-350.0, seed), RATE_HZ, "2")
+    assert adapter.update_due and adapter.num_words == 6
+    adapter.update()
+    assert not adapter.update_due
+    for label, slope in enumerate((800.0, -350.0)):
+        before = words.scores(strange(slope, 9), RATE_HZ)
+        after = adapter.recognizer.scores(strange(slope, 9), RATE_HZ)
+        assert after[label] - after[1 - label] > before[label] - before[1 - label]
+    adapter.reset()
+    clip = strange(800.0, 9)
+    np.testing.assert_array_equal(adapter.recognizer.scores(clip, RATE_HZ), words.scores(clip, RATE_HZ))
+
+
+def test_a_decision_comes_before_what_is_learned_from_it(words: package.WordRecognizer) -> None:
+    clip = strange(800.0, 1)
+    adapter = package.SpeakerAdapter(words)
+    assert adapter.recognise(clip, RATE_HZ, update=False) == words.recognise(clip, RATE_HZ)
+    assert adapter.num_words == 1 and adapter.update_due
+    assert adapter.recognise(np.zeros(RATE_HZ, np.float32), RATE_HZ).status == "no_input"
+    assert adapter.num_words == 1
+
+
+def test_options_and_words_are_checked(words: package.WordRecognizer) -> None:
+    with pytest.raises(InvalidArgument, match="trusted_share"):
+        package.SpeakerAdapter(words, trusted_share=2.0)
+    with pytest.raises(InvalidArgument, match="no word 'left'"):
+        package.SpeakerAdapter(words).learn(strange(800.0, 1), RATE_HZ, "left")
+    with pytest.raises(InvalidArgument, match="not trained"):
+        package.SpeakerAdapter(package.WordRecognizer())
+
+
+def test_evaluation_adapts_to_one_person_a_fold(spoken: Path) -> None:
+    dataset = Dataset.load(spoken, "speech")
+    found = evaluate_conditions(dataset, package.WordRecognizer, {"": None}, adapt=True)
+    assert set(found) == {"", adapting("")}
+    alone, adapted = found[""], found[adapting("")]
+    assert sorted(t.index for t in adapted.trials) == sorted(t.index for t in alone.trials)
+    assert adapted.mean >= alone.mean
+    with pytest.raises(InvalidArgument, match="one person"):
+        evaluate_conditions(dataset, package.WordRecognizer, {"": None}, adapt=True, num_folds=2)
+
+
+def test_command_adapts_a_model(hri, words: package.WordRecognizer, tmp_path: Path) -> None:
+    words.save(tmp_path / "words.hri")
+    for seed in range(3):
+        for label, slope in (("1", 800.0), ("2", -350.0)):
+            _native.write_wav_pcm16(str(tmp_path / f"{label}_{seed}.wav"), strange(slope, seed), RATE_HZ)
+    files = sorted(tmp_path.glob("*.wav"))
+    done = hri("adapt", "--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri", *files)
+    assert done.code == 0, done.err
+    clip = strange(800.0, 9)
+    adapted = package.WordRecognizer.load(tmp_path / "mine.hri")
+    assert not np.array_equal(adapted.scores(clip, RATE_HZ), words.scores(clip, RATE_HZ))
+    named = hri("adapt", "--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri", "--label", "1", files[0])
+    assert named.code == 0, named.err
+    wrong = hri("adapt", "--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri", "--label", "9", files[0])
+    assert wrong.code == 3 and "no word '9'" in wrong.err
