@@ -62,6 +62,7 @@ void bind_adaptation(py::module_& m) {
       .def("reset", &hri::SpeakerAdapter::reset)
       .def_property_readonly("update_due", &hri::SpeakerAdapter::update_due)
       .def_property_readonly("num_words", &hri::SpeakerAdapter::num_words)
+      .def_property_readonly("num_learned", &hri::SpeakerAdapter::num_learned)
       .def_property_readonly("recognizer", [](const hri::SpeakerAdapter& self) {
         return hri::WordRecognizer(self.recognizer());
       });

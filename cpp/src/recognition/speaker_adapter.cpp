@@ -125,10 +125,13 @@ void SpeakerAdapter::update(const StopCheck& should_stop) {
   }
   adapted_ = std::move(next);
   num_new_ = 0;
+  num_learned_ = static_cast<int>(
+      std::count_if(labels.begin(), labels.end(), [](int label) { return label != kNotTrusted; }));
 }
 
 void SpeakerAdapter::reset() {
   words_.clear();
+  num_learned_ = 0;
   num_new_ = 0;
   adapted_ = base_;
 }

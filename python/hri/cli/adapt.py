@@ -50,8 +50,6 @@ def adapt(files: tuple[str, ...], model: str | None, output: str, label: str | N
     adapter.recognizer.save(output)
     for path, word in zip(files, heard, strict=True):
         say(f"{word}\t{path}", json_path)
-    click.echo(f"learned from {adapter.num_words} words: {output}", err=True)
-    write_json(
-        json_path,
-        {"model": output, "num_words": adapter.num_words, "heard": dict(zip(files, heard, strict=True))},
-    )
+    counts = {"num_words": adapter.num_words, "num_learned": adapter.num_learned}
+    click.echo(f"learned from {adapter.num_learned} of {adapter.num_words} words: {output}", err=True)
+    write_json(json_path, {"model": output, **counts, "heard": dict(zip(files, heard, strict=True))})

@@ -92,6 +92,11 @@ class SpeakerAdapter:
         return int(self._native.num_words)
 
     @property
+    def num_learned(self) -> int:
+        """Words that the last update learned from: those named, and those trusted."""
+        return int(self._native.num_learned)
+
+    @property
     def recognizer(self) -> WordRecognizer:
         """The recogniser as adapted at the last update."""
         return WordRecognizer._wrap(self._native.recognizer)

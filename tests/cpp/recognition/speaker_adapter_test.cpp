@@ -48,6 +48,7 @@ TEST(SpeakerAdapter, LearnsWordsThatWereNamed) {
   EXPECT_TRUE(adapter.update_due());
   adapter.update();
   EXPECT_FALSE(adapter.update_due());
+  EXPECT_EQ(adapter.num_learned(), 6);
   const auto margin = [](const WordRecognizer& r, bool rises) {  // labels: fall, rise
     const VectorF s = r.scores(strange(rises, 9), kRateHz);
     return rises ? s[1] - s[0] : s[0] - s[1];

@@ -55,6 +55,8 @@ class SpeakerAdapter {
 
   [[nodiscard]] const WordRecognizer& recognizer() const { return adapted_; }
   [[nodiscard]] int num_words() const { return static_cast<int>(words_.size()); }
+  /// Words that the last update learned from: those named, and those trusted.
+  [[nodiscard]] int num_learned() const { return num_learned_; }
   [[nodiscard]] const SpeakerAdapterOptions& options() const { return options_; }
 
  private:
@@ -70,6 +72,7 @@ class SpeakerAdapter {
   WordRecognizer adapted_;
   std::deque<Word> words_;
   int num_new_ = 0;
+  int num_learned_ = 0;
 };
 
 }  // namespace hri
