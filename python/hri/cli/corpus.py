@@ -12,7 +12,12 @@ from hri.datasets.synthetic_speech import DIGIT_WORDS, make_speech_corpus
 
 @click.group()
 def corpus() -> None:
-    """Make a data set where there are no recordings yet; it says of itself that it is synthetic."""
+    """Make a data set where there are no recordings yet; it says of itself that it is synthetic.
+
+    \b
+    Example:
+      hri corpus speech go stop left right --out commands/
+    """
 
 
 @corpus.command()
