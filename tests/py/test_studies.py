@@ -19,7 +19,7 @@ from hri.errors import InvalidArgument
 from hri.studies import distance, noise, tables, tempo, training_size
 from hri.studies.registry import Layout
 from hri.studies.word_classifiers import CLASSIFIERS
-from hri.studies.word_features import FEATURES, approximation, load_words, read_words
+from hri.studies.word_features import FEATURES, approximation, denoised, load_words, read_words
 
 
 @pytest.fixture(scope="module")
@@ -147,6 +147,8 @@ def test_an_approximation_keeps_the_lower_band_at_its_level() -> None:
     time_s = np.arange(RATE_HZ) / RATE_HZ
     low, high = (np.sin(2 * np.pi * hz * time_s).astype("f4") for hz in (300.0, 3000.0))
     assert np.std(approximation(low)) == pytest.approx(np.std(low), rel=0.02)
+    hiss = 0.1 * np.random.default_rng(0).standard_normal(RATE_HZ).astype("f4")
+    assert np.mean((denoised(low + hiss, level=3) - low) ** 2) < 0.3 * np.mean(hiss**2)
     assert np.std(approximation(high)) < 0.05 and len(approximation(high)) == RATE_HZ // 8
 
 

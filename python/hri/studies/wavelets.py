@@ -23,6 +23,7 @@ from hri.studies.word_features import (
     all_frames,
     approximation_kind,
     read_words,
+    shrinkage_kind,
 )
 
 DATA = ("fsdd", "hindi-words")
@@ -33,6 +34,7 @@ SNR_DB = 10.0
 NOISES = ("white", "pink")
 METHODS: dict[str, Callable[[str, int, dict[str, Any]], FeatureKind]] = {
     "approximation": approximation_kind,
+    "shrinkage": shrinkage_kind,
 }
 """Both readings of noise reduction; each gives a kind of features from (wavelet, level, options of the cepstra)."""
 

@@ -133,13 +133,22 @@ def _mel(hz: float) -> float:
 
 def approximation(samples: Samples, wavelet: str = WAVELET, level: int = LEVEL) -> Samples:
     """The level's approximation: the sound below 8 kHz / 2^level, at 16 kHz / 2^level."""
-    coefficients = _native.wavedec(samples, wavelet, _native.Border.periodization, level)
-    return np.ascontiguousarray(coefficients[0] / np.float32(2.0 ** (level / 2)))
+    return np.asarray(_native.approximate(samples, wavelet, _native.Border.periodization, level))
+
+
+def denoised(samples: Samples, wavelet: str = WAVELET, level: int = 0) -> Samples:
+    """Shrinkage of the details of `level` levels with the library's other defaults; 0 takes its levels too."""
+    return np.asarray(_native.denoise(samples, _native.ShrinkageOptions(wavelet=wavelet, num_levels=level)))
 
 
 def approximation_kind(wavelet: str, level: int, options: dict[str, Any]) -> FeatureKind:
     """Cepstra of the approximation (thesis section 6.2.2, as it reads)."""
     return FeatureKind(options, partial(approximation, wavelet=wavelet, level=level), 2**level)
+
+
+def shrinkage_kind(wavelet: str, level: int, options: dict[str, Any]) -> FeatureKind:
+    """Cepstra of the sound without its noise (the other reading)."""
+    return FeatureKind(options, partial(denoised, wavelet=wavelet, level=level))
 
 
 HFCC = {"filter_bank": "hfcc"}
@@ -149,6 +158,7 @@ FEATURES: dict[str, FeatureKind] = {
     "hfcc": FeatureKind(HFCC),
     "lpcc": FeatureKind({"kind": "linear_prediction"}, at_band=True),
     f"dwt{LEVEL}+hfcc": approximation_kind(WAVELET, LEVEL, HFCC),
+    "shrinkage+hfcc": shrinkage_kind(WAVELET, 0, HFCC),
 }
 """By name, as the thesis compares them; "dwt3" are features of the third level's approximation."""
 
