@@ -21,6 +21,7 @@ ModelFile WordRecognizer::to_model_file() const {
   file.set_kind(kKind);
   file.set_text_list("labels", labels_);
   detail::visit_word(detail::FieldWriter{file}, options_);
+  verifier_.write(file, options_.models.model);
   calibration_.write(file);
   for (std::size_t s = 0; s < streams_.size(); ++s)
     streams_[s].models.write(file, stream_prefix(s));
@@ -41,6 +42,7 @@ WordRecognizer WordRecognizer::read(const ModelFile& file) {
   WordRecognizer result(options, sorted_labels(file.text_list("labels")));
   if (result.labels_ != file.text_list("labels"))
     fail(ErrorKind::format, file.name() + ": labels are not sorted");
+  result.verifier_ = WordVerifier::read(file, options.models.model);
   result.calibration_ = Calibration::read(file);
   for (std::size_t s = 0; s < result.streams_.size(); ++s) {
     WordStream& stream = result.streams_[s];

@@ -55,11 +55,16 @@ VectorF WordRecognizer::score(const std::vector<MatrixF>& frames) const {
   return sum;
 }
 
+VectorD WordRecognizer::features(const std::vector<MatrixF>& frames, const VectorF& scores,
+                                 int left_out) const {
+  std::vector<const SequenceModels*> models;
+  models.reserve(streams_.size());
+  for (const WordStream& stream : streams_) models.push_back(&stream.models);
+  return WordVerifier::features(models, frames, scores, left_out);
+}
+
 float WordRecognizer::evidence(const std::vector<MatrixF>& frames, const VectorF& scores) const {
-  float garbage = 0;
-  for (std::size_t s = 0; s < streams_.size(); ++s)
-    garbage += streams_[s].models.garbage_score(frames[s]);
-  return (scores.maxCoeff() - garbage) / static_cast<float>(frames.front().rows());
+  return verifier_.evidence(features(frames, scores));
 }
 
 VectorF WordRecognizer::scores(Span<const float> samples, int sample_rate_hz) const {

@@ -10,12 +10,14 @@
 #include "hri/core/kernels.hpp"
 #include "hri/core/random.hpp"
 #include "hri/recognition/word_recognizer.hpp"
+#include "non_words.hpp"
 #include "training_noise.hpp"
 
 namespace hri {
 namespace {
 
 constexpr int kMaxFolds = 4;
+constexpr std::size_t kNonWordSources = 300;  // samples from which non-words are made, at most
 constexpr int kDefaultRateHz = 16000;
 
 int training_rate_hz(const std::vector<WordSample>& samples, int wanted_hz) {
@@ -48,7 +50,10 @@ class WordTrainer {
  public:
   WordTrainer(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
               StopCheck should_stop)
-      : result_(options, labels_of(samples)), should_stop_(std::move(should_stop)) {
+      : result_(options, labels_of(samples)),
+        non_words_(options.cepstra.sample_rate_hz, options.models.seed),
+        source_step_(1 + samples.size() / kNonWordSources),
+        should_stop_(std::move(should_stop)) {
     for (const double factor : warp_factors(options)) {
       WordRecognizerOptions warped = options;
       warped.cepstra.warp *= factor;
@@ -60,14 +65,14 @@ class WordTrainer {
     for (std::size_t i = 0; i < samples.size(); ++i) prepare(samples[i], i);
     const int num_folds = assign_folds();
     const int num_steps = num_folds + 2;
-    std::vector<HeldOut> held_out;
+    HeldOutFolds held_out;
     for (int fold = 0; fold < num_folds; ++fold) {
       if (progress) progress(fold + 1, num_steps);
       score_fold(fold, &held_out);
     }
     if (progress) progress(num_folds + 1, num_steps);
     train_without(-1);
-    result_.calibration_ = Calibration::fit(held_out, result_.options_.false_reject_rate);
+    calibrate(std::move(held_out));
     if (progress) progress(num_steps, num_steps);
     return std::move(result_);
   }
@@ -79,6 +84,7 @@ class WordTrainer {
     int fold = 0;
     std::string group;
     std::vector<std::vector<MatrixF>> variants;
+    std::vector<std::vector<MatrixF>> non_words;  // frames of every stream of each
   };
 
   void prepare(const WordSample& sample, std::size_t index) {
@@ -105,6 +111,12 @@ class WordTrainer {
     p.group = sample.group;
     for (const WordRecognizer& front : fronts_) p.variants.push_back(front.frames(word));
     add_noisy_variants(word, index, &p);
+    if (index % source_step_ == 0) {
+      for (const std::vector<float>& sound : non_words_.from(word, sample.label, sample.group)) {
+        if (result_.streams_.front().cepstra.num_frames(sound.size()) > 0)
+          p.non_words.push_back(result_.frames(sound));
+      }
+    }
     prepared_.push_back(std::move(p));
   }
 
@@ -158,17 +170,47 @@ class WordTrainer {
     return true;
   }
 
-  void score_fold(int fold, std::vector<HeldOut>* held_out) {
+  // What the folds left: decisions, what each of them tells the verifier, and its other trials.
+  struct HeldOutFolds {
+    std::vector<HeldOut> decisions;
+    std::vector<VectorD> features;
+    std::vector<VerifierTrial> trials;
+  };
+
+  void score_fold(int fold, HeldOutFolds* held_out) {
     if (!train_without(fold)) return;  // without every class there is nothing to calibrate on
     for (const Prepared& p : prepared_) {
       if (p.fold != fold) continue;
-      const VectorF scores = result_.score(p.variants.front());
-      held_out->push_back({scores, p.label, result_.evidence(p.variants.front(), scores)});
+      if (should_stop_ && should_stop_()) fail(ErrorKind::interrupted, "training interrupted");
+      const std::vector<MatrixF>& frames = p.variants.front();
+      const VectorF scores = result_.score(frames);
+      Eigen::Index best = 0;
+      scores.maxCoeff(&best);
+      held_out->decisions.push_back({scores, p.label, 0});
+      held_out->features.push_back(result_.features(frames, scores));
+      if (best == p.label) held_out->trials.push_back({held_out->features.back(), TrialKind::word});
+      if (scores.size() > 2) {
+        held_out->trials.push_back(
+            {result_.features(frames, scores, p.label), TrialKind::left_out});
+      }
+      for (const std::vector<MatrixF>& sound : p.non_words) {
+        held_out->trials.push_back(
+            {result_.features(sound, result_.score(sound)), TrialKind::non_word});
+      }
     }
+  }
+
+  void calibrate(HeldOutFolds held_out) {
+    result_.verifier_ = WordVerifier::fit(held_out.trials);
+    for (std::size_t i = 0; i < held_out.decisions.size(); ++i)
+      held_out.decisions[i].evidence = result_.verifier_.evidence(held_out.features[i]);
+    result_.calibration_ = Calibration::fit(held_out.decisions, result_.options_.false_reject_rate);
   }
 
   WordRecognizer result_;
   std::vector<WordRecognizer> fronts_;  // the front ends at every warp; their models stay empty
+  detail::NonWords non_words_;
+  std::size_t source_step_;
   StopCheck should_stop_;
   std::vector<Prepared> prepared_;
 };

@@ -17,6 +17,7 @@ from hri.studies import (
     synthetic_speakers,
     tempo,
     training_size,
+    unknown_words,
     wavelets,
 )
 from hri.studies.pictures import draw
@@ -34,6 +35,7 @@ _MODULES = (
     training_size,
     wavelets,
     denoise,
+    unknown_words,
     signs,
     fusion,
     parity,

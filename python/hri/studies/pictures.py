@@ -14,7 +14,7 @@ from hri.studies.tables import Row, axes_of, result_rows
 
 def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
     """Write the picture of a result (PNG, SVG or PDF by suffix): lines over `Layout.x`, or bars; bars of error are
-    the spread over the persons held out.
+    the spread over the persons held out. A result with ``"curves"``, shares over shares by name, gets those drawn.
 
     Raises
     ------
@@ -25,6 +25,13 @@ def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    if "curves" in result:
+        figure = Figure(figsize=(5.0, 4.6), layout="constrained")
+        FigureCanvasAgg(figure)
+        _curves(figure.subplots(), result["curves"])
+        figure.suptitle(str(result["study"]))
+        figure.savefig(fspath(path), dpi=110)
+        return
     rows = [row for row in result_rows(result, layout) if row.get(f"{layout.measure}_mean") is not None]
     panels = list(dict.fromkeys(row.get(layout.panel, "") for row in rows)) or [""]
     wide = 4.6 if layout.x else 2.5 + 0.28 * max(1, len(rows) // len(panels))
@@ -39,6 +46,17 @@ def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
     every[0].set_ylabel(f"{layout.measure}{', %' if layout.percent else ''}")
     figure.suptitle(str(result["study"]))
     figure.savefig(fspath(path), dpi=110)
+
+
+def _curves(axes: Any, curves: Row) -> None:
+    for name, line in curves["lines"].items():
+        axes.plot([100 * v for v in line["x"]], [100 * v for v in line["y"]], marker="o", label=name)
+    axes.set_xlabel(f"{curves['x']}, %")
+    axes.set_ylabel(f"{curves['y']}, %")
+    axes.set_xlim(left=0)
+    axes.set_ylim(bottom=0)
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize="small")
 
 
 def _values(rows: list[Row], layout: Layout) -> tuple[list[float], list[float]]:

@@ -68,6 +68,9 @@ class SequenceModels {
   /// What the best class is compared with for rejection, in the unit of `scores`.
   [[nodiscard]] float garbage_score(ConstMatrixRefF frames) const;
 
+  /// One a class; empty for ptbhmm.
+  [[nodiscard]] const std::vector<GaussianMixtureHmm>& hmms() const { return hmms_; }
+
   void write(ModelFile& file, const std::string& prefix) const;
   /// Throws FormatError where the models do not fit `num_classes` or frames of `dim` columns.
   void read(const ModelFile& file, const std::string& prefix, int num_classes, int dim);

@@ -16,6 +16,7 @@
 #include "hri/recognition/decision.hpp"
 #include "hri/recognition/sequence_models.hpp"
 #include "hri/recognition/training.hpp"
+#include "hri/recognition/word_verifier.hpp"
 #include "hri/signal/activity.hpp"
 
 namespace hri {
@@ -72,7 +73,7 @@ class WordRecognizer {
   static WordRecognizer from_model_file(const ModelFile& file);
 
   /// Recognises one utterance; other sample rates are resampled and said so in Decision::notes.
-  /// Evidence is the log-likelihood ratio per frame of the best word against the garbage model.
+  /// Evidence is the log odds that a word of the vocabulary was said (word_verifier.hpp).
   [[nodiscard]] Decision recognise(Span<const float> samples, int sample_rate_hz) const;
 
   /// Raw score of every label for one utterance (log-likelihood or log-possibility), without end
@@ -82,6 +83,7 @@ class WordRecognizer {
   [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
   [[nodiscard]] const WordRecognizerOptions& options() const { return options_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  [[nodiscard]] const WordVerifier& verifier() const { return verifier_; }
 
  private:
   WordRecognizer(const WordRecognizerOptions& options, std::vector<std::string> labels);
@@ -97,6 +99,9 @@ class WordRecognizer {
   [[nodiscard]] std::vector<MatrixF> frames(Span<const float> word) const;
   [[nodiscard]] VectorF score(const std::vector<MatrixF>& frames) const;
   [[nodiscard]] float evidence(const std::vector<MatrixF>& frames, const VectorF& scores) const;
+  /// What the verifier weighs; as if there were no class `left_out` (-1: none).
+  [[nodiscard]] VectorD features(const std::vector<MatrixF>& frames, const VectorF& scores,
+                                 int left_out = -1) const;
 
   friend class SpeakerAdapter;
   friend class WordTrainer;
@@ -104,6 +109,7 @@ class WordRecognizer {
   WordRecognizerOptions options_;
   std::vector<std::string> labels_;
   std::vector<WordStream> streams_;
+  WordVerifier verifier_;
   Calibration calibration_;
 };
 

@@ -1,0 +1,169 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Words outside the vocabulary, and noise, are turned down: half the words of a data set are never trained."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.datasets import Dataset, Fold
+from hri.errors import InvalidArgument
+from hri.evaluation import make_noise
+from hri.evaluation.rejection import equal_error_rate, false_rejects_at
+from hri.media import read_audio
+from hri.recognition import Decision, WordRecognizer
+from hri.recognition.decision import NO_INPUT, RECOGNISED
+from hri.studies.noise import noise_paths
+from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.tables import Row, statistics
+from hri.studies.word_features import WORD_FOLDERS, load_words
+
+SEED = 0
+NUM_HALVES = 3
+FALSE_ACCEPTS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5)
+"""Of the curve."""
+NUM_NOISES = 10
+"""Of each kind and recording."""
+NOISE_RATE_HZ = 16000
+TARGET = 0.10
+
+Clip = tuple[NDArray[np.float32], int]
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What was decided of one speaker's words: evidence, or -inf where nobody was heard; and whether accepted."""
+
+    known: NDArray[np.float64]
+    unknown: NDArray[np.float64]
+    known_accepted: NDArray[np.bool_]
+    unknown_accepted: NDArray[np.bool_]
+
+
+def halves(labels: Sequence[str], number: int = NUM_HALVES, seed: int = SEED) -> list[tuple[str, ...]]:
+    """Random halves of a vocabulary.
+
+    Raises
+    ------
+    InvalidArgument
+        For fewer than 4 labels: a recogniser needs two.
+    """
+    if len(labels) < 4:
+        raise InvalidArgument(f"half of {len(labels)} words is too few: a recogniser needs two")
+    rng = np.random.default_rng(seed)
+    return [tuple(sorted(rng.permutation(np.array(labels))[: len(labels) // 2].tolist())) for _ in range(number)]
+
+
+def noises(paths: dict[str, str], seed: int = SEED) -> dict[str, list[Clip]]:
+    """Pieces of recorded noise: a second as it is, and bursts of 0.2 to 0.8 s in silence."""
+    rng = np.random.default_rng(seed)
+    steady, bursts = [], []
+    for path in paths.values():
+        for _ in range(NUM_NOISES):
+            steady.append((make_noise(path, NOISE_RATE_HZ, NOISE_RATE_HZ, rng), NOISE_RATE_HZ))
+            clip = 1e-4 * rng.standard_normal(3 * NOISE_RATE_HZ // 2).astype(np.float32)
+            length = int(rng.uniform(0.2, 0.8) * NOISE_RATE_HZ)
+            clip[4000 : 4000 + length] += make_noise(path, length, NOISE_RATE_HZ, rng)
+            bursts.append((clip, NOISE_RATE_HZ))
+    return {"noise": steady, "burst": bursts}
+
+
+def _evidence(decision: Decision) -> float:
+    return decision.evidence if decision.nbest else -np.inf
+
+
+def _test(words: WordRecognizer, dataset: Dataset, clips: Sequence[Clip], fold: Fold, half: Sequence[str]) -> Turn:
+    decisions = [words.recognise(*clips[i]) for i in fold.test]
+    is_known = np.array([dataset.samples[i].label in half for i in fold.test])
+    evidence = np.array([_evidence(d) for d in decisions])
+    accepted = np.array([d.status == RECOGNISED for d in decisions])
+    return Turn(evidence[is_known], evidence[~is_known], accepted[is_known], accepted[~is_known])
+
+
+def _shares(words: WordRecognizer, clips: Sequence[Clip]) -> dict[str, float]:
+    status = [words.recognise(*clip).status for clip in clips]
+    return {name: status.count(name) / len(status) for name in (NO_INPUT, RECOGNISED)}
+
+
+def _train(dataset: Dataset, clips: Sequence[Clip], fold: Fold, half: Sequence[str], tell: Progress) -> WordRecognizer:
+    train = [i for i in fold.train if dataset.samples[i].label in half]
+    return WordRecognizer().fit(
+        [clips[i][0] for i in train],
+        [dataset.samples[i].label for i in train],
+        sample_rate_hz=[clips[i][1] for i in train],
+        groups=[dataset.samples[i].person for i in train],
+        progress=lambda done, total: tell(f"training without {fold.name}", done, total),
+    )
+
+
+def _measure(dataset: Dataset, noise: dict[str, list[Clip]], progress: Progress) -> tuple[Row, dict[str, Any]]:
+    clips = []
+    for sample in dataset.samples:
+        audio = read_audio(sample.path)
+        clips.append((audio.samples, audio.sample_rate_hz))
+    measured: dict[str, dict[str, float]] = {}
+    curve: dict[str, list[float]] = {}
+    chosen = halves(dataset.labels)
+    for number, half in enumerate(chosen):
+        for fold in dataset.folds_by_person(None, SEED):
+            name = f"half {number + 1}, {fold.name}"
+            words = _train(dataset, clips, fold, half, within(progress, f"half {number + 1}"))
+            turn = _test(words, dataset, clips, fold, half)
+            found = {
+                "eer": equal_error_rate(turn.known, turn.unknown),
+                "false_rejects": float(1 - turn.known_accepted.mean()),
+                "false_accepts": float(turn.unknown_accepted.mean()),
+            }
+            for kind, sounds in noise.items():
+                shares = _shares(words, sounds)
+                found |= {f"{kind}_no_input": shares[NO_INPUT], f"{kind}_as_word": shares[RECOGNISED]}
+            for measure, value in found.items():
+                measured.setdefault(measure, {})[name] = value
+            curve[name] = false_rejects_at(turn.known, turn.unknown, FALSE_ACCEPTS)
+    row: Row = {}
+    for measure, values in measured.items():
+        row |= {key: value for key, value in statistics(values, measure).items() if key != "per_fold"}
+    row["per_fold"] = measured["eer"]
+    mean = np.mean(list(curve.values()), axis=0)
+    more = {"halves": chosen, "by_fold": measured, "curve_by_fold": curve, "curve": [float(x) for x in mean]}
+    return row, more
+
+
+def _run(
+    data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(WORD_FOLDERS), takes: int | None = None
+) -> dict[str, Any]:
+    noise = noises(noise_paths(data_dir))
+    rows, details = [], {}
+    for name in data:
+        row, details[name] = _measure(load_words(data_dir, name, takes), noise, within(progress, name))
+        rows.append({"data": name, **row})
+    lines = {name: {"x": list(FALSE_ACCEPTS), "y": found.pop("curve")} for name, found in details.items()}
+    return {
+        "seed": SEED,
+        "options": WordRecognizer().get_params(),
+        "rows": rows,
+        "details": details,
+        "curves": {"x": "false accepts", "y": "false rejects", "lines": lines},
+        "passed": all(row["eer_mean"] < TARGET and row["noise_no_input_mean"] == 1 for row in rows),
+    }
+
+
+STUDIES = (
+    Study(
+        "unknown-words",
+        "words of unseen speakers with half the vocabulary never trained: equal error rate of rejection, shares at the "
+        "default threshold, and what becomes of noise; three random halves, one speaker held out",
+        ("fsdd/recordings", "hindi_words/digits", "hindi_words/words", "noise"),
+        f"equal error rate < {100 * TARGET:.0f} %; no_input on all steady noise",
+        _run,
+        Layout(measure="eer"),
+        {"data": tuple(WORD_FOLDERS)},
+        thins=True,
+    ),
+)
