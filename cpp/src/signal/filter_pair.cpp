@@ -48,23 +48,27 @@ void require_filters(const Wavelet& w) {
 
 }  // namespace
 
+// A table and no vector: streams ask in the middle of a signal, where nothing may be allocated.
 template <class T>
-std::vector<NamedPairLoops<T>> all_pair_loops() {
-  std::vector<NamedPairLoops<T>> found = {{"baseline", baseline::kLoops<T>}};
+Span<const NamedPairLoops<T>> all_pair_loops() {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  if (__builtin_cpu_supports("avx2")) found.push_back({"avx2", avx2::kLoops<T>});
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
-    found.push_back({"avx512", avx512::kLoops<T>});
-  }
+  static constexpr NamedPairLoops<T> kAll[] = {
+      {"baseline", baseline::kLoops<T>}, {"avx2", avx2::kLoops<T>}, {"avx512", avx512::kLoops<T>}};
+  const bool avx2 = __builtin_cpu_supports("avx2");
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+                      __builtin_cpu_supports("avx512dq");
+  return {kAll, avx512 ? 3U : avx2 ? 2U : 1U};
+#else
+  static constexpr NamedPairLoops<T> kAll[] = {{"baseline", baseline::kLoops<T>}};
+  return {kAll, 1};
 #endif
-  return found;
 }
 
 template <class T>
 const PairLoops<T>& pair_loops() {
-  static const PairLoops<T> best = all_pair_loops<T>().back().loops;
-  return best;
+  static const Span<const NamedPairLoops<T>> all = all_pair_loops<T>();
+  return all[all.size() - 1].loops;
 }
 
 template <class T>
@@ -97,10 +101,10 @@ FilterPair<T> synthesis_filters(const Wavelet& wavelet) {
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type
-#define HRI_INSTANTIATE_FILTER_PAIR(T)                         \
-  template std::vector<NamedPairLoops<T>> all_pair_loops<T>(); \
-  template const PairLoops<T>& pair_loops<T>();                \
-  template FilterPair<T> analysis_filters<T>(const Wavelet&);  \
+#define HRI_INSTANTIATE_FILTER_PAIR(T)                        \
+  template Span<const NamedPairLoops<T>> all_pair_loops<T>(); \
+  template const PairLoops<T>& pair_loops<T>();               \
+  template FilterPair<T> analysis_filters<T>(const Wavelet&); \
   template FilterPair<T> synthesis_filters<T>(const Wavelet&);
 // NOLINTEND(bugprone-macro-parentheses)
 HRI_INSTANTIATE_FILTER_PAIR(float)

@@ -9,8 +9,8 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
+#include "hri/core/types.hpp"
 #include "hri/signal/wavelet.hpp"
 
 namespace hri::detail {
@@ -42,7 +42,7 @@ struct NamedPairLoops {
 };
 /// Those that this machine can run, the best ones last.
 template <class T>
-std::vector<NamedPairLoops<T>> all_pair_loops();
+Span<const NamedPairLoops<T>> all_pair_loops();
 
 /// Two filters as weights of rows.
 template <class T>

@@ -46,7 +46,8 @@ TEST(Hamming, IsSymmetricAndFollowsItsFormula) {
     }
     EXPECT_NEAR(w[0], 0.08, 1e-7);
   }
-  EXPECT_NEAR(make_window(WindowKind::hamming, 9)[2], 0.54, 1e-7);  // a quarter of the way, where the cosine is 0
+  EXPECT_NEAR(make_window(WindowKind::hamming, 9)[2], 0.54,
+              1e-7);  // a quarter of the way, where the cosine is 0
 }
 
 }  // namespace
