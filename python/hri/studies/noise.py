@@ -1,14 +1,19 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Spoken digits of unseen speakers in recorded noise, trained on clean speech and with noise added."""
+"""Spoken digits of unseen speakers in recorded noise, trained on clean speech and with noise added.
+
+"clean" is trained on the recordings as they are, "random" on copies with random noise too, as the recogniser makes them
+by default, "noisy" on copies with other parts of the recorded noises beside these.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
-from hri.evaluation import AddNoise
+from hri.evaluation import AddNoise, adapting
 from hri.evaluation.conditions import Condition
 from hri.studies.front_ends import FRONT_ENDS
 from hri.studies.registry import Layout, Progress, Study
@@ -22,9 +27,11 @@ NOISES = {
 }
 SNRS_DB = (20, 10, 5, 0)
 TRAINING_SNRS_DB = (20.0, 15.0, 10.0, 5.0, 0.0)
-TRAINING = ("clean", "noisy")
+TRAINING = ("clean", "random", "noisy")
+OPTIONS = {"clean": {"noise_copies": 0}}
+LISTENING = ("alone", "adapting")
 TARGETS = {"clean": 0.78, "noisy": 0.85}
-"""White noise at 10 dB, by what was trained on."""
+"""White noise at 10 dB, by what was trained on, while getting used to the speaker and the noise."""
 CLEAN = "clean"
 
 
@@ -46,18 +53,21 @@ def _run(
     tests: dict[str, Condition | None] = {CLEAN: None}
     for name in noise:
         tests |= {f"{name} {snr_db} dB": AddNoise([paths[name]], [snr_db], "second") for snr_db in SNRS_DB}
-    added = {"clean": [], "noisy": [AddNoise(list(paths.values()), TRAINING_SNRS_DB, "first")]}
-    found = sweep(data_dir, "fsdd", tests, {name: added[name] for name in training}, progress, front_end, takes)
+    added = {"clean": [], "random": [], "noisy": [AddNoise(list(paths.values()), TRAINING_SNRS_DB, "first")]}
+    trainings = {name: added[name] for name in training}
+    found = sweep(data_dir, "fsdd", tests, trainings, progress, front_end, takes, options=OPTIONS, adapt=True)
     rows = []
     for (variant, trained), measured in found.items():
-        for name in noise:
-            place = {"front_end": variant, "training": trained, "noise": name}
-            rows.append({**place, "snr_db": CLEAN, **measured[CLEAN]})
-            rows += [{**place, "snr_db": snr_db, **measured[f"{name} {snr_db} dB"]} for snr_db in SNRS_DB]
+        for name, listening in product(noise, LISTENING):
+            place = {"front_end": variant, "training": trained, "listening": listening, "noise": name}
+            under = adapting if listening == "adapting" else str
+            rows.append({**place, "snr_db": CLEAN, **measured[under(CLEAN)]})
+            rows += [{**place, "snr_db": snr_db, **measured[under(f"{name} {snr_db} dB")]} for snr_db in SNRS_DB]
     met = {
         row["training"]: row["accuracy_mean"] >= TARGETS[row["training"]]
         for row in rows
-        if (row["front_end"], row["noise"], row["snr_db"]) == ("plain", "white", 10)
+        if (row["front_end"], row["listening"], row["noise"], row["snr_db"]) == ("plain", "adapting", "white", 10)
+        and row["training"] in TARGETS
     }
     verdict = all(met.values()) if met else None
     return told(rows, verdict, passed_by_training=met, training_snrs_db=TRAINING_SNRS_DB)
@@ -70,7 +80,7 @@ STUDIES = (
         "noises added, with and without HFCC-E and wavelet shrinkage",
         ("fsdd/recordings", "noise"),
         f"white noise at 10 dB: >= {100 * TARGETS['clean']:.0f} % trained clean, "
-        f">= {100 * TARGETS['noisy']:.0f} % with noise",
+        f">= {100 * TARGETS['noisy']:.0f} % with noise, while getting used to the speaker and the noise",
         _run,
         layout=Layout(columns="snr_db", x="snr_db", panel="noise"),
         axes={"front_end": tuple(FRONT_ENDS), "training": TRAINING, "noise": tuple(NOISES)},

@@ -40,8 +40,14 @@ def sweep(
     progress: Progress,
     front_ends: Iterable[str] = ("plain",),
     takes: int | None = None,
+    options: Mapping[str, Mapping[str, Any]] | None = None,
+    adapt: bool = False,
 ) -> dict[tuple[str, str], dict[str, Row]]:
-    """What was measured, by (front end, training) and test, on a data set of `WORD_FOLDERS`."""
+    """What was measured, by (front end, training) and test, on a data set of `WORD_FOLDERS`.
+
+    `options` are those of the recogniser by training, where they differ from the defaults; with `adapt`, every test is
+    measured while adapting too, see `evaluate_conditions`.
+    """
     dataset = load_words(data_dir, name, takes)
     found = {}
     for variant in front_ends:
@@ -49,11 +55,12 @@ def sweep(
         for trained, added in trainings.items():
             results = evaluate_conditions(
                 dataset,
-                partial(WordRecognizer, **choice.options),
+                partial(WordRecognizer, **choice.options, **(options or {}).get(trained, {})),
                 tests,
                 train=added,
                 seed=SEED,
                 front_end=choice.prepare,
+                adapt=adapt,
                 progress=within(progress, f"{name}, {variant}, {trained}"),
             )
             found[variant, trained] = {test: measured(result) for test, result in results.items()}
