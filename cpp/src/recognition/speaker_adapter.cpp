@@ -97,8 +97,8 @@ std::vector<int> SpeakerAdapter::trusted_labels() const {
   }
   if (sorted.empty()) return labels;
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
-  const auto num_trusted =
-      static_cast<std::size_t>(options_.trusted_share * static_cast<double>(sorted.size()) + 0.5);
+  const auto num_trusted = static_cast<std::size_t>(
+      std::lround(options_.trusted_share * static_cast<double>(sorted.size())));
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const bool named = words_[i].label >= 0;
     if (!named && (num_trusted == 0 || margins[i] < sorted[num_trusted - 1]))
