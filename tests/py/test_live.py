@@ -60,9 +60,10 @@ def test_a_stream_gives_the_decisions_of_its_words(
     assert kinds == ["listening", *(["speech_start", "speech_end", "decision"] * 4), "ended"]
     decided = [e for e in events if e.decision is not None]
     assert [e.decision.nbest[0].label for e in decided if e.decision] == labels
+    padding_s = 1e-3 * words.options.activity.padding_ms
     for event, start in zip(decided, starts, strict=True):
-        assert event.fields["first_s"] == pytest.approx(start, abs=0.06)
-        assert event.fields["last_s"] == pytest.approx(start + 0.5, abs=0.08)
+        assert event.fields["first_s"] == pytest.approx(start - padding_s, abs=0.03)
+        assert event.fields["last_s"] == pytest.approx(start + 0.5 + padding_s, abs=0.05)
         assert event.fields["compute_ms"] > 0 and event.fields["model"] == "tones" and event.fields["locale"] == "en"
     assert [e.time for e in events] == sorted(e.time for e in events)
 
