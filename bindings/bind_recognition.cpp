@@ -68,6 +68,19 @@ void bind_decision(py::module_& m) {
       .def_readonly("notes", &hri::Decision::notes);
 }
 
+hri::WordRecognizer with_word(const hri::WordRecognizer& self, const std::string& label,
+                              const std::vector<FloatArray>& samples,
+                              const std::vector<int>& sample_rates_hz) {
+  hri::require(samples.size() == sample_rates_hz.size(),
+               "samples and sample_rates_hz differ in length");
+  std::vector<hri::WordSample> words;
+  words.reserve(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    words.push_back({as_span(samples[i], "samples"), sample_rates_hz[i], label, ""});
+  const py::gil_scoped_release release;
+  return self.with_word(words, python_wants_to_stop);
+}
+
 hri::WordRecognizer train_words(const std::vector<FloatArray>& samples,
                                 const std::vector<int>& sample_rates_hz,
                                 const std::vector<std::string>& labels,
@@ -122,6 +135,9 @@ void bind_words(py::module_& m) {
       .def_static("train", &train_words, py::arg("samples"), py::arg("sample_rates_hz"),
                   py::arg("labels"), py::arg("groups"), py::arg("options"),
                   py::arg("progress") = nullptr)
+      .def("with_word", &with_word, py::arg("label"), py::arg("samples"),
+           py::arg("sample_rates_hz"))
+      .def("without_word", &hri::WordRecognizer::without_word, py::arg("label"))
       .def_static("load", &hri::WordRecognizer::load, py::arg("path"),
                   py::call_guard<py::gil_scoped_release>())
       .def("save", &hri::WordRecognizer::save, py::arg("path"),

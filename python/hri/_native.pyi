@@ -3083,6 +3083,13 @@ class WordRecognizer:
         samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def with_word(
+        self,
+        label: str,
+        samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+    ) -> WordRecognizer: ...
+    def without_word(self, label: str) -> WordRecognizer: ...
     @property
     def labels(self) -> list[str]: ...
     @property

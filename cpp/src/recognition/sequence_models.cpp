@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/recognition/sequence_models.hpp"
 
+#include <utility>
+
 #include "hri/core/error.hpp"
+#include "hri/models/few_samples.hpp"
 
 namespace hri {
 namespace {
@@ -83,10 +86,9 @@ void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_l
   book.num_codewords = options_.num_codewords;
   book.should_stop = should_stop;
   codebook_ = {Codebook::train_lbg(stacked(per_label), book)};
-  std::vector<std::vector<std::vector<std::int32_t>>> symbols(per_label.size());
-  for (std::size_t c = 0; c < per_label.size(); ++c) {
-    for (const MatrixF& m : per_label[c]) symbols[c].push_back(codebook_.front().quantise(m));
-  }
+  std::vector<std::vector<SymbolSequence>> symbols;
+  symbols.reserve(per_label.size());
+  for (const auto& sequences : per_label) symbols.push_back(quantised(sequences));
   PossibilisticHmmOptions options;
   options.topology = left_right(options_.num_states);
   options.num_symbols = codebook_.front().size();
@@ -124,6 +126,41 @@ SequenceModels SequenceModels::adapted(const std::vector<std::vector<MatrixF>>& 
   MapAdaptationOptions of_garbage = of_words;
   of_garbage.prior_frames *= static_cast<double>(hmms_.size()) * hmms_.front().num_states();
   result.garbage_.front() = adapt_map(result.garbage_.front(), all, of_garbage);
+  return result;
+}
+
+std::vector<SymbolSequence> SequenceModels::quantised(const std::vector<MatrixF>& sequences) const {
+  std::vector<SymbolSequence> symbols;
+  symbols.reserve(sequences.size());
+  for (const MatrixF& m : sequences) symbols.push_back(codebook_.front().quantise(m));
+  return symbols;
+}
+
+SequenceModels SequenceModels::with_class(int index, const std::vector<MatrixF>& sequences,
+                                          int num_recordings, const StopCheck& should_stop) const {
+  const FewSampleOptions options{num_recordings, options_.max_iterations, should_stop};
+  SequenceModels result = *this;
+  if (options_.model == SequenceModelKind::ptbhmm) {
+    const PossibilisticHmmSet& set = ptbhmm_.front();
+    std::vector<DiscreteHmm> models = set.models();
+    models.insert(models.begin() + index, train_few(models, quantised(sequences),
+                                                    kEmissionFloor / set.num_symbols(), options));
+    result.ptbhmm_ = {PossibilisticHmmSet(std::move(models), set.rule())};
+  } else {
+    result.hmms_.insert(result.hmms_.begin() + index, train_few(hmms_, sequences, options));
+  }
+  return result;
+}
+
+SequenceModels SequenceModels::without_class(int index) const {
+  SequenceModels result = *this;
+  if (options_.model == SequenceModelKind::ptbhmm) {
+    std::vector<DiscreteHmm> models = ptbhmm_.front().models();
+    models.erase(models.begin() + index);
+    result.ptbhmm_ = {PossibilisticHmmSet(std::move(models), ptbhmm_.front().rule())};
+  } else {
+    result.hmms_.erase(result.hmms_.begin() + index);
+  }
   return result;
 }
 

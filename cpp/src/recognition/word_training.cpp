@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Training of WordRecognizer: frames of every sample and of its frequency-warped copies, models
-// without each fold of speakers for the calibration, then the models that are kept.
+// Training of WordRecognizer: frames of every sample and of its copies, models without each fold of
+// speakers for the calibration, then the models that are kept.
 #include <algorithm>
 #include <utility>
 
 #include "hri/core/error.hpp"
-#include "hri/core/kernels.hpp"
-#include "hri/core/random.hpp"
 #include "hri/recognition/word_recognizer.hpp"
 #include "non_words.hpp"
-#include "training_noise.hpp"
+#include "word_frames.hpp"
 
 namespace hri {
 namespace {
@@ -25,16 +23,6 @@ int training_rate_hz(const std::vector<WordSample>& samples, int wanted_hz) {
   int rate = kDefaultRateHz;
   for (const WordSample& s : samples) rate = std::min(rate, s.sample_rate_hz);
   return rate;
-}
-
-// 1, 1 - step, 1 + step, 1 - 2 step, 1 + 2 step: as many as asked for.
-std::vector<double> warp_factors(const WordRecognizerOptions& options) {
-  std::vector<double> factors{1.0};
-  for (int i = 1; static_cast<int>(factors.size()) < options.num_warps; ++i) {
-    factors.push_back(1.0 - i * options.warp_step);
-    factors.push_back(1.0 + i * options.warp_step);
-  }
-  return factors;
 }
 
 std::vector<std::string> labels_of(const std::vector<WordSample>& samples) {
@@ -51,15 +39,10 @@ class WordTrainer {
   WordTrainer(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
               StopCheck should_stop)
       : result_(options, labels_of(samples)),
+        frames_(result_),
         non_words_(options.cepstra.sample_rate_hz, options.models.seed),
         source_step_(1 + samples.size() / kNonWordSources),
-        should_stop_(std::move(should_stop)) {
-    for (const double factor : warp_factors(options)) {
-      WordRecognizerOptions warped = options;
-      warped.cepstra.warp *= factor;
-      fronts_.push_back(WordRecognizer(warped, result_.labels_));
-    }
-  }
+        should_stop_(std::move(should_stop)) {}
 
   WordRecognizer run(const std::vector<WordSample>& samples, const TrainingProgress& progress) {
     for (std::size_t i = 0; i < samples.size(); ++i) prepare(samples[i], i);
@@ -89,28 +72,13 @@ class WordTrainer {
 
   void prepare(const WordSample& sample, std::size_t index) {
     if (should_stop_ && should_stop_()) fail(ErrorKind::interrupted, "training interrupted");
-    const std::size_t bad = first_not_finite(sample.samples.data(), sample.samples.size());
-    if (bad < sample.samples.size()) {
-      fail(ErrorKind::invalid_argument, "sample " + std::to_string(index) +
-                                            ": audio is not finite at index " +
-                                            std::to_string(bad));
-    }
-    const double duration_ms =
-        1000.0 * static_cast<double>(sample.samples.size()) / std::max(1, sample.sample_rate_hz);
-    if (duration_ms <
-        std::max(result_.options_.activity.frame_ms, result_.options_.cepstra.frame_length_ms)) {
-      fail(ErrorKind::invalid_argument, "sample " + std::to_string(index) +
-                                            ": audio is too short: " + std::to_string(duration_ms) +
-                                            " ms, less than one frame");
-    }
-    const std::vector<float> word = result_.locate(sample.samples, sample.sample_rate_hz, nullptr);
+    const std::vector<float> word = frames_.locate(sample, index);
     if (word.empty())
       return;  // nobody speaks; a label without any word is refused in train_without
     Prepared p;
     p.label = label_index(result_.labels_, sample.label);
     p.group = sample.group;
-    for (const WordRecognizer& front : fronts_) p.variants.push_back(front.frames(word));
-    add_noisy_variants(word, index, &p);
+    p.variants = frames_.of(word, index);
     if (index % source_step_ == 0) {
       for (const std::vector<float>& sound : non_words_.from(word, sample.label, sample.group)) {
         if (result_.streams_.front().cepstra.num_frames(sound.size()) > 0)
@@ -118,19 +86,6 @@ class WordTrainer {
       }
     }
     prepared_.push_back(std::move(p));
-  }
-
-  // Copies with noise, their warps in turn; the noise of a sample depends on the seed and its place
-  // alone.
-  void add_noisy_variants(const std::vector<float>& word, std::size_t index, Prepared* p) const {
-    const WordRecognizerOptions& o = result_.options_;
-    Random random(o.models.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
-    for (int copy = 0; copy < o.noise_copies; ++copy) {
-      const double snr_db = o.noise_low_db + random.uniform() * (o.noise_high_db - o.noise_low_db);
-      const std::vector<float> noisy = detail::with_noise(word, snr_db, &random);
-      const std::size_t warp = (index + static_cast<std::size_t>(copy)) % fronts_.size();
-      p->variants.push_back(fronts_[warp].frames(noisy));
-    }
   }
 
   int assign_folds() {
@@ -208,7 +163,7 @@ class WordTrainer {
   }
 
   WordRecognizer result_;
-  std::vector<WordRecognizer> fronts_;  // the front ends at every warp; their models stay empty
+  WordFrames frames_;
   detail::NonWords non_words_;
   std::size_t source_step_;
   StopCheck should_stop_;
@@ -219,14 +174,6 @@ WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
                                      const WordRecognizerOptions& options,
                                      const TrainingProgress& progress,
                                      const StopCheck& should_stop) {
-  require(options.num_warps == 1 || options.num_warps == 3 || options.num_warps == 5,
-          "num_warps must be 1, 3 or 5");
-  require(options.noise_copies >= 0 && options.noise_copies <= 10,
-          "noise_copies must lie in 0..10");
-  require(options.noise_low_db >= -20 && options.noise_low_db <= options.noise_high_db &&
-              options.noise_high_db <= 100,
-          "noise_low_db and noise_high_db must lie in -20..100, in this order");
-  require(options.warp_step >= 0 && options.warp_step <= 0.2, "warp_step must lie in 0..0.2");
   require(options.false_reject_rate >= 0 && options.false_reject_rate <= 0.5,
           "false_reject_rate must lie in 0..0.5");
   WordRecognizerOptions used = options;

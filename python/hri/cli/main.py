@@ -26,6 +26,8 @@ EXIT_INTERRUPTED = 130
 COMMANDS = {
     "demo": ("hri.demo.cli:demo", "Make a corpus, train, recognise a word and a sign, move the robot."),
     "train": ("hri.cli.train:train", "Train a recogniser on a folder of recordings."),
+    "add-word": ("hri.cli.vocabulary:add_word", "Teach a recogniser one word more, from few recordings."),
+    "remove-word": ("hri.cli.vocabulary:remove_word", "Let a recogniser forget a word."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
     "adapt": ("hri.cli.adapt:adapt", "Let a model of words get used to a speaker or a room."),

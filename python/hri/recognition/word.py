@@ -75,16 +75,44 @@ class WordRecognizer(Recognizer):
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
-        rates = [sample_rate_hz] * len(X) if isinstance(sample_rate_hz, int) else list(sample_rate_hz)
+        rates = _rates(sample_rate_hz, len(X))
         speakers = [""] * len(X) if groups is None else [str(g) for g in groups]
         if not len(X) == len(y) == len(rates) == len(speakers):
             raise _native.InvalidArgument(
                 f"X, y, sample_rate_hz and groups differ in length: {len(X)}, {len(y)}, {len(rates)}, {len(speakers)}"
             )
-        clips = [_as_audio(x, f"X[{i}]") for i, x in enumerate(X)]
+        clips = _as_clips(X, "X")
         self._native = self._native_class.train(
             clips, rates, [str(label) for label in y], speakers, self.options, progress
         )
+        return self
+
+    def add_word(self, label: str, clips: Sequence[Audio], sample_rate_hz: int | Sequence[int]) -> WordRecognizer:
+        """Learn one word more from few recordings; three do. The models of the other words stay as they are.
+
+        How far a word varies is taken from the words that the recogniser knows; so is the rejection threshold.
+
+        Parameters
+        ----------
+        label : str
+            A word that the recogniser does not have.
+        clips : sequence of float32 arrays, shape (num_samples,)
+            Recordings of the word, one or more, each with speech in it.
+        sample_rate_hz : int or sequence of int
+            One rate for all clips, or one for each.
+
+        Raises
+        ------
+        InvalidArgument
+            For a label that is there already, no clip, or one that is silent or broken (names it); the recogniser
+            is left as it was.
+        """
+        self._native = self._trained.with_word(label, _as_clips(clips, "clips"), _rates(sample_rate_hz, len(clips)))
+        return self
+
+    def remove_word(self, label: str) -> WordRecognizer:
+        """Forget a word. Raises InvalidArgument for one that is not known, or where fewer than two would be left."""
+        self._native = self._trained.without_word(label)
         return self
 
     def recognise(self, audio: Audio, sample_rate_hz: int) -> Decision:
@@ -104,13 +132,21 @@ class WordRecognizer(Recognizer):
 
     def decide(self, X: Sequence[Audio], sample_rate_hz: int | Sequence[int]) -> list[Decision]:
         """The decision for every clip of `X`."""
-        rates = [sample_rate_hz] * len(X) if isinstance(sample_rate_hz, int) else sample_rate_hz
+        rates = _rates(sample_rate_hz, len(X))
         return [self.recognise(x, rate) for x, rate in zip(X, rates, strict=True)]
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> WordRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
         return cls._wrap(_native.WordRecognizer.load(fspath(path)))
+
+
+def _rates(sample_rate_hz: int | Sequence[int], count: int) -> list[int]:
+    return [sample_rate_hz] * count if isinstance(sample_rate_hz, int) else list(sample_rate_hz)
+
+
+def _as_clips(clips: Sequence[Audio], name: str) -> list[Audio]:
+    return [_as_audio(clip, f"{name}[{i}]") for i, clip in enumerate(clips)]
 
 
 def _as_audio(samples: Any, name: str) -> Audio:

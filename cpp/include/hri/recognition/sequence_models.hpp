@@ -62,6 +62,13 @@ class SequenceModels {
   [[nodiscard]] SequenceModels adapted(const std::vector<std::vector<MatrixF>>& per_label,
                                        const AdaptationOptions& options) const;
 
+  /// These models with one class more, which gets the number `index`, from the frames of few
+  /// recordings and their copies (few_samples.hpp). Codebook and garbage model stay.
+  [[nodiscard]] SequenceModels with_class(int index, const std::vector<MatrixF>& sequences,
+                                          int num_recordings, const StopCheck& should_stop) const;
+  /// These models without one class, of two or more.
+  [[nodiscard]] SequenceModels without_class(int index) const;
+
   /// Log score of every class (natural log; -1e30 for impossible), shape (num_classes,).
   [[nodiscard]] VectorF scores(ConstMatrixRefF frames) const;
 
@@ -77,6 +84,7 @@ class SequenceModels {
 
  private:
   void train_hmms(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop);
+  [[nodiscard]] std::vector<SymbolSequence> quantised(const std::vector<MatrixF>& sequences) const;
   void train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label,
                     const StopCheck& should_stop);
 

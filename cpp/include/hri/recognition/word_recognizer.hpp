@@ -67,6 +67,16 @@ class WordRecognizer {
                               const TrainingProgress& progress = {},
                               const StopCheck& should_stop = {});
 
+  /// This recogniser with one word more, learned from few recordings (from one on, all of one
+  /// label) and from what the words it has tell of words. Their models stay as they are, to the
+  /// bit, and so does the calibration. Throws InvalidArgument for no recording, one without speech
+  /// (names it), labels that differ or that the recogniser has already; Interrupted.
+  [[nodiscard]] WordRecognizer with_word(const std::vector<WordSample>& samples,
+                                         const StopCheck& should_stop = {}) const;
+  /// The same without a word. Throws InvalidArgument for a label that it does not have, or where
+  /// fewer than two would be left.
+  [[nodiscard]] WordRecognizer without_word(const std::string& label) const;
+
   static WordRecognizer load(const std::string& path);
   void save(const std::string& path) const;
   [[nodiscard]] ModelFile to_model_file() const;
@@ -104,6 +114,7 @@ class WordRecognizer {
                                  int left_out = -1) const;
 
   friend class SpeakerAdapter;
+  friend class WordFrames;
   friend class WordTrainer;
 
   WordRecognizerOptions options_;
