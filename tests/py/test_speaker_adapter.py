@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from hri import _native
 from hri.datasets import Dataset
 from hri.errors import InvalidArgument
 from hri.evaluation import adapting, evaluate_conditions
+from hri.studies import get_study, run_study
 
 
 @pytest.fixture(scope="module")
@@ -95,3 +97,45 @@ def test_command_adapts_a_model(hri, words: package.WordRecognizer, tmp_path: Pa
     assert named.code == 0, named.err
     wrong = hri("adapt", "--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri", "--label", "9", files[0])
     assert wrong.code == 3 and "no word '9'" in wrong.err
+
+
+def test_command_learns_the_words_of_one_person_by_their_names(
+    hri, words: package.WordRecognizer, spoken: Path, tmp_path: Path
+) -> None:
+    words.save(tmp_path / "words.hri")
+    place = ("--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri")
+    done = hri("adapt", *place, "--data", spoken, "--person", "low", "--json", "-")
+    assert done.code == 0 and "from 6 of 6 words" in done.err, done.err
+    told = json.loads(done.out)
+    assert sorted(told["heard"].values()) == ["1", "1", "1", "2", "2", "2"]
+    assert all(f"{label}_low_" in file for file, label in told["heard"].items())
+    adapter = package.SpeakerAdapter(words)
+    for file, label in told["heard"].items():
+        adapter.learn(package.read_audio(file).samples, RATE_HZ, label)
+    adapter.update()
+    clip = strange(800.0, 9)
+    adapted = package.WordRecognizer.load(tmp_path / "mine.hri")
+    np.testing.assert_array_equal(adapted.scores(clip, RATE_HZ), adapter.recognizer.scores(clip, RATE_HZ))
+
+    assert hri("adapt", *place, "--data", spoken, "--person", "nobody").code == 3
+    for wrong in ((), ("--person", "low", spoken / "1_low_0.wav"), ("--data", spoken, "--label", "1")):
+        assert hri("adapt", *place, *wrong).code == 2
+
+
+def test_the_study_learns_from_few_words_of_a_speaker(tmp_path: Path) -> None:
+    for folder in ("fsdd/recordings", "hindi_words/digits", "hindi_words/words"):
+        (tmp_path / folder).mkdir(parents=True)
+    for person, base_hz in PERSONS.items():
+        for take in range(11):
+            for label, slope in (("1", 800.0), ("2", -350.0)):
+                path = tmp_path / "fsdd" / "recordings" / f"{label}_{person}_{take}.wav"
+                _native.write_wav_pcm16(str(path), tone_word(base_hz, slope, take), RATE_HZ)
+    study = get_study("adapt-words")
+    only = {"data": ["fsdd"]}
+    result = run_study(study, tmp_path, lambda *progress: None, only)
+    rows = {(row["learning"], row["words"]): row for row in result["rows"]}
+    assert set(rows) == {(how, count) for how in ("named", "not named") for count in (0, 5, 10, 20)}
+    assert rows["named", 0]["per_fold"] == rows["not named", 0]["per_fold"]
+    assert min(row["accuracy_mean"] for row in rows.values()) >= 0.9
+    with pytest.raises(InvalidArgument, match="high has 20 recordings, more than 20 are needed"):
+        run_study(study, tmp_path, lambda *progress: None, only, takes=10)

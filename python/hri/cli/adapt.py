@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import click
 
-from hri.cli.output import json_option, say, write_json
+from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import default_model
+from hri.cli.recognizers import kept_model, load_dataset, pattern_option
 from hri.media import read_audio
 from hri.recognition import SpeakerAdapter, WordRecognizer
 
@@ -18,38 +19,67 @@ _file = click.Path(exists=True, dir_okay=False)
 
 
 @click.command()
-@click.argument("files", type=_file, nargs=-1, required=True)
+@click.argument("files", type=_file, nargs=-1, metavar="[FILE]...")
 @click.option("--model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user.")
-@click.option("-o", "--output", required=True, type=click.Path(dir_okay=False), help="Where the adapted model goes.")
+@click.option("-o", "--output", required=True, type=OutputFile(), help="Where the adapted model goes.")
 @click.option("--label", help="What is said in every FILE; without it, FILES are learned as what they are heard as.")
+@click.option("--data", type=click.Path(exists=True, file_okay=False), help="A folder of recordings with their labels.")
+@click.option("--person", help="Learn only from this person of the folder.")
+@pattern_option
 @json_option
-def adapt(files: tuple[str, ...], model: str | None, output: str, label: str | None, json_path: str | None) -> None:
+def adapt(
+    files: tuple[str, ...],
+    model: str | None,
+    output: str,
+    label: str | None,
+    data: str | None,
+    person: str | None,
+    pattern: str | None,
+    json_path: str | None,
+) -> None:
     """Let a model get used to a speaker, a microphone or a room, from recordings of single words.
 
-    Prints what each recording was heard as before it was learned from. Five words already help; from five a label on,
-    every word's own model is adapted too. The model given stays as it is.
+    Prints what each recording was learned as. Five words already help, named ones more; from five a label on, every
+    word's own model is adapted too. The model given stays as it is.
 
     \b
     Examples:
       hri adapt --model words.hri -o asha.hri asha/*.wav
       hri adapt --model words.hri -o asha.hri --label seven asha/seven_*.wav
+      hri adapt --model words.hri -o asha.hri --data spoken/ --person asha
     """
-    adapter = SpeakerAdapter(WordRecognizer.load(model or default_model("speech")))
-    heard = []
+    if data is None and (person is not None or pattern is not None):
+        raise click.UsageError("--person and --pattern go with --data")
+    if data is not None and label is not None:
+        raise click.UsageError("--label is for FILES; in a folder every recording has its own")
+    if not files and data is None:
+        raise click.UsageError("give recordings, or --data DIR")
+    words = [(Path(file), label) for file in files]
+    if data is not None:
+        dataset = load_dataset(data, "speech", pattern).select(persons=None if person is None else [person])
+        words += [(sample.path, sample.label) for sample in dataset]
+    adapter = SpeakerAdapter(WordRecognizer.load(model or kept_model("speech")))
     with progress_bars() as progress:
-        for done, path in enumerate(files):
-            audio = read_audio(path)
-            if label is None:
-                heard.append(adapter.recognise(audio.samples, audio.sample_rate_hz).label)
-            else:
-                adapter.learn(audio.samples, audio.sample_rate_hz, label)
-                heard.append(label)
-            progress("listening", done + 1, len(files))
+        heard = []
+        for done, (path, said) in enumerate(_learned(adapter, words)):
+            heard.append((path, said))
+            progress("listening", done + 1, len(words))
     adapter.update()
     Path(output).parent.mkdir(parents=True, exist_ok=True)
     adapter.recognizer.save(output)
-    for path, word in zip(files, heard, strict=True):
-        say(f"{word}\t{path}", json_path)
+    for path, said in heard:
+        say(f"{said}\t{path}", json_path)
     counts = {"num_words": adapter.num_words, "num_learned": adapter.num_learned}
     click.echo(f"learned from {adapter.num_learned} of {adapter.num_words} words: {output}", err=True)
-    write_json(json_path, {"model": output, **counts, "heard": dict(zip(files, heard, strict=True))})
+    write_json(json_path, {"model": output, **counts, "heard": {str(path): said for path, said in heard}})
+
+
+def _learned(adapter: SpeakerAdapter, words: list[tuple[Path, str | None]]) -> Iterator[tuple[Path, str]]:
+    """Every recording with what it is learned as: its name if it has one, else what it is heard as."""
+    for path, label in words:
+        audio = read_audio(path)
+        if label is not None:
+            adapter.learn(audio.samples, audio.sample_rate_hz, label)
+            yield path, label
+        else:
+            yield path, adapter.recognise(audio.samples, audio.sample_rate_hz).label

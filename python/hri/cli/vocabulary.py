@@ -9,8 +9,7 @@ from pathlib import Path
 import click
 
 from hri.cli.output import OutputFile, json_option, say, write_json
-from hri.cli.recognizers import default_model
-from hri.errors import InvalidArgument
+from hri.cli.recognizers import kept_model
 from hri.media import read_audio
 from hri.recognition import WordRecognizer
 
@@ -69,9 +68,7 @@ def remove_word(model_path: str | None, label: str, out: str | None, json_path: 
 
 
 def _open(model_path: str | None, out: str | None) -> tuple[WordRecognizer, Path]:
-    source = default_model("speech") if model_path is None else Path(model_path)
-    if not source.is_file():
-        raise InvalidArgument("there is no speech model yet: run 'hri train speech --data DIR', or give --model FILE")
+    source = kept_model("speech") if model_path is None else Path(model_path)
     return WordRecognizer.load(source), source if out is None else Path(out)
 
 

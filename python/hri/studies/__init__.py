@@ -4,6 +4,7 @@
 
 from hri.errors import InvalidArgument
 from hri.studies import (
+    adaptation,
     classifiers,
     denoise,
     distance,
@@ -35,6 +36,7 @@ _MODULES = (
     classifiers,
     training_size,
     few_samples,
+    adaptation,
     wavelets,
     denoise,
     unknown_words,

@@ -12,13 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from hri.media import read_audio
-from hri.media.audio import Audio
 from hri.recognition import WordRecognizer
 from hri.recognition.decision import RECOGNISED
+from hri.studies.clips import Clip, fit_clips, read_clips
 from hri.studies.registry import Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
-from hri.studies.word_features import WORD_FOLDERS, load_words
+from hri.studies.word_features import WORD_FOLDERS
 
 DATA = ("fsdd", "hindi-words")
 MODELS = ("hmm", "ptbhmm")
@@ -28,9 +27,6 @@ MOST_TAKES = 12
 WORDS = 3
 """Words added for each speaker, one at a time."""
 SEED = 0
-
-Clip = tuple[str, str, Audio]
-"""Label, speaker, sound."""
 
 
 @dataclass(frozen=True)
@@ -53,15 +49,6 @@ class Split:
     own: list[Clip]
 
 
-def _read(data_dir: Path, name: str, progress: Progress) -> list[Clip]:
-    dataset = load_words(data_dir, name)
-    clips = []
-    for done, sample in enumerate(dataset.samples):
-        clips.append((sample.label, sample.person, read_audio(sample.path)))
-        progress("reading", done + 1, len(dataset))
-    return clips
-
-
 def _splits(clips: Sequence[Clip]) -> Iterator[Split]:
     """Each speaker held out; what a user adds words from comes out of at most half of the recordings of a word."""
     rng = np.random.default_rng(SEED)
@@ -80,15 +67,6 @@ def _splits(clips: Sequence[Clip]) -> Iterator[Split]:
             split.own.extend(of_word[:kept])
             split.test.extend(of_word[kept : kept + MOST_TAKES])
         yield split
-
-
-def _fit(clips: Sequence[Clip], model: str) -> WordRecognizer:
-    return WordRecognizer(models={"model": model}).fit(
-        [sound.samples for _, _, sound in clips],
-        [label for label, _, _ in clips],
-        sample_rate_hz=[sound.sample_rate_hz for _, _, sound in clips],
-        groups=[person for _, person, _ in clips],
-    )
 
 
 def _by_turns(clips: Sequence[Clip]) -> list[Clip]:
@@ -119,7 +97,7 @@ def _measure(words: WordRecognizer, clips: Sequence[Clip], label: str) -> Row:
 
 def _of_word(split: Split, label: str, model: str) -> Iterator[tuple[tuple[str, int], Row]]:
     """What was measured by (source, recordings) when `label` was left out of training and added."""
-    known = _fit([clip for clip in split.train if clip[0] != label], model)
+    known = fit_clips([clip for clip in split.train if clip[0] != label], model)
     before = _measure(known, split.test, label)
     yield ("not added", 0), {"others": before["others"]}
     pools = {"user": split.own, "others": _by_turns(split.train)}
@@ -153,19 +131,24 @@ def _rows(found: Mapping[tuple[str, int], Mapping[str, Sequence[Row]]], place: R
 
 
 def _run(
-    data_dir: Path, progress: Progress, *, data: Sequence[str] = DATA, model: Sequence[str] = MODELS
+    data_dir: Path,
+    progress: Progress,
+    *,
+    data: Sequence[str] = DATA,
+    model: Sequence[str] = MODELS,
+    takes: int | None = None,
 ) -> dict[str, Any]:
     rows: list[Row] = []
     for name in data:
         say = within(progress, name)
-        splits = list(_splits(_read(data_dir, name, say)))
+        splits = list(_splits(read_clips(data_dir, name, say, takes)))
         labels = sorted({label for label, _, _ in splits[0].train})
         for kind in model:
             found: dict[tuple[str, int], dict[str, list[Row]]] = {}
             for number, split in enumerate(splits):
                 # Other words for every speaker, so that together they are (almost) all.
                 chosen = [labels[(WORDS * number + i) % len(labels)] for i in range(WORDS)]
-                full = _fit(split.train, kind)
+                full = fit_clips(split.train, kind)
                 for done, label in enumerate(chosen):
                     count = sum(said == label for said, _, _ in split.train)
                     cells = [*_of_word(split, label, kind), (("training", count), _measure(full, split.test, label))]
@@ -186,5 +169,6 @@ STUDIES = (
         _run,
         layout=Layout(x="samples", panel="data", measure="added"),
         axes={"data": DATA, "model": MODELS},
+        thins=True,
     ),
 )

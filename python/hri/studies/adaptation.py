@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What a few words of a new speaker are worth to a trained recogniser, named and not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hri.errors import InvalidArgument
+from hri.recognition import SpeakerAdapter, WordRecognizer
+from hri.studies.clips import Clip, fit_clips, read_clips
+from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.tables import Row, statistics
+from hri.studies.word_features import WORD_FOLDERS
+
+DATA = tuple(WORD_FOLDERS)
+WORDS = (5, 10, 20)
+LEARNING = ("named", "not named")
+DRAWS = 5
+"""Times that the words to learn from are drawn for every speaker."""
+SEED = 0
+
+
+def _draw(clips: Sequence[Clip], rng: np.random.Generator) -> list[int]:
+    """Places of the most clips learned from, in random order: one of every label before the second of any."""
+    waiting: dict[str, list[int]] = {}
+    for place in rng.permutation(len(clips)).tolist():
+        waiting.setdefault(clips[place][0], []).append(place)
+    rounds = range(max(map(len, waiting.values())))
+    return [places[n] for n in rounds for places in waiting.values() if n < len(places)][: max(WORDS)]
+
+
+def _adapted(words: WordRecognizer, clips: Sequence[Clip], named: bool) -> WordRecognizer:
+    adapter = SpeakerAdapter(words)
+    for label, _, sound in clips:
+        if named:
+            adapter.learn(sound.samples, sound.sample_rate_hz, label)
+        else:
+            adapter.recognise(sound.samples, sound.sample_rate_hz, update=False)
+    adapter.update()
+    return adapter.recognizer
+
+
+def _share(words: WordRecognizer, clips: Sequence[Clip]) -> float:
+    """That of the clips whose best label is what was said."""
+    right = 0
+    for label, _, sound in clips:
+        decision = words.recognise(sound.samples, sound.sample_rate_hz)
+        right += bool(decision.nbest) and decision.nbest[0].label == label
+    return right / len(clips)
+
+
+def _of_speaker(
+    words: WordRecognizer, clips: Sequence[Clip], learning: Sequence[str], number: int
+) -> dict[tuple[str, int], float]:
+    """Accuracy by (learning, words learned from), over the draws; every draw is tested on the clips it leaves."""
+    shares: dict[tuple[str, int], list[float]] = {}
+    for draw in range(DRAWS):
+        order = _draw(clips, np.random.default_rng([SEED, number, draw]))
+        rest = [clip for place, clip in enumerate(clips) if place not in order]
+        before = _share(words, rest)
+        for how in learning:
+            shares.setdefault((how, 0), []).append(before)
+            for count in WORDS:
+                taught = _adapted(words, [clips[place] for place in order[:count]], how == "named")
+                shares.setdefault((how, count), []).append(_share(taught, rest))
+    return {key: float(np.mean(found)) for key, found in shares.items()}
+
+
+def _run(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    data: Sequence[str] = DATA,
+    learning: Sequence[str] = LEARNING,
+    takes: int | None = None,
+) -> dict[str, Any]:
+    rows: list[Row] = []
+    for name in data:
+        say = within(progress, name)
+        clips = read_clips(data_dir, name, say, takes)
+        persons = sorted({person for _, person, _ in clips})
+        found: dict[tuple[str, int], dict[str, float]] = {}
+        for number, person in enumerate(persons):
+            own = [clip for clip in clips if clip[1] == person]
+            if len(own) <= max(WORDS):
+                raise InvalidArgument(f"{name}: {person} has {len(own)} recordings, more than {max(WORDS)} are needed")
+            words = fit_clips([clip for clip in clips if clip[1] != person], "hmm")
+            for key, share in _of_speaker(words, own, learning, number).items():
+                found.setdefault(key, {})[person] = share
+            say("speakers", number + 1, len(persons))
+        for (how, count), shares in found.items():
+            rows.append({"data": name, "learning": how, "words": count, **statistics(shares)})
+    return {"seed": SEED, "draws": DRAWS, "rows": rows, "passed": None}
+
+
+STUDIES = (
+    Study(
+        "adapt-words",
+        "a trained recogniser after 5, 10 and 20 words of a speaker it has not met, named or not, on the rest of his; "
+        "leave one of 4 speakers out",
+        tuple(WORD_FOLDERS.values()),
+        "none: a comparison",
+        _run,
+        layout=Layout(columns="words", x="words", panel="data"),
+        axes={"data": DATA, "learning": LEARNING},
+        thins=True,
+    ),
+)
