@@ -31,7 +31,7 @@ PYTHON = {
     "noise_reduction": {"errors"},
     "datasets": {"errors", "media"},
     "recognition": {"errors"},
-    "live": {"errors", "media", "recognition"},
+    "live": {"errors", "media", "datasets", "recognition"},
     "training": {"errors", "media", "datasets", "recognition"},
     "evaluation": {"errors", "media", "datasets", "recognition"},
     "fusion": {"errors", "recognition.decision"},

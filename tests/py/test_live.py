@@ -248,7 +248,8 @@ def test_the_command_listens(
 
 
 def test_the_screen_tells_level_words_and_trouble(words: hri.WordRecognizer, session: Any) -> None:
-    from hri.cli.listen import describe, meter
+    from hri.cli.listen import describe
+    from hri.cli.live_screen import meter
     from hri.live import Event
 
     lines = [describe(e, 2) for e in Listener(words).listen(ArraySource(session[0], RATE_HZ))]

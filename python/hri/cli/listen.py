@@ -6,15 +6,16 @@ from __future__ import annotations
 
 import hashlib
 import json
-import sys
 from collections.abc import Iterable
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 import click
 
+from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, stall_option, tell
 from hri.cli.recognizers import kept_model
-from hri.live import AudioSource, Event, FileSource, Listener, MicrophoneSource, list_microphones
+from hri.live import AudioSource, Event, FileSource, Listener, list_microphones
 from hri.recognition import WordRecognizer
 
 
@@ -26,11 +27,11 @@ from hri.recognition import WordRecognizer
     type=click.Path(exists=True, dir_okay=False),
     help="A model from 'hri train speech'; the default is the one kept per user.",
 )
-@click.option("--device", help="Number or part of the name of the microphone.")
+@device_option
 @click.option("--list-devices", is_flag=True, help="List the microphones and end.")
-@click.option("--json", "as_json", is_flag=True, help="Write JSON lines also on a terminal.")
+@events_json_option
 @click.option("--paced", is_flag=True, help="Play recordings as fast as they were spoken.")
-@click.option("--stall", "stall_s", type=float, default=2.0, show_default=True, help="Seconds without sound to end at.")
+@stall_option
 @click.option("--locale", default="", help="Language of the words, passed on with decisions.")
 @click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to show.")
 def listen(
@@ -65,61 +66,27 @@ def listen(
     if files:
         sources: Iterable[AudioSource] = (FileSource(file, paced) for file in files)
     else:
-        number = int(device) if device is not None and device.isdigit() else device
-        sources = (MicrophoneSource(number, stall_s=stall_s) for _ in range(1))
+        sources = (microphone(device, stall_s) for _ in range(1))
     for source in sources:
-        if as_json or not sys.stdout.isatty():
-            for event in listener.listen(source):
-                click.echo(event.to_json())
-                sys.stdout.flush()
-        else:
-            _show(listener.listen(source), top)
+        tell(listener.listen(source), as_json, partial(describe, top=top))
 
 
 def _list_devices(as_json: bool) -> None:
     microphones = list_microphones()
-    for microphone in microphones:
+    for one in microphones:
         if as_json:
-            click.echo(json.dumps(asdict(microphone), ensure_ascii=False))
+            click.echo(json.dumps(asdict(one), ensure_ascii=False))
         else:
-            mark = "*" if microphone.is_default else " "
-            click.echo(f"{mark} {microphone.index}\t{microphone.name}\t{microphone.sample_rate_hz} Hz")
+            mark = "*" if one.is_default else " "
+            click.echo(f"{mark} {one.index}\t{one.name}\t{one.sample_rate_hz} Hz")
     if not microphones:
         click.echo("there is no microphone", err=True)
 
 
-def _show(events: Iterable[Event], top: int) -> None:
-    """A line that follows the level; above it, what was understood."""
-    from rich.live import Live
-    from rich.text import Text
-
-    with Live(refresh_per_second=20) as screen:
-        for event in events:
-            line = describe(event, top)
-            if event.event == "level":
-                screen.update(Text(meter(event)))
-            elif line:
-                screen.console.print(Text(line))
-
-
-def meter(event: Event, width: int = 40) -> str:
-    """The level as a bar from -80 to 0 dB."""
-    level_db = float(event.fields["level_db"])
-    filled = max(0, min(width, round(width * (level_db + 80) / 80)))
-    state = "speech" if event.fields["in_speech"] else "      "
-    return f"{'█' * filled}{'·' * (width - filled)} {level_db:6.1f} dB  {state}  {event.time:7.1f} s"
-
-
 def describe(event: Event, top: int) -> str:
     """One line for people; "" for what they need not read."""
-    if event.event == "listening":
-        return f"listening to {event.fields['source']} at {event.fields['sample_rate_hz']} Hz; Ctrl-C ends"
-    if event.event == "overflow":
-        return f"{event.time:8.2f} s  {event.fields['lost_samples']} samples lost: this computer is too busy"
-    if event.event == "stall":
-        return f"{event.time:8.2f} s  {event.fields['message']}"
     if event.decision is None:
-        return ""
+        return describe_stream(event)
     best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in event.decision.nbest[:top])
     place = f"{event.fields['first_s']:8.2f} - {event.fields['last_s']:.2f} s"
     return f"{place}  {event.decision.label}  ({best or event.decision.status})"

@@ -32,6 +32,7 @@ COMMANDS = {
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
     "adapt": ("hri.cli.adapt:adapt", "Let a model of words get used to a speaker or a room."),
     "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on people who were not trained on."),
+    "record": ("hri.cli.record:record", "Make a data set of your own words, from a microphone."),
     "corpus": ("hri.cli.corpus:corpus", "Make recordings of words that nobody has recorded, by a synthesiser."),
     "features": ("hri.cli.features:features", "Cepstra of a recording: MFCC, HFCC, LPCC, as a table or a plot."),
     "denoise": ("hri.cli.denoise:denoise", "Take noise out of a recording by wavelets."),

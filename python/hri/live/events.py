@@ -18,6 +18,9 @@ SPEECH_DROPPED = "speech_dropped"
 DECISION = "decision"
 OVERFLOW = "overflow"
 STALL = "stall"
+PROMPT = "prompt"
+RECORDED = "recorded"
+REFUSED = "refused"
 ENDED = "ended"
 
 
@@ -31,7 +34,7 @@ class Event:
         Seconds of sound since the stream began, by counting samples.
     event : str
         "listening", "level", "speech_start", "speech_end", "speech_dropped" (what seemed to be speech was none),
-        "decision", "overflow", "stall" or "ended".
+        "decision", "overflow", "stall" or "ended"; while recording, "prompt", "recorded" and "refused" too.
     fields : dict
         What belongs to this kind of event, see docs/listening.md.
     decision : Decision or None

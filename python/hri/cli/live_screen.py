@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What commands that listen have in common: microphones by name, the meter, one line of JSON an event."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+
+import click
+
+from hri.live import Event, MicrophoneSource
+
+device_option = click.option("--device", help="Number or part of the name of the microphone.")
+events_json_option = click.option("--json", "as_json", is_flag=True, help="Write JSON lines also on a terminal.")
+stall_option = click.option(
+    "--stall", "stall_s", type=float, default=2.0, show_default=True, help="Seconds without sound to end at."
+)
+
+
+def microphone(device: str | None, stall_s: float) -> MicrophoneSource:
+    """The microphone of that number or name, the default one for None."""
+    return MicrophoneSource(int(device) if device is not None and device.isdigit() else device, stall_s=stall_s)
+
+
+def tell(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str]) -> None:
+    """Every event as a line of JSON; on a terminal, unless told otherwise, the level and what `describe` makes of
+    the others."""
+    if as_json or not sys.stdout.isatty():
+        for event in events:
+            click.echo(event.to_json())
+            sys.stdout.flush()
+        return
+    from rich.live import Live
+    from rich.text import Text
+
+    with Live(refresh_per_second=20) as screen:
+        for event in events:
+            line = describe(event)
+            if event.event == "level":
+                screen.update(Text(meter(event)))
+            elif line:
+                screen.console.print(Text(line))
+
+
+def meter(event: Event, width: int = 40) -> str:
+    """The level as a bar from -80 to 0 dB."""
+    level_db = float(event.fields["level_db"])
+    filled = max(0, min(width, round(width * (level_db + 80) / 80)))
+    state = "speech" if event.fields["in_speech"] else "      "
+    return f"{'█' * filled}{'·' * (width - filled)} {level_db:6.1f} dB  {state}  {event.time:7.1f} s"
+
+
+def describe_stream(event: Event) -> str:
+    """One line for people about the stream itself; "" for what they need not read."""
+    if event.event == "listening":
+        return f"listening to {event.fields['source']} at {event.fields['sample_rate_hz']} Hz; Ctrl-C ends"
+    if event.event == "overflow":
+        return f"{event.time:8.2f} s  {event.fields['lost_samples']} samples lost: this computer is too busy"
+    if event.event == "stall":
+        return f"{event.time:8.2f} s  {event.fields['message']}"
+    return ""

@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""From a stream of sound to its utterances: the same path for a microphone and for a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.live import events
+from hri.live.events import Event
+from hri.live.sources import AudioSource, Stalled, require_positive
+
+Samples = NDArray[np.float32]
+Heard = tuple[Event, Samples | None]
+"""What happened; with the end of speech, the utterance and the noise around it."""
+
+_KINDS = {
+    _native.EndpointKind.speech_start: events.SPEECH_START,
+    _native.EndpointKind.speech_end: events.SPEECH_END,
+    _native.EndpointKind.speech_dropped: events.SPEECH_DROPPED,
+}
+
+
+class UtteranceFinder:
+    """Finds every utterance in a stream.
+
+    Parameters
+    ----------
+    options : EndpointerOptions
+        When an utterance begins and ends.
+    level_interval_s : float
+        How often the level is told.
+    """
+
+    def __init__(self, options: _native.EndpointerOptions, level_interval_s: float) -> None:
+        require_positive("level_interval_s", level_interval_s)
+        self._options = options
+        self._level_interval_s = level_interval_s
+
+    def hear(self, source: AudioSource, **told: Any) -> Generator[Heard, None, None]:
+        """What happens until the source ends; it is closed then, and also when the caller stops early.
+
+        Parameters
+        ----------
+        source : AudioSource
+        **told
+            Fields of the first event, beside the name and the rate of the source.
+
+        Raises
+        ------
+        Stalled
+            When the source gives no more samples, after an event that says so.
+        """
+        rate = source.sample_rate_hz
+        endpointer = _native.Endpointer(rate, self._options)
+        kept_s = (self._options.max_utterance_ms + self._options.context_ms) / 1000
+        heard = _History(round(kept_s * rate) + 2 * rate)
+        next_level_s, num_lost = 0.0, 0
+        yield Event(0.0, events.LISTENING, {"source": source.name, "sample_rate_hz": rate, **told}), None
+        try:
+            while (block := source.read()) is not None:
+                for begin in range(0, len(block), rate):  # longer blocks would outrun what is kept
+                    part = block[begin : begin + rate]
+                    heard.append(part)
+                    for endpoint in endpointer.push(part):
+                        yield _told(endpoint, heard, rate)
+                time_s = heard.num_samples / rate
+                if source.num_lost > num_lost:
+                    yield Event(time_s, events.OVERFLOW, {"lost_samples": source.num_lost - num_lost}), None
+                    num_lost = source.num_lost
+                if time_s >= next_level_s:
+                    next_level_s = time_s + self._level_interval_s
+                    yield _level(endpointer, time_s), None
+            for endpoint in endpointer.finish():
+                yield _told(endpoint, heard, rate)
+            yield Event(heard.num_samples / rate, events.ENDED, {"lost_samples": source.num_lost}), None
+        except Stalled as error:
+            yield Event(heard.num_samples / rate, events.STALL, {"message": str(error)}), None
+            raise
+        finally:
+            source.close()
+
+
+def _told(endpoint: _native.Endpoint, heard: _History, rate: int) -> Heard:
+    fields = {"first_s": round(endpoint.first / rate, 4), "last_s": round(endpoint.last / rate, 4)}
+    event = Event(endpoint.at / rate, _KINDS[endpoint.kind], fields)
+    if endpoint.kind == _native.EndpointKind.speech_start:
+        del fields["last_s"]
+    if endpoint.kind != _native.EndpointKind.speech_end:
+        return event, None
+    fields["cut"] = endpoint.cut
+    return event, heard.between(endpoint.segment_first, endpoint.segment_last)
+
+
+def _level(endpointer: _native.Endpointer, time_s: float) -> Event:
+    fields = {
+        "level_db": round(endpointer.level_db, 1),
+        "over_noise_db": round(endpointer.excess_db, 1),
+        "in_speech": endpointer.in_speech,
+    }
+    return Event(time_s, events.LEVEL, fields)
+
+
+class _History:
+    """The last samples of a stream, by their number in it."""
+
+    def __init__(self, num_kept: int) -> None:
+        self._kept = np.zeros(2 * num_kept, dtype=np.float32)
+        self._filled = 0
+        self.num_samples = 0
+
+    def append(self, samples: Samples) -> None:
+        if self._filled + len(samples) > len(self._kept):
+            half = len(self._kept) // 2
+            self._kept[:half] = self._kept[self._filled - half : self._filled]
+            self._filled = half
+        self._kept[self._filled : self._filled + len(samples)] = samples
+        self._filled += len(samples)
+        self.num_samples += len(samples)
+
+    def between(self, first: int, last: int) -> Samples:
+        skipped = self.num_samples - self._filled
+        return self._kept[max(0, first - skipped) : last - skipped].copy()
