@@ -46,6 +46,7 @@ PYTHON = {
         "live",
         "wavelets",
         "noise_reduction",
+        "robot",
     },
     "cli": {
         "errors",

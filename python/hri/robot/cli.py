@@ -13,6 +13,7 @@ import numpy as np
 from hri.errors import InvalidArgument
 from hri.robot.checks import check_pulse_csv
 from hri.robot.gestures import gesture_trajectory, load_gestures
+from hri.robot.imitation.cli import imitate
 from hri.robot.joints import HOAP2
 from hri.robot.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.simulation import BACKENDS, open_robot, render_video
@@ -38,6 +39,9 @@ def robot() -> None:
       hri robot gestures
       hri robot render 7 seven.mp4
     """
+
+
+robot.add_command(imitate)
 
 
 @robot.command(short_help="Look over a pulse CSV file; exit code 3 for errors.")

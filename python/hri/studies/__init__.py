@@ -12,6 +12,7 @@ from hri.studies import (
     false_alarms,
     few_samples,
     fusion,
+    imitation,
     noise,
     parity,
     signs,
@@ -42,6 +43,7 @@ _MODULES = (
     unknown_words,
     signs,
     fusion,
+    imitation,
     parity,
 )
 
