@@ -5,7 +5,7 @@
 import pytest
 
 from hri.errors import InvalidArgument, IoError
-from hri.robot import HOAP2, read_pulse_csv
+from hri.robot import HOAP2, gesture_trajectory, load_gestures, read_pulse_csv
 
 testing = pytest.importorskip("click.testing")
 
@@ -25,7 +25,7 @@ def test_a_converted_gesture_passes_the_check_and_a_broken_one_does_not(run, tmp
     result = run("convert", "namaste", path)
     assert result.exit_code == 0 and str(path) in result.output
     assert "head_joint_1" in result.output
-    assert len(read_pulse_csv(path)) == 321
+    assert len(read_pulse_csv(path)) == len(gesture_trajectory("namaste"))
     assert run("check", path).exit_code == 0
     lines = path.read_text().splitlines()
     lines[6] = lines[6].removesuffix("R") + "?"
@@ -40,7 +40,7 @@ def test_convert_writes_degrees(run, tmp_path):
     assert run("convert", "1", path).exit_code == 0
     lines = path.read_text().splitlines()
     assert lines[0].startswith("time_s\tlarm_joint_1_deg")
-    assert lines[1].split("\t")[:2] == ["0", "80.0000"] and len(lines) == 262
+    assert lines[1].split("\t")[:2] == ["0", "80.0000"] and len(lines) == len(gesture_trajectory("1")) + 1
     assert isinstance(run("convert", "1", tmp_path / "g.txt").exception, InvalidArgument)
     assert isinstance(run("convert", "1", tmp_path / "no" / "g.tsv").exception, IoError)
 
@@ -57,6 +57,8 @@ def test_play_and_render(run, tmp_path):
 
 
 def test_lists(run):
-    assert "9\t3.6\tboth arms high" in run("gestures").output
+    listed = run("gestures").output.splitlines()
+    assert [line.split("\t")[0] for line in listed] == list(load_gestures())
+    assert f"9\t{gesture_trajectory('9').duration_s:.1f}\tboth arms high" in listed
     assert len(run("joints").output.splitlines()) == len(HOAP2) + 1
     assert "| head_joint_2 | head pitch" in run("joints", "--markdown").output

@@ -15,11 +15,8 @@ from hri.robot import (
     TrajectoryError,
     check_pulse_csv,
     check_trajectory,
-    gesture_trajectory,
-    load_gestures,
     read_pulse_csv,
     require_safe,
-    rest_positions,
     write_pulse_csv,
 )
 
@@ -159,28 +156,6 @@ def test_a_trajectory_refuses_what_is_none():
         Trajectory(["a"], 0.1, np.zeros((0, 1)))
     trajectory = Trajectory(["a"], 0.5, [[0.0], [1.0]])
     assert [trajectory.at(t)[0] for t in (-1, 0, 0.25, 0.5, 9)] == [0.0, 0.0, 0.5, 1.0, 1.0]
-
-
-def test_gestures_are_safe_short_and_distinct(tmp_path):
-    gestures = load_gestures()
-    assert {*map(str, range(10)), "namaste", "wave", "stop", "rest"} == set(gestures)
-    rest = rest_positions()
-    middles = []
-    for name in gestures:
-        trajectory = gesture_trajectory(name)
-        assert check_trajectory(trajectory) == []
-        assert 2.0 <= trajectory.duration_s <= 4.0
-        for row in (0, -1):
-            resting = [rest[joint] for joint in trajectory.joint_names]
-            np.testing.assert_allclose(trajectory.positions_rad[row], resting, atol=1e-12)
-        middles.append(trajectory.at(trajectory.duration_s / 2))
-        left_out = write_pulse_csv(tmp_path / "g.csv", trajectory)
-        assert left_out == ("head_joint_1", "head_joint_2")
-        assert check_pulse_csv(tmp_path / "g.csv") == []
-    gaps = [np.abs(a - b).max() for i, a in enumerate(middles) for b in middles[:i]]
-    assert min(gaps) > np.radians(30)
-    with pytest.raises(InvalidArgument, match="no gesture 'salute'; there are"):
-        gesture_trajectory("salute")
 
 
 @pytest.mark.data

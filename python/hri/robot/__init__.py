@@ -4,6 +4,7 @@
 
 from hri.robot.backend import Robot
 from hri.robot.checks import check_pulse_csv, check_trajectory, require_safe
+from hri.robot.gallery import write_gallery
 from hri.robot.gestures import (
     GESTURE_JOINTS,
     Gesture,
@@ -40,5 +41,6 @@ __all__ = [
     "require_safe",
     "rest_positions",
     "urdf_text",
+    "write_gallery",
     "write_pulse_csv",
 ]

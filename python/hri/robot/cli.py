@@ -12,6 +12,7 @@ import numpy as np
 
 from hri.errors import InvalidArgument
 from hri.robot.checks import check_pulse_csv
+from hri.robot.gallery import write_gallery
 from hri.robot.gestures import gesture_trajectory, load_gestures
 from hri.robot.imitation.cli import imitate
 from hri.robot.joints import HOAP2
@@ -152,6 +153,23 @@ def joints(markdown: bool) -> None:
         rows.insert(1, ("---",) * 6)
     for row in rows:
         click.echo(f"| {' | '.join(row)} |" if markdown else "\t".join(row))
+
+
+@robot.command(short_help="Write a page with pictures of every gesture.")
+@click.argument("directory", type=click.Path(file_okay=False, path_type=Path))
+@click.option("--videos", is_flag=True, help="Also film every gesture (.webm).")
+@click.option("--backend", type=click.Choice(BACKENDS), default="kinematic", show_default=True)
+def gallery(directory: Path, videos: bool, backend: str) -> None:
+    """Write gallery.md, and a picture of every gesture in images/gallery, into DIRECTORY.
+
+    \b
+    Examples:
+      hri robot gallery docs
+      hri robot gallery all/ --videos
+    """
+    with click.progressbar(length=len(load_gestures()), label="Drawing", file=sys.stderr) as bar:
+        page = write_gallery(directory, videos, backend, lambda done, _: bar.update(done - bar.pos))
+    click.echo(str(page))
 
 
 @robot.command(short_help="List the gestures by name.")

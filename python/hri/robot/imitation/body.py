@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.errors import InvalidArgument
-from hri.robot.imitation.arm import SIDES, Arm
+from hri.robot.arm import SIDES, Arm
 from hri.robot.imitation.tracks import Gap, HandTrack, bridge
 
 Floats = NDArray[np.float64]

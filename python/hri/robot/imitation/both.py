@@ -7,8 +7,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.imitation.arm import Arm, arm_points
-from hri.robot.imitation.clearance import arms_clearance, body_clearance, body_of, forearm_balls, mirrored_to_other
+from hri.robot.arm import Arm, arm_points
+from hri.robot.clearance import arms_clearance, body_clearance, body_of, forearm_balls, mirrored_to_other
 from hri.robot.imitation.pacing import spline
 from hri.robot.imitation.search import CLEARANCE_M, Path, find_path
 from hri.robot.joints import JointTable

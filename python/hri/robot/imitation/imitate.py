@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.errors import InvalidArgument
+from hri.robot.arm import MIRROR, arm_of, arm_points
 from hri.robot.checks import require_safe
 from hri.robot.gestures import minimum_jerk, rest_positions
-from hri.robot.imitation.arm import MIRROR, arm_of, arm_points
 from hri.robot.imitation.body import Targets, scale_to_robot
 from hri.robot.imitation.both import Arms, find_both, least_clearance_m
 from hri.robot.imitation.pacing import pace

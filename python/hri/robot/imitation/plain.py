@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.imitation.arm import Arm, arm_points
+from hri.robot.arm import Arm, arm_points
 from hri.robot.imitation.search import DEPTH_M, Path
 
 Floats = NDArray[np.float64]

@@ -15,8 +15,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.imitation.arm import Arm, arm_angles, arm_of, arm_points
-from hri.robot.imitation.clearance import Body, arms_clearance, body_clearance, body_of, forearm_balls
+from hri.robot.arm import Arm, arm_angles, arm_of, arm_points
+from hri.robot.clearance import Body, arms_clearance, body_clearance, body_of, forearm_balls
 from hri.robot.joints import JointTable
 
 Floats = NDArray[np.float64]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from hri.media import write_video
 from hri.media.optional import import_opencv
 from hri.robot import scene
-from hri.robot.imitation.arm import SIDES
+from hri.robot.arm import SIDES
 from hri.robot.imitation.body import NOSE_ABOVE_SHOULDERS, SHOULDER_WIDTH
 from hri.robot.imitation.imitate import Imitation
 from hri.robot.imitation.tracks import HandTrack, bridge

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.imitation.arm import Arm
+from hri.robot.arm import Arm
 from hri.robot.joints import HOAP2, JointTable
 from hri.robot.kinematics import link_poses
 
