@@ -76,6 +76,29 @@ WORDS = {
     "walk",
     "watch",
 }
+# Of its sentences, figure 4.6, and of figure 3.23.
+SENTENCE_WORDS = {
+    "i",
+    "you",
+    "your",
+    "this",
+    "it",
+    "big",
+    "small",
+    "car",
+    "sad",
+    "today",
+    "hearing",
+    "studying",
+    "agree",
+    "not",
+    "closed",
+    "own",
+    "room",
+    "why",
+    "how",
+    "arise",
+}
 HEAD = """period_s = 0.01
 speed_rad_s = 3.0
 acceleration_rad_s2 = 20.0
@@ -97,7 +120,7 @@ def hand_m(pose, side):
 
 def test_the_digits_and_the_vocabulary_are_there():
     assert len(WORDS) > 30
-    assert set(load_gestures()) == {*map(str, range(11)), *WORDS, "namaste", "wave", "stop", "rest"}
+    assert set(load_gestures()) == {*map(str, range(11)), *WORDS, *SENTENCE_WORDS, "namaste", "wave", "stop", "rest"}
     assert all(gesture.meaning for gesture in load_gestures().values())
 
 

@@ -49,7 +49,10 @@ def _run(data_dir: Path, progress: Progress, *, form: Sequence[str] = FORMS) -> 
         and part["top_acceleration_rad_s2"] <= part["acceleration_limit_rad_s2"]
         for part in parts.values()
     )
-    near = all(row["rms_cm_mean"] <= 100.0 * TARGET_M for row in best) and parts[form[0]]["least_clearance_m"] > 0.0
+    near = (
+        all(row["rms_cm_mean"] is not None and row["rms_cm_mean"] <= 100.0 * TARGET_M for row in best)
+        and parts[form[0]]["least_clearance_m"] > 0.0
+    )
     return {"rows": rows, "limits": parts, "passed": bool(kept and near)}
 
 
@@ -68,20 +71,20 @@ def _limits(made: Imitation) -> dict[str, float]:
     }
 
 
-def _measured(made: Sequence[Imitation], hand: int) -> dict[str, float]:
+def _measured(made: Sequence[Imitation], hand: int) -> dict[str, float | None]:
     errors = np.concatenate([m.errors_m[hand] for m in made])
     reached = np.concatenate([m.reached[hand] for m in made])
     seen = np.isfinite(errors)
     return {
-        "reached_percent_mean": 100.0 * float(reached.sum() / seen.sum()),
-        "rms_cm_mean": 100.0 * _rms(errors[reached]),
-        "worst_cm_mean": 100.0 * float(errors[reached].max()) if reached.any() else float("nan"),
-        "rms_all_frames_cm_mean": 100.0 * _rms(errors[seen]),
+        "reached_percent_mean": 100.0 * float(reached.sum() / max(seen.sum(), 1)),
+        "rms_cm_mean": _rms_cm(errors[reached]),
+        "worst_cm_mean": 100.0 * float(errors[reached].max()) if reached.any() else None,
+        "rms_all_frames_cm_mean": _rms_cm(errors[seen]),
     }
 
 
-def _rms(errors: np.ndarray[Any, np.dtype[np.float64]]) -> float:
-    return float(np.sqrt(np.mean(errors**2))) if len(errors) else float("nan")
+def _rms_cm(errors_m: np.ndarray[Any, np.dtype[np.float64]]) -> float | None:
+    return 100.0 * float(np.sqrt(np.mean(errors_m**2))) if len(errors_m) else None
 
 
 STUDIES = (
