@@ -86,6 +86,20 @@ def test_hands_follow_the_scaled_track_inside_all_limits():
     np.testing.assert_allclose(hand * (1, -1, 1), made.hands_m[1, 40], atol=2e-4)
 
 
+def test_a_mirrored_picture_is_put_back():
+    left, right = circles(turns=1)
+    track = person(left, right - 5.0)
+    mirrored = HandTrack(
+        "webcam",
+        FPS,
+        left=(320, 0) + track.left * (-1, 1),
+        right=(320, 0) + track.right * (-1, 1),
+        shoulders=(320, 0) + track.shoulders * (-1, 1),
+    )
+    made, back = imitate(track), imitate(mirrored.unmirrored())
+    np.testing.assert_allclose(back.trajectory.positions_rad, made.trajectory.positions_rad, atol=1e-9)
+
+
 def test_a_motion_begins_and_ends_with_the_arms_down_or_in_the_tracks_own_poses():
     track = person(*circles())
     rest = rest_positions()
@@ -265,7 +279,7 @@ def test_the_command_writes_a_motion_that_passes_the_check(hri, tmp_path):
     out, report = tmp_path / "motion.csv", tmp_path / "report.json"
     result = hri("robot", "imitate", tmp_path / "hands.csv", "--out", out, "--json", report, "--height-px", HEIGHT_PX)
     assert (result.code, result.out) == (0, f"{out}\n")
-    assert "within reach" in result.err
+    assert "within reach" in result.err and "height: 320 px, as given" in result.err
     assert check_pulse_csv(out) == []
     assert json.loads(report.read_text())["rms_m"] < 0.005
     assert read_pulse_csv(out).duration_s == pytest.approx(json.loads(report.read_text())["motion_s"])

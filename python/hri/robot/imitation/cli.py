@@ -36,6 +36,7 @@ def imitate(
     name: str | None,
     fps: float,
     height_px: float | None,
+    mirrored: bool,
     form: str,
     video: Path | None,
     json_path: Path | None,
@@ -54,9 +55,11 @@ def imitate(
     if out.suffix.lower() != ".csv":
         raise InvalidArgument(f"{out}: suffix must be .csv")
     track = _chosen(read_hand_tracks(file, fps), file, name)
+    if mirrored:
+        track = track.unmirrored()
     made = make_imitation(track, ImitationOptions(form=form, height_px=height_px))
     write_pulse_csv(out, made.trajectory)
-    _tell(made)
+    _tell(made, height_px is None)
     if json_path is not None:
         try:
             json_path.write_text(json.dumps(made.report(), indent=1) + "\n", encoding="utf-8")
@@ -78,7 +81,9 @@ def _chosen(tracks: dict[str, HandTrack], file: Path, name: str | None) -> HandT
     return tracks[name]
 
 
-def _tell(made: Imitation) -> None:
+def _tell(made: Imitation, guessed: bool) -> None:
+    how = "guessed from the track" if guessed else "as given"
+    click.echo(f"the person's height: {made.targets.height_px:.0f} px, {how}", err=True)
     for gap in made.gaps:
         click.echo(f"{gap.what} not seen in frames {gap.first} to {gap.last}: bridged", err=True)
     report = made.report()

@@ -68,6 +68,13 @@ class HandTrack:
     def __len__(self) -> int:
         return len(self.left)
 
+    def unmirrored(self) -> HandTrack:
+        """The track of a picture that was mirrored, as many programs show a webcam's: left and right put back."""
+        flip = np.array([-1.0, 1.0])
+        body = {"nose": self.nose, "shoulders": self.shoulders}
+        flipped = {name: None if points is None else points * flip for name, points in body.items()}
+        return HandTrack(self.name, self.fps, self.left * flip, self.right * flip, **flipped)
+
 
 @dataclass(frozen=True)
 class Gap:
