@@ -283,6 +283,8 @@ def test_the_command_writes_a_motion_that_passes_the_check(hri, tmp_path):
     assert check_pulse_csv(out) == []
     assert json.loads(report.read_text())["rms_m"] < 0.005
     assert read_pulse_csv(out).duration_s == pytest.approx(json.loads(report.read_text())["motion_s"])
+    assert hri("robot", "imitate", tmp_path / "hands.csv", "--out", tmp_path / "other.csv", "--mirrored").code == 0
+    assert not np.array_equal(read_pulse_csv(tmp_path / "other.csv").positions_rad, read_pulse_csv(out).positions_rad)
     write_track(tmp_path / "two.csv", ("b", "a"))
     several = hri("robot", "imitate", tmp_path / "two.csv", "--out", out)
     assert several.code == 3 and "--track chooses one: b, a" in several.err

@@ -28,6 +28,7 @@ _file = click.Path(dir_okay=False, path_type=Path)
 @click.option(
     "--form", type=click.Choice(FORMS), default="search", show_default=True, help="Best poses, or plain angles."
 )
+@click.option("--mirrored", is_flag=True, help="The picture was mirrored, as programs show webcams.")
 @click.option("--video", type=_file, help="Film the track and the robot side by side.")
 @click.option("--json", "json_path", type=_file, help="Write the report as JSON.")
 def imitate(
