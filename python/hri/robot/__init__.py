@@ -14,8 +14,11 @@ from hri.robot.gestures import (
 )
 from hri.robot.joints import HOAP2, Joint, JointTable
 from hri.robot.kinematics import link_poses
+from hri.robot.physics import Physics
+from hri.robot.postures import POSTURES
 from hri.robot.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.simulation import BACKENDS, open_robot, render_video
+from hri.robot.state import Contact, Event, MotionLog, RobotState
 from hri.robot.trajectory import Finding, Trajectory, TrajectoryError
 from hri.robot.urdf import urdf_text
 
@@ -23,11 +26,17 @@ __all__ = [
     "BACKENDS",
     "GESTURE_JOINTS",
     "HOAP2",
+    "POSTURES",
+    "Contact",
+    "Event",
     "Finding",
     "Gesture",
     "Joint",
     "JointTable",
+    "MotionLog",
+    "Physics",
     "Robot",
+    "RobotState",
     "Trajectory",
     "TrajectoryError",
     "check_pulse_csv",

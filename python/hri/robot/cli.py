@@ -11,13 +11,15 @@ import click
 import numpy as np
 
 from hri.errors import InvalidArgument
-from hri.robot.checks import check_pulse_csv
+from hri.robot.checks import check_pulse_csv, require_safe
 from hri.robot.gallery import write_gallery
 from hri.robot.gestures import gesture_trajectory, load_gestures
 from hri.robot.imitation.cli import imitate
 from hri.robot.joints import HOAP2
+from hri.robot.postures import POSTURES
 from hri.robot.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.simulation import BACKENDS, open_robot, render_video
+from hri.robot.state import MotionLog
 from hri.robot.trajectory import Trajectory
 
 EXIT_BAD_DATA = 3
@@ -69,18 +71,41 @@ def check(file: Path) -> None:
 @_backend
 @click.option("--gui", is_flag=True, help="Show a window and move in real time (pybullet).")
 @click.option("--stand", is_flag=True, help="Stand on the feet instead of holding the torso.")
-def play(motion: str, backend: str, gui: bool, stand: bool) -> None:
+@click.option("--posture", type=click.Choice(POSTURES), default="standing", show_default=True, help="To begin in.")
+@click.option("--log", "log_path", type=click.Path(dir_okay=False, path_type=Path), help="Write states as JSON.")
+def play(motion: str, backend: str, gui: bool, stand: bool, posture: str, log_path: Path | None) -> None:
     """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
+
+    A robot on its feet begins with the motion's first row, standing or lying, and tells where it got to, and whether it
+    fell, on stderr.
 
     \b
     Example:
       hri robot play namaste --gui
+      hri robot play walk.csv --stand --log walk.json
     """
     trajectory = _motion(motion)
-    with open_robot(backend, gui=gui, fixed_base=not stand) as opened:
-        opened.perform(trajectory)
+    stand = stand or posture != "standing"
+    idle = [name for name in HOAP2.names if name not in trajectory.joint_names] if stand else []
+    log = MotionLog()
+    with open_robot(backend, gui=gui, fixed_base=not stand, locked=idle) as opened:
+        if stand:
+            require_safe(trajectory)
+            first = trajectory.positions_rad[0].tolist()
+            opened.reset(dict(zip(trajectory.joint_names, first, strict=True)), posture)
+        opened.perform(trajectory, log=log)
         for name, position in opened.joint_positions_rad().items():
             click.echo(f"{name}\t{position:.4f}")
+        for event in opened.events:
+            click.echo(f"{event.time_s:.2f} s: {event.kind}: {event.message}", err=True)
+        if stand:
+            end = opened.state()
+            place = ", ".join(f"{value:.3f}" for value in end.base_position_m)
+            turned = ", ".join(f"{np.degrees(value):.1f}" for value in end.base_rpy_rad)
+            click.echo(f"base at {place} m; roll, pitch, yaw {turned} deg", err=True)
+    if log_path is not None:
+        log.write(log_path)
+        click.echo(f"log: {log_path}", err=True)
 
 
 @robot.command(short_help="Film a motion.")

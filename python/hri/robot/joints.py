@@ -56,6 +56,11 @@ class Link:
     inertia_kg_m2: tuple[float, ...]
     shapes: tuple[Shape, ...]
 
+    @property
+    def solid(self) -> tuple[Shape, ...]:
+        """The shapes that take part in collisions."""
+        return tuple(shape for shape in self.shapes if shape.solid)
+
 
 @dataclass(frozen=True)
 class Joint:
@@ -67,6 +72,8 @@ class Joint:
     axis, origin_m : three floats
         In the parent's frame.
     lower_rad, upper_rad : float
+    rest_rad : float
+        Where it is when nothing is to do.
     column : str
         Letter of its column in a pulse CSV, as a spreadsheet names it.
     pulses_per_degree : int or None
@@ -83,6 +90,7 @@ class Joint:
     origin_m: Vector
     lower_rad: float
     upper_rad: float
+    rest_rad: float
     column: str
     pulses_per_degree: int | None
     link: Link
@@ -98,12 +106,14 @@ class Joint:
 
 @dataclass(frozen=True)
 class JointTable:
-    """A robot: its base, its joints (each parent before its children) and its motors' limits."""
+    """A robot: its base, its joints (each parent before its children), its motors' limits, the links it stands on."""
 
     name: str
     max_speed_rad_s: float
+    max_acceleration_rad_s2: float
     max_torque_n_m: float
     standing_height_m: float
+    feet: tuple[str, ...]
     base: Link
     joints: tuple[Joint, ...]
 
@@ -136,6 +146,29 @@ class JointTable:
         """Lower and upper limits, shape (joints, 2)."""
         return np.array([(joint.lower_rad, joint.upper_rad) for joint in self.joints])
 
+    @property
+    def rest_rad(self) -> dict[str, float]:
+        """Where the joints are when nothing is to do, by name."""
+        return {joint.name: joint.rest_rad for joint in self.joints}
+
+    @cached_property
+    def links(self) -> dict[str, Link]:
+        """All links by name, the base first."""
+        return {link.name: link for link in (self.base, *(joint.link for joint in self.joints))}
+
+    @cached_property
+    def adjoining(self) -> frozenset[frozenset[str]]:
+        """Pairs of solid links with no other solid link between them: about their joint their boxes may overlap."""
+        carriers = {joint.child: joint for joint in self.joints}
+        pairs = set()
+        for joint in self.joints:
+            above = joint.parent
+            while above in carriers and not carriers[above].link.solid:
+                above = carriers[above].parent
+            if joint.link.solid:
+                pairs.add(frozenset((joint.child, above)))
+        return frozenset(pairs)
+
     @cached_property
     def _indices(self) -> dict[str, int]:
         return {joint.name: index for index, joint in enumerate(self.joints)}
@@ -150,8 +183,10 @@ def load_joint_table(resource: str = "hoap2.toml") -> JointTable:
     return JointTable(
         name=table["name"],
         max_speed_rad_s=table["max_speed_rad_s"],
+        max_acceleration_rad_s2=table["max_acceleration_rad_s2"],
         max_torque_n_m=table["max_torque_n_m"],
         standing_height_m=table["standing_height_m"],
+        feet=tuple(table["feet"]),
         base=_link(table["base"]["name"], table["base"], colours),
         joints=joints,
     )
@@ -167,6 +202,7 @@ def _joint(entry: dict[str, Any], colours: dict[str, Vector]) -> Joint:
         origin_m=_vector(entry["origin_m"]),
         lower_rad=entry["lower_rad"],
         upper_rad=entry["upper_rad"],
+        rest_rad=float(np.radians(entry.get("rest_deg", 0.0))),
         column=entry["column"],
         pulses_per_degree=entry.get("pulses_per_degree"),
         link=_link(entry["child"], entry["link"], colours),

@@ -21,6 +21,14 @@ def rotation_about(axis: NDArray[np.float64], angle_rad: float) -> NDArray[np.fl
     return np.eye(3) + np.sin(angle_rad) * cross + (1.0 - np.cos(angle_rad)) * (cross @ cross)
 
 
+def roll_pitch_yaw(rotation: Pose) -> tuple[float, float, float]:
+    """Angles about the fixed axes x, y and z, in this order, that make a rotation matrix."""
+    roll = np.arctan2(rotation[2, 1], rotation[2, 2])
+    pitch = np.arctan2(-rotation[2, 0], np.hypot(rotation[2, 1], rotation[2, 2]))
+    yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
+    return float(roll), float(pitch), float(yaw)
+
+
 def link_poses(
     positions_rad: Mapping[str, float], base: Pose | None = None, table: JointTable = HOAP2
 ) -> dict[str, Pose]:

@@ -16,6 +16,7 @@ FIELD_OF_VIEW_DEG = 34.0  # vertical
 TO_LIGHT = (0.62, 0.42, 0.95)
 FLOOR_COLOUR = (0.80, 0.85, 0.90)
 FLOOR_HALF_M = 0.36
+WALK_HALF_M = 3.0  # of the floor of a robot that walks; the camera goes with it
 SKY_TOP = (0.86, 0.91, 0.96)
 SKY_BOTTOM = (0.97, 0.98, 0.99)
 MAX_SIDE_PX = 4096
@@ -35,10 +36,16 @@ def backdrop(width: int, height: int) -> NDArray[np.uint8]:
     return np.rint(255.0 * np.broadcast_to(column, (height, width, 3))).astype(np.uint8)
 
 
+def camera(base_m: tuple[float, float, float] | None = None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Positions of the camera and of what it looks at; it goes along with a base that moves over the floor."""
+    along = np.array((base_m[0], base_m[1], 0.0)) if base_m is not None else np.zeros(3)
+    return np.array(EYE_M) + along, np.array(TARGET_M) + along
+
+
 def camera_axes() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Position of the camera and its right, up and forward axes as rows, shape (3, 3)."""
-    eye = np.array(EYE_M)
-    forward = np.array(TARGET_M) - eye
+    eye, target = camera()
+    forward = target - eye
     forward /= np.linalg.norm(forward)
     right = np.cross(forward, UP)
     right /= np.linalg.norm(right)

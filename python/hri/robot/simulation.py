@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from os import PathLike
 
 import numpy as np
@@ -13,13 +13,22 @@ from hri.errors import InvalidArgument
 from hri.media import write_video
 from hri.robot.backend import Image, Robot
 from hri.robot.checks import require_safe
+from hri.robot.joints import HOAP2, JointTable
+from hri.robot.physics import Physics
 from hri.robot.trajectory import Trajectory
 
 BACKENDS = ("pybullet", "kinematic")
 
 
-def open_robot(backend: str = "pybullet", gui: bool = False, fixed_base: bool = True) -> Robot:
-    """Start a simulated HOAP-2, standing at rest.
+def open_robot(
+    backend: str = "pybullet",
+    gui: bool = False,
+    fixed_base: bool = True,
+    locked: Collection[str] = (),
+    physics: Physics | None = None,
+    table: JointTable = HOAP2,
+) -> Robot:
+    """Start a simulated robot, standing at rest.
 
     Parameters
     ----------
@@ -29,6 +38,11 @@ def open_robot(backend: str = "pybullet", gui: bool = False, fixed_base: bool = 
         Show a window and move in real time; only pybullet can.
     fixed_base : bool
         Hold the torso, as for gestures of the arms; kinematic always does.
+    locked : collection of joint names
+        Held rigidly at rest, which makes pybullet quicker; kinematic takes no notice.
+    physics : Physics, optional
+        Friction, masses and the like, for pybullet.
+    table : JointTable
 
     Returns
     -------
@@ -45,7 +59,7 @@ def open_robot(backend: str = "pybullet", gui: bool = False, fixed_base: bool = 
     if backend == "pybullet":
         from hri.robot.pybullet_backend import PyBulletRobot
 
-        return PyBulletRobot(gui=gui, fixed_base=fixed_base)
+        return PyBulletRobot(gui, fixed_base, locked, physics, table)
     if backend == "kinematic":
         if gui:
             raise InvalidArgument("the kinematic backend has no window; use pybullet for gui")
@@ -53,7 +67,7 @@ def open_robot(backend: str = "pybullet", gui: bool = False, fixed_base: bool = 
             raise InvalidArgument("the kinematic backend cannot stand on its feet; use pybullet")
         from hri.robot.kinematic_backend import KinematicRobot
 
-        return KinematicRobot()
+        return KinematicRobot(table)
     raise InvalidArgument(f"backend is {backend!r}, must be one of {', '.join(BACKENDS)}")
 
 

@@ -65,14 +65,15 @@ class Trajectory:
         """From the first row to the last."""
         return (len(self) - 1) * self.period_s
 
-    def at(self, time_s: float) -> NDArray[np.float64]:
-        """Positions at a time, between rows by a straight line, outside held; shape (joints,)."""
-        place = min(max(time_s / self.period_s, 0.0), len(self) - 1.0)
-        row = int(place)
-        part = place - row
-        if part == 0.0:
-            return self.positions_rad[row].copy()
-        return (1.0 - part) * self.positions_rad[row] + part * self.positions_rad[row + 1]
+    def at(self, time_s: float | NDArray[np.float64]) -> NDArray[np.float64]:
+        """Positions at a time, between rows by a straight line, outside held; shape (joints,), or (times, joints)."""
+        place = np.clip(np.asarray(time_s, dtype=np.float64) / self.period_s, 0.0, len(self) - 1.0)
+        near = np.rint(place)
+        place = np.where(np.abs(place - near) < 1e-9 * np.maximum(near, 1.0), near, place)  # rows as they are
+        row = np.minimum(place.astype(np.intp), max(len(self) - 2, 0))
+        part = (place - row)[..., np.newaxis]
+        positions: NDArray[np.float64] = (1.0 - part) * self.positions_rad[row]
+        return positions + part * self.positions_rad[np.minimum(row + 1, len(self) - 1)]
 
     def write_tsv(self, path: str | PathLike[str]) -> None:
         """Write a table with a header: seconds, then degrees of each joint; IoError if it fails."""

@@ -4,18 +4,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from hri.robot.joints import HOAP2, JointTable, Link, Shape, Vector
+from hri.robot.kinematics import roll_pitch_yaw, rotation_about
 
 
-def urdf_text(table: JointTable = HOAP2) -> str:
-    """Write the robot as URDF; `colours` of its shapes become materials."""
+def urdf_text(table: JointTable = HOAP2, locked: Collection[str] = ()) -> str:
+    """Write the robot as URDF; joints in `locked` are fixed where they rest."""
     lines = ['<?xml version="1.0"?>', f'<robot name="{table.name}">']
     lines += _link(table.base)
     motor = f'effort="{table.max_torque_n_m}" velocity="{table.max_speed_rad_s}"'
     for joint in table.joints:
         lines += _link(joint.link)
+        if joint.name in locked:
+            turn = rotation_about(np.array(joint.axis), joint.rest_rad)
+            lines += [
+                f'  <joint name="{joint.name}" type="fixed">',
+                f'    <parent link="{joint.parent}"/>',
+                f'    <child link="{joint.child}"/>',
+                f'    <origin xyz="{_text(joint.origin_m)}" rpy="{_text(roll_pitch_yaw(turn))}"/>',
+                "  </joint>",
+            ]
+            continue
         lines += [
             f'  <joint name="{joint.name}" type="revolute">',
             f'    <parent link="{joint.parent}"/>',

@@ -15,6 +15,7 @@ from hri.studies import (
     imitation,
     noise,
     parity,
+    robot_motions,
     signs,
     speech,
     synthetic_speakers,
@@ -45,6 +46,7 @@ _MODULES = (
     fusion,
     imitation,
     parity,
+    robot_motions,
 )
 
 STUDIES: dict[str, Study] = {study.name: study for module in _MODULES for study in module.STUDIES}
