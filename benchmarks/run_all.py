@@ -20,6 +20,7 @@ import bench_codebook
 import bench_hmm
 import bench_latency
 import bench_possibility
+import bench_robot
 import bench_signal
 import bench_vision
 import bench_wavelets
@@ -34,6 +35,7 @@ MODULES = (
     bench_classifiers,
     bench_vision,
     bench_latency,
+    bench_robot,
 )
 ALL = {bench.name: bench for module in MODULES for bench in module.BENCHES}
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a motion is safe to carry out: known positions, inside the limits, not too fast."""
+"""Whether a motion is safe to carry out: known positions, inside the limits, not too fast, clear of itself."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from hri.robot.joints import HOAP2, Joint, JointTable
 from hri.robot.pulse_csv import parse_pulse_csv, trajectory_from_counts
+from hri.robot.self_collision import self_collisions
 from hri.robot.trajectory import Finding, Trajectory, TrajectoryError
 
 SPEED_WINDOW_S = 0.05
@@ -20,8 +21,9 @@ LIMIT_TOLERANCE_RAD = np.radians(1.5 / 209.0)  # limits are written in whole pul
 def check_trajectory(trajectory: Trajectory, table: JointTable = HOAP2) -> list[Finding]:
     """Look over a whole motion before any of it is carried out.
 
-    Errors are an unknown joint, a position that is not finite or outside its joint's limits, and a
-    mean speed over 50 ms above the motor's. A step from one row to the next that is too fast, while
+    Errors are an unknown joint, a position that is not finite or outside its joint's limits, a mean
+    speed over 50 ms above the motor's, a change of it within 50 ms above the most acceleration, and
+    links that overlap (`self_collisions`). A step from one row to the next that is too fast, while
     the 50 ms about it are not, is a warning: a dropped sample. Rows in succession with the same
     fault of one joint make one finding, at the first of them. Nothing is clamped.
 
@@ -35,7 +37,9 @@ def check_trajectory(trajectory: Trajectory, table: JointTable = HOAP2) -> list[
         if name not in table.names:
             findings.append(Finding(1, "", name, name, f"{table.name} has no such joint"))
             continue
-        findings += _check_joint(table[name], positions, trajectory.period_s, table.max_speed_rad_s)
+        findings += _check_joint(table[name], positions, trajectory.period_s, table)
+    if all(name in table.names for name in trajectory.joint_names):
+        findings += _touches(trajectory, table)
     return sorted(findings, key=lambda finding: (finding.row, finding.severity))
 
 
@@ -62,8 +66,20 @@ def require_safe(trajectory: Trajectory, table: JointTable = HOAP2) -> list[Find
     return findings
 
 
-def _check_joint(joint: Joint, positions: NDArray[np.float64], period_s: float, max_speed: float) -> list[Finding]:
+def _touches(trajectory: Trajectory, table: JointTable) -> list[Finding]:
+    carriers = {joint.child: joint for joint in table.joints}
+    findings = []
+    for touch in self_collisions(trajectory, table):
+        joint = carriers[touch.link]
+        value = f"{1000.0 * touch.depth_m:.1f} mm"
+        message = f"{touch.link} and {touch.other} overlap by {value}"
+        findings.append(Finding(touch.row + 1, joint.column, joint.name, value, message))
+    return findings
+
+
+def _check_joint(joint: Joint, positions: NDArray[np.float64], period_s: float, table: JointTable) -> list[Finding]:
     findings: list[Finding] = []
+    max_speed, max_acceleration = table.max_speed_rad_s, table.max_acceleration_rad_s2
 
     def report(rows: NDArray[np.bool_], values: NDArray[np.float64], unit: str, text: str) -> None:
         for first, last in _runs(rows):
@@ -84,6 +100,10 @@ def _check_joint(joint: Joint, positions: NDArray[np.float64], period_s: float, 
     fast = np.abs(mean_speed) > max_speed
     limit = f"above {max_speed:g} rad/s"
     report(fast, mean_speed, "rad/s", f"a speed of {{value}} over 50 ms is {limit}")
+    change = (mean_speed[window:] - mean_speed[:-window]) / (window * period_s)
+    limit = f"above {max_acceleration:g} rad/s2"
+    report(np.abs(change) > max_acceleration, change, "rad/s2", f"an acceleration of {{value}} over 50 ms is {limit}")
+    limit = f"above {max_speed:g} rad/s"
     if window > 1:
         jumps = np.diff(positions) / period_s
         in_fast = np.zeros(len(positions), dtype=bool)

@@ -23,7 +23,6 @@ COLUMNS = 27
 _COUNT = re.compile(r"\s*(-?\d{1,9}|R)\s*")
 _WHOLE = re.compile(r"\s*\d{1,4}\s*")
 _IDLE = re.compile(r"\s*(60|R)\s*")
-_MOST_FINDINGS = 100
 
 
 def column_letter(index: int) -> str:
@@ -44,8 +43,7 @@ def read_pulse_csv(path: str | PathLike[str], table: JointTable = HOAP2) -> Traj
     Raises
     ------
     FormatError
-        Names the file, the row, the column and the cell; `findings` of it holds all such cells (at
-        most 100).
+        Names the file, the row, the column and the cell; `findings` of it holds all such cells.
     IoError
         When the file cannot be read.
     """
@@ -109,12 +107,63 @@ def parse_pulse_csv(
     counts : ndarray of float64, shape (rows, 21)
         Columns C..W; NaN where there is no command.
     findings : list of Finding
-        What is wrong with its cells, all of it errors, at most 100; if any, the rest is of no use.
+        What is wrong with its cells, all of it errors; if any, the rest is of no use.
     """
     try:
-        lines = Path(path).read_bytes().decode("ascii", errors="replace").splitlines()
+        data = Path(path).read_bytes()
     except OSError as error:
         raise IoError(f"{path}: {error.strerror or error}") from error
+    plain = _plain_counts(data, table)
+    if plain is not None:
+        return *plain, []
+    return _parse_lines(data.decode("ascii", errors="replace").splitlines(), table)
+
+
+def _plain_counts(data: bytes, table: JointTable) -> tuple[float, NDArray[np.float64]] | None:
+    """Read a file at once in which every row has the same ends and plain counts between; None for any other."""
+    first, last = _counted_range(table)
+    head = data[: data.find(b"\n") + 1].rstrip(b"\r\n").split(b",")
+    if len(head) != COLUMNS:
+        return None
+    start = b",".join(head[:first]) + b","
+    end = b"," + b",".join(head[last:])
+    plain_head = head[:first] + [b"0"] * (last - first) + head[last:]
+    if _faults(1, [cell.decode("ascii", errors="replace") for cell in plain_head], head[0].decode().strip(), table):
+        return None
+    row_end = end + (b"\r\n" if b"\r" in data else b"\n")
+    if not data.startswith(start) or not data.endswith(row_end):
+        return None
+    rows = data.count(b"\n")
+    between = row_end + start
+    if data.count(between) != rows - 1:
+        return None
+    body = data[len(start) : -len(row_end)].replace(between, b",")
+    if not _are_plain_counts(np.frombuffer(body, dtype=np.uint8), rows * (last - first)):
+        return None
+    counts = np.fromstring(body, dtype=np.int64, sep=",")
+    if len(counts) != rows * (last - first):
+        return None
+    return float(head[0]) / 1000.0, counts.astype(np.float64).reshape(rows, last - first)
+
+
+def _are_plain_counts(text: NDArray[np.uint8], cells: int) -> bool:
+    """Whether a text is that many whole numbers with commas between, of 1 to 9 digits, "-" before some."""
+    comma, minus = text == ord(","), text == ord("-")
+    digit = (text - np.uint8(ord("0"))) < 10
+    places = np.flatnonzero(comma)
+    if len(places) != cells - 1 or not (comma | minus | digit).all():
+        return False
+    starts = np.concatenate(([0], places + 1))
+    ends = np.concatenate((places, [len(text)]))
+    signed = np.zeros(cells, dtype=bool)
+    filled = starts < ends
+    signed[filled] = minus[starts[filled]]
+    digits = ends - starts - signed
+    return bool(np.count_nonzero(minus) == np.count_nonzero(signed) and digits.min() >= 1 and digits.max() <= 9)
+
+
+def _parse_lines(lines: list[str], table: JointTable) -> tuple[float, NDArray[np.float64], list[Finding]]:
+    """Read row by row, to tell what is wrong with which cell."""
     while lines and not lines[-1].strip():
         lines.pop()
     first, last = _counted_range(table)
@@ -128,11 +177,9 @@ def parse_pulse_csv(
         faults = _faults(number, cells, period, table)
         if faults:
             findings += faults
-            if len(findings) >= _MOST_FINDINGS:
-                break
             continue
         counts[number - 1] = [np.nan if "R" in cell else int(cell) for cell in cells[first:last]]
-    return float(period) / 1000.0 if not findings else 1.0, counts, findings[:_MOST_FINDINGS]
+    return float(period) / 1000.0 if not findings else 1.0, counts, findings
 
 
 def trajectory_from_counts(period_s: float, counts: NDArray[np.float64], table: JointTable = HOAP2) -> Trajectory:

@@ -1,0 +1,152 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Bad files are told cell by cell; accelerations and overlaps of links are found before a joint moves."""
+
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+from hri.robot import (
+    HOAP2,
+    Trajectory,
+    check_pulse_csv,
+    check_trajectory,
+    gesture_trajectory,
+    load_gestures,
+    open_robot,
+    read_pulse_csv,
+    write_pulse_csv,
+)
+from hri.robot.pulse_csv import column_letter
+from hri.robot.self_collision import self_collisions
+
+BAD_COUNTS = [
+    "",
+    "x",
+    "1.5",
+    "nan",
+    "1e3",
+    "+5",
+    "--5",
+    "5-",
+    "-",
+    "1_0",
+    "0x1f",
+    "12 3",
+    "1234567890",
+    "r",
+    "\x00",
+    "60.",
+    "é",
+]
+
+
+def write(path, rows, newline="\n"):
+    path.write_bytes("".join(",".join(row) + newline for row in rows).encode("latin-1"))
+
+
+def plain_rows(rng, count):
+    counts = rng.integers(-15000, 15000, (count, 21))
+    return [["1", "2", *map(str, row), "60", "R", "R", "R"] for row in counts]
+
+
+def test_every_bad_row_of_200_files_is_told_by_row_and_column(tmp_path):
+    rng = np.random.default_rng(2)
+    path = tmp_path / "bad.csv"
+    for _ in range(200):
+        rows = plain_rows(rng, int(rng.integers(1, 60)))
+        bad = {}
+        for row in rng.choice(len(rows), min(len(rows), int(rng.integers(1, 6))), replace=False).tolist():
+            kind = rng.integers(5)
+            if kind == 0:
+                cut = int(rng.integers(1, 26))
+                rows[row] = rows[row][:cut]
+                bad[row + 1] = column_letter(cut)
+            elif kind == 1:
+                rows[row] += ["0"]
+                bad[row + 1] = column_letter(27)
+            elif kind == 2:
+                place = int(rng.integers(23, 27))
+                rows[row][place] = str(rng.choice(["61", "", "S", "0", "-60"]))
+                bad[row + 1] = column_letter(place)
+            elif kind == 3:
+                rows[row][1] = str(rng.choice(["-2", "", "2.0"]))
+                bad[row + 1] = "B"
+            else:
+                place = int(rng.integers(2, 23))
+                rows[row][place] = BAD_COUNTS[int(rng.integers(len(BAD_COUNTS)))]
+                bad[row + 1] = column_letter(place)
+        write(path, rows, "\r\n" if rng.random() < 0.3 else "\n")
+        findings = check_pulse_csv(path)
+        assert {finding.row: finding.column for finding in findings} == bad
+        assert len(findings) == len(bad) and {finding.severity for finding in findings} == {"error"}
+
+
+def test_blanks_and_line_ends_change_nothing(tmp_path):
+    rng = np.random.default_rng(3)
+    rows = plain_rows(rng, 40)
+    path = tmp_path / "a.csv"
+    write(path, rows)
+    plain = read_pulse_csv(path).positions_rad
+    write(path, rows, "\r\n")
+    np.testing.assert_array_equal(read_pulse_csv(path).positions_rad, plain)
+    spaced = [[f" {cell} " for cell in row] for row in rows]
+    write(path, spaced)
+    np.testing.assert_array_equal(read_pulse_csv(path).positions_rad, plain)
+    path.write_bytes(path.read_bytes().removesuffix(b"\n") + b"\n\n")
+    np.testing.assert_array_equal(read_pulse_csv(path).positions_rad, plain)
+
+
+@pytest.mark.slow
+def test_a_million_rows_come_back_byte_for_byte(tmp_path):
+    rng = np.random.default_rng(6)
+    source, copy = tmp_path / "a.csv", tmp_path / "b.csv"
+    for _ in range(10):
+        counts = rng.integers(-999_999, 1_000_000, (100_000, 21)).astype("U8")
+        source.write_text("".join(f"1,2,{','.join(row)},60,R,R,R\n" for row in counts.tolist()))
+        write_pulse_csv(copy, read_pulse_csv(source))
+        assert copy.read_bytes() == source.read_bytes()
+
+
+def test_an_acceleration_within_the_speed_limit_is_found():
+    times = np.arange(0.0, 1.0, 0.001)
+    swing = 0.2 + 0.08 * np.sin(2 * np.pi * 7.0 * times)  # 3.5 rad/s, 155 rad/s2
+    (finding, *_) = found = check_trajectory(Trajectory(["larm_joint_1"], 0.001, swing[:, np.newaxis]))
+    assert all("rad/s2" in finding.value and finding.severity == "error" for finding in found)
+    assert finding.joint == "larm_joint_1" and finding.column == "S"
+    assert check_trajectory(Trajectory(["larm_joint_1"], 0.001, 0.5 * swing[:, np.newaxis])) == []
+
+
+def test_links_that_overlap_are_found_by_row():
+    names = ["larm_joint_1", "larm_joint_3", "larm_joint_4"]
+    part = np.linspace(0.0, 1.0, 200)[:, np.newaxis]
+    into_the_chest = part * np.array([0.9, 1.5, -1.9])
+    findings = check_trajectory(Trajectory(names, 0.01, into_the_chest))
+    assert findings and all("overlap by" in finding.message for finding in findings)
+    assert findings[0].joint.startswith("larm") and 20 < findings[0].row <= 200
+    assert findings[0].row == min(finding.row for finding in findings)
+
+
+def test_gestures_touch_nothing():
+    for name in load_gestures():
+        assert self_collisions(gesture_trajectory(name)) == [], name
+
+
+@pytest.mark.skipif(find_spec("pybullet") is None, reason="no pybullet")
+def test_overlaps_are_those_that_pybullet_sees():
+    rng = np.random.default_rng(1)
+    low, high = HOAP2.limits_rad.T
+    seen = 0
+    with open_robot("pybullet") as robot:
+        for _ in range(150):
+            pose = rng.uniform(low, high)
+            robot.reset(dict(zip(HOAP2.names, pose.tolist(), strict=True)))
+            carriers = {joint.child: joint.name for joint in HOAP2.joints}
+            theirs = {frozenset(pair) for pair in robot.self_contacts()}
+            deep = {frozenset(pair) for pair in robot.self_contacts(-0.003)}
+            touches = self_collisions(Trajectory(HOAP2.names, 0.1, [pose]))
+            ours = {frozenset(carriers.get(link, "base") for link in (t.link, t.other)) for t in touches}
+            assert deep <= ours <= theirs
+            seen += len(ours)
+    assert seen > 100
