@@ -86,7 +86,13 @@ hri::WordRecognizer train_words(const std::vector<FloatArray>& samples,
                                 const std::vector<std::string>& labels,
                                 const std::vector<std::string>& groups,
                                 const hri::WordRecognizerOptions& options,
-                                const std::function<void(int, int)>& progress) {
+                                const std::function<void(int, int)>& progress,
+                                const std::vector<FloatArray>& background,
+                                const std::vector<int>& background_rates_hz,
+                                const std::vector<std::string>& background_labels) {
+  hri::require(background.size() == background_rates_hz.size() &&
+                   background.size() == background_labels.size(),
+               "background, background_rates_hz and background_labels differ in length");
   hri::require(samples.size() == labels.size() && samples.size() == groups.size() &&
                    samples.size() == sample_rates_hz.size(),
                "samples, sample_rates_hz, labels and groups differ in length");
@@ -95,8 +101,15 @@ hri::WordRecognizer train_words(const std::vector<FloatArray>& samples,
   for (std::size_t i = 0; i < samples.size(); ++i) {
     words.push_back({as_span(samples[i], "samples"), sample_rates_hz[i], labels[i], groups[i]});
   }
+  std::vector<hri::WordSample> others;
+  others.reserve(background.size());
+  for (std::size_t i = 0; i < background.size(); ++i) {
+    others.push_back(
+        {as_span(background[i], "background"), background_rates_hz[i], background_labels[i], ""});
+  }
   const py::gil_scoped_release release;
-  return hri::WordRecognizer::train(words, options, with_gil(progress), python_wants_to_stop);
+  return hri::WordRecognizer::train(words, options, with_gil(progress), python_wants_to_stop,
+                                    others);
 }
 
 void bind_words(py::module_& m) {
@@ -134,7 +147,10 @@ void bind_words(py::module_& m) {
                                   "Isolated words; hri.WordRecognizer wraps it.")
       .def_static("train", &train_words, py::arg("samples"), py::arg("sample_rates_hz"),
                   py::arg("labels"), py::arg("groups"), py::arg("options"),
-                  py::arg("progress") = nullptr)
+                  py::arg("progress") = nullptr,
+                  py::arg("background") = std::vector<FloatArray>{},
+                  py::arg("background_rates_hz") = std::vector<int>{},
+                  py::arg("background_labels") = std::vector<std::string>{})
       .def("with_word", &with_word, py::arg("label"), py::arg("samples"),
            py::arg("sample_rates_hz"))
       .def("without_word", &hri::WordRecognizer::without_word, py::arg("label"))

@@ -3071,6 +3071,9 @@ class WordRecognizer:
         groups: collections.abc.Sequence[str],
         options: WordRecognizerOptions,
         progress: collections.abc.Callable[[int, int], None] | None = None,
+        background: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = [],
+        background_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        background_labels: collections.abc.Sequence[str] = [],
     ) -> WordRecognizer: ...
     def recognise(
         self,

@@ -68,21 +68,23 @@ std::vector<float> NonWords::burst() {
   return result;
 }
 
-std::vector<std::vector<float>> NonWords::from(const std::vector<float>& word,
-                                               const std::string& label, const std::string& group) {
-  const auto width = static_cast<std::size_t>(rate_hz_ / 50);
-  std::vector<std::vector<float>> result;
-  result.push_back(noise(word.size()));
-  const std::vector<float> loudness = envelope(word, width);
+std::vector<std::vector<float>> NonWords::sounds(const std::vector<float>& word) {
+  std::vector<std::vector<float>> result{noise(word.size()), burst()};
+  const std::vector<float> loudness = envelope(word, width());
   for (std::size_t i = 0; i < word.size(); ++i) result.front()[i] *= loudness[i];
-  result.push_back(burst());
+  return result;
+}
 
+std::vector<std::vector<float>> NonWords::speech(const std::vector<float>& word,
+                                                 const std::string& label,
+                                                 const std::string& group) {
+  std::vector<std::vector<float>> result;
   std::vector<Said>& said = said_[group];
   const auto other =
       std::find_if(said.rbegin(), said.rend(), [&](const Said& s) { return s.label != label; });
   if (other != said.rend()) {
-    result.push_back(spliced(word, other->word, width / 2));
-    result.push_back(spliced(other->word, word, width / 2));
+    result.push_back(spliced(word, other->word, width() / 2));
+    result.push_back(spliced(other->word, word, width() / 2));
   }
   said.erase(
       std::remove_if(said.begin(), said.end(), [&](const Said& s) { return s.label == label; }),

@@ -18,10 +18,12 @@ class NonWords {
  public:
   NonWords(int sample_rate_hz, std::uint64_t seed) : rate_hz_(sample_rate_hz), random_(seed) {}
 
-  /// Noise with the loudness of `word` over time, a burst of noise, and, once the same group has
-  /// said another word, halves of both in one.
-  std::vector<std::vector<float>> from(const std::vector<float>& word, const std::string& label,
-                                       const std::string& group);
+  /// Noise with the loudness of `word` over time, and a burst of noise.
+  std::vector<std::vector<float>> sounds(const std::vector<float>& word);
+
+  /// Once the same group has said another word, halves of both in one.
+  std::vector<std::vector<float>> speech(const std::vector<float>& word, const std::string& label,
+                                         const std::string& group);
 
  private:
   struct Said {
@@ -31,6 +33,7 @@ class NonWords {
 
   std::vector<float> noise(std::size_t size);
   std::vector<float> burst();
+  [[nodiscard]] std::size_t width() const { return static_cast<std::size_t>(rate_hz_ / 50); }
 
   int rate_hz_;
   Random random_;

@@ -13,6 +13,8 @@ namespace {
 // Smallest emission, as a share of what every symbol would have if all were alike.
 constexpr double kEmissionFloor = 0.1;
 constexpr int kSharedIterations = 2;
+constexpr const char* kNumBackground = "num_background";
+constexpr std::int64_t kMaxBackground = 10000;
 constexpr float kImpossible = -1e30F;  // stands for log 0, so that differences stay finite
 
 MatrixF stacked(const std::vector<std::vector<MatrixF>>& per_label) {
@@ -61,23 +63,37 @@ void SequenceModels::train(const std::vector<std::vector<MatrixF>>& per_label,
   }
 }
 
-void SequenceModels::train_hmms(const std::vector<std::vector<MatrixF>>& per_label,
-                                const StopCheck& should_stop) {
+std::vector<GaussianMixtureHmm> SequenceModels::hmms_of(
+    const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop) const {
   GaussianMixtureHmmOptions options;
   options.topology = left_right(options_.num_states);
   options.num_mixtures = options_.num_mixtures;
   options.max_iterations = options_.max_iterations;
   options.seed = options_.seed;
   options.should_stop = should_stop;
-  hmms_.clear();
+  std::vector<GaussianMixtureHmm> result;
+  result.reserve(per_label.size());
   for (const auto& sequences : per_label)
-    hmms_.push_back(GaussianMixtureHmm::train(sequences, options));
+    result.push_back(GaussianMixtureHmm::train(sequences, options));
+  return result;
+}
+
+void SequenceModels::train_hmms(const std::vector<std::vector<MatrixF>>& per_label,
+                                const StopCheck& should_stop) {
+  hmms_ = hmms_of(per_label, should_stop);
   GaussianMixtureOptions garbage;
   garbage.num_mixtures = options_.garbage_mixtures;
   garbage.wide_weight = 0.01;
   garbage.seed = options_.seed;
   garbage.should_stop = should_stop;
   garbage_ = {GaussianMixture::train(stacked(per_label), garbage)};
+}
+
+void SequenceModels::train_background(const std::vector<std::vector<MatrixF>>& per_word,
+                                      const StopCheck& should_stop) {
+  require(options_.model == SequenceModelKind::hmm,
+          "only models of the kind hmm are compared with background words, these are ptbhmm");
+  background_ = hmms_of(per_word, should_stop);
 }
 
 void SequenceModels::train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label,
@@ -113,8 +129,10 @@ SequenceModels SequenceModels::adapted(const std::vector<std::vector<MatrixF>>& 
   for (int i = 0; i < kSharedIterations; ++i) {
     const LinearAdaptation shared = estimate_linear_adaptation(
         result.hmms_, per_label, options.shared_frames, options.should_stop);
-    for (GaussianMixtureHmm& hmm : result.hmms_)
-      hmm = GaussianMixtureHmm(hmm.chain(), shared.apply(hmm.bank()));
+    for (auto* models : {&result.hmms_, &result.background_}) {
+      for (GaussianMixtureHmm& hmm : *models)
+        hmm = GaussianMixtureHmm(hmm.chain(), shared.apply(hmm.bank()));
+    }
     result.garbage_.front() = GaussianMixture(shared.apply(result.garbage_.front().bank()));
   }
   if (!options.each_word) return result;
@@ -177,6 +195,14 @@ VectorF SequenceModels::scores(ConstMatrixRefF frames) const {
   return result.cwiseMax(kImpossible);
 }
 
+VectorF SequenceModels::background_scores(ConstMatrixRefF frames) const {
+  VectorF result(static_cast<Eigen::Index>(background_.size()));
+  for (std::size_t w = 0; w < background_.size(); ++w)
+    result[static_cast<Eigen::Index>(w)] =
+        static_cast<float>(background_[w].log_likelihood(frames));
+  return result.cwiseMax(kImpossible);
+}
+
 float SequenceModels::garbage_score(ConstMatrixRefF frames) const {
   // A log-possibility is already a ratio to the best explanation of every symbol (thesis eq. 5.14).
   if (options_.model == SequenceModelKind::ptbhmm) return 0;
@@ -192,6 +218,9 @@ void SequenceModels::write(ModelFile& file, const std::string& prefix) const {
   for (std::size_t c = 0; c < hmms_.size(); ++c)
     hmms_[c].write(file, prefix + "hmm." + std::to_string(c) + ".");
   garbage_.front().write(file, prefix + "garbage.");
+  file.set_integer(prefix + kNumBackground, num_background());
+  for (std::size_t w = 0; w < background_.size(); ++w)
+    background_[w].write(file, prefix + "background." + std::to_string(w) + ".");
 }
 
 void SequenceModels::read(const ModelFile& file, const std::string& prefix, int num_classes,
@@ -212,12 +241,23 @@ void SequenceModels::read(const ModelFile& file, const std::string& prefix, int 
     }
     return;
   }
-  hmms_.clear();
-  for (int c = 0; c < num_classes; ++c) {
-    const std::string name = prefix + "hmm." + std::to_string(c) + ".";
-    hmms_.push_back(GaussianMixtureHmm::read(file, name));
-    check_width(hmms_.back().dim(), name);
+  const auto read_hmms = [&](std::int64_t count, const std::string& what) {
+    std::vector<GaussianMixtureHmm> hmms;
+    for (std::int64_t c = 0; c < count; ++c) {
+      const std::string name = prefix + what + "." + std::to_string(c) + ".";
+      hmms.push_back(GaussianMixtureHmm::read(file, name));
+      check_width(hmms.back().dim(), name);
+    }
+    return hmms;
+  };
+  hmms_ = read_hmms(num_classes, "hmm");
+  const std::int64_t num_background = file.integer(prefix + kNumBackground);
+  if (num_background < 0 || num_background > kMaxBackground) {
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + kNumBackground +
+                                "': " + std::to_string(num_background) + " does not lie in 0.." +
+                                std::to_string(kMaxBackground));
   }
+  background_ = read_hmms(num_background, "background");
   garbage_ = {GaussianMixture::read(file, prefix + "garbage.")};
   check_width(garbage_.front().dim(), prefix + "garbage");
 }

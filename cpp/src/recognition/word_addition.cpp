@@ -43,7 +43,7 @@ WordRecognizer WordRecognizer::with_word(const std::vector<WordSample>& samples,
   std::vector<std::vector<MatrixF>> per_stream(streams_.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     poll(should_stop);
-    const std::vector<float> word = frames.locate(samples[i], i);
+    const std::vector<float> word = frames.locate(samples[i], "sample " + std::to_string(i));
     // Of three recordings none may be lost without a word.
     if (word.empty())
       fail(ErrorKind::invalid_argument, "sample " + std::to_string(i) + ": nobody speaks in it");

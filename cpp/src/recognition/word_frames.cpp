@@ -34,16 +34,16 @@ void check(const WordRecognizerOptions& options) {
   require(options.warp_step >= 0 && options.warp_step <= 0.2, "warp_step must lie in 0..0.2");
 }
 
-void check(const WordSample& sample, std::size_t index, double frame_ms) {
+void check(const WordSample& sample, const std::string& what, double frame_ms) {
   const std::size_t bad = first_not_finite(sample.samples.data(), sample.samples.size());
   if (bad < sample.samples.size()) {
-    fail(ErrorKind::invalid_argument, "sample " + std::to_string(index) +
-                                          ": audio is not finite at index " + std::to_string(bad));
+    fail(ErrorKind::invalid_argument,
+         what + ": audio is not finite at index " + std::to_string(bad));
   }
   const double duration_ms =
       1000.0 * static_cast<double>(sample.samples.size()) / std::max(1, sample.sample_rate_hz);
   if (duration_ms < frame_ms) {
-    fail(ErrorKind::invalid_argument, "sample " + std::to_string(index) + ": audio is too short: " +
+    fail(ErrorKind::invalid_argument, what + ": audio is too short: " +
                                           std::to_string(duration_ms) + " ms, less than one frame");
   }
 }
@@ -59,10 +59,10 @@ WordFrames::WordFrames(const WordRecognizer& recognizer) {
   }
 }
 
-std::vector<float> WordFrames::locate(const WordSample& sample, std::size_t index) const {
+std::vector<float> WordFrames::locate(const WordSample& sample, const std::string& what) const {
   const WordRecognizer& plain = fronts_.front();
   const WordRecognizerOptions& options = plain.options_;
-  check(sample, index, std::max(options.activity.frame_ms, options.cepstra.frame_length_ms));
+  check(sample, what, std::max(options.activity.frame_ms, options.cepstra.frame_length_ms));
   return plain.locate(sample.samples, sample.sample_rate_hz, nullptr);
 }
 

@@ -5,6 +5,7 @@
 // frequency axis warped and in noise.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "hri/recognition/word_recognizer.hpp"
@@ -18,8 +19,8 @@ class WordFrames {
   explicit WordFrames(const WordRecognizer& recognizer);
 
   /// The word in a recording; empty where nobody speaks. Throws InvalidArgument for audio that is
-  /// not finite or too short, naming `index`.
-  [[nodiscard]] std::vector<float> locate(const WordSample& sample, std::size_t index) const;
+  /// not finite or too short, naming `what`.
+  [[nodiscard]] std::vector<float> locate(const WordSample& sample, const std::string& what) const;
 
   /// The frames of every stream, of the word as it is, at every warp and of every noisy copy. The
   /// noise depends on the seed of the models and on `index` alone.

@@ -21,7 +21,7 @@ ModelFile WordRecognizer::to_model_file() const {
   file.set_kind(kKind);
   file.set_text_list("labels", labels_);
   detail::visit_word(detail::FieldWriter{file}, options_);
-  verifier_.write(file, options_.models.model);
+  verifier_.write(file, options_.models.model, streams_.front().models.num_background() > 0);
   calibration_.write(file);
   for (std::size_t s = 0; s < streams_.size(); ++s)
     streams_[s].models.write(file, stream_prefix(s));
@@ -42,13 +42,18 @@ WordRecognizer WordRecognizer::read(const ModelFile& file) {
   WordRecognizer result(options, sorted_labels(file.text_list("labels")));
   if (result.labels_ != file.text_list("labels"))
     fail(ErrorKind::format, file.name() + ": labels are not sorted");
-  result.verifier_ = WordVerifier::read(file, options.models.model);
   result.calibration_ = Calibration::read(file);
   for (std::size_t s = 0; s < result.streams_.size(); ++s) {
     WordStream& stream = result.streams_[s];
     stream.models.read(file, stream_prefix(s), static_cast<int>(result.labels_.size()),
                        stream.cepstra.num_features());
   }
+  const int num_background = result.streams_.front().models.num_background();
+  for (const WordStream& stream : result.streams_) {
+    if (stream.models.num_background() != num_background)
+      fail(ErrorKind::format, file.name() + ": streams differ in their background words");
+  }
+  result.verifier_ = WordVerifier::read(file, options.models.model, num_background > 0);
   return result;
 }
 

@@ -44,6 +44,36 @@ class WordTrainer {
         source_step_(1 + samples.size() / kNonWordSources),
         should_stop_(std::move(should_stop)) {}
 
+  // Before `run`; words in which nobody is heard are left out.
+  void learn_background(const std::vector<WordSample>& background) {
+    if (background.empty() || result_.options_.models.model == SequenceModelKind::ptbhmm) return;
+    std::vector<std::string> words;
+    words.reserve(background.size());
+    for (const WordSample& s : background) words.push_back(s.label);
+    std::sort(words.begin(), words.end());
+    words.erase(std::unique(words.begin(), words.end()), words.end());
+    std::vector<std::vector<std::vector<MatrixF>>> per_stream(
+        result_.streams_.size(), std::vector<std::vector<MatrixF>>(words.size()));
+    for (std::size_t i = 0; i < background.size(); ++i) {
+      poll(should_stop_);
+      const std::vector<float> word = frames_.locate(background[i], "background word " + std::to_string(i));
+      if (word.empty()) continue;
+      const auto index = static_cast<std::size_t>(label_index(words, background[i].label));
+      // Copies as those of the vocabulary, so that none of the two fits noise or a voice better.
+      for (std::vector<MatrixF>& frames : frames_.of(word, i)) {
+        for (std::size_t s = 0; s < frames.size(); ++s)
+          per_stream[s][index].push_back(std::move(frames[s]));
+      }
+    }
+    for (std::size_t s = 0; s < per_stream.size(); ++s) {
+      auto& words_heard = per_stream[s];
+      words_heard.erase(std::remove_if(words_heard.begin(), words_heard.end(),
+                                       [](const auto& list) { return list.empty(); }),
+                        words_heard.end());
+      result_.streams_[s].models.train_background(words_heard, should_stop_);
+    }
+  }
+
   WordRecognizer run(const std::vector<WordSample>& samples, const TrainingProgress& progress) {
     for (std::size_t i = 0; i < samples.size(); ++i) prepare(samples[i], i);
     const int num_folds = assign_folds();
@@ -67,12 +97,12 @@ class WordTrainer {
     int fold = 0;
     std::string group;
     std::vector<std::vector<MatrixF>> variants;
-    std::vector<std::vector<MatrixF>> non_words;  // frames of every stream of each
+    std::vector<std::pair<TrialKind, std::vector<MatrixF>>> non_words;  // frames of every stream
   };
 
   void prepare(const WordSample& sample, std::size_t index) {
     if (should_stop_ && should_stop_()) fail(ErrorKind::interrupted, "training interrupted");
-    const std::vector<float> word = frames_.locate(sample, index);
+    const std::vector<float> word = frames_.locate(sample, "sample " + std::to_string(index));
     if (word.empty())
       return;  // nobody speaks; a label without any word is refused in train_without
     Prepared p;
@@ -80,12 +110,18 @@ class WordTrainer {
     p.group = sample.group;
     p.variants = frames_.of(word, index);
     if (index % source_step_ == 0) {
-      for (const std::vector<float>& sound : non_words_.from(word, sample.label, sample.group)) {
-        if (result_.streams_.front().cepstra.num_frames(sound.size()) > 0)
-          p.non_words.push_back(result_.frames(sound));
-      }
+      add_non_words(non_words_.sounds(word), TrialKind::sound, &p);
+      add_non_words(non_words_.speech(word, sample.label, sample.group), TrialKind::other_word, &p);
     }
     prepared_.push_back(std::move(p));
+  }
+
+  void add_non_words(const std::vector<std::vector<float>>& audio, TrialKind kind,
+                     Prepared* p) const {
+    for (const std::vector<float>& a : audio) {
+      if (result_.streams_.front().cepstra.num_frames(a.size()) > 0)
+        p->non_words.emplace_back(kind, result_.frames(a));
+    }
   }
 
   int assign_folds() {
@@ -146,17 +182,16 @@ class WordTrainer {
       if (best == p.label) held_out->trials.push_back({held_out->features.back(), TrialKind::word});
       if (scores.size() > 2) {
         held_out->trials.push_back(
-            {result_.features(frames, scores, p.label), TrialKind::left_out});
+            {result_.features(frames, scores, p.label), TrialKind::other_word});
       }
-      for (const std::vector<MatrixF>& sound : p.non_words) {
-        held_out->trials.push_back(
-            {result_.features(sound, result_.score(sound)), TrialKind::non_word});
-      }
+      for (const auto& [kind, heard] : p.non_words)
+        held_out->trials.push_back({result_.features(heard, result_.score(heard)), kind});
     }
   }
 
   void calibrate(HeldOutFolds held_out) {
-    result_.verifier_ = WordVerifier::fit(held_out.trials);
+    result_.verifier_ =
+        WordVerifier::fit(held_out.trials, result_.streams_.front().models.num_background() > 0);
     for (std::size_t i = 0; i < held_out.decisions.size(); ++i)
       held_out.decisions[i].evidence = result_.verifier_.evidence(held_out.features[i]);
     result_.calibration_ = Calibration::fit(held_out.decisions, result_.options_.false_reject_rate);
@@ -172,13 +207,15 @@ class WordTrainer {
 
 WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
                                      const WordRecognizerOptions& options,
-                                     const TrainingProgress& progress,
-                                     const StopCheck& should_stop) {
+                                     const TrainingProgress& progress, const StopCheck& should_stop,
+                                     const std::vector<WordSample>& background) {
   require(options.false_reject_rate >= 0 && options.false_reject_rate <= 0.5,
           "false_reject_rate must lie in 0..0.5");
   WordRecognizerOptions used = options;
   used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);
-  return WordTrainer(samples, used, should_stop).run(samples, progress);
+  WordTrainer trainer(samples, used, should_stop);
+  trainer.learn_background(background);
+  return trainer.run(samples, progress);
 }
 
 }  // namespace hri

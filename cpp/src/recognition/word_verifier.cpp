@@ -5,17 +5,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "hri/core/error.hpp"
 
 namespace hri {
 namespace {
 
-constexpr const char* kPrefix = "verifier.";
-constexpr std::size_t kTopStates = 5;  // that a frame is compared with
-constexpr std::size_t kRivals = 3;     // words that the best one is compared with
-constexpr double kPenalty = 10;        // of the regression; few people speak in a training set
+constexpr const char* kFeatures = "verifier.features";
+constexpr const char* kWords = "verifier.words.";
+constexpr const char* kSounds = "verifier.sounds.";
+constexpr std::size_t kTopStates = 5;   // that a frame is compared with
+constexpr std::size_t kRivals = 3;      // words that the best one is compared with
+constexpr std::size_t kBackground = 5;  // background words that the best one is compared with
+constexpr double kPenalty = 10;         // of the regression; few people speak in a training set
 // Logs of deviations stay finite where a word is spoken exactly as long as usual.
 constexpr double kLeastLength = 0.006;
 constexpr double kLeastPace = 0.06;
@@ -108,11 +113,53 @@ Ranking ranking(const VectorF& scores, int left_out) {
   return result;
 }
 
+// The mean score of the background words that fit best: one that sounds like a word of the
+// vocabulary by chance does not decide alone.
+double background_score(const std::vector<const SequenceModels*>& streams,
+                        const std::vector<MatrixF>& frames) {
+  VectorF sums = streams.front()->background_scores(frames.front());
+  for (std::size_t i = 1; i < streams.size(); ++i) sums += streams[i]->background_scores(frames[i]);
+  const auto count = std::min<Eigen::Index>(kBackground, sums.size());
+  std::partial_sort(sums.data(), sums.data() + count, sums.data() + sums.size(), std::greater<>());
+  return static_cast<double>(sums.head(count).sum()) / static_cast<double>(count);
+}
+
+// Tells words from trials of the kind `no` by their last `num_columns` features (0: all); empty
+// without trials of both kinds.
+LogisticRegression regression(const std::vector<VerifierTrial>& trials, TrialKind no,
+                              Eigen::Index num_columns) {
+  std::array<double, 2> counts{};
+  for (const VerifierTrial& t : trials) {
+    if (t.kind == TrialKind::word || t.kind == no) counts[t.kind == no ? 1 : 0] += 1;
+  }
+  if (counts[0] == 0 || counts[1] == 0) return {};
+  if (num_columns == 0) num_columns = trials.front().features.size();
+  MatrixD rows(static_cast<Eigen::Index>(counts[0] + counts[1]), num_columns);
+  std::vector<int> yes;
+  std::vector<double> weights;
+  for (const VerifierTrial& t : trials) {
+    if (t.kind != TrialKind::word && t.kind != no) continue;
+    rows.row(static_cast<Eigen::Index>(yes.size())) = t.features.tail(num_columns).transpose();
+    yes.push_back(t.kind == no ? 0 : 1);
+    weights.push_back(static_cast<double>(rows.rows()) / 2 / counts[t.kind == no ? 1 : 0]);
+  }
+  LogisticRegressionOptions options;
+  options.penalty = kPenalty;
+  return LogisticRegression::train(rows, yes, weights, options);
+}
+
+double log_odds(const LogisticRegression& model, const VectorD& features) {
+  const VectorD used = features.tail(model.dim());
+  return model.log_odds({used.data(), static_cast<std::size_t>(used.size())});
+}
+
 }  // namespace
 
-std::vector<std::string> WordVerifier::feature_names(SequenceModelKind kind) {
+std::vector<std::string> WordVerifier::feature_names(SequenceModelKind kind, bool background) {
   if (kind == SequenceModelKind::ptbhmm) return {"ratio", "rivals"};
-  return {"ratio", "rivals", "states", "length", "pace"};
+  std::vector<std::string> names{"ratio", "rivals", "states", "length", "pace"};
+  if (background) names.emplace_back("background");
+  return names;
 }
 
 VectorD WordVerifier::features(const std::vector<const SequenceModels*>& streams,
@@ -130,7 +177,10 @@ VectorD WordVerifier::features(const std::vector<const SequenceModels*>& streams
   rivals = num_rivals == 0 ? top : rivals / static_cast<double>(num_rivals);
 
   const bool aligned = !streams.front()->hmms().empty();
-  VectorD result = VectorD::Zero(aligned ? 5 : 2);
+  const bool background = streams.front()->num_background() > 0;
+  VectorD result = VectorD::Zero(static_cast<Eigen::Index>(
+      feature_names(aligned ? SequenceModelKind::hmm : SequenceModelKind::ptbhmm, background)
+          .size()));
   result[0] = (top - garbage) / num_frames;
   result[1] = (top - rivals) / num_frames;
   if (!aligned) return result;
@@ -149,54 +199,53 @@ VectorD WordVerifier::features(const std::vector<const SequenceModels*>& streams
   }
   result[3] = std::log(length * length + kLeastLength);
   result[4] = std::log(deviation / std::max(1, num_states) + kLeastPace);
+  if (background) result[5] = (top - background_score(streams, frames)) / num_frames;
   return result;
 }
 
-WordVerifier WordVerifier::fit(const std::vector<VerifierTrial>& trials) {
-  std::array<double, 3> counts{};
-  for (const VerifierTrial& t : trials) counts[static_cast<std::size_t>(t.kind)] += 1;
-  const double num_sorts_of_no = (counts[1] > 0 ? 1 : 0) + (counts[2] > 0 ? 1 : 0);
+WordVerifier WordVerifier::fit(const std::vector<VerifierTrial>& trials, bool background) {
   WordVerifier result;
-  if (counts[0] == 0 || num_sorts_of_no == 0) return result;
-  const auto half = 0.5 * static_cast<double>(trials.size());
-  MatrixD rows(static_cast<Eigen::Index>(trials.size()), trials.front().features.size());
-  std::vector<int> yes;
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    const TrialKind kind = trials[i].kind;
-    rows.row(static_cast<Eigen::Index>(i)) = trials[i].features.transpose();
-    yes.push_back(kind == TrialKind::word ? 1 : 0);
-    weights.push_back(half / counts[static_cast<std::size_t>(kind)] /
-                      (kind == TrialKind::word ? 1.0 : num_sorts_of_no));
-  }
-  LogisticRegressionOptions options;
-  options.penalty = kPenalty;
-  result.model_ = LogisticRegression::train(rows, yes, weights, options);
+  result.words_ = regression(trials, TrialKind::other_word, background ? 1 : 0);
+  result.sounds_ = regression(trials, TrialKind::sound, 0);
   return result;
 }
 
 float WordVerifier::evidence(const VectorD& features) const {
-  if (model_.dim() == 0) return static_cast<float>(features[0]);
-  return static_cast<float>(
-      model_.log_odds({features.data(), static_cast<std::size_t>(features.size())}));
+  if (words_.dim() == 0 && sounds_.dim() == 0) return static_cast<float>(features[0]);
+  if (words_.dim() == 0) return static_cast<float>(log_odds(sounds_, features));
+  if (sounds_.dim() == 0) return static_cast<float>(log_odds(words_, features));
+  // The odds against it add up.
+  const double a = log_odds(words_, features);
+  const double b = log_odds(sounds_, features);
+  return static_cast<float>(std::min(a, b) - std::log1p(std::exp(-std::abs(a - b))));
 }
 
-void WordVerifier::write(ModelFile& file, SequenceModelKind kind) const {
-  if (model_.dim() == 0) return;
-  file.set_text_list("verifier.features", feature_names(kind));
-  model_.write(file, kPrefix);
-}
-
-WordVerifier WordVerifier::read(const ModelFile& file, SequenceModelKind kind) {
-  WordVerifier result;
-  if (!file.has("verifier.features")) return result;
-  const std::vector<std::string> names = feature_names(kind);
-  result.model_ = LogisticRegression::read(file, kPrefix);
-  if (file.text_list("verifier.features") != names ||
-      static_cast<std::size_t>(result.model_.dim()) != names.size()) {
-    fail(ErrorKind::format,
-         file.name() + ": field 'verifier.features' does not fit the models or the weights");
+void WordVerifier::write(ModelFile& file, SequenceModelKind kind, bool background) const {
+  if (words_.dim() == 0 && sounds_.dim() == 0) return;
+  file.set_text_list(kFeatures, feature_names(kind, background));
+  for (const auto& [model, prefix] : {std::pair(&words_, kWords), std::pair(&sounds_, kSounds)}) {
+    if (model->dim() > 0) model->write(file, prefix);
   }
+}
+
+WordVerifier WordVerifier::read(const ModelFile& file, SequenceModelKind kind, bool background) {
+  WordVerifier result;
+  if (!file.has(kFeatures)) return result;
+  const std::vector<std::string> names = feature_names(kind, background);
+  if (file.text_list(kFeatures) != names)
+    fail(ErrorKind::format, file.name() + ": field '" + kFeatures + "' does not fit the models");
+  const auto read_model = [&](const char* prefix, std::size_t dim) {
+    if (!file.has(std::string(prefix) + "weights")) return LogisticRegression();
+    LogisticRegression model = LogisticRegression::read(file, prefix);
+    if (static_cast<std::size_t>(model.dim()) != dim) {
+      fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' has " +
+                                  std::to_string(model.dim()) + " values, expected " +
+                                  std::to_string(dim));
+    }
+    return model;
+  };
+  result.words_ = read_model(kWords, background ? 1 : names.size());
+  result.sounds_ = read_model(kSounds, names.size());
   return result;
 }
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.recognition.background import BackgroundWord, background_words
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
 
@@ -51,6 +52,7 @@ class WordRecognizer(Recognizer):
         *,
         sample_rate_hz: int | Sequence[int],
         groups: Sequence[str] | None = None,
+        background: Sequence[BackgroundWord] | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> WordRecognizer:
         """Train one model a label.
@@ -65,6 +67,10 @@ class WordRecognizer(Recognizer):
             One rate for all clips, or one for each.
         groups : sequence of str, optional
             The speaker of each clip; calibration then holds out whole speakers.
+        background : sequence of BackgroundWord, optional
+            Words outside the vocabulary, which the model "hmm" learns to tell `unknown` by. By default those that come
+            with the package (`background_words`); an empty sequence turns them off. They may sound like a word of the
+            vocabulary, but should not be one.
         progress : callable, optional
             Called with (done, total) training steps.
 
@@ -82,8 +88,17 @@ class WordRecognizer(Recognizer):
                 f"X, y, sample_rate_hz and groups differ in length: {len(X)}, {len(y)}, {len(rates)}, {len(speakers)}"
             )
         clips = _as_clips(X, "X")
+        others = background_words() if background is None else background
         self._native = self._native_class.train(
-            clips, rates, [str(label) for label in y], speakers, self.options, progress
+            clips,
+            rates,
+            [str(label) for label in y],
+            speakers,
+            self.options,
+            progress,
+            [_as_audio(word.samples, f"background[{i}].samples") for i, word in enumerate(others)],
+            [word.sample_rate_hz for word in others],
+            [word.label for word in others],
         )
         return self
 

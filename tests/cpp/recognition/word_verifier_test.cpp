@@ -71,9 +71,10 @@ std::vector<VerifierTrial> trials(double distance) {
 }
 
 TEST(WordVerifier, WeighsWhatTellsWordsFromTheRest) {
-  const WordVerifier verifier = WordVerifier::fit(trials(3));
-  EXPECT_GT(verifier.weights()[0], 1);
-  EXPECT_NEAR(verifier.weights()[1], 0, 0.3);
+  const WordVerifier verifier = WordVerifier::fit(trials(3), false);
+  EXPECT_GT(verifier.word_weights()[0], 1);
+  EXPECT_NEAR(verifier.word_weights()[1], 0, 0.3);
+  EXPECT_GT(verifier.sound_weights()[0], 1);
   VectorD features(2);
   features << 3, 0;
   EXPECT_GT(verifier.evidence(features), 0);
@@ -87,17 +88,18 @@ TEST(WordVerifier, TakesTheRatioWhereNothingWasLearned) {
   EXPECT_EQ(WordVerifier().evidence(features), 0.25F);
   std::vector<VerifierTrial> words_only = trials(3);
   for (VerifierTrial& t : words_only) t.kind = TrialKind::word;
-  EXPECT_EQ(WordVerifier::fit(words_only).weights().size(), 0);
-  EXPECT_EQ(WordVerifier::fit({}).evidence(features), 0.25F);
+  EXPECT_EQ(WordVerifier::fit(words_only, false).word_weights().size(), 0);
+  EXPECT_EQ(WordVerifier::fit({}, false).evidence(features), 0.25F);
 }
 
 TEST(WordVerifier, FilesBelongToAKindOfModels) {
-  const WordVerifier verifier = WordVerifier::fit(trials(3));
+  const WordVerifier verifier = WordVerifier::fit(trials(3), false);
   ModelFile file;
-  verifier.write(file, SequenceModelKind::ptbhmm);
-  EXPECT_EQ(WordVerifier::read(file, SequenceModelKind::ptbhmm).weights(), verifier.weights());
-  EXPECT_THROW(WordVerifier::read(file, SequenceModelKind::hmm), FormatError);
-  EXPECT_EQ(WordVerifier::read(ModelFile(), SequenceModelKind::hmm).weights().size(), 0);
+  verifier.write(file, SequenceModelKind::ptbhmm, false);
+  EXPECT_EQ(WordVerifier::read(file, SequenceModelKind::ptbhmm, false).word_weights(),
+            verifier.word_weights());
+  EXPECT_THROW(WordVerifier::read(file, SequenceModelKind::hmm, false), FormatError);
+  EXPECT_EQ(WordVerifier::read(ModelFile(), SequenceModelKind::hmm, true).word_weights().size(), 0);
 }
 
 // A model with two states, of frames near 0 and then near 5, and one of frames near 5 and then 0.
@@ -131,6 +133,7 @@ VectorD features_of(int first_frames, int second_frames, int left_out) {
   MatrixF spread(4, 1);
   spread << 0, 5, 1, 4;
   GaussianMixture::train(spread, garbage).write(file, "garbage.");
+  file.set_integer("num_background", 0);
   models.read(file, "", 2, 1);
   MatrixF frames(first_frames + second_frames, 1);
   frames.topRows(first_frames).setZero();
@@ -139,7 +142,7 @@ VectorD features_of(int first_frames, int second_frames, int left_out) {
 }
 
 TEST(WordVerifier, FeaturesAreThoseOfTheAlignment) {
-  EXPECT_EQ(WordVerifier::feature_names(SequenceModelKind::hmm),
+  EXPECT_EQ(WordVerifier::feature_names(SequenceModelKind::hmm, false),
             (std::vector<std::string>{"ratio", "rivals", "states", "length", "pace"}));
   const VectorD usual = features_of(4, 4, -1);
   const VectorD slow = features_of(40, 4, -1);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One sequence model a class over one stream of frames, and a garbage model of all classes: what
-// words and movements share.
+// One sequence model a class over one stream of frames; a garbage model of all classes: what words
+// and movements share; and, where there are any, models of background words: what else is said.
 #pragma once
 
 #include <cstdint>
@@ -69,11 +69,20 @@ class SequenceModels {
   /// These models without one class, of two or more.
   [[nodiscard]] SequenceModels without_class(int index) const;
 
+  /// Replaces the models of background words, which no score tells of but `background_scores`;
+  /// `per_word[w]` holds the frames of every sample of one. Throws InvalidArgument for ptbhmm.
+  void train_background(const std::vector<std::vector<MatrixF>>& per_word,
+                        const StopCheck& should_stop);
+
   /// Log score of every class (natural log; -1e30 for impossible), shape (num_classes,).
   [[nodiscard]] VectorF scores(ConstMatrixRefF frames) const;
 
   /// What the best class is compared with for rejection, in the unit of `scores`.
   [[nodiscard]] float garbage_score(ConstMatrixRefF frames) const;
+
+  /// Log score of every background word, shape (num_background,).
+  [[nodiscard]] VectorF background_scores(ConstMatrixRefF frames) const;
+  [[nodiscard]] int num_background() const { return static_cast<int>(background_.size()); }
 
   /// One a class; empty for ptbhmm.
   [[nodiscard]] const std::vector<GaussianMixtureHmm>& hmms() const { return hmms_; }
@@ -83,16 +92,19 @@ class SequenceModels {
   void read(const ModelFile& file, const std::string& prefix, int num_classes, int dim);
 
  private:
+  [[nodiscard]] std::vector<GaussianMixtureHmm> hmms_of(
+      const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop) const;
   void train_hmms(const std::vector<std::vector<MatrixF>>& per_label, const StopCheck& should_stop);
   [[nodiscard]] std::vector<SymbolSequence> quantised(const std::vector<MatrixF>& sequences) const;
   void train_ptbhmm(const std::vector<std::vector<MatrixF>>& per_label,
                     const StopCheck& should_stop);
 
   SequenceModelOptions options_;
-  std::vector<GaussianMixtureHmm> hmms_;     // one a class, model == hmm
-  std::vector<GaussianMixture> garbage_;     // one, model == hmm
-  std::vector<Codebook> codebook_;           // one, model == ptbhmm
-  std::vector<PossibilisticHmmSet> ptbhmm_;  // one, model == ptbhmm
+  std::vector<GaussianMixtureHmm> hmms_;        // one a class, model == hmm
+  std::vector<GaussianMixture> garbage_;        // one, model == hmm
+  std::vector<GaussianMixtureHmm> background_;  // one a background word, model == hmm
+  std::vector<Codebook> codebook_;              // one, model == ptbhmm
+  std::vector<PossibilisticHmmSet> ptbhmm_;     // one, model == ptbhmm
 };
 
 }  // namespace hri

@@ -59,13 +59,16 @@ struct WordSample {
 /// Immutable once made; const calls are safe from several threads.
 class WordRecognizer {
  public:
-  /// Trains one model a label. Throws InvalidArgument for NaN (with sample index), audio without a
+  /// Trains one model a label. `background` are words outside the vocabulary, of any speakers: they
+  /// are learned as what else may be said, for rejection alone (models of the kind hmm; ptbhmm
+  /// leaves them aside). Throws InvalidArgument for NaN (with sample index), audio without a
   /// word, a label with no usable sample; Interrupted when `should_stop` says so. Labels are kept
   /// in sorted order.
   static WordRecognizer train(const std::vector<WordSample>& samples,
                               const WordRecognizerOptions& options,
                               const TrainingProgress& progress = {},
-                              const StopCheck& should_stop = {});
+                              const StopCheck& should_stop = {},
+                              const std::vector<WordSample>& background = {});
 
   /// This recogniser with one word more, learned from few recordings (from one on, all of one
   /// label) and from what the words it has tell of words. Their models stay as they are, to the

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Words outside every vocabulary, as they come with the package and as users bring their own."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import hri
+from conftest import tone_word
+from hri.errors import FormatError, InvalidArgument
+from hri.recognition import background
+from hri.recognition.background import BackgroundWord, background_words, compress, expand
+
+
+def test_words_of_the_package_are_speech():
+    words = background_words()
+    labels = {word.label for word in words}
+    assert len(labels) == 48 and len(words) == 4 * len(labels)
+    for word in words:
+        assert word.samples.dtype == np.float32 and word.sample_rate_hz == 16000
+        assert 0.2 < len(word.samples) / 16000 < 2 and 0.1 < np.abs(word.samples).max() <= 1
+        first, last = hri._native.find_speech(word.samples, 16000)
+        assert last - first > 16000 // 10, word.label
+
+
+def test_compression_keeps_quiet_and_loud_samples_alike():
+    x = np.random.default_rng(0).uniform(-1, 1, 10000).astype(np.float32)
+    for level in (1.0, 0.01):
+        error = expand(compress(level * x)) - level * x
+        assert 10 * np.log10(np.mean((level * x) ** 2) / np.mean(error**2)) > (35 if level == 1 else 28)
+    assert expand(compress(np.array([-1.0, 1.0], np.float32))).tolist() == [-1.0, 1.0]
+
+
+def test_a_damaged_file_is_told(tmp_path, monkeypatch):
+    stored = {"codes": np.zeros(10, np.uint8), "ends": np.array([4, 9]), "labels": np.array(["a", "b"])}
+    for name, change in {
+        "short.npz": {},
+        "labels.npz": {"labels": np.array(["a"])},
+        "order.npz": {"ends": np.array([10, 9])},
+    }.items():
+        np.savez(tmp_path / name, **{**stored, **change})
+        monkeypatch.setattr(background, "files", lambda package: tmp_path)
+        monkeypatch.setattr(background, "_FILE", name)
+        background_words.cache_clear()
+        with pytest.raises(FormatError, match=name):
+            background_words()
+    (tmp_path / "text.npz").write_text("nothing")
+    monkeypatch.setattr(background, "_FILE", "text.npz")
+    with pytest.raises(FormatError, match=r"text\.npz"):
+        background_words()
+    monkeypatch.undo()
+    background_words.cache_clear()
+    assert background_words()
+
+
+def test_users_bring_their_own_or_none():
+    clips = [tone_word(base, slope, take) for base in (500.0, 550.0) for slope in (800.0, -350.0) for take in range(3)]
+    labels = 2 * (3 * ["rise"] + 3 * ["fall"])
+
+    def train(others):
+        return hri.WordRecognizer().fit(clips, labels, sample_rate_hz=16000, background=others)
+
+    own = [BackgroundWord(tone_word(700.0, 0.0, take), 16000, "flat") for take in range(3)]
+    none, shipped, mine = train(()), train(None), train(own)
+    evidence = [words.recognise(clips[0], 16000).evidence for words in (none, shipped, mine)]
+    assert len(set(evidence)) == 3
+    for words in (shipped, mine):
+        np.testing.assert_array_equal(words.scores(clips[0], 16000), none.scores(clips[0], 16000))
+    with pytest.raises(InvalidArgument, match=r"background\[0\].samples"):
+        train([BackgroundWord(np.zeros((2, 2), np.float32), 16000, "flat")])
