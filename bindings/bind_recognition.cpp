@@ -81,15 +81,12 @@ hri::WordRecognizer with_word(const hri::WordRecognizer& self, const std::string
   return self.with_word(words, python_wants_to_stop);
 }
 
-hri::WordRecognizer train_words(const std::vector<FloatArray>& samples,
-                                const std::vector<int>& sample_rates_hz,
-                                const std::vector<std::string>& labels,
-                                const std::vector<std::string>& groups,
-                                const hri::WordRecognizerOptions& options,
-                                const std::function<void(int, int)>& progress,
-                                const std::vector<FloatArray>& background,
-                                const std::vector<int>& background_rates_hz,
-                                const std::vector<std::string>& background_labels) {
+hri::WordRecognizer train_words(
+    const std::vector<FloatArray>& samples, const std::vector<int>& sample_rates_hz,
+    const std::vector<std::string>& labels, const std::vector<std::string>& groups,
+    const hri::WordRecognizerOptions& options, const std::function<void(int, int)>& progress,
+    const std::vector<FloatArray>& background, const std::vector<int>& background_rates_hz,
+    const std::vector<std::string>& background_labels) {
   hri::require(background.size() == background_rates_hz.size() &&
                    background.size() == background_labels.size(),
                "background, background_rates_hz and background_labels differ in length");
@@ -135,6 +132,7 @@ void bind_words(py::module_& m) {
       .field("activity", &hri::WordRecognizerOptions::activity)
       .field("models", &hri::WordRecognizerOptions::models)
       .field("trim", &hri::WordRecognizerOptions::trim)
+      .field("floor_db", &hri::WordRecognizerOptions::floor_db)
       .field("level_stream", &hri::WordRecognizerOptions::level_stream)
       .field("num_warps", &hri::WordRecognizerOptions::num_warps)
       .field("warp_step", &hri::WordRecognizerOptions::warp_step)
@@ -147,8 +145,7 @@ void bind_words(py::module_& m) {
                                   "Isolated words; hri.WordRecognizer wraps it.")
       .def_static("train", &train_words, py::arg("samples"), py::arg("sample_rates_hz"),
                   py::arg("labels"), py::arg("groups"), py::arg("options"),
-                  py::arg("progress") = nullptr,
-                  py::arg("background") = std::vector<FloatArray>{},
+                  py::arg("progress") = nullptr, py::arg("background") = std::vector<FloatArray>{},
                   py::arg("background_rates_hz") = std::vector<int>{},
                   py::arg("background_labels") = std::vector<std::string>{})
       .def("with_word", &with_word, py::arg("label"), py::arg("samples"),

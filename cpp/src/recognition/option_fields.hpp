@@ -83,6 +83,7 @@ void visit_word(V&& v, O& o) {
   v("models.max_iterations", o.models.max_iterations);
   v("models.seed", o.models.seed);
   v("trim", o.trim);
+  v("floor_db", o.floor_db);
   v("level_stream", o.level_stream);
   v("num_warps", o.num_warps);
   v("warp_step", o.warp_step);

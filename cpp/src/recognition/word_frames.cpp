@@ -31,6 +31,7 @@ void check(const WordRecognizerOptions& options) {
   require(options.noise_low_db >= -20 && options.noise_low_db <= options.noise_high_db &&
               options.noise_high_db <= 100,
           "noise_low_db and noise_high_db must lie in -20..100, in this order");
+  require(options.floor_db >= 20 && options.floor_db <= 120, "floor_db must lie in 20..120");
   require(options.warp_step >= 0 && options.warp_step <= 0.2, "warp_step must lie in 0..0.2");
 }
 

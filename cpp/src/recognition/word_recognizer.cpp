@@ -6,6 +6,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/signal/resample.hpp"
+#include "word_cut.hpp"
 
 namespace hri {
 
@@ -33,13 +34,16 @@ std::vector<float> WordRecognizer::locate(Span<const float> samples, int sample_
                        std::to_string(rate) + " Hz");
     }
   }
-  const SpeechBounds bounds = find_speech(word, rate, options_.activity);
-  if (!bounds.found) return {};
-  if (options_.trim) {
-    word.erase(word.begin() + static_cast<std::ptrdiff_t>(bounds.last), word.end());
-    word.erase(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(bounds.first));
+  if (!options_.trim) {
+    if (!find_speech(word, rate, options_.activity).found) word.clear();
+    return word;
   }
-  return word;
+  ActivityOptions bare = options_.activity;
+  bare.padding_ms = 0;
+  const SpeechBounds speech = find_speech(word, rate, bare);
+  if (!speech.found) return {};
+  const auto padding = static_cast<std::size_t>(options_.activity.padding_ms * rate / 1000);
+  return detail::cut_word(word, speech, padding, options_.floor_db);
 }
 
 std::vector<MatrixF> WordRecognizer::frames(Span<const float> word) const {

@@ -56,7 +56,8 @@ class WordTrainer {
         result_.streams_.size(), std::vector<std::vector<MatrixF>>(words.size()));
     for (std::size_t i = 0; i < background.size(); ++i) {
       poll(should_stop_);
-      const std::vector<float> word = frames_.locate(background[i], "background word " + std::to_string(i));
+      const std::vector<float> word =
+          frames_.locate(background[i], "background word " + std::to_string(i));
       if (word.empty()) continue;
       const auto index = static_cast<std::size_t>(label_index(words, background[i].label));
       // Copies as those of the vocabulary, so that none of the two fits noise or a voice better.

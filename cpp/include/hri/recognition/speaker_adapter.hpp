@@ -23,9 +23,8 @@ struct SpeakerAdapterOptions {
   double shared_frames = 400;  ///< imagined frames that hold back what changes all words, > 0
   double prior_frames = 5;     ///< frames a state that weigh as much as the training, > 0
   int num_iterations = 3;      ///< EM iterations of an update, 1..1000
-  double trusted_share =
-      1;                ///< share of the words not named, clearest first, to learn from, 0..1
-  int max_words = 300;  ///< words remembered; the oldest goes first, 1..100000
+  double trusted_share = 1;  ///< share of the words not named, clearest first, to learn from, 0..1
+  int max_words = 300;       ///< words remembered; the oldest goes first, 1..100000
 };
 
 /// Not safe from several threads at once. Invariant: recognizer() is the recogniser it was made

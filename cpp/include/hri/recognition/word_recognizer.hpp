@@ -31,7 +31,9 @@ struct WordRecognizerOptions {
       cepstra;  ///< sample_rate_hz 0 (default) takes the lowest training rate, at most 16000
   ActivityOptions activity;     ///< how the word is found in the clip
   SequenceModelOptions models;  ///< the models trained on each stream
-  bool trim = true;             ///< cut silence before and after the word
+  bool trim = true;      ///< cut the clip to the word and activity.padding_ms before and after it
+  double floor_db = 45;  ///< of a word that is cut: noise this far below its peak, under which
+                         ///< quiet rooms and digital silence are the same, 20..120
   bool level_stream = true;  ///< a second stream votes, whose cepstra are normalised in level only
   int num_warps = 3;         ///< training copies with warped frequency axis: 1 (none), 3 or 5
   int noise_copies = 2;  ///< training copies of every word with noise added, warped in turn, 0..10
