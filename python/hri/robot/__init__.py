@@ -15,8 +15,13 @@ from hri.robot.gestures import (
 from hri.robot.joints import HOAP2, Joint, JointTable
 from hri.robot.kinematics import link_poses
 from hri.robot.physics import Physics
+from hri.robot.plots import plot_trajectory
 from hri.robot.postures import POSTURES
 from hri.robot.pulse_csv import read_pulse_csv, write_pulse_csv
+from hri.robot.repair import Change, repair_pulse_csv
+from hri.robot.self_collision import Touch, self_collisions
+from hri.robot.shaping import concatenate, resample, slow_to_limits, smooth, spline
+from hri.robot.short_csv import read_short_csv, write_short_csv
 from hri.robot.simulation import BACKENDS, open_robot, render_video
 from hri.robot.state import Contact, Event, MotionLog, RobotState
 from hri.robot.trajectory import Finding, Trajectory, TrajectoryError
@@ -27,6 +32,7 @@ __all__ = [
     "GESTURE_JOINTS",
     "HOAP2",
     "POSTURES",
+    "Change",
     "Contact",
     "Event",
     "Finding",
@@ -37,19 +43,30 @@ __all__ = [
     "Physics",
     "Robot",
     "RobotState",
+    "Touch",
     "Trajectory",
     "TrajectoryError",
     "check_pulse_csv",
     "check_trajectory",
+    "concatenate",
     "gesture_trajectory",
     "link_poses",
     "load_gestures",
     "open_robot",
+    "plot_trajectory",
     "read_pulse_csv",
+    "read_short_csv",
     "render_video",
+    "repair_pulse_csv",
     "require_safe",
+    "resample",
     "rest_positions",
+    "self_collisions",
+    "slow_to_limits",
+    "smooth",
+    "spline",
     "urdf_text",
     "write_gallery",
     "write_pulse_csv",
+    "write_short_csv",
 ]

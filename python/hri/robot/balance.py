@@ -19,12 +19,12 @@ from hri.robot.kinematics import rotation_about
 
 Vector3 = NDArray[np.float64]
 
-_LEAN = 0.3  # rad of an ankle per rad of lean
+_LEAN = 0.5  # rad of an ankle per rad of lean
 _LEAN_RATE_S = 0.05  # rad of an ankle per rad/s of lean
 _HEADING = 0.8  # rad of the hip per rad off the course
 _HEADING_PER_S = 0.3  # and per rad s: what turns the robot at every step is not left over
 _MOST_ANKLE_RAD = 0.12
-_MOST_HIP_RAD = 0.25
+_MOST_HIP_RAD = 0.4
 _MOST_ANKLE_SPEED = 2.0  # rad/s
 _MOST_HIP_SPEED = 1.0
 _LEAST_LOAD_N = 5.0
@@ -98,9 +98,9 @@ class Balance:
         load = float(sum(loads_n))
         up = turn[2]
         wanted = np.zeros_like(self._most)
-        if load < _LEAST_LOAD_N or up[2] < _LEAST_UP:
+        if up[2] < _LEAST_UP_FOR_HEADING:
             self._course, self._sum_off = None, 0.0
-        else:
+        if load >= _LEAST_LOAD_N and up[2] >= _LEAST_UP:  # between two steps there may be no load for a moment
             shares = np.array(loads_n) / load
             soles, rates = zip(*(self._base_over(leg, speeds) for leg in self._legs), strict=True)
             lean = -np.cross(shares @ np.array(soles), up)

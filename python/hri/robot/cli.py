@@ -11,13 +11,17 @@ import click
 import numpy as np
 
 from hri.errors import InvalidArgument
-from hri.robot.checks import check_pulse_csv, require_safe
+from hri.robot.checks import check_pulse_csv, check_trajectory, require_safe
 from hri.robot.gallery import write_gallery
 from hri.robot.gestures import gesture_trajectory, load_gestures
 from hri.robot.imitation.cli import imitate
 from hri.robot.joints import HOAP2
+from hri.robot.plots import plot_trajectory
 from hri.robot.postures import POSTURES
 from hri.robot.pulse_csv import read_pulse_csv, write_pulse_csv
+from hri.robot.repair import repair_pulse_csv
+from hri.robot.shaping import slow_to_limits
+from hri.robot.short_csv import is_short_csv, read_short_csv, write_short_csv
 from hri.robot.simulation import BACKENDS, open_robot, render_video
 from hri.robot.state import MotionLog
 from hri.robot.trajectory import Trajectory
@@ -47,16 +51,28 @@ def robot() -> None:
 robot.add_command(imitate)
 
 
-@robot.command(short_help="Look over a pulse CSV file; exit code 3 for errors.")
+@robot.command(short_help="Look over a motion; exit code 3 for errors.")
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
-def check(file: Path) -> None:
-    """Look over a pulse CSV FILE; tab-separated findings go to stdout, exit code 3 for errors.
+@click.option(
+    "--repair", "repaired", type=click.Path(dir_okay=False, path_type=Path), help="Write a mended pulse CSV file."
+)
+def check(file: Path, repaired: Path | None) -> None:
+    """Look over FILE, pulses or the short form; tab-separated findings go to stdout, exit code 3 for errors.
+
+    With --repair, cells that hold no count are taken from their neighbours and counts beyond a limit become the limit
+    in a new file; every change is told on stderr, and the findings are those of the new file.
 
     \b
     Example:
       hri robot check motion.csv
+      hri robot check motion.csv --repair mended.csv
     """
-    findings = check_pulse_csv(file)
+    if repaired is not None:
+        for change in repair_pulse_csv(file, repaired):
+            where = f"row {change.row}, column {change.column} ({change.joint})"
+            click.echo(f"{where}: {change.before!r} is now {change.after}: {change.reason}", err=True)
+        file = repaired
+    findings = check_trajectory(read_short_csv(file)) if is_short_csv(file) else check_pulse_csv(file)
     for finding in findings:
         place = (finding.severity, str(finding.row), finding.column, finding.joint)
         click.echo("\t".join((*place, finding.message)))
@@ -64,6 +80,20 @@ def check(file: Path) -> None:
     click.echo(f"{file}: {errors} errors, {len(findings) - errors} warnings", err=True)
     if errors:
         sys.exit(EXIT_BAD_DATA)
+
+
+@robot.command(short_help="Draw every joint of a motion against its limits.")
+@click.argument("motion")
+@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+def plot(motion: str, out: Path) -> None:
+    """Draw every joint of MOTION over time, its limits dashed, as OUT (.png, .svg, .pdf).
+
+    \b
+    Example:
+      hri robot plot namaste namaste.png
+    """
+    plot_trajectory(_motion(motion), out)
+    click.echo(str(out))
 
 
 @robot.command(short_help="Carry out a motion; print where the joints end.")
@@ -138,18 +168,28 @@ def render(motion: str, out: Path, backend: str, fps: float, size: tuple[int, in
 @robot.command(short_help="Write a motion as pulses or degrees.")
 @click.argument("motion")
 @click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
-def convert(motion: str, out: Path) -> None:
+@click.option("--short", is_flag=True, help="A .csv in degrees with named columns instead of pulses.")
+@click.option("--slow", is_flag=True, help="Slow the whole motion down to the limits of speed and acceleration.")
+def convert(motion: str, out: Path, short: bool, slow: bool) -> None:
     """Write MOTION as OUT: pulses with .csv, else times and degrees, tab-separated (.tsv).
 
-    MOTION is the name of a gesture or a pulse CSV file.
+    MOTION is the name of a gesture, a pulse CSV file or one in the short form.
 
     \b
     Example:
       hri robot convert namaste namaste.csv
       hri robot convert motion.csv motion.tsv
+      hri robot convert wave wave.csv --short
     """
     trajectory = _motion(motion)
-    if out.suffix.lower() == ".csv":
+    if slow:
+        slower = slow_to_limits(trajectory)
+        if slower is not trajectory:
+            click.echo(f"slowed from {trajectory.duration_s:g} to {slower.duration_s:g} s", err=True)
+        trajectory = slower
+    if out.suffix.lower() == ".csv" and short:
+        write_short_csv(out, trajectory)
+    elif out.suffix.lower() == ".csv":
         left_out = write_pulse_csv(out, trajectory)
         if left_out:
             click.echo(f"left out, as the format has no count: {', '.join(left_out)}", err=True)
@@ -213,5 +253,5 @@ def _motion(motion: str) -> Trajectory:
     if motion in load_gestures():
         return gesture_trajectory(motion)
     if Path(motion).suffix.lower() == ".csv" or Path(motion).is_file():
-        return read_pulse_csv(motion)
+        return read_short_csv(motion) if is_short_csv(motion) else read_pulse_csv(motion)
     return gesture_trajectory(motion)  # its error names the gestures

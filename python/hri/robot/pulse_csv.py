@@ -35,6 +35,13 @@ def column_letter(index: int) -> str:
     return letters
 
 
+def parse_count(cell: str) -> int | str | None:
+    """The count in a cell, "R" for no command, None for anything else."""
+    if not _COUNT.fullmatch(cell):
+        return None
+    return "R" if "R" in cell else int(cell)
+
+
 def read_pulse_csv(path: str | PathLike[str], table: JointTable = HOAP2) -> Trajectory:
     """Read a motion; joints without any command are not in it.
 
