@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The example of a robot behind a UDP port, against a controller of our own on this machine."""
+
+import importlib.util
+import json
+import socket
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hri.errors import Error, IoError
+from hri.robot import HOAP2, MotionLog, Trajectory, TrajectoryError
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "udp_robot" / "udp_robot.py"
+
+
+@pytest.fixture
+def udp_robot():
+    spec = importlib.util.spec_from_file_location("udp_robot", EXAMPLE)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.UdpRobot
+
+
+class Controller(threading.Thread):
+    """Joints are where they are sent; remembers what was sent, and falls silent after some datagrams."""
+
+    def __init__(self, answers=10**9):
+        super().__init__(daemon=True)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.port = self.socket.getsockname()[1]
+        self.positions = dict(HOAP2.rest_rad)
+        self.received = []
+        self.answers = answers
+        self.start()
+
+    def run(self):
+        while True:
+            data, sender = self.socket.recvfrom(65536)
+            if not data.startswith(b"{"):
+                return
+            message = json.loads(data)
+            self.received.append(message["positions_rad"])
+            self.positions.update(message["positions_rad"])
+            if len(self.received) <= self.answers:
+                stale = {"step": message["step"] - 1, "positions_rad": {}}
+                fresh = {"step": message["step"], "positions_rad": self.positions}
+                for answer in (stale, fresh):
+                    self.socket.sendto(json.dumps(answer).encode(), sender)
+
+
+@pytest.fixture
+def controller():
+    made = Controller()
+    yield made
+    socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(b"end", ("127.0.0.1", made.port))
+    made.join(5.0)
+
+
+def test_a_motion_is_sent_from_where_the_robot_stands(udp_robot, controller):
+    nod = Trajectory(["head_joint_2"], 0.1, [[0.3], [0.2], [0.0]])
+    log = MotionLog(0.02)
+    with udp_robot("127.0.0.1", controller.port) as robot:
+        assert robot.joint_positions_rad() == HOAP2.rest_rad
+        assert robot.perform(nod, log=log)
+        with pytest.raises(Error, match="perform"):
+            robot.reset({"head_joint_2": 0.0})
+        with pytest.raises(TrajectoryError):
+            robot.perform(Trajectory(["head_joint_2"], 0.1, [[0.0], [2.0]]))
+    assert controller.received[0] == {}, "the first datagram commands nothing"
+    sent = np.array([positions["head_joint_2"] for positions in controller.received[1:]])
+    assert abs(sent[0]) < 0.01 and sent.max() == pytest.approx(0.3, abs=0.01) and sent[-1] == pytest.approx(0.0)
+    assert np.abs(np.diff(sent)).max() / 0.02 <= HOAP2.max_speed_rad_s
+    assert len(log.states) == len(sent)
+
+
+def test_a_silent_controller_is_an_error(udp_robot):
+    controller = Controller(answers=5)
+    with udp_robot("127.0.0.1", controller.port, timeout_s=0.1) as robot, pytest.raises(IoError, match="not answer"):
+        robot.hold(1.0)
+    assert len(controller.received) == 6
