@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from hri.datasets import Dataset
 from hri.errors import InvalidArgument
 from hri.media import read_audio, read_frames
-from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.recognition import BackgroundWord, GestureRecognizer, WordRecognizer
 
 Progress = Callable[[str, int, int], None]
 
@@ -18,6 +18,7 @@ def train(
     dataset: Dataset,
     recognizer: WordRecognizer | GestureRecognizer | None = None,
     *,
+    background: Sequence[BackgroundWord] | None = None,
     progress: Progress | None = None,
 ) -> WordRecognizer | GestureRecognizer:
     """Train on every recording of `dataset`.
@@ -28,6 +29,8 @@ def train(
         Its kind decides what is trained; its persons are held out in turn to calibrate confidences.
     recognizer : WordRecognizer or GestureRecognizer, optional
         One with options of its own, trained in place; default options otherwise.
+    background : sequence of BackgroundWord, optional
+        Of words: what else people say, as of `WordRecognizer.fit`.
     progress : callable, optional
         Called with (what is being done, steps done, steps in all).
 
@@ -50,11 +53,22 @@ def train(
         )
     report = progress or (lambda what, done, total: None)
     if isinstance(recognizer, WordRecognizer):
-        return _train_words(dataset, recognizer, report)
+        return _train_words(dataset, recognizer, background, report)
     return _train_gestures(dataset, recognizer, report)
 
 
-def _train_words(dataset: Dataset, recognizer: WordRecognizer, progress: Progress) -> WordRecognizer:
+def background_of(dataset: Dataset) -> list[BackgroundWord]:
+    """The recordings of a data set of speech as background words."""
+    words = []
+    for sample in dataset.samples:
+        audio = read_audio(sample.path)
+        words.append(BackgroundWord(audio.samples, audio.sample_rate_hz, sample.label))
+    return words
+
+
+def _train_words(
+    dataset: Dataset, recognizer: WordRecognizer, background: Sequence[BackgroundWord] | None, progress: Progress
+) -> WordRecognizer:
     clips, rates = [], []
     for done, sample in enumerate(dataset.samples):
         audio = read_audio(sample.path)
@@ -66,6 +80,7 @@ def _train_words(dataset: Dataset, recognizer: WordRecognizer, progress: Progres
         [s.label for s in dataset.samples],
         sample_rate_hz=rates,
         groups=[s.person for s in dataset.samples],
+        background=background,
         progress=lambda done, total: progress("training", done, total),
     )
 

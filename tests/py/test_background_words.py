@@ -7,10 +7,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import hri
 from conftest import tone_word
+from hri import _native
 from hri.errors import FormatError, InvalidArgument
-from hri.recognition import background
+from hri.recognition import WordRecognizer, background
 from hri.recognition.background import BackgroundWord, background_words, compress, expand
 
 
@@ -21,7 +21,7 @@ def test_words_of_the_package_are_speech():
     for word in words:
         assert word.samples.dtype == np.float32 and word.sample_rate_hz == 16000
         assert 0.2 < len(word.samples) / 16000 < 2 and 0.1 < np.abs(word.samples).max() <= 1
-        first, last = hri._native.find_speech(word.samples, 16000)
+        first, last = _native.find_speech(word.samples, 16000)
         assert last - first > 16000 // 10, word.label
 
 
@@ -60,7 +60,7 @@ def test_users_bring_their_own_or_none():
     labels = 2 * (3 * ["rise"] + 3 * ["fall"])
 
     def train(others):
-        return hri.WordRecognizer().fit(clips, labels, sample_rate_hz=16000, background=others)
+        return WordRecognizer().fit(clips, labels, sample_rate_hz=16000, background=others)
 
     own = [BackgroundWord(tone_word(700.0, 0.0, take), 16000, "flat") for take in range(3)]
     none, shipped, mine = train(()), train(None), train(own)
@@ -70,3 +70,25 @@ def test_users_bring_their_own_or_none():
         np.testing.assert_array_equal(words.scores(clips[0], 16000), none.scores(clips[0], 16000))
     with pytest.raises(InvalidArgument, match=r"background\[0\].samples"):
         train([BackgroundWord(np.zeros((2, 2), np.float32), 16000, "flat")])
+
+
+def test_the_command_takes_a_folder_of_other_words(hri, spoken, tmp_path):
+    folder = tmp_path / "others"
+    folder.mkdir()
+    for take in range(3):
+        for label, slope in (("flat", 0.0), ("steep", 1800.0)):
+            _native.write_wav_pcm16(str(folder / f"{label}_low_{take}.wav"), tone_word(700.0, slope, take), 16000)
+    evidence = {}
+    for name, options in {
+        "package": (),
+        "own": ("--background", str(folder)),
+        "none": ("--no-background",),
+    }.items():
+        model = tmp_path / f"{name}.hri"
+        assert hri("train", "speech", "--data", str(spoken), "--out", str(model), *options).code == 0
+        evidence[name] = WordRecognizer.load(model).recognise(tone_word(540.0, 800.0, 5), 16000).evidence
+    assert len(set(evidence.values())) == 3
+    both = hri("train", "speech", "--data", str(spoken), "--background", str(folder), "--no-background")
+    assert both.code == 2 and "exclude" in both.err
+    signs = hri("train", "gesture", "--data", str(spoken), "--no-background")
+    assert signs.code == 2 and "for speech" in signs.err

@@ -13,10 +13,10 @@
 
 namespace hri::detail {
 
-/// Samples [speech.first - padding, speech.last + padding) of `audio`, silence where it has none,
-/// with white noise `floor_db` below the loudest sample of the speech. The noise is the same every
-/// time.
-std::vector<float> cut_word(Span<const float> audio, const SpeechBounds& speech,
-                            std::size_t padding, double floor_db);
+/// The word in `audio` and activity.padding_ms before and after it, silence where the recording has
+/// none, with white noise `floor_db` below the loudest sample of the word; empty where nobody
+/// speaks. The noise is the same every time.
+std::vector<float> cut_word(Span<const float> audio, int sample_rate_hz,
+                            const ActivityOptions& activity, double floor_db);
 
 }  // namespace hri::detail

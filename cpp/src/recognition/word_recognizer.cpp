@@ -38,12 +38,7 @@ std::vector<float> WordRecognizer::locate(Span<const float> samples, int sample_
     if (!find_speech(word, rate, options_.activity).found) word.clear();
     return word;
   }
-  ActivityOptions bare = options_.activity;
-  bare.padding_ms = 0;
-  const SpeechBounds speech = find_speech(word, rate, bare);
-  if (!speech.found) return {};
-  const auto padding = static_cast<std::size_t>(options_.activity.padding_ms * rate / 1000);
-  return detail::cut_word(word, speech, padding, options_.floor_db);
+  return detail::cut_word(word, rate, options_.activity, options_.floor_db);
 }
 
 std::vector<MatrixF> WordRecognizer::frames(Span<const float> word) const {

@@ -18,6 +18,8 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
+from hri.recognition import BackgroundWord
+from hri.training import background_of
 from hri.training import train as train_recognizer
 
 
@@ -27,6 +29,14 @@ from hri.training import train as train_recognizer
 @pattern_option
 @click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
 @options_option
+@click.option(
+    "--background",
+    type=click.Path(exists=True, file_okay=False),
+    metavar="DIR",
+    help="Of words: a folder of recordings of other words, to tell them from the vocabulary, in place of the synthetic "
+    "ones that come with hri.",
+)
+@click.option("--no-background", is_flag=True, help="Of words: without any; training and recognition are faster.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train(
@@ -35,6 +45,8 @@ def train(
     pattern: str | None,
     out: str | None,
     options: tuple[str, ...],
+    background: str | None,
+    no_background: bool,
     seed: int,
     json_path: str | None,
 ) -> None:
@@ -46,12 +58,19 @@ def train(
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
       hri train speech --data spoken/ --out digits.hri --option models.model=ptbhmm
     """
+    if mode != "speech" and (background or no_background):
+        raise click.UsageError("--background and --no-background are for speech")
+    if background and no_background:
+        raise click.UsageError("--background and --no-background exclude each other")
     make = recognizer_factory(mode, options, seed)
+    others: list[BackgroundWord] | None = [] if no_background else None
+    if background is not None:
+        others = background_of(load_dataset(background, mode, None))
     dataset = load_dataset(data, mode, pattern)
     path = default_model(mode) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
-        recognizer = train_recognizer(dataset, make(), progress=progress)
+        recognizer = train_recognizer(dataset, make(), background=others, progress=progress)
     recognizer.save(path)
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
