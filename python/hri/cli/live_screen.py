@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What commands that listen have in common: microphones by name, the meter, one line of JSON an event."""
+"""What commands that listen or watch have in common: devices by name, the meter, one line of JSON an event."""
 
 from __future__ import annotations
 
@@ -9,18 +9,24 @@ from collections.abc import Callable, Iterable
 
 import click
 
-from hri.live import Event, MicrophoneSource
+from hri.live import CameraSource, Event, MicrophoneSource
 
 device_option = click.option("--device", help="Number or part of the name of the microphone.")
 events_json_option = click.option("--json", "as_json", is_flag=True, help="Write JSON lines also on a terminal.")
 stall_option = click.option(
-    "--stall", "stall_s", type=float, default=2.0, show_default=True, help="Seconds without sound to end at."
+    "--stall", "stall_s", type=float, default=2.0, show_default=True, help="Seconds without sound or picture to end at."
 )
+camera_option = click.option("--device", default="0", show_default=True, help="Number or address of the camera.")
 
 
 def microphone(device: str | None, stall_s: float) -> MicrophoneSource:
     """The microphone of that number or name, the default one for None."""
     return MicrophoneSource(int(device) if device is not None and device.isdigit() else device, stall_s=stall_s)
+
+
+def camera(device: str, stall_s: float) -> CameraSource:
+    """The camera of that number or address."""
+    return CameraSource(int(device) if device.isdigit() else device, stall_s=stall_s)
 
 
 def tell(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str]) -> None:
@@ -37,8 +43,8 @@ def tell(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str
     with Live(refresh_per_second=20) as screen:
         for event in events:
             line = describe(event)
-            if event.event == "level":
-                screen.update(Text(meter(event)))
+            if event.event in ("level", "hand", "partial"):
+                screen.update(Text(meter(event) if event.event == "level" else hand_line(event)))
             elif line:
                 screen.console.print(Text(line))
 
@@ -51,12 +57,31 @@ def meter(event: Event, width: int = 40) -> str:
     return f"{'█' * filled}{'·' * (width - filled)} {level_db:6.1f} dB  {state}  {event.time:7.1f} s"
 
 
+def hand_line(event: Event) -> str:
+    """Where the hand is, or what a movement looks like so far."""
+    if event.decision is not None:
+        best = ", ".join(f"{entry.label} {entry.probability:.2f}" for entry in event.decision.nbest[:3])
+        return f"so far  {best or event.decision.status}  {event.time:7.1f} s"
+    fields = event.fields
+    if fields["x"] is None:
+        return f"no hand  {event.time:7.1f} s"
+    state = "moving" if fields["in_movement"] else "      "
+    return (
+        f"hand at {fields['x']:.2f}, {fields['y']:.2f}  quality {fields['quality']:.2f}  {state}  {event.time:7.1f} s"
+    )
+
+
 def describe_stream(event: Event) -> str:
     """One line for people about the stream itself; "" for what they need not read."""
     if event.event == "listening":
         return f"listening to {event.fields['source']} at {event.fields['sample_rate_hz']} Hz; Ctrl-C ends"
+    if event.event == "watching":
+        return f"watching {event.fields['source']}; Ctrl-C ends"
+    if event.event == "reconnected":
+        return f"{event.time:8.2f} s  the camera is back"
     if event.event == "overflow":
-        return f"{event.time:8.2f} s  {event.fields['lost_samples']} samples lost: this computer is too busy"
+        lost = next(f"{count} {name.removeprefix('lost_')}" for name, count in event.fields.items())
+        return f"{event.time:8.2f} s  {lost} lost: this computer is too busy"
     if event.event == "stall":
         return f"{event.time:8.2f} s  {event.fields['message']}"
     return ""

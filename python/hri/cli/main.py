@@ -30,6 +30,7 @@ COMMANDS = {
     "remove-word": ("hri.cli.vocabulary:remove_word", "Let a recogniser forget a word."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
+    "watch": ("hri.cli.watch:watch", "Recognise gestures as they are shown, to a camera or in a video."),
     "adapt": ("hri.cli.adapt:adapt", "Let a model of words get used to a speaker or a room."),
     "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on people who were not trained on."),
     "record": ("hri.cli.record:record", "Make a data set of your own words, from a microphone."),

@@ -1,24 +1,38 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Words as they are spoken: microphones and recordings as streams, a listener that answers to every utterance, and a
-recorder that keeps it."""
+"""Words as they are spoken and signs as they are shown: microphones, cameras and recordings as streams, a listener and
+a watcher that answer to every utterance and gesture, and recorders that keep them."""
 
+from hri.live.camera import CameraSource, FrameQueue
 from hri.live.events import Event
+from hri.live.frames import ClipSource, FrameSource, VideoSource
 from hri.live.listener import Listener
 from hri.live.microphone import MicrophoneSource, list_microphones
+from hri.live.movements import MovementDetector, MovementOptions
 from hri.live.recorder import WordRecorder
 from hri.live.ring import SampleRing
 from hri.live.sources import ArraySource, AudioSource, FileSource, Stalled
+from hri.live.watch_picture import draw_sight
+from hri.live.watcher import Watcher
 
 __all__ = [
     "ArraySource",
     "AudioSource",
+    "CameraSource",
+    "ClipSource",
     "Event",
     "FileSource",
+    "FrameQueue",
+    "FrameSource",
     "Listener",
     "MicrophoneSource",
+    "MovementDetector",
+    "MovementOptions",
     "SampleRing",
     "Stalled",
+    "VideoSource",
+    "Watcher",
     "WordRecorder",
+    "draw_sight",
     "list_microphones",
 ]

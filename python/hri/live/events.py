@@ -15,6 +15,13 @@ LEVEL = "level"
 SPEECH_START = "speech_start"
 SPEECH_END = "speech_end"
 SPEECH_DROPPED = "speech_dropped"
+WATCHING = "watching"
+HAND = "hand"
+MOVEMENT_START = "movement_start"
+MOVEMENT_END = "movement_end"
+MOVEMENT_DROPPED = "movement_dropped"
+PARTIAL = "partial"
+RECONNECTED = "reconnected"
 DECISION = "decision"
 OVERFLOW = "overflow"
 STALL = "stall"
@@ -26,29 +33,33 @@ ENDED = "ended"
 
 @dataclass(frozen=True)
 class Event:
-    """One thing that happened in a stream of sound.
+    """One thing that happened in a stream of sound or pictures.
 
     Attributes
     ----------
     time : float
-        Seconds of sound since the stream began, by counting samples.
+        Seconds since the stream began: of sound by counting samples, of pictures by their time stamps.
     event : str
         "listening", "level", "speech_start", "speech_end", "speech_dropped" (what seemed to be speech was none),
-        "decision", "overflow", "stall" or "ended"; while recording, "prompt", "recorded" and "refused" too.
+        "decision", "overflow", "stall" or "ended"; while recording, "prompt", "recorded" and "refused" too. Of
+        pictures "watching", "hand", "movement_start", "movement_end", "movement_dropped", "partial" and "reconnected"
+        take the place of those of speech.
     fields : dict
-        What belongs to this kind of event, see docs/listening.md.
+        What belongs to this kind of event, see docs/listening.md and docs/watching.md.
     decision : Decision or None
-        Of a "decision".
+        Of a "decision" or a "partial".
+    mode : "speech" or "gesture"
     """
 
     time: float
     event: str
     fields: dict[str, Any] = field(default_factory=dict)
     decision: Decision | None = None
+    mode: str = "speech"
 
     def to_dict(self) -> dict[str, Any]:
         """As plain values that can be written as JSON."""
-        result: dict[str, Any] = plain({"time": round(self.time, 4), "event": self.event, "mode": "speech"})
+        result: dict[str, Any] = plain({"time": round(self.time, 4), "event": self.event, "mode": self.mode})
         return result | dict(plain(self.fields))
 
     def to_json(self) -> str:

@@ -7,12 +7,13 @@ from hri.media.video import (
     IMAGE_SUFFIXES,
     VIDEO_SUFFIXES,
     Clip,
+    frame_rate,
     iterate_frames,
     read_frames,
     read_image,
     write_image,
-    write_video,
 )
+from hri.media.video_writer import VideoWriter, write_video
 
 __all__ = [
     "AUDIO_SUFFIXES",
@@ -20,6 +21,8 @@ __all__ = [
     "VIDEO_SUFFIXES",
     "Audio",
     "Clip",
+    "VideoWriter",
+    "frame_rate",
     "iterate_frames",
     "read_audio",
     "read_frames",

@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures and video clips as BGR frames with their times."""
+"""Pictures and video clips as BGR frames with their times; pictures are written too."""
 
 from __future__ import annotations
 
 import os
-import sys
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
 from os import PathLike
@@ -22,15 +20,6 @@ from hri.media.optional import import_opencv
 
 IMAGE_SUFFIXES = (".jpg", ".jpeg", ".png", ".bmp")
 VIDEO_SUFFIXES = (".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm")
-_CODECS = {
-    ".mp4": "mp4v",
-    ".m4v": "mp4v",
-    ".mov": "mp4v",
-    ".avi": "MJPG",
-    ".mkv": "MJPG",
-    ".webm": "VP80",
-}
-
 Frame = NDArray[np.uint8]
 
 
@@ -173,7 +162,7 @@ def write_image(path: str | PathLike[str], image: Frame, quality: int = 92) -> N
     ok, data = cv2.imencode(path.suffix.lower(), image, [cv2.IMWRITE_JPEG_QUALITY, quality])
     if not ok:
         raise InvalidArgument(f"{path}: an array of shape {image.shape} is no picture")
-    part = _temporary_beside(path)
+    part = temporary_beside(path)
     try:
         part.write_bytes(data.tobytes())
         part.replace(path)
@@ -183,88 +172,27 @@ def write_image(path: str | PathLike[str], image: Frame, quality: int = 92) -> N
         part.unlink(missing_ok=True)
 
 
-def write_video(path: str | PathLike[str], frames: Iterable[Frame], fps: float) -> None:
-    """Write BGR frames as a video; the file appears whole or not at all.
-
-    Parameters
-    ----------
-    path : path-like
-        The suffix chooses the format: .mp4, .m4v, .mov, .avi, .mkv, or .webm (which browsers play).
-    frames : iterable of ndarray of uint8, shape (height, width, 3)
-        At least one, all of one size; may be a generator.
-    fps : float
-        Frames a second, above 0.
+def frame_rate(path: str | PathLike[str]) -> float:
+    """Frames a second as the file's header says; 25 where it says nothing sensible.
 
     Raises
     ------
-    InvalidArgument
-        For no frames, a frame of another size or type (the message gives its index), or a bad rate
-        or suffix.
-    IoError
-        When the file cannot be written.
+    FormatError
+        For a file that is no video.
     """
-    cv2 = import_opencv("to write video")
-    path = Path(path)
-    codec = _CODECS.get(path.suffix.lower())
-    if codec is None:
-        raise InvalidArgument(f"{path}: suffix must be one of {', '.join(_CODECS)}")
-    if not 0.0 < fps < np.inf:
-        raise InvalidArgument(f"fps is {fps}, must be above 0 and finite")
-    part = _temporary_beside(path)
-    writer = None
-    shape: tuple[int, ...] = ()
+    cv2 = import_opencv("to read video")
+    capture = cv2.VideoCapture(str(path))
     try:
-        for index, frame in enumerate(frames):
-            if writer is None:
-                shape = frame.shape
-                _require_frame(frame, shape, index)
-                size = (shape[1], shape[0])
-                fourcc = cv2.VideoWriter_fourcc(*codec)
-                with _silent_stderr(path.suffix.lower() == ".webm"):
-                    writer = cv2.VideoWriter(str(part), fourcc, fps, size)
-                if not writer.isOpened():
-                    raise IoError(f"{path}: this OpenCV cannot write {path.suffix} video here")
-            _require_frame(frame, shape, index)
-            writer.write(np.ascontiguousarray(frame))
-        if writer is None:
-            raise InvalidArgument(f"{path}: no frames to write")
-        writer.release()
-        part.replace(path)
-    except OSError as error:
-        raise error if isinstance(error, IoError) else IoError(f"{path}: {error}") from error
+        if not capture.isOpened():
+            raise FormatError(f"{path}: not a video that OpenCV reads")
+        rate = float(capture.get(cv2.CAP_PROP_FPS))
     finally:
-        if writer is not None:
-            writer.release()
-        part.unlink(missing_ok=True)
+        capture.release()
+    return rate if 1.0 <= rate <= 1000.0 else 25.0
 
 
-def _require_frame(frame: Frame, shape: tuple[int, ...], index: int) -> None:
-    if frame.dtype != np.uint8 or frame.ndim != 3 or frame.shape[2] != 3 or frame.shape != shape:
-        raise InvalidArgument(
-            f"frame {index} has shape {frame.shape} and type {frame.dtype}, "
-            f"expected uint8 of shape (height, width, 3), all alike; frame 0 has {shape}"
-        )
-
-
-@contextmanager
-def _silent_stderr(wanted: bool) -> Iterator[None]:
-    """OpenCV prints a remark about every WebM file, whatever its log level, that means nothing."""
-    if not wanted:
-        yield
-        return
-    sys.stderr.flush()
-    kept = os.dup(2)
-    sink = os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(sink, 2)
-        yield
-    finally:
-        os.dup2(kept, 2)
-        os.close(kept)
-        os.close(sink)
-
-
-def _temporary_beside(path: Path) -> Path:
+def temporary_beside(path: Path) -> Path:
+    """Where a file is written before it takes its name. Raises IoError when there is no such folder."""
     if not path.parent.is_dir():
         raise IoError(f"{path}: the folder {path.parent} does not exist")
     return path.with_name(f".{path.stem}.{os.getpid()}{path.suffix.lower()}")

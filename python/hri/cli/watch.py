@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri watch``."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from functools import partial
+from pathlib import Path
+
+import click
+
+from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, stall_option, tell
+from hri.cli.output import OutputFile
+from hri.cli.recognizers import kept_model
+from hri.cli.sight_screen import SightScreen
+from hri.errors import InvalidArgument
+from hri.live import Event, FrameSource, VideoSource, Watcher
+from hri.media import VIDEO_SUFFIXES
+from hri.recognition import GestureRecognizer
+
+
+@click.command()
+@click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False))
+@click.option(
+    "--model",
+    "model_path",
+    type=click.Path(exists=True, dir_okay=False),
+    help="A model from 'hri train gesture'; the default is the one kept per user.",
+)
+@camera_option
+@events_json_option
+@click.option("--paced", is_flag=True, help="Play videos as fast as they were filmed.")
+@stall_option
+@click.option(
+    "--reconnect",
+    "reconnect_s",
+    type=float,
+    default=30.0,
+    show_default=True,
+    help="Seconds for which a camera that stalled is opened again; 0 ends at once.",
+)
+@click.option(
+    "--video",
+    "video_path",
+    type=OutputFile(VIDEO_SUFFIXES),
+    metavar="FILE",
+    help="Film what is seen: picture, mask, outline, track and n-best.",
+)
+@click.option("--show", is_flag=True, help="Show the same in a window.")
+@click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to show.")
+def watch(
+    files: tuple[str, ...],
+    model_path: str | None,
+    device: str,
+    as_json: bool,
+    paced: bool,
+    stall_s: float,
+    reconnect_s: float,
+    video_path: str | None,
+    show: bool,
+    top: int,
+) -> None:
+    """Recognise gestures as they are shown, from a camera or from videos played as a stream.
+
+    On a terminal: where the hand is, movements, and what was understood. Otherwise, or with --json, one JSON object a
+    line.
+
+    \b
+    Examples:
+      hri watch
+      hri watch --model signs.hri --json session.mp4
+      hri watch --device 1 --video seen.mp4
+    """
+    if video_path is not None and len(files) > 1:
+        raise InvalidArgument("--video films one stream: give one file, or a camera")
+    path = Path(model_path) if model_path else kept_model("gesture")
+    signs = GestureRecognizer.load(path)
+    model_id = f"{path.name}:{hashlib.sha256(path.read_bytes()).hexdigest()[:12]}"
+    sources: Iterable[FrameSource] = (VideoSource(file, paced) for file in files)
+    if not files:
+        sources = (camera(device, stall_s) for _ in range(1))
+    for source in sources:
+        with SightScreen(video_path, source.fps, show, top) as screen:
+            watcher = Watcher(signs, reconnect_s=reconnect_s, model_id=model_id, on_sight=screen.draw)
+            tell(watcher.watch(source), as_json, partial(describe, top=top))
+
+
+def describe(event: Event, top: int) -> str:
+    """One line for people; "" for what they need not read."""
+    if event.event != "decision" or event.decision is None:
+        return describe_stream(event)
+    best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in event.decision.nbest[:top])
+    place = f"{event.fields['first_s']:8.2f} - {event.fields['last_s']:.2f} s"
+    return f"{place}  {event.decision.label}  ({best or event.decision.status})"

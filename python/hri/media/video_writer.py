@@ -1,0 +1,167 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Video files, frame by frame or at once."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hri.errors import InvalidArgument, IoError
+from hri.media.optional import import_opencv
+from hri.media.video import Frame, temporary_beside
+
+_CODECS = {
+    ".mp4": "mp4v",
+    ".m4v": "mp4v",
+    ".mov": "mp4v",
+    ".avi": "MJPG",
+    ".mkv": "MJPG",
+    ".webm": "VP80",
+}
+
+
+class VideoWriter:
+    """A video that is written frame by frame; the file appears when it is closed, whole.
+
+    As a context manager it is closed at the end, and discarded after an exception.
+
+    Parameters
+    ----------
+    path : path-like
+        The suffix chooses the format: .mp4, .m4v, .mov, .avi, .mkv, or .webm (which browsers play).
+    fps : float
+        Frames a second, above 0.
+
+    Raises
+    ------
+    InvalidArgument
+        For a bad rate or suffix.
+    IoError
+        When there is no such folder.
+    """
+
+    def __init__(self, path: str | PathLike[str], fps: float) -> None:
+        self._cv2 = import_opencv("to write video")
+        self.path = Path(path)
+        self._fps = fps
+        if self.path.suffix.lower() not in _CODECS:
+            raise InvalidArgument(f"{self.path}: suffix must be one of {', '.join(_CODECS)}")
+        if not 0.0 < fps < np.inf:
+            raise InvalidArgument(f"fps is {fps}, must be above 0 and finite")
+        self._part = temporary_beside(self.path)
+        self._writer: Any = None
+        self._shape: tuple[int, ...] = ()
+        self.num_frames = 0
+
+    def __enter__(self) -> VideoWriter:
+        return self
+
+    def __exit__(self, kind: object, *_: object) -> None:
+        if kind is None:
+            self.close()
+        else:
+            self.discard()
+
+    def write(self, frame: Frame) -> None:
+        """Add a BGR frame of uint8, shape (height, width, 3).
+
+        Raises
+        ------
+        InvalidArgument
+            For a frame of another size or type than the first (the message gives its index).
+        IoError
+            When this OpenCV cannot write the format.
+        """
+        if self._writer is None:
+            self._shape = frame.shape
+            _require_frame(frame, self._shape, self.num_frames)
+            self._writer = self._open()
+        _require_frame(frame, self._shape, self.num_frames)
+        self._writer.write(np.ascontiguousarray(frame))
+        self.num_frames += 1
+
+    def close(self) -> None:
+        """Finish the file. Raises InvalidArgument when no frame was written, IoError when it cannot be kept."""
+        if self._writer is None:
+            raise InvalidArgument(f"{self.path}: no frames to write")
+        try:
+            self._writer.release()
+            self._part.replace(self.path)
+        except OSError as error:
+            raise IoError(f"{self.path}: {error}") from error
+        finally:
+            self.discard()
+
+    def discard(self) -> None:
+        """Leave nothing behind; after `close` this does nothing."""
+        if self._writer is not None:
+            self._writer.release()
+        self._part.unlink(missing_ok=True)
+
+    def _open(self) -> Any:
+        suffix = self.path.suffix.lower()
+        fourcc = self._cv2.VideoWriter_fourcc(*_CODECS[suffix])
+        with _silent_stderr(suffix == ".webm"):
+            writer = self._cv2.VideoWriter(str(self._part), fourcc, self._fps, (self._shape[1], self._shape[0]))
+        if not writer.isOpened():
+            raise IoError(f"{self.path}: this OpenCV cannot write {self.path.suffix} video here")
+        return writer
+
+
+def write_video(path: str | PathLike[str], frames: Iterable[Frame], fps: float) -> None:
+    """Write BGR frames as a video; the file appears whole or not at all.
+
+    Parameters
+    ----------
+    path : path-like
+        The suffix chooses the format, see `VideoWriter`.
+    frames : iterable of ndarray of uint8, shape (height, width, 3)
+        At least one, all of one size; may be a generator.
+    fps : float
+        Frames a second, above 0.
+
+    Raises
+    ------
+    InvalidArgument
+        For no frames, a frame of another size or type (the message gives its index), or a bad rate
+        or suffix.
+    IoError
+        When the file cannot be written.
+    """
+    with VideoWriter(path, fps) as writer:
+        for frame in frames:
+            writer.write(frame)
+
+
+def _require_frame(frame: Frame, shape: tuple[int, ...], index: int) -> None:
+    if frame.dtype != np.uint8 or frame.ndim != 3 or frame.shape[2] != 3 or frame.shape != shape:
+        raise InvalidArgument(
+            f"frame {index} has shape {frame.shape} and type {frame.dtype}, "
+            f"expected uint8 of shape (height, width, 3), all alike; frame 0 has {shape}"
+        )
+
+
+@contextmanager
+def _silent_stderr(wanted: bool) -> Iterator[None]:
+    """OpenCV prints a remark about every WebM file, whatever its log level, that means nothing."""
+    if not wanted:
+        yield
+        return
+    sys.stderr.flush()
+    kept = os.dup(2)
+    sink = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(sink, 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(sink)

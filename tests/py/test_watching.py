@@ -1,0 +1,297 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Live watching: a stream gives the decisions of its gestures, failing cameras say so and come back."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import hri
+from drawn_hands import FPS, picture, shown, stills
+from hri.errors import FormatError, InvalidArgument, IoError
+from hri.live import (
+    CameraSource,
+    ClipSource,
+    FrameQueue,
+    MovementDetector,
+    MovementOptions,
+    Stalled,
+    VideoSource,
+    Watcher,
+    draw_sight,
+)
+from hri.media import read_frames, write_video
+
+cv2 = pytest.importorskip("cv2")
+pytest.importorskip("hri._native_vision")
+
+
+@pytest.fixture(scope="module")
+def signs() -> hri.GestureRecognizer:
+    rows = [(stills(sign, seed), sign, f"p{seed % 3}") for seed in range(6) for sign in ("flat", "tall")]
+    x, y, persons = map(list, zip(*rows, strict=True))
+    return hri.GestureRecognizer(model="svm", false_reject_rate=0.0).fit(x, y, groups=persons)
+
+
+def test_a_stream_gives_the_decisions_of_its_signs(signs: hri.GestureRecognizer) -> None:
+    labels = ["tall", "flat", "flat", "tall"]
+    events = list(Watcher(signs, locale="en", model_id="hands").watch(ClipSource(shown(labels), FPS)))
+    kinds = [e.event for e in events if e.event not in ("hand", "partial")]
+    once = ["movement_start", "movement_end", "decision", "movement_start", "movement_dropped"]
+    assert kinds == ["watching", *(once * 4), "ended"]
+    decided = [e for e in events if e.event == "decision"]
+    assert [e.decision.nbest[0].label for e in decided if e.decision] == labels
+    period_s = len(shown(["flat"])) / FPS
+    for number, event in enumerate(decided):
+        # It rests 17 frames after the wall was last alone; that is seen compare_s and rest_s later.
+        assert event.time - number * period_s == pytest.approx(17 / FPS + 0.7, abs=0.2)
+        assert event.fields["compute_ms"] > 0 and event.fields["model"] == "hands" and event.mode == "gesture"
+    partial = [e for e in events if e.event == "partial"]
+    assert partial and all(e.fields["final"] == "" and e.fields["nbest"] for e in partial)
+    assert [e.time for e in events] == sorted(e.time for e in events)
+
+
+def test_a_video_gives_what_its_frames_give_and_every_event_is_a_line(
+    signs: hri.GestureRecognizer, tmp_path: Path
+) -> None:
+    write_video(tmp_path / "session.avi", shown(["tall", "flat"]), FPS)
+    events = list(Watcher(signs).watch(VideoSource(tmp_path / "session.avi")))
+    rows = [json.loads(e.to_json()) for e in events]
+    assert all("\n" not in e.to_json() for e in events) and {row["mode"] for row in rows} == {"gesture"}
+    decided = [row for row in rows if row["event"] == "decision"]
+    assert [row["nbest"][0]["label"] for row in decided] == ["tall", "flat"]
+    for row in decided:
+        assert {"final", "incremental", "confidence", "locale", "nbest", "rejected", "model"} <= set(row)
+        assert row["final"] == ("" if row["rejected"] else row["nbest"][0]["label"])
+    (tmp_path / "broken.avi").write_bytes(b"no video")
+    with pytest.raises(FormatError, match=r"broken\.avi"):
+        VideoSource(tmp_path / "broken.avi")
+
+
+def test_a_wall_gives_no_decision_and_a_hand_the_recogniser_does_not_see_no_input(
+    signs: hri.GestureRecognizer,
+) -> None:
+    rng = np.random.default_rng(0)
+    wall = [picture("flat", 3.0, rng) for _ in range(30)]
+    assert {e.event for e in Watcher(signs).watch(ClipSource(wall, FPS))} == {"watching", "hand", "ended"}
+
+    class Blind(hri.GestureRecognizer):
+        def features(self, clip: Any) -> Any:
+            return super().features([wall[0] for _ in clip])
+
+    blind = Blind._wrap(signs._native)
+    decided = [e for e in Watcher(blind).watch(ClipSource(shown(["flat"]), FPS)) if e.event == "decision"]
+    assert [(e.fields["status"], e.fields["final"], e.fields["rejected"]) for e in decided] == [("no_input", "", True)]
+
+
+def test_movements_by_their_masks() -> None:
+    def mask(at: int) -> np.ndarray:
+        result = np.zeros((40, 40), np.uint8)
+        if at >= 0:
+            result[10:20, at : at + 10] = 255
+        return result
+
+    def told(places: list[int], options: MovementOptions | None = None) -> list[tuple[str, str]]:
+        detector = MovementDetector(options)
+        found = [detector.push(mask(at), index / 20) for index, at in enumerate(places)]
+        return [(m.kind.value, m.reason) for m in [*found, detector.finish()] if m is not None]
+
+    moving = [0, 5, 10, 15, 20, 15, 10, 5]
+    gone = [-1] * 10
+    start, rested, left = ("start", ""), ("end", "rested"), ("end", "left")
+    assert told([*moving * 2, *gone]) == [start, left]
+    assert told([*moving[:4], *gone]) == [start, ("dropped", "left")]
+    assert told([*moving, *[5] * 20, *gone]) == [start, rested]
+    assert told([*moving, *[5] * 20, *moving, *gone]) == [start, rested, start, ("dropped", "left")]
+    assert told([*moving, *[5] * 20, *moving * 4, *gone]) == [start, rested, start, left]
+    assert told(moving * 2) == [start, left]
+    assert told([*moving * 8], MovementOptions(max_movement_s=1.0)) == [start, ("end", "cut")]
+    assert told([0, -1, 5, -1, 10, -1]) == []
+    for fields in ({"rest_s": 0.0}, {"still_change": 1.0}, {"max_movement_s": 0.1}):
+        with pytest.raises(InvalidArgument, match=next(iter(fields))):
+            MovementOptions(**fields)
+
+
+def test_time_that_runs_backwards_is_refused(signs: hri.GestureRecognizer) -> None:
+    class Backwards(ClipSource):
+        def read(self) -> Any:
+            timed = super().read()
+            return None if timed is None else (timed[0], -timed[1])
+
+    with pytest.raises(FormatError, match="time runs backwards"):
+        list(Watcher(signs).watch(Backwards(shown(["flat"]), FPS)))
+
+
+def test_a_full_queue_loses_the_oldest_and_counts() -> None:
+    queue = FrameQueue(3)
+    for number in range(5):
+        queue.put(np.zeros((2, 2, 3), np.uint8), float(number))
+    assert queue.num_lost == 2
+    assert [timed[1] for timed in iter(lambda: queue.get(0.01), None)] == [2.0, 3.0, 4.0]
+    with pytest.raises(InvalidArgument, match="capacity"):
+        FrameQueue(0)
+
+
+class FakeCapture:
+    """A camera that gives noise, and fails after `plugged` pictures as the test says."""
+
+    plugged = 10**9
+    fault = "none"
+    opens = 0
+    openable = True
+    gate = threading.Event()
+
+    def __init__(self, device: Any) -> None:
+        type(self).opens += 1
+        self.count = 0
+        self.rng = np.random.default_rng(type(self).opens)
+
+    def isOpened(self) -> bool:
+        return self.openable
+
+    def get(self, _: int) -> float:
+        return 20.0
+
+    def read(self) -> tuple[bool, Any]:
+        time.sleep(0.005)
+        self.count += 1
+        broken = self.opens == 1 and self.count > self.plugged
+        if broken and self.fault == "blocks":
+            self.gate.wait(20)
+        if broken and self.fault == "fails":
+            return False, None
+        if not (broken and self.fault == "repeats"):
+            self.frame = self.rng.integers(0, 255, (64, 64, 3), np.uint8)
+        return True, self.frame.copy()
+
+    def release(self) -> None:
+        pass
+
+
+@pytest.fixture
+def camera(monkeypatch: pytest.MonkeyPatch) -> type[FakeCapture]:
+    fake = type("Fake", (FakeCapture,), {"gate": threading.Event()})
+    monkeypatch.setattr(cv2, "VideoCapture", fake)
+    return fake
+
+
+@pytest.mark.parametrize(
+    ("fault", "message"), [("blocks", "no picture"), ("fails", "no picture"), ("repeats", "the same picture")]
+)
+def test_an_unplugged_camera_is_told_and_comes_back(
+    camera: type[FakeCapture], signs: hri.GestureRecognizer, fault: str, message: str
+) -> None:
+    camera.plugged, camera.fault = 5, fault
+    source = CameraSource(0, stall_s=0.3)
+    begun = time.monotonic()
+    told: list[str] = []
+    for event in Watcher(signs, reconnect_s=20).watch(source):
+        told.append(event.event)
+        if event.event == "stall":
+            assert message in event.fields["message"]
+        if "reconnected" in told and event.event == "hand":
+            break
+    assert [kind for kind in told if kind in ("watching", "stall", "reconnected")] == [
+        "watching",
+        "stall",
+        "reconnected",
+    ]
+    camera.gate.set()
+    source.close()
+    assert source.read() is None and camera.opens == 2 and time.monotonic() - begun < 20
+
+
+def test_a_camera_that_stays_away_ends_the_watch(camera: type[FakeCapture], signs: hri.GestureRecognizer) -> None:
+    camera.plugged, camera.fault = 5, "fails"
+    told: list[str] = []
+    with pytest.raises(Stalled, match=r"camera 0: no picture for 0\.2 s"):
+        told.extend(e.event for e in Watcher(signs).watch(CameraSource(0, stall_s=0.2)))
+    camera.openable = False
+    with pytest.raises(IoError, match="give a video instead"):
+        CameraSource(3)
+
+
+def test_a_movement_that_a_stall_interrupts_is_dropped(signs: hri.GestureRecognizer) -> None:
+    class Interrupted(ClipSource):
+        def read(self) -> Any:
+            timed = super().read()
+            if timed is None:
+                raise Stalled("unplugged")
+            return timed
+
+    told: list[Any] = []
+    with pytest.raises(Stalled):
+        told.extend(iter(Watcher(signs).watch(Interrupted(shown(["flat"])[:16], FPS)).__next__, None))
+    assert [e.event for e in told if e.event not in ("hand", "partial")] == [
+        "watching",
+        "movement_start",
+        "movement_dropped",
+        "stall",
+    ]
+
+
+def test_a_slow_reader_is_told_what_was_lost(camera: type[FakeCapture], signs: hri.GestureRecognizer) -> None:
+    source = CameraSource(0, buffer_frames=2)
+    time.sleep(0.2)
+    events = Watcher(signs).watch(source)
+    lost = next(e for e in events if e.event == "overflow")
+    assert lost.fields["lost_frames"] > 0
+    events.close()  # type: ignore[attr-defined]
+
+
+def test_what_is_seen_is_drawn(signs: hri.GestureRecognizer) -> None:
+    drawn = []
+    frames = shown(["tall"])
+    watcher = Watcher(signs, on_sight=lambda sight, decision: drawn.append((draw_sight(sight, decision), decision)))
+    list(watcher.watch(ClipSource(frames, FPS)))
+    pictures = [one for one, _ in drawn if one is not None]
+    assert len(pictures) == len(frames)
+    assert drawn[0][1] is None and drawn[-1][1].nbest[0].label == "tall"
+    middle = pictures[26][85, 90].astype(int) - frames[26][85, 90]  # the hand is tinted green
+    assert middle[2] < -20 and middle[1] > 0
+    np.testing.assert_array_equal(pictures[0][120:], frames[0][120:])  # where there is neither hand nor text
+
+
+def test_the_command_watches_and_films(
+    hri: Any, signs: Any, tmp_path: Path, camera: type[FakeCapture], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.undo()  # a real decoder for the files
+    signs.save(tmp_path / "signs.hri")
+    write_video(tmp_path / "session.avi", shown(["flat"]), FPS)
+    command = ("watch", "--model", tmp_path / "signs.hri")
+    done = hri(*command, tmp_path / "session.avi", "--video", tmp_path / "seen.mp4")
+    assert done.code == 0, done.err
+    rows = [json.loads(line) for line in done.out.splitlines()]
+    decided = [row for row in rows if row["event"] == "decision"]
+    assert [row["nbest"][0]["label"] for row in decided] == ["flat"]
+    assert decided[0]["model"].startswith("signs.hri:")
+    assert len(read_frames(tmp_path / "seen.mp4").frames) == len(shown(["flat"]))
+    monkeypatch.setattr(cv2, "VideoCapture", camera)
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    assert "--video FILE films the same" in hri(*command, "--show").err
+    camera.openable = False
+    missing = hri(*command, "--device", "7")
+    assert missing.code == 3 and "camera 7 cannot be opened" in missing.err
+
+
+def test_the_screen_tells_hands_signs_and_trouble(signs: hri.GestureRecognizer) -> None:
+    from hri.cli.live_screen import hand_line
+    from hri.cli.watch import describe
+    from hri.live import Event
+
+    events = list(Watcher(signs).watch(ClipSource(shown(["tall"]), FPS)))
+    lines = [line for line in (describe(event, 2) for event in events) if line]
+    assert lines[0].startswith("watching frames") and "tall" in lines[1] and len(lines) == 2
+    told = [hand_line(event) for event in events if event.event in ("hand", "partial")]
+    assert any(line.startswith("no hand") for line in told) and any("moving" in line for line in told)
+    assert any(line.startswith("so far  ") for line in told)
+    assert "12 frames lost" in describe(Event(1.0, "overflow", {"lost_frames": 12}), 1)
+    assert "back" in describe(Event(1.0, "reconnected"), 1)
