@@ -208,16 +208,22 @@ py::array_t<float> gesture_features(const std::vector<ByteArray>& greys,
 }
 
 void bind_gestures(py::module_& m) {
+  py::enum_<hri::GestureSource>(m, "GestureSource")
+      .value("silhouettes", hri::GestureSource::silhouettes)
+      .value("landmarks", hri::GestureSource::landmarks);
   py::enum_<hri::GestureModel>(m, "GestureModel")
       .value("svm", hri::GestureModel::svm)
       .value("bayes", hri::GestureModel::bayes)
       .value("knn", hri::GestureModel::knn)
       .value("hmm", hri::GestureModel::hmm)
-      .value("ptbhmm", hri::GestureModel::ptbhmm);
+      .value("ptbhmm", hri::GestureModel::ptbhmm)
+      .value("path", hri::GestureModel::path)
+      .value("automatic", hri::GestureModel::automatic);
 
   py::class_<hri::GestureRecognizerOptions> options(m, "GestureRecognizerOptions",
                                                     "Options of GestureRecognizer.");
   hri_bind::options(options)
+      .field("source", &hri::GestureRecognizerOptions::source)
       .field("features", &hri::GestureRecognizerOptions::features)
       .field("model", &hri::GestureRecognizerOptions::model)
       .field("svm_cost", &hri::GestureRecognizerOptions::svm_cost)

@@ -5,7 +5,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <string>
+#include <vector>
+
 #include "arrays.hpp"
+#include "hri/vision/hand_colours.hpp"
 #include "hri/vision/silhouette.hpp"
 #include "options.hpp"
 
@@ -45,4 +49,40 @@ void bind_vision(py::module_& m) {
             return self.extract(picture);
           },
           py::arg("bgr"), "bgr: uint8, shape (height, width, 3).");
+
+  py::class_<hri::HandColourOptions> colour_options(
+      m, "HandColourOptions", "How the colours of hand and background are learned from a clip.");
+  hri_bind::options(colour_options)
+      .field("max_side_px", &hri::HandColourOptions::max_side_px)
+      .field("fit_side_px", &hri::HandColourOptions::fit_side_px)
+      .field("num_fit_frames", &hri::HandColourOptions::num_fit_frames)
+      .field("num_rounds", &hri::HandColourOptions::num_rounds)
+      .field("min_area", &hri::HandColourOptions::min_area)
+      .field("max_area", &hri::HandColourOptions::max_area)
+      .field("min_quality", &hri::HandColourOptions::min_quality);
+  py::class_<hri::HandColours>(m, "HandColours",
+                               "Finds the hand by the colours it has in its own clip.")
+      .def_static(
+          "learn",
+          [](const std::vector<hri_bind::ByteArray>& frames,
+             const hri::HandColourOptions& colours) {
+            std::vector<hri::ImageView> views;
+            views.reserve(frames.size());
+            for (std::size_t i = 0; i < frames.size(); ++i)
+              views.push_back(
+                  hri_bind::as_image(frames[i], 3, ("frame " + std::to_string(i)).c_str()));
+            const py::gil_scoped_release release;
+            return hri::HandColours::learn(views, colours);
+          },
+          py::arg("frames"), py::arg("options") = hri::HandColourOptions{},
+          "frames: uint8, each of shape (height, width, 3), BGR. None where no hand stands out.")
+      .def(
+          "extract",
+          [](const hri::HandColours& self, const hri_bind::ByteArray& bgr) {
+            const auto picture = hri_bind::as_image(bgr, 3, "picture");
+            const py::gil_scoped_release release;
+            return self.extract(picture);
+          },
+          py::arg("bgr"), "bgr: uint8, shape (height, width, 3).")
+      .def_property_readonly("quality", &hri::HandColours::quality);
 }

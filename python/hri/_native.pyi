@@ -53,6 +53,7 @@ __all__: list[str] = [
     "GestureModel",
     "GestureRecognizer",
     "GestureRecognizerOptions",
+    "GestureSource",
     "HandFeatureComputer",
     "HandFeatureOptions",
     "Interrupted",
@@ -3102,6 +3103,39 @@ class WordRecognizer:
     @property
     def options(self) -> WordRecognizerOptions: ...
 
+class GestureSource:
+    """
+    Members:
+
+      silhouettes
+
+      landmarks
+    """
+
+    __members__: typing.ClassVar[dict[str, GestureSource]]
+    landmarks: typing.ClassVar[GestureSource]
+    silhouettes: typing.ClassVar[GestureSource]
+    @typing.overload
+    def __eq__(self, other: GestureSource) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: GestureSource) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class GestureModel:
     """
     Members:
@@ -3115,12 +3149,18 @@ class GestureModel:
       hmm
 
       ptbhmm
+
+      path
+
+      automatic
     """
 
     __members__: typing.ClassVar[dict[str, GestureModel]]
+    automatic: typing.ClassVar[GestureModel]
     bayes: typing.ClassVar[GestureModel]
     hmm: typing.ClassVar[GestureModel]
     knn: typing.ClassVar[GestureModel]
+    path: typing.ClassVar[GestureModel]
     ptbhmm: typing.ClassVar[GestureModel]
     svm: typing.ClassVar[GestureModel]
     @typing.overload
@@ -3152,6 +3192,7 @@ class GestureRecognizerOptions:
     __hash__: typing.ClassVar[None] = None
     features: HandFeatureOptions
     model: GestureModel
+    source: GestureSource
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __init__(self, **kwargs) -> None: ...
     def __repr__(self) -> str: ...

@@ -6,11 +6,19 @@ libhri's vision part: silhouettes of hands in colour pictures.
 """
 
 from __future__ import annotations
+import collections.abc
 import numpy
 import numpy.typing
 import typing
 
-__all__: list[str] = ["Silhouette", "SilhouetteExtractor", "SilhouetteMethod", "SilhouetteOptions"]
+__all__: list[str] = [
+    "HandColourOptions",
+    "HandColours",
+    "Silhouette",
+    "SilhouetteExtractor",
+    "SilhouetteMethod",
+    "SilhouetteOptions",
+]
 
 class SilhouetteMethod:
     """
@@ -109,3 +117,61 @@ class SilhouetteExtractor:
         """
         bgr: uint8, shape (height, width, 3).
         """
+
+class HandColourOptions:
+    """
+    How the colours of hand and background are learned from a clip.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def fit_side_px(self) -> int: ...
+    @fit_side_px.setter
+    def fit_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_area(self) -> float: ...
+    @max_area.setter
+    def max_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_side_px(self) -> int: ...
+    @max_side_px.setter
+    def max_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def min_area(self) -> float: ...
+    @min_area.setter
+    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_quality(self) -> float: ...
+    @min_quality.setter
+    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def num_fit_frames(self) -> int: ...
+    @num_fit_frames.setter
+    def num_fit_frames(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_rounds(self) -> int: ...
+    @num_rounds.setter
+    def num_rounds(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class HandColours:
+    """
+    Finds the hand by the colours it has in its own clip.
+    """
+    @staticmethod
+    def learn(
+        frames: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
+        options: HandColourOptions = ...,
+    ) -> HandColours | None:
+        """
+        frames: uint8, each of shape (height, width, 3), BGR. None where no hand stands out.
+        """
+    def extract(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> Silhouette:
+        """
+        bgr: uint8, shape (height, width, 3).
+        """
+    @property
+    def quality(self) -> float: ...

@@ -20,6 +20,7 @@ ModelFile GestureRecognizer::to_model_file() const {
   file.set_kind(kKind);
   file.set_text_list("labels", labels_);
   detail::visit_gesture(detail::FieldWriter{file}, options_);
+  detail::FieldWriter{file}("source", options_.source);
   calibration_.write(file);
   scorer_->write(file);
   return file;
@@ -36,6 +37,12 @@ GestureRecognizer GestureRecognizer::from_model_file(const ModelFile& file) {
 GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
   GestureRecognizer result;
   detail::visit_gesture(detail::FieldReader{file}, result.options_);
+  // Files from before there was a choice are of silhouettes.
+  if (file.has("source")) detail::FieldReader{file}("source", result.options_.source);
+  if (result.options_.source > GestureSource::landmarks)
+    fail(ErrorKind::format, file.name() + ": field 'source' is out of range");
+  if (result.options_.model > GestureModel::path)
+    fail(ErrorKind::format, file.name() + ": field 'model' is out of range");
   static_cast<void>(HandFeatureComputer(result.options_.features));  // refuses options out of range
   result.labels_ = sorted_labels(file.text_list("labels"));
   if (result.labels_ != file.text_list("labels"))

@@ -70,6 +70,16 @@ std::vector<std::vector<MatrixF>> by_class(const std::vector<GestureSample>& sam
   return result;
 }
 
+// What GestureModel::automatic becomes.
+GestureModel model_for(const std::vector<GestureSample>& samples) {
+  constexpr Eigen::Index kShortestMovement = 8;
+  const auto movements = std::count_if(samples.begin(), samples.end(), [](const GestureSample& s) {
+    return s.features.rows() >= kShortestMovement;
+  });
+  const bool most = 2 * movements > static_cast<std::ptrdiff_t>(samples.size());
+  return most ? GestureModel::path : GestureModel::svm;
+}
+
 bool any_empty(const std::vector<std::vector<MatrixF>>& per_class) {
   return std::any_of(per_class.begin(), per_class.end(),
                      [](const auto& list) { return list.empty(); });
@@ -100,6 +110,7 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
                                            const StopCheck& should_stop) {
   GestureRecognizer result;
   result.options_ = options;
+  if (options.model == GestureModel::automatic) result.options_.model = model_for(samples);
   result.labels_ = labels_of(samples);
   std::vector<int> classes;
   std::vector<std::string> groups;
@@ -121,7 +132,7 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
     if (progress) progress(fold, num_folds + 1);
     const auto rest = by_class(samples, classes, folds, result.labels_.size(), fold);
     if (any_empty(rest)) continue;  // without every class there is nothing to calibrate on
-    const auto scorer = train_gesture_scorer(rest, options, should_stop);
+    const auto scorer = train_gesture_scorer(rest, result.options_, should_stop);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (folds[i] != fold || samples[i].features.rows() == 0) continue;
       const VectorF scores = scorer->scores(samples[i].features);
@@ -129,7 +140,7 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
     }
   }
   if (progress) progress(num_folds, num_folds + 1);
-  result.scorer_ = train_gesture_scorer(all, options, should_stop);
+  result.scorer_ = train_gesture_scorer(all, result.options_, should_stop);
   result.calibration_ = Calibration::fit(held_out, options.false_reject_rate);
   if (progress) progress(num_folds + 1, num_folds + 1);
   return result;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How GestureRecognizer scores the feature rows of one gesture. Two families: frames that vote
-// (still signs) and sequence models (movements).
+// How GestureRecognizer scores the feature rows of one gesture. Three families: frames that vote
+// (still signs), sequence models and resampled paths (movements).
 #pragma once
 
 #include <memory>
@@ -29,7 +29,8 @@ class GestureScorer {
   virtual void write(ModelFile& file) const = 0;
 };
 
-/// `per_class[c]` holds the rows of every gesture of class c; no class is empty.
+/// `options.model` must not be automatic. `per_class[c]` holds the rows of every gesture of class
+/// c; no class is empty.
 std::shared_ptr<const GestureScorer> train_gesture_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop);
@@ -51,6 +52,10 @@ std::shared_ptr<const GestureScorer> train_movement_scorer(
 std::shared_ptr<const GestureScorer> read_movement_scorer(const ModelFile& file,
                                                           const GestureRecognizerOptions& options,
                                                           int num_classes);
+std::shared_ptr<const GestureScorer> train_path_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int num_classes);
 
 /// Columns of GestureRecognizer::features behind the hand's shape: centre x, centre y, log area.
 constexpr int kNumTrackColumns = 3;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hri/core/error.hpp"
+#include "pictures.hpp"
 
 namespace hri {
 namespace {
@@ -163,12 +164,6 @@ int hand_label(const cv::Mat& labels, const cv::Mat& stats, const SilhouetteOpti
   return candidates.front();
 }
 
-GreyImage copy_of(const cv::Mat& m) {
-  GreyImage image(m.cols, m.rows);
-  m.copyTo(cv::Mat(m.rows, m.cols, CV_8U, image.pixels.data()));
-  return image;
-}
-
 }  // namespace
 
 SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options) : options_(options) {
@@ -187,24 +182,14 @@ SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options) : opt
 Silhouette SilhouetteExtractor::extract(ImageView bgr) const {
   require(!bgr.empty() && bgr.channels == 3,
           "picture must have three channels and at least one pixel");
-  // OpenCV has no read-only header; the pixels are only read.
-  const cv::Mat source(bgr.height_px, bgr.width_px, CV_8UC3, const_cast<std::uint8_t*>(bgr.data),
-                       static_cast<std::size_t>(bgr.stride_bytes));
-  cv::Mat small;
-  const double scale =
-      options_.max_side_px / static_cast<double>(std::max(bgr.width_px, bgr.height_px));
-  if (scale < 1) {
-    cv::resize(source, small, cv::Size(), scale, scale, cv::INTER_AREA);
-  } else {
-    small = source;
-  }
+  const cv::Mat small = detail::scaled_down(detail::as_mat(bgr), options_.max_side_px);
   cv::Mat grey;
   cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
   cv::Mat smooth;
   cv::GaussianBlur(small, smooth, cv::Size(options_.blur_px, options_.blur_px), 0);
 
   Silhouette result;
-  result.grey = copy_of(grey);
+  result.grey = detail::copy_of(grey);
   result.mask = GreyImage(grey.cols, grey.rows);
   Split found = split(smooth, options_.method);
   if (found.contrast < options_.min_contrast) return result;
@@ -217,7 +202,7 @@ Silhouette SilhouetteExtractor::extract(ImageView bgr) const {
   cv::connectedComponentsWithStats(found.mask, labels, stats, centroids);
   const int hand = hand_label(labels, stats, options_);
   if (hand == 0) return result;
-  result.mask = copy_of(labels == hand);
+  result.mask = detail::copy_of(labels == hand);
   result.quality = std::clamp(found.quality, 0.0, 1.0);
   return result;
 }

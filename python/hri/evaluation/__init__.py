@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Honest accuracy: people are never shared between training and test."""
 
-from hri.evaluation.conditions import Condition, FrontEnd, expose
+from hri.evaluation.conditions import Condition, FrontEnd, expose, gamma, tint
 from hri.evaluation.evaluate import cross_validate, evaluate_split
 from hri.evaluation.noise import AddNoise, active_power, make_noise, mix_noise
 from hri.evaluation.result import EvaluationResult, FoldResult, Trial
@@ -21,6 +21,8 @@ __all__ = [
     "evaluate_conditions",
     "evaluate_split",
     "expose",
+    "gamma",
     "make_noise",
     "mix_noise",
+    "tint",
 ]

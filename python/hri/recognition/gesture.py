@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hri import _native
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
+from hri.recognition.hands import find_landmarks, find_silhouettes, landmark_features
 
 Frame = NDArray[np.uint8]
 Clip = Sequence[Frame]
@@ -25,10 +26,12 @@ class GestureRecognizer(Recognizer):
     Parameters
     ----------
     silhouette : hri._native_vision.SilhouetteOptions, optional
-        How the hand is found in the picture.
+        How the hand is found in every picture by itself. Without it, a clip of 8 frames or more tells the colours of
+        its hand and its background; see `hri.recognition.hands.find_silhouettes`.
     **options
-        Fields of ``hri.GestureRecognizerOptions``, for example ``model="svm"`` for still signs or ``model="hmm"``
-        for movements. Defaults are the C++ library's.
+        Fields of ``hri.GestureRecognizerOptions``, for example ``model="svm"`` for still signs, ``model="path"`` for
+        movements (the training clips decide by default), or ``source="landmarks"`` for the joints of the hand, as
+        MediaPipe finds them, instead of silhouettes. Defaults are the C++ library's.
 
     Attributes
     ----------
@@ -51,12 +54,11 @@ class GestureRecognizer(Recognizer):
         ----------
         clip : sequence of uint8 arrays, shape (height, width, 3), BGR
         """
-        from hri import _native_vision
-
-        if self._silhouette is None:
-            self._silhouette = _native_vision.SilhouetteOptions()
-        extractor = _native_vision.SilhouetteExtractor(self._silhouette)
-        shapes = [extractor.extract(np.ascontiguousarray(frame)) for frame in clip]
+        frames = list(clip)
+        if self.options.source == _native.GestureSource.landmarks:
+            size = (frames[0].shape[1], frames[0].shape[0]) if frames else (1, 1)
+            return landmark_features(find_landmarks(frames), size)
+        shapes = find_silhouettes(frames, self._silhouette)
         return np.asarray(
             _native.GestureRecognizer.features(
                 [s.grey for s in shapes], [s.mask for s in shapes], self.options.features

@@ -23,6 +23,7 @@ from hri.studies import (
     training_size,
     unknown_words,
     wavelets,
+    webcam,
 )
 from hri.studies.pictures import draw
 from hri.studies.registry import Layout, Study, find_data, run_study
@@ -42,6 +43,7 @@ _MODULES = (
     wavelets,
     denoise,
     unknown_words,
+    webcam,
     signs,
     fusion,
     imitation,

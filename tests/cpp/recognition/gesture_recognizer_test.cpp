@@ -56,7 +56,8 @@ class GestureRecognizerOf : public ::testing::TestWithParam<GestureModel> {
     return o;
   }
   static bool of_movements() {
-    return GetParam() == GestureModel::hmm || GetParam() == GestureModel::ptbhmm;
+    return GetParam() == GestureModel::hmm || GetParam() == GestureModel::ptbhmm ||
+           GetParam() == GestureModel::path;
   }
   static std::vector<GestureSample> samples() {
     if (!of_movements()) return stills();
@@ -110,14 +111,14 @@ TEST_P(GestureRecognizerOf, RefusesAModelThatWasDamaged) {
 }
 
 std::string model_name(const ::testing::TestParamInfo<GestureModel>& test) {
-  constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm"};
+  constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm", "path"};
   return kNames[static_cast<std::size_t>(test.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, GestureRecognizerOf,
                          ::testing::Values(GestureModel::svm, GestureModel::bayes,
                                            GestureModel::knn, GestureModel::hmm,
-                                           GestureModel::ptbhmm),
+                                           GestureModel::ptbhmm, GestureModel::path),
                          model_name);
 
 TEST(GestureRecognizer, SeesNothingWithoutAHand) {
@@ -126,6 +127,46 @@ TEST(GestureRecognizer, SeesNothingWithoutAHand) {
   EXPECT_EQ(recognizer.recognise({{empty.view(), empty.view()}}).status, DecisionStatus::no_input);
   EXPECT_EQ(recognizer.recognise({}).status, DecisionStatus::no_input);
   EXPECT_THROW((void)recognizer.scores(MatrixF(0, 10)), InvalidArgument);
+}
+
+// A hand that goes right at another rate of frames, and stands still for a while on its way.
+TEST(GestureRecognizer, FollowsAPathAtAnotherTempo) {
+  GestureRecognizerOptions options;
+  options.model = GestureModel::path;
+  std::vector<GestureSample> samples;
+  for (int take = 0; take < 6; ++take) {
+    samples.push_back(movement(true, take));
+    samples.push_back(movement(false, take));
+  }
+  const GestureRecognizer recognizer = GestureRecognizer::train(samples, options);
+  for (const bool right : {true, false}) {
+    const MatrixF rows = movement(right, 2).features;
+    MatrixF slow(3 * rows.rows(), rows.cols());
+    for (Eigen::Index t = 0; t < slow.rows(); ++t) {
+      const Eigen::Index with_pause =
+          std::min<Eigen::Index>(t, 5) + std::max<Eigen::Index>(t - 25, 0);
+      slow.row(t) = rows.row(std::min(with_pause, rows.rows() - 1));
+    }
+    EXPECT_EQ(recognizer.recognise_features(slow).nbest[0].label, right ? "right" : "down");
+    EXPECT_EQ(recognizer.recognise_features(rows.topRows(1)).nbest.size(), 2U);
+  }
+  EXPECT_THROW((void)recognizer.scores(MatrixF::Zero(3, 9)), InvalidArgument);
+}
+
+TEST(GestureRecognizer, ChoosesItsModelByTheLengthOfTheClips) {
+  EXPECT_EQ(GestureRecognizer::train(stills(), {}).options().model, GestureModel::svm);
+  const std::vector<GestureSample> movements{movement(true, 0), movement(true, 1),
+                                             movement(false, 0), movement(false, 1)};
+  EXPECT_EQ(GestureRecognizer::train(movements, {}).options().model, GestureModel::path);
+}
+
+TEST(GestureRecognizer, RemembersWhatItsFeaturesAreMadeFrom) {
+  GestureRecognizerOptions options;
+  options.source = GestureSource::landmarks;
+  ModelFile file = GestureRecognizer::train(stills(), options).to_model_file();
+  EXPECT_EQ(GestureRecognizer::from_model_file(file).options().source, GestureSource::landmarks);
+  file.set_integer("source", 2);
+  EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
 }
 
 TEST(GestureRecognizer, RefusesBadSets) {

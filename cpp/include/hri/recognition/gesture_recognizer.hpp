@@ -23,17 +23,29 @@
 namespace hri {
 
 enum class GestureModel : std::uint8_t {
-  svm,     ///< linear one-vs-rest support vector machine; frames vote with their margins
-  bayes,   ///< Gaussian Bayes on principal components; frames vote with their log posteriors
-  knn,     ///< k nearest neighbours on principal components; frames vote
-  hmm,     ///< Gaussian HMM a gesture over principal components and the hand's track
-  ptbhmm,  ///< possibility-theory HMM over a codebook of the same
+  svm,        ///< linear one-vs-rest support vector machine; frames vote with their margins
+  bayes,      ///< Gaussian Bayes on principal components; frames vote with their log posteriors
+  knn,        ///< k nearest neighbours on principal components; frames vote
+  hmm,        ///< Gaussian HMM a gesture over principal components and the hand's track
+  ptbhmm,     ///< possibility-theory HMM over a codebook of the same
+  path,       ///< linear support vector machine over the whole movement, resampled at a few points;
+              ///< needs few examples
+  automatic,  ///< svm, or path where most training gestures have 8 frames or more; a trained
+              ///< recogniser's options say which it became
+};
+
+/// What the rows of features are made from. C++ makes them from silhouettes; landmarks come from
+/// outside and feed the same classifiers.
+enum class GestureSource : std::uint8_t {
+  silhouettes,  ///< hand features of masks and grey pictures
+  landmarks,    ///< joints of the hand as a tracker gives them
 };
 
 struct GestureRecognizerOptions {
+  GestureSource source = GestureSource::silhouettes;
   HandFeatureOptions features;
-  GestureModel model = GestureModel::svm;
-  double svm_cost = 1.0;    ///< C of the linear SVM, > 0
+  GestureModel model = GestureModel::automatic;
+  double svm_cost = 1.0;    ///< C of the linear SVM (svm, path), > 0
   int num_components = 40;  ///< principal components (bayes, knn, hmm, ptbhmm), 1..1000
   int num_neighbours = 5;   ///< k of knn, 1..1000
   int num_states = 6;       ///< left-right states a gesture (hmm, ptbhmm), 1..64

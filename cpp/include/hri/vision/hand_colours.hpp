@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The colours that tell a hand from what is behind it, learned from the clip itself. In poor,
+// strong or coloured light no fixed bounds hold, but within one clip hand and background keep their
+// colours; and logarithms of a channel turn exposure, colour cast and gamma into shifts and scales,
+// to which a discriminant adapts.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "hri/core/image_view.hpp"
+#include "hri/vision/silhouette.hpp"
+
+namespace hri {
+
+struct HandColourOptions {
+  int max_side_px = 160;   ///< pictures are scaled down to this before they are segmented, 32..4096
+  int fit_side_px = 80;    ///< and to this for learning, 32..4096
+  int num_fit_frames = 8;  ///< frames learned from, spread over the clip, 1..256
+  int num_rounds = 4;      ///< of segmenting and learning from the segments, 1..100
+  double min_area = 0.004;   ///< smallest share of the picture a hand covers, 0..1
+  double max_area = 0.6;     ///< largest, averaged over the frames learned from, 0..1
+  double min_quality = 0.3;  ///< a discriminant that separates the pixels on both sides of the
+                             ///< hand's outline worse than this is no hand, 0..1
+};
+
+/// One score a pixel, the sum of a function of each channel; above a threshold the pixel is hand.
+/// Immutable once learned; const calls are safe from several threads.
+class HandColours {
+ public:
+  /// Starts from Otsu's thresholds on brightness and on several measures of redness, improves each
+  /// by Fisher's discriminant over the channels and their logarithms, and keeps the one whose hand
+  /// has the sharpest outline, in one piece, away from the upper and side borders. Nothing where no
+  /// start leads to a hand. `frames` are BGR, of any sizes. Throws InvalidArgument for no frames, a
+  /// frame that is not a picture of three channels (names its index), or an option out of range.
+  static std::optional<HandColours> learn(const std::vector<ImageView>& frames,
+                                          const HandColourOptions& options);
+
+  /// The largest region of hand colours; `quality` is that of the model where there is one. Throws
+  /// InvalidArgument for another layout or an empty picture.
+  [[nodiscard]] Silhouette extract(ImageView bgr) const;
+
+  /// How well the pixels on both sides of the outline separate (share of their variance), 0..1.
+  [[nodiscard]] double quality() const { return quality_; }
+
+ private:
+  HandColours() = default;
+
+  HandColourOptions options_;
+  std::array<std::array<float, 256>, 3> scores_{};  // of the values of blue, green and red
+  float threshold_ = 0;
+  double quality_ = 0;
+};
+
+}  // namespace hri

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Movements from few examples: a gesture is a path through shapes and places. It is resampled at
+// a few points, spaced by how much changes rather than by time, so that pauses and tempo matter
+// little; the points together are one vector for a linear support vector machine.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "gesture_scorer.hpp"
+#include "hri/core/error.hpp"
+#include "hri/models/linear_svm.hpp"
+
+namespace hri {
+namespace {
+
+constexpr Eigen::Index kMaxRows = 32;    // more frames than that only add noise to the steps
+constexpr Eigen::Index kNumPoints = 8;   // of the resampled path
+constexpr double kStillQuantile = 0.25;  // the stillest steps tell the noise of the shapes
+constexpr float kNoiseMargin = 1.5F;     // times that, which does not count as change
+constexpr float kTimeShare = 0.5F;       // weight of even spacing in time beside change
+constexpr float kStepTrackScale = 4.0F;  // of the hand's place beside its shape, in a step
+constexpr float kTrackScale = 0.5F;      // and in the vector
+constexpr float kVectorLength = 3.0F;    // of an average vector, to suit a cost of 1
+constexpr float kTrackUnits[detail::kNumTrackColumns] = {1.0F, 0.75F, 0.25F};  // x, y, log area
+
+MatrixF thinned(ConstMatrixRefF rows) {
+  if (rows.rows() <= kMaxRows) return rows;
+  MatrixF result(kMaxRows, rows.cols());
+  for (Eigen::Index i = 0; i < kMaxRows; ++i) {
+    const auto at = static_cast<double>(i * (rows.rows() - 1)) / (kMaxRows - 1);
+    result.row(i) = rows.row(static_cast<Eigen::Index>(std::lround(at)));
+  }
+  return result;
+}
+
+// Mean of every row and its neighbours; the ends repeat.
+MatrixF smoothed(const MatrixF& rows) {
+  MatrixF result(rows.rows(), rows.cols());
+  const Eigen::Index last = rows.rows() - 1;
+  for (Eigen::Index t = 0; t <= last; ++t) {
+    result.row(t) = (rows.row(std::max<Eigen::Index>(t - 1, 0)) + rows.row(t) +
+                     rows.row(std::min(t + 1, last))) /
+                    3.0F;
+  }
+  return result;
+}
+
+// How far along the path every row lies, from 0 to 1.
+std::vector<float> positions(const MatrixF& rows) {
+  const Eigen::Index num_steps = rows.rows() - 1;
+  const MatrixF smooth = smoothed(rows);
+  std::vector<float> steps(static_cast<std::size_t>(num_steps));
+  for (Eigen::Index t = 0; t < num_steps; ++t)
+    steps[static_cast<std::size_t>(t)] = (smooth.row(t + 1) - smooth.row(t)).norm();
+  std::vector<float> sorted = steps;
+  const auto still = sorted.begin() + static_cast<std::ptrdiff_t>(
+                                          kStillQuantile * static_cast<double>(num_steps - 1));
+  std::nth_element(sorted.begin(), still, sorted.end());
+  float sum = 0;
+  for (float& s : steps) {
+    s = std::max(s - kNoiseMargin * *still, 0.0F);
+    sum += s;
+  }
+  std::vector<float> result{0};
+  for (const float s : steps) {
+    const float change = sum > 0 ? s / sum : 0.0F;
+    result.push_back(result.back() + change + kTimeShare / static_cast<float>(num_steps));
+  }
+  const float length = result.back();
+  for (float& p : result) p /= length;
+  return result;
+}
+
+// kNumPoints rows, evenly spaced along `at`, between which rows are interpolated.
+MatrixF resampled(const MatrixF& rows, const std::vector<float>& at) {
+  MatrixF result(kNumPoints, rows.cols());
+  std::size_t next = 1;
+  for (Eigen::Index i = 0; i < kNumPoints; ++i) {
+    const float wanted = static_cast<float>(i) / (kNumPoints - 1);
+    while (next + 1 < at.size() && at[next] < wanted) ++next;
+    const float width = at[next] - at[next - 1];
+    const float share = width > 0 ? std::clamp((wanted - at[next - 1]) / width, 0.0F, 1.0F) : 0.0F;
+    const auto right = static_cast<Eigen::Index>(next);
+    result.row(i) = (1 - share) * rows.row(right - 1) + share * rows.row(right);
+  }
+  return result;
+}
+
+// The path as one row. `shape_scale` brings shapes to unit length.
+VectorF path_vector(ConstMatrixRefF gesture, float shape_scale) {
+  constexpr Eigen::Index kTrack = detail::kNumTrackColumns;
+  MatrixF rows = thinned(gesture);
+  const Eigen::Index num_shapes = rows.cols() - kTrack;
+  rows.leftCols(num_shapes) *= shape_scale;
+  for (Eigen::Index c = 0; c < kTrack; ++c)
+    rows.col(num_shapes + c) *= kStepTrackScale * kTrackUnits[c];
+  MatrixF points(kNumPoints, rows.cols());
+  if (rows.rows() == 1) {
+    points.rowwise() = rows.row(0);
+  } else {
+    points = resampled(rows, positions(rows));
+  }
+  MatrixF track = points.rightCols(kTrack);
+  track.rowwise() -= points.rightCols(kTrack).row(0);
+  points.rightCols(kTrack) = kTrackScale / kStepTrackScale * track;
+  points *= kVectorLength / std::sqrt(static_cast<float>(kNumPoints));
+  return Eigen::Map<const VectorF>(points.data(), points.size());
+}
+
+class PathScorer : public GestureScorer {
+ public:
+  PathScorer(LinearSvm svm, float shape_scale) : svm_(std::move(svm)), shape_scale_(shape_scale) {}
+
+  [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
+    require(rows.cols() * kNumPoints == svm_.dim(),
+            "features do not have as many columns as the model was trained on");
+    const VectorF path = path_vector(rows, shape_scale_);
+    return svm_.decision_values({path.data(), static_cast<std::size_t>(path.size())});
+  }
+  [[nodiscard]] float evidence(ConstMatrixRefF /*rows*/, const VectorF& scores) const override {
+    return scores.maxCoeff();
+  }
+  void write(ModelFile& file) const override {
+    svm_.write(file, "path.svm.");
+    file.set_number("path.shape_scale", shape_scale_);
+  }
+
+ private:
+  LinearSvm svm_;
+  float shape_scale_;
+};
+
+}  // namespace
+
+namespace detail {
+
+std::shared_ptr<const GestureScorer> train_path_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop) {
+  const Eigen::Index num_columns = per_class.front().front().cols();
+  require(num_columns > kNumTrackColumns, "features need columns besides the hand's track");
+  double squares = 0;
+  double num_rows = 0;
+  Eigen::Index num_gestures = 0;
+  for (const auto& gestures : per_class) {
+    for (const MatrixF& g : gestures) {
+      require(g.cols() == num_columns, "all gestures need the same number of features");
+      squares += g.leftCols(num_columns - kNumTrackColumns).squaredNorm();
+      num_rows += static_cast<double>(g.rows());
+      ++num_gestures;
+    }
+  }
+  const auto shape_scale = squares > 0 ? static_cast<float>(std::sqrt(num_rows / squares)) : 1.0F;
+  MatrixF paths(num_gestures, num_columns * kNumPoints);
+  std::vector<int> classes;
+  for (std::size_t c = 0; c < per_class.size(); ++c) {
+    for (const MatrixF& g : per_class[c]) {
+      paths.row(static_cast<Eigen::Index>(classes.size())) = path_vector(g, shape_scale);
+      classes.push_back(static_cast<int>(c));
+    }
+  }
+  LinearSvmOptions svm;
+  svm.cost = options.svm_cost;
+  svm.seed = options.seed;
+  svm.should_stop = should_stop;
+  return std::make_shared<PathScorer>(
+      LinearSvm::train(paths, classes, static_cast<int>(per_class.size()), svm), shape_scale);
+}
+
+std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int num_classes) {
+  LinearSvm svm = LinearSvm::read(file, "path.svm.");
+  const auto shape_scale = static_cast<float>(file.number("path.shape_scale"));
+  if (svm.num_classes() != num_classes || svm.dim() % kNumPoints != 0 ||
+      svm.dim() / kNumPoints <= kNumTrackColumns) {
+    fail(ErrorKind::format,
+         file.name() + ": the classifier does not fit the labels or the features");
+  }
+  if (!(shape_scale > 0) || !std::isfinite(shape_scale))
+    fail(ErrorKind::format, file.name() + ": field 'path.shape_scale' is out of range");
+  return std::make_shared<PathScorer>(std::move(svm), shape_scale);
+}
+
+}  // namespace detail
+}  // namespace hri

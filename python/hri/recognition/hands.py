@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Hands in clips: silhouettes by colours learned from the clip, and landmarks of a tracker."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.media.optional import import_optional
+
+Frame = NDArray[np.uint8]
+
+NUM_LANDMARKS = 21
+NUM_TRACK_COLUMNS = 3
+SHORTEST_CLIP = 8
+"""Frames from which on the colours of hand and background are learned from the clip."""
+
+_WRIST = 0
+_FINGER_JOINTS = tuple(tuple(range(first, first + 4)) for first in (1, 5, 9, 13, 17))
+
+
+def find_silhouettes(clip: Sequence[Frame], silhouette: Any = None) -> list[Any]:
+    """The silhouette of the hand in every frame.
+
+    Parameters
+    ----------
+    clip : sequence of uint8 arrays, shape (height, width, 3), BGR
+    silhouette : hri._native_vision.SilhouetteOptions, optional
+        How the hand is found in every picture by itself. Without it, the colours of hand and background are learned
+        from a clip of `SHORTEST_CLIP` frames or more; shorter clips, and those in which no hand stands out, are
+        segmented picture by picture with default options.
+
+    Returns
+    -------
+    list of hri._native_vision.Silhouette
+    """
+    from hri import _native_vision
+
+    frames = [np.ascontiguousarray(frame) for frame in clip]
+    finder: Any = None
+    if silhouette is None and len(frames) >= SHORTEST_CLIP:
+        finder = _native_vision.HandColours.learn(frames)
+    if finder is None:
+        finder = _native_vision.SilhouetteExtractor(silhouette or _native_vision.SilhouetteOptions())
+    return [finder.extract(frame) for frame in frames]
+
+
+def find_landmarks(clip: Iterable[Frame]) -> list[NDArray[np.float32] | None]:
+    """The joints of the hand in every frame, by MediaPipe's tracker (extra `mediapipe`).
+
+    Returns
+    -------
+    list of ndarray of float32, shape (21, 2), or None
+        x and y in pixels; None where no hand is found.
+
+    Raises
+    ------
+    ImportError
+        Without MediaPipe; the message names the extra.
+    """
+    mediapipe = import_optional("mediapipe", "mediapipe", "to find the landmarks of hands")
+    found: list[NDArray[np.float32] | None] = []
+    with mediapipe.solutions.hands.Hands(
+        max_num_hands=1, model_complexity=1, min_detection_confidence=0.3, min_tracking_confidence=0.3
+    ) as tracker:
+        for frame in clip:
+            hands = tracker.process(np.ascontiguousarray(frame[:, :, ::-1])).multi_hand_landmarks
+            if not hands:
+                found.append(None)
+                continue
+            size = np.array([frame.shape[1], frame.shape[0]], np.float32)
+            found.append(np.array([(p.x, p.y) for p in hands[0].landmark], np.float32) * size)
+    return found
+
+
+def landmark_features(
+    landmarks: Sequence[NDArray[np.float32] | None], frame_size: tuple[int, int]
+) -> NDArray[np.float32]:
+    """Features of the frames that have landmarks, a row a frame, as `GestureRecognizer.features` gives them.
+
+    Shape: the joints from their centre, scaled by the size of the hand, and the direction of every bone of the fingers.
+    Track: centre x and y and the log of the area, in units of the frame.
+
+    Parameters
+    ----------
+    landmarks : sequence of ndarray of float32, shape (21, 2), or None
+        In pixels, as `find_landmarks` gives them.
+    frame_size : tuple of int
+        Width and height of the frames in pixels.
+    """
+    rows = [_landmark_row(np.asarray(p, np.float64), frame_size) for p in landmarks if p is not None]
+    num_bones = sum(len(finger) for finger in _FINGER_JOINTS)
+    width = 2 * NUM_LANDMARKS + 2 * num_bones + NUM_TRACK_COLUMNS
+    return np.asarray(rows, np.float32).reshape(len(rows), width)
+
+
+def _landmark_row(points: NDArray[np.float64], frame_size: tuple[int, int]) -> NDArray[np.float64]:
+    centre = points.mean(axis=0)
+    size = max(float(np.sqrt(((points - centre) ** 2).sum(axis=1).mean())), 1e-6)
+    joints = (points - centre) / size
+    bones = []
+    for finger in _FINGER_JOINTS:
+        for start, end in zip((_WRIST, *finger), finger, strict=False):
+            bone = points[end] - points[start]
+            bones.append(bone / max(float(np.linalg.norm(bone)), 1e-6))
+    extent = np.ptp(points, axis=0) / np.asarray(frame_size)
+    log_area = np.log(max(float(extent.prod()), 1e-6))
+    # Bones of one finger have the weight of a joint.
+    shape = np.concatenate([joints.ravel(), 0.5 * np.concatenate(bones)])
+    return np.concatenate([shape, centre / np.asarray(frame_size), [log_area]])
