@@ -176,6 +176,10 @@ void bind_words(py::module_& m) {
           },
           py::arg("samples"), py::arg("sample_rate_hz"))
       .def_property_readonly("labels", &hri::WordRecognizer::labels)
+      .def_property_readonly(
+          "threshold",
+          [](const hri::WordRecognizer& self) { return self.calibration().threshold(); },
+          "Evidence from which a word is recognised.")
       .def_property_readonly("options", &hri::WordRecognizer::options);
 }
 

@@ -3102,6 +3102,11 @@ class WordRecognizer:
     def labels(self) -> list[str]: ...
     @property
     def options(self) -> WordRecognizerOptions: ...
+    @property
+    def threshold(self) -> float:
+        """
+        Evidence from which a word is recognised.
+        """
 
 class GestureSource:
     """

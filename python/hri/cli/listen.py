@@ -15,7 +15,7 @@ import click
 
 from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, stall_option, tell
 from hri.cli.recognizers import kept_model
-from hri.live import AudioSource, Event, FileSource, Listener, list_microphones
+from hri.live import Attention, AudioSource, Event, FileSource, Listener, list_microphones
 from hri.recognition import WordRecognizer
 
 
@@ -32,6 +32,13 @@ from hri.recognition import WordRecognizer
 @events_json_option
 @click.option("--paced", is_flag=True, help="Play recordings as fast as they were spoken.")
 @stall_option
+@click.option("--wake", default="", metavar="WORD", help="Take commands only after this word of the vocabulary.")
+@click.option(
+    "--within", "within_s", type=float, default=3.0, show_default=True, help="Seconds from wake word to command."
+)
+@click.option(
+    "--min-evidence", type=float, metavar="E", help="Evidence a command needs; by default the model's own threshold."
+)
 @click.option("--locale", default="", help="Language of the words, passed on with decisions.")
 @click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to show.")
 def listen(
@@ -42,6 +49,9 @@ def listen(
     as_json: bool,
     paced: bool,
     stall_s: float,
+    wake: str,
+    within_s: float,
+    min_evidence: float | None,
     locale: str,
     top: int,
 ) -> None:
@@ -54,6 +64,7 @@ def listen(
     Examples:
       hri listen
       hri listen --model words.hri --json session.wav
+      hri listen --wake robot --min-evidence 0.5
       hri listen --list-devices
     """
     if list_devices:
@@ -62,7 +73,8 @@ def listen(
     path = Path(model_path) if model_path else kept_model("speech")
     words = WordRecognizer.load(path)
     model_id = f"{path.name}:{hashlib.sha256(path.read_bytes()).hexdigest()[:12]}"
-    listener = Listener(words, locale=locale, model_id=model_id)
+    attention = Attention(wake, within_s, min_evidence)
+    listener = Listener(words, attention=attention, locale=locale, model_id=model_id)
     if files:
         sources: Iterable[AudioSource] = (FileSource(file, paced) for file in files)
     else:
@@ -85,6 +97,8 @@ def _list_devices(as_json: bool) -> None:
 
 def describe(event: Event, top: int) -> str:
     """One line for people; "" for what they need not read."""
+    if event.event == "wake":
+        return f"{event.time:8.2f} s  listening for a command"
     if event.decision is None:
         return describe_stream(event)
     best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in event.decision.nbest[:top])

@@ -3,6 +3,7 @@
 """Words as they are spoken and signs as they are shown: microphones, cameras and recordings as streams, a listener and
 a watcher that answer to every utterance and gesture, and recorders that keep them."""
 
+from hri.live.attention import Attention
 from hri.live.camera import CameraSource, FrameQueue
 from hri.live.events import Event
 from hri.live.frames import ClipSource, FrameSource, VideoSource
@@ -17,6 +18,7 @@ from hri.live.watcher import Watcher
 
 __all__ = [
     "ArraySource",
+    "Attention",
     "AudioSource",
     "CameraSource",
     "ClipSource",

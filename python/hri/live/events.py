@@ -23,6 +23,8 @@ MOVEMENT_DROPPED = "movement_dropped"
 PARTIAL = "partial"
 RECONNECTED = "reconnected"
 DECISION = "decision"
+WAKE = "wake"
+IGNORED = "ignored"
 OVERFLOW = "overflow"
 STALL = "stall"
 PROMPT = "prompt"
@@ -41,9 +43,9 @@ class Event:
         Seconds since the stream began: of sound by counting samples, of pictures by their time stamps.
     event : str
         "listening", "level", "speech_start", "speech_end", "speech_dropped" (what seemed to be speech was none),
-        "decision", "overflow", "stall" or "ended"; while recording, "prompt", "recorded" and "refused" too. Of
-        pictures "watching", "hand", "movement_start", "movement_end", "movement_dropped", "partial" and "reconnected"
-        take the place of those of speech.
+        "decision", "wake" or "ignored" (said without the wake word), "overflow", "stall" or "ended"; while recording,
+        "prompt", "recorded" and "refused" too. Of pictures "watching", "hand", "movement_start", "movement_end",
+        "movement_dropped", "partial" and "reconnected" take the place of those of speech.
     fields : dict
         What belongs to this kind of event, see docs/listening.md and docs/watching.md.
     decision : Decision or None

@@ -9,7 +9,9 @@ from collections.abc import Iterator
 from contextlib import closing
 
 from hri import _native
+from hri.errors import InvalidArgument
 from hri.live import events
+from hri.live.attention import COMMAND, WAKE, Attention, AttentionTracker
 from hri.live.events import Event, decision_fields
 from hri.live.sources import AudioSource
 from hri.live.utterances import Samples, UtteranceFinder
@@ -25,12 +27,19 @@ class Listener:
         Trained or loaded.
     options : EndpointerOptions, optional
         When an utterance begins and ends. By default its `activity` is the recogniser's own.
+    attention : Attention, optional
+        Which utterances are commands: by default every one, with the model's own threshold.
     level_interval_s : float
         How often the level is told.
     locale : str
         Language of the vocabulary, such as "hi" or "en"; passed on with decisions.
     model_id : str
         Which model decided; passed on with decisions.
+
+    Raises
+    ------
+    InvalidArgument
+        For a wake word that the recogniser does not know (lists those it knows).
     """
 
     def __init__(
@@ -38,10 +47,15 @@ class Listener:
         recognizer: WordRecognizer,
         options: _native.EndpointerOptions | None = None,
         *,
+        attention: Attention | None = None,
         level_interval_s: float = 0.1,
         locale: str = "",
         model_id: str = "",
     ) -> None:
+        self._attention = attention or Attention()
+        wake, labels = self._attention.wake, [str(label) for label in recognizer.classes_]
+        if wake and wake not in labels:
+            raise InvalidArgument(f"wake word '{wake}' is not in the vocabulary: {', '.join(labels)}")
         self._recognizer = recognizer
         chosen = options or _native.EndpointerOptions(activity=recognizer.options.activity)
         self._finder = UtteranceFinder(chosen, level_interval_s)
@@ -56,17 +70,22 @@ class Listener:
         Stalled
             When the source gives no more samples, after an event that says so.
         """
+        tracker = AttentionTracker(self._attention)
         with closing(self._finder.hear(source, model=self._model_id)) as heard:
             for event, utterance in heard:
                 yield event
                 if utterance is not None:
-                    yield self._decide(event, utterance, source.sample_rate_hz)
+                    yield self._decide(event, utterance, source.sample_rate_hz, tracker)
 
-    def _decide(self, event: Event, utterance: Samples, rate: int) -> Event:
+    def _decide(self, event: Event, utterance: Samples, rate: int, tracker: AttentionTracker) -> Event:
         # With the noise around it: the recogniser finds the end points as it did in training.
         begun = time.perf_counter()
         decision = self._recognizer.recognise(utterance, rate)
         compute_ms = 1000 * (time.perf_counter() - begun)
         fields = {name: event.fields[name] for name in ("first_s", "last_s")}
+        meant, decision = tracker.judge(fields["first_s"], fields["last_s"], decision)
         fields |= decision_fields(decision, self._locale, self._model_id) | {"compute_ms": round(compute_ms, 3)}
-        return Event(event.time, events.DECISION, fields, decision)
+        if meant == COMMAND:
+            return Event(event.time, events.DECISION, fields, decision)
+        # Without a decision: whoever acts on decisions must not act on these.
+        return Event(event.time, events.WAKE if meant == WAKE else events.IGNORED, fields | {"final": ""})

@@ -32,6 +32,9 @@ class WordRecognizer(Recognizer):
     ----------
     classes_ : ndarray of str
         The labels, sorted; set by `fit` and `load`.
+    threshold : float
+        ``Decision.evidence`` from which a word is recognised: what training found to reject the share
+        ``false_reject_rate`` of right words.
 
     Examples
     --------
@@ -149,6 +152,11 @@ class WordRecognizer(Recognizer):
         """The decision for every clip of `X`."""
         rates = _rates(sample_rate_hz, len(X))
         return [self.recognise(x, rate) for x, rate in zip(X, rates, strict=True)]
+
+    @property
+    def threshold(self) -> float:
+        """Evidence from which a word is recognised."""
+        return float(self._trained.threshold)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> WordRecognizer:

@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""False alarms per hour of noise and of other people's words, heard through the live path."""
+"""False alarms per hour of noise and of other words, heard through the live path, plainly and after a wake word."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -16,46 +17,73 @@ from numpy.typing import NDArray
 from hri import _native
 from hri.datasets import Dataset, Sample
 from hri.evaluation import make_noise
-from hri.live import ArraySource, Listener
+from hri.live import ArraySource, Attention, Listener
 from hri.media import read_audio
-from hri.recognition import Decision, WordRecognizer
-from hri.recognition.decision import RECOGNISED
+from hri.recognition import WordRecognizer
 from hri.studies.noise import noise_paths
 from hri.studies.registry import Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
-from hri.studies.word_features import WORD_FOLDERS
+from hri.studies.unknown_words import halves
+from hri.studies.word_features import WORD_FOLDERS, load_words
 
 SEED = 0
 SESSION_S = 300
 SESSIONS = 12
-"""Of each kind and person held out: an hour."""
+"""Of each sound and person held out: an hour."""
+NUM_OWN = 200
+"""Words, and as many pairs of wake word and command, of each person held out."""
 PAUSE_S = (0.8, 3.0)
+AFTER_WAKE_S = (0.4, 1.5)
 PEAK_DB = (-24.0, -3.0)
 FLOOR_DB = -65.0
 NOISE_DB = (-55.0, -15.0)
 MAX_RATE_HZ = 16000
-FALSE_REJECTS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3)
+PLAIN = "plain"
+WAKE_WORD = "wake word"
+MODES = (PLAIN, WAKE_WORD)
+SOUNDS = ("noise", "words")
+THRESHOLDS = (-1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0)
+OF_THE_MODEL = "of the model"
+CURVE_STEP = 0.1
 MAX_FALSE_REJECTS = 0.05
 MAX_PER_HOUR = 0.5
 
 Samples = NDArray[np.float32]
-OTHER_WORDS = {"fsdd": ("hindi-digits", "hindi-words"), "hindi-digits": ("fsdd", "hindi-words")}
+OTHER_WORDS = {
+    "fsdd": ("hindi-digits", "hindi-words"),
+    "hindi-digits": ("fsdd", "hindi-words"),
+    "hindi-words": ("fsdd", "hindi-digits"),
+}
 """By vocabulary: what else people say. No recording of anyone who was trained on is among it."""
 
 
-@dataclass
-class Heard:
-    """Evidence of every decision in some hours, whether it was accepted, and how many words were to be heard."""
+@dataclass(frozen=True)
+class Utterance:
+    """What the live path heard from `first_s` to `last_s`."""
 
-    evidence: list[float] = field(default_factory=list)
-    accepted: list[bool] = field(default_factory=list)
-    hours: float = 0.0
-    num_words: int = 0
+    first_s: float
+    last_s: float
+    label: str
+    evidence: float
 
-    def alarms_per_hour(self, threshold: float | None) -> float:
-        """Decisions that would be accepted from `threshold` on; None takes what was accepted."""
-        alarms = sum(self.accepted) if threshold is None else sum(e >= threshold for e in self.evidence)
-        return alarms / self.hours
+
+@dataclass(frozen=True)
+class Fold:
+    """Heard with one person held out, by mode: evidence from which the right words, and the others, are taken."""
+
+    threshold: float
+    accuracy: float
+    hours: float
+    own: dict[str, NDArray[np.float64]]
+    others: dict[tuple[str, str], NDArray[np.float64]]
+
+    def false_rejects(self, mode: str, threshold: float) -> float:
+        """Share of right words, or of pairs of wake word and command, that are not taken."""
+        return float(np.mean(self.own[mode] < threshold))
+
+    def alarms_per_hour(self, mode: str, sound: str, threshold: float) -> float:
+        """How often something else is taken for a command."""
+        return float(np.sum(self.others[mode, sound] >= threshold)) / self.hours
 
 
 def _clip(sample: Sample, rate: int) -> Samples:
@@ -69,7 +97,8 @@ def compose_words(
     clips: Sequence[Samples], rate: int, num_samples: int, rng: np.random.Generator
 ) -> tuple[Samples, list[tuple[int, int, int]]]:
     """Words with pauses, at random levels over a faint noise: the stream, and (clip, first, last) of each word."""
-    stream = 10 ** (FLOOR_DB / 20) * make_noise("pink", num_samples, rate, rng)
+    stream = make_noise("pink", num_samples, rate, rng)
+    stream *= np.float32(10 ** (FLOOR_DB / 20) / np.std(stream))
     spans = []
     at = 0
     order = rng.permutation(len(clips))
@@ -99,58 +128,107 @@ def compose_noise(paths: Sequence[str], rate: int, num_samples: int, rng: np.ran
     return np.clip(stream, -1, 1)
 
 
-def decisions(words: WordRecognizer, stream: Samples, rate: int) -> list[tuple[float, float, Decision]]:
-    """(first, last, decision) of every utterance that the live path hears; seconds."""
+def compose_pairs(
+    wakes: Sequence[Samples], commands: Sequence[Samples], rate: int, rng: np.random.Generator
+) -> list[Samples]:
+    """A wake word, a short pause and a command each, as one clip; all are said in turn."""
+    pairs = []
+    for turn in range(NUM_OWN):
+        wake, command = wakes[turn % len(wakes)], commands[turn % len(commands)]
+        pause = np.zeros(round(rng.uniform(*AFTER_WAKE_S) * rate), dtype=np.float32)
+        pairs.append(np.concatenate([wake / _peak(wake), pause, command / _peak(command)]))
+    return pairs
+
+
+def _peak(clip: Samples) -> float:
+    return max(1e-6, float(np.abs(clip).max()))
+
+
+def utterances(words: WordRecognizer, stream: Samples, rate: int) -> list[Utterance]:
+    """Every utterance that the live path hears, with the word it is most like."""
     events = Listener(words, level_interval_s=60).listen(ArraySource(stream, rate))
-    return [(e.fields["first_s"], e.fields["last_s"], e.decision) for e in events if e.decision is not None]
+    return [
+        Utterance(e.fields["first_s"], e.fields["last_s"], e.decision.nbest[0].label, e.decision.evidence)
+        for e in events
+        if e.decision is not None and e.decision.nbest
+    ]
 
 
-def _hear_others(words: WordRecognizer, streams: Sequence[Samples], rate: int, tell: Progress) -> Heard:
-    heard = Heard()
-    for done, stream in enumerate(streams):
-        for _, _, decision in decisions(words, stream, rate):
-            if decision.nbest:
-                heard.evidence.append(decision.evidence)
-                heard.accepted.append(decision.status == RECOGNISED)
-        heard.hours += len(stream) / rate / 3600
-        tell("listening", done + 1, len(streams))
-    return heard
+def pair_evidence(heard: Sequence[Utterance], wake: str, within_s: float) -> list[tuple[Utterance, Utterance, float]]:
+    """Of what was heard: a wake word, the command after it, and the largest threshold that takes both."""
+    return [
+        (one, next_one, min(one.evidence, next_one.evidence))
+        for one, next_one in pairwise(heard)
+        if one.label == wake and next_one.label != wake and next_one.first_s <= one.last_s + within_s
+    ]
 
 
-def _hear_own(
+def _own_words(
     words: WordRecognizer, clips: Sequence[Samples], labels: Sequence[str], rate: int, rng: np.random.Generator
-) -> tuple[Heard, float]:
-    """Words of the vocabulary: a word that is not decided on counts as evidence of -inf; and the accuracy."""
-    heard, right = Heard(), 0
-    for part in range(0, len(clips), 50):
-        some = clips[part : part + 50]
-        num_samples = round(sum(len(c) for c in some) + (len(some) + 1) * PAUSE_S[1] * rate + 2 * rate)
-        stream, spans = compose_words(some, rate, num_samples, rng)
-        found = [d for d in decisions(words, stream, rate) if d[2].nbest]
+) -> tuple[NDArray[np.float64], float]:
+    """The evidence of every word, -inf for one that was not heard; and the share of right labels."""
+    found, right = [], 0
+    for stream, spans in _streams(clips, rate, rng):
+        heard = utterances(words, stream, rate)
         for number, first, last in spans:
-            mine = [d for a, b, d in found if a * rate < last and b * rate > first]
-            best = max(mine, key=lambda d: d.evidence, default=None)
-            heard.evidence.append(-np.inf if best is None else best.evidence)
-            heard.accepted.append(any(d.status == RECOGNISED for d in mine))
-            right += best is not None and best.nbest[0].label == labels[part + number]
-        heard.hours += len(stream) / rate / 3600
-        heard.num_words += len(spans)
-    return heard, right / heard.num_words
+            mine = [u for u in heard if u.first_s * rate < last and u.last_s * rate > first]
+            best = max(mine, key=lambda u: u.evidence, default=None)
+            found.append(-np.inf if best is None else best.evidence)
+            right += best is not None and best.label == labels[number]
+    return np.array(found), right / len(found)
 
 
-@dataclass
-class Fold:
-    """What was heard with one person held out."""
+def _own_pairs(
+    words: WordRecognizer, pairs: Sequence[Samples], wake: str, rate: int, rng: np.random.Generator
+) -> NDArray[np.float64]:
+    found = []
+    within_s = Attention().within_s
+    for stream, spans in _streams(pairs, rate, rng):
+        heard = pair_evidence(utterances(words, stream, rate), wake, within_s)
+        for _, first, last in spans:
+            mine = [e for one, two, e in heard if one.last_s * rate > first and two.first_s * rate < last]
+            found.append(max(mine, default=-np.inf))
+    return np.array(found)
 
-    own: Heard
-    accuracy: float
-    sounds: dict[str, Heard]
+
+def _streams(
+    clips: Sequence[Samples], rate: int, rng: np.random.Generator
+) -> list[tuple[Samples, list[tuple[int, int, int]]]]:
+    """All clips in some order, with pauses, in streams of `SESSION_S`; about `NUM_OWN` of them."""
+    mean_s = float(np.mean([len(c) for c in clips])) / rate + float(np.mean(PAUSE_S))
+    count = max(1, round(NUM_OWN * mean_s / SESSION_S))
+    return [compose_words(clips, rate, SESSION_S * rate, rng) for _ in range(count)]
 
 
-def _fold(
-    data_dir: Path, name: str, person: str, train: Sequence[Sample], test: Sequence[Sample], tell: Progress
-) -> Fold:
+def _others(
+    words: WordRecognizer, streams: dict[str, list[Samples]], wake: str, rate: int, tell: Progress
+) -> dict[tuple[str, str], NDArray[np.float64]]:
+    found: dict[tuple[str, str], list[float]] = {(mode, sound): [] for mode in MODES for sound in streams}
+    for sound, several in streams.items():
+        for done, stream in enumerate(several):
+            heard = utterances(words, stream, rate)
+            found[PLAIN, sound] += [u.evidence for u in heard]
+            found[WAKE_WORD, sound] += [e for _, _, e in pair_evidence(heard, wake, Attention().within_s)]
+            tell(f"listening to {sound}", done + 1, len(several))
+    return {key: np.array(values) for key, values in found.items()}
+
+
+def longest_word(labels: Sequence[str], clips: Sequence[Samples], rate: int) -> str:
+    """The word that takes longest to say, on average: there is most of it to tell it from others by."""
+    lengths: dict[str, list[int]] = {}
+    for label, clip in zip(labels, clips, strict=True):
+        bounds = _native.find_speech(clip, rate)
+        if bounds is not None:
+            lengths.setdefault(label, []).append(bounds[1] - bounds[0])
+    return max(sorted(lengths), key=lambda label: float(np.mean(lengths[label])))
+
+
+def _fold(data_dir: Path, name: str, person: str, dataset: Dataset, half: Sequence[str], tell: Progress) -> Fold:
+    train = [s for s in dataset.samples if s.person != person and s.label in half]
+    mine = [s for s in dataset.samples if s.person == person]
     audio = [read_audio(s.path) for s in train]
+    rate = min(MAX_RATE_HZ, *(a.sample_rate_hz for a in audio))
+    rng = np.random.default_rng((SEED, *person.encode()))
     words = WordRecognizer().fit(
         [a.samples for a in audio],
         [s.label for s in train],
@@ -158,80 +236,124 @@ def _fold(
         groups=[s.person for s in train],
         progress=partial(tell, "training"),
     )
-    rate = min(MAX_RATE_HZ, *(a.sample_rate_hz for a in audio))
-    rng = np.random.default_rng((SEED, *person.encode()))
-    others = [
+    wake = longest_word([s.label for s in train], [_clip(s, rate) for s in train], rate)
+    own = [s for s in mine if s.label in half]
+    clips = [_clip(s, rate) for s in own]
+    evidence, accuracy = _own_words(words, clips, [s.label for s in own], rate, rng)
+    wakes = [c for s, c in zip(own, clips, strict=True) if s.label == wake]
+    commands = [c for s, c in zip(own, clips, strict=True) if s.label != wake]
+    pairs = compose_pairs(wakes, [commands[i] for i in rng.permutation(len(commands))], rate, rng)
+    unseen = [_clip(s, rate) for s in mine if s.label not in half]
+    people = {s.person for s in train}
+    foreign = [
         s
         for other in OTHER_WORDS[name]
         for s in Dataset.load(data_dir / WORD_FOLDERS[other], "speech").samples
-        if s.person not in {t.person for t in train}
+        if s.person not in people
     ]
-    clips = [_clip(s, rate) for s in others]
+    # As many as an hour may hold; the rest need not be read.
+    others = [_clip(foreign[i], rate) for i in rng.permutation(len(foreign))[: SESSIONS * SESSION_S // 3]]
     size = SESSION_S * rate
     noises = list(noise_paths(data_dir).values())
-    own, accuracy = _hear_own(words, [_clip(s, rate) for s in test], [s.label for s in test], rate, rng)
-    noise = [compose_noise(noises, rate, size, rng) for _ in range(SESSIONS)]
-    said = [compose_words(clips, rate, size, rng)[0] for _ in range(SESSIONS)]
-    sounds = {
-        "noise": _hear_others(words, noise, rate, within(tell, "noise")),
-        "other words": _hear_others(words, said, rate, within(tell, "other words")),
+    streams = {
+        "noise": [compose_noise(noises, rate, size, rng) for _ in range(SESSIONS)],
+        "words": [compose_words((unseen, others)[n % 2], rate, size, rng)[0] for n in range(SESSIONS)],
     }
-    return Fold(own, accuracy, sounds)
-
-
-def _rows(name: str, folds: dict[str, Fold]) -> list[Row]:
-    """The model's own threshold, then thresholds that reject a given share of each person's words."""
-    rows = []
-    for sound in ("noise", "other words"):
-        for wanted in (None, *FALSE_REJECTS):
-            rejects, alarms = {}, {}
-            for person, fold in folds.items():
-                own = fold.own
-                threshold = None
-                if wanted is not None:
-                    ranked = sorted(own.evidence)
-                    threshold = max(ranked[int(wanted * len(ranked))], -1e30)
-                    rejects[person] = float(np.mean([e < threshold for e in own.evidence]))
-                else:
-                    rejects[person] = 1 - float(np.mean(own.accepted))
-                alarms[person] = fold.sounds[sound].alarms_per_hour(threshold)
-            row: Row = {"vocabulary": name, "sound": sound, "threshold": "of the model" if wanted is None else wanted}
-            row |= statistics(alarms, "alarms_per_hour")
-            row |= {k: v for k, v in statistics(rejects, "false_rejects").items() if k != "per_fold"}
-            rows.append(row)
-    return rows
-
-
-def _run(data_dir: Path, progress: Progress, *, vocabulary: Sequence[str] = tuple(OTHER_WORDS)) -> dict[str, Any]:
-    rows, hours, accuracy = [], {}, {}
-    for name in vocabulary:
-        dataset = Dataset.load(data_dir / WORD_FOLDERS[name], "speech")
-        folds = {}
-        for person in sorted({s.person for s in dataset.samples}):
-            train = [s for s in dataset.samples if s.person != person]
-            test = [s for s in dataset.samples if s.person == person]
-
-            folds[person] = _fold(data_dir, name, person, train, test, within(progress, f"{name}, {person}"))
-        rows += _rows(name, folds)
-        hours[name] = sum(heard.hours for fold in folds.values() for heard in fold.sounds.values())
-        accuracy[name] = {person: fold.accuracy for person, fold in folds.items()}
-    own = [row for row in rows if row["threshold"] == "of the model"]
-    passed = all(
-        row["alarms_per_hour_mean"] < MAX_PER_HOUR and row["false_rejects_mean"] < MAX_FALSE_REJECTS for row in own
+    return Fold(
+        words.threshold,
+        accuracy,
+        SESSIONS * SESSION_S / 3600,
+        {PLAIN: evidence, WAKE_WORD: _own_pairs(words, pairs, wake, rate, rng)},
+        _others(words, streams, wake, rate, tell),
     )
-    return {"seed": SEED, "hours": hours, "accuracy": accuracy, "rows": rows, "passed": passed}
+
+
+def _row(folds: dict[str, Fold], place: Row, mode: str, threshold: float | None) -> Row:
+    limits = {person: fold.threshold if threshold is None else threshold for person, fold in folds.items()}
+    rejects = {person: 100 * fold.false_rejects(mode, limits[person]) for person, fold in folds.items()}
+    row: Row = {**place, "mode": mode, "threshold": OF_THE_MODEL if threshold is None else threshold}
+    row |= {k: v for k, v in statistics(rejects, "false_rejects_percent").items() if k != "per_fold"}
+    for sound in SOUNDS:
+        alarms = {p: fold.alarms_per_hour(mode, sound, limits[p]) for p, fold in folds.items()}
+        row |= statistics(alarms, f"{sound}_per_hour")
+    return row
+
+
+def _curve(folds: dict[str, Fold], mode: str, sound: str) -> dict[str, list[float]]:
+    """Shares of false rejects and alarms an hour over thresholds, the same for all persons."""
+    evidence = np.concatenate([fold.own[mode] for fold in folds.values()])
+    heard = evidence[np.isfinite(evidence)]
+    if not heard.size:
+        return {"threshold": [], "x": [], "y": []}
+    thresholds = np.arange(float(heard.min()), float(heard.max()) + CURVE_STEP, CURVE_STEP)
+    several = list(folds.values())
+    return {
+        "threshold": [float(t) for t in thresholds],
+        "x": [float(np.mean([f.false_rejects(mode, t) for f in several])) for t in thresholds],
+        "y": [float(np.mean([f.alarms_per_hour(mode, sound, t) for f in several])) for t in thresholds],
+    }
+
+
+def _least_alarms(curve: dict[str, list[float]]) -> dict[str, float] | None:
+    """Alarms at the highest threshold that rejects few enough words; None where none does."""
+    places = zip(curve["x"], curve["y"], curve["threshold"], strict=True)
+    allowed = [place for place in places if place[0] < MAX_FALSE_REJECTS]
+    if not allowed:
+        return None
+    rejects, alarms, threshold = allowed[-1]
+    return {"false_rejects": rejects, "alarms_per_hour": alarms, "threshold": threshold}
+
+
+def _run(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    vocabulary: Sequence[str] = tuple(OTHER_WORDS),
+    takes: int | None = None,
+) -> dict[str, Any]:
+    rows: list[Row] = []
+    details: dict[str, Any] = {}
+    lines: dict[str, dict[str, list[float]]] = {}
+    for name in vocabulary:
+        dataset = load_words(data_dir, name, takes)
+        half = halves(dataset.labels)[0]
+        folds = {
+            person: _fold(data_dir, name, person, dataset, half, within(progress, f"{name}, {person}"))
+            for person in sorted({s.person for s in dataset.samples})
+        }
+        rows += [
+            _row(folds, {"vocabulary": name}, mode, threshold) for mode in MODES for threshold in (None, *THRESHOLDS)
+        ]
+        curves = {(mode, sound): _curve(folds, mode, sound) for mode in MODES for sound in SOUNDS}
+        lines |= {f"{name}, {mode}: {sound}": curve for (mode, sound), curve in curves.items()}
+        details[name] = {
+            "words": half,
+            "hours_of_each_sound": sum(fold.hours for fold in folds.values()),
+            "accuracy": {person: fold.accuracy for person, fold in folds.items()},
+            "threshold_of_the_model": {person: fold.threshold for person, fold in folds.items()},
+            "at_most_5_percent_rejected": {f"{m}: {s}": _least_alarms(curve) for (m, s), curve in curves.items()},
+        }
+    own = [row for row in rows if row["threshold"] == OF_THE_MODEL and row["mode"] == PLAIN]
+    passed = all(
+        row["false_rejects_percent_mean"] < 100 * MAX_FALSE_REJECTS
+        and all(row[f"{sound}_per_hour_mean"] < MAX_PER_HOUR for sound in SOUNDS)
+        for row in own
+    )
+    curves_shown = {"x": "false rejects", "y": "false alarms an hour", "rates": True, "lines": lines}
+    return {"seed": SEED, "rows": rows, "details": details, "curves": curves_shown, "passed": passed}
 
 
 STUDIES = (
     Study(
         "false-alarms",
-        "Hours of noise and of other words through the live path, nobody trained on among the speakers: words that "
-        "are recognised where none of the vocabulary was said, by the share of right words rejected",
+        "Hours of noise and of other words through the live path, plainly and after a wake word: half the vocabulary "
+        "never trained, nobody trained on among the speakers; what is taken for a command, by the threshold",
         ("fsdd/recordings", "hindi_words", "noise"),
-        f"under {MAX_PER_HOUR} an hour at under {100 * MAX_FALSE_REJECTS:.0f} % false rejects, with the model's own "
-        "threshold",
+        f"under {MAX_PER_HOUR} an hour at under {100 * MAX_FALSE_REJECTS:.0f} % false rejects, without a wake word, "
+        "with the model's own threshold",
         _run,
-        Layout(panel="sound", measure="alarms_per_hour", percent=False),
+        Layout(measure="words_per_hour", percent=False),
         {"vocabulary": tuple(OTHER_WORDS)},
+        thins=True,
     ),
 )

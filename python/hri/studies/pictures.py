@@ -14,7 +14,8 @@ from hri.studies.tables import Row, axes_of, result_rows
 
 def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
     """Write the picture of a result (PNG, SVG or PDF by suffix): lines over `Layout.x`, or bars; bars of error are
-    the spread over the persons held out. A result with ``"curves"``, shares over shares by name, gets those drawn.
+    the spread over the persons held out. A result with ``"curves"``, shares or rates over shares by name, gets those
+    drawn.
 
     Raises
     ------
@@ -49,11 +50,15 @@ def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
 
 
 def _curves(axes: Any, curves: Row) -> None:
+    rates = bool(curves.get("rates"))  # of the vertical axis: from none to thousands
     for name, line in curves["lines"].items():
-        axes.plot([100 * v for v in line["x"]], [100 * v for v in line["y"]], marker="o", label=name)
+        marker = "" if rates else "o"
+        axes.plot([100 * v for v in line["x"]], [v if rates else 100 * v for v in line["y"]], marker=marker, label=name)
     axes.set_xlabel(f"{curves['x']}, %")
-    axes.set_ylabel(f"{curves['y']}, %")
+    axes.set_ylabel(curves["y"] if rates else f"{curves['y']}, %")
     axes.set_xlim(left=0)
+    if rates:
+        axes.set_yscale("symlog", linthresh=1.0)
     axes.set_ylim(bottom=0)
     axes.grid(alpha=0.3)
     axes.legend(fontsize="small")

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What of all that is heard is meant for the listener: sure enough, and said after the wake word where there is one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from hri.errors import InvalidArgument
+from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision
+
+COMMAND = "command"
+WAKE = "wake"
+IGNORED = "ignored"
+
+
+@dataclass(frozen=True)
+class Attention:
+    """When a word counts.
+
+    Attributes
+    ----------
+    wake : str
+        A word of the vocabulary that has to be said before every command; "" takes every word for a command.
+    within_s : float
+        A command begins at most so long after the wake word has ended. It is the first utterance after it: anything
+        else that is said in between ends the listener's attention, or conversations would be full of commands.
+    min_evidence : float, optional
+        What wake word and command need (``Decision.evidence``) in place of the model's own threshold.
+    """
+
+    wake: str = ""
+    within_s: float = 3.0
+    min_evidence: float | None = None
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.within_s) and self.within_s > 0):
+            raise InvalidArgument(f"within_s must be above 0, got {self.within_s}")
+        if self.min_evidence is not None and not math.isfinite(self.min_evidence):
+            raise InvalidArgument(f"min_evidence must be finite, got {self.min_evidence}")
+
+
+class AttentionTracker:
+    """Follows one stream: tells of every utterance whether it wakes, is a command, or is not for the listener."""
+
+    def __init__(self, attention: Attention) -> None:
+        self._attention = attention
+        self._awake_until_s = -math.inf
+
+    def judge(self, first_s: float, last_s: float, decision: Decision) -> tuple[str, Decision]:
+        """The utterance from `first_s` to `last_s`: "command", "wake" or "ignored", and the decision by `min_evidence`.
+
+        Commands may be rejected all the same: their decision says so. Utterances come in the order they were said.
+        """
+        decision = with_threshold(decision, self._attention.min_evidence)
+        wake = self._attention.wake
+        if not wake:
+            return COMMAND, decision
+        if decision.status == NO_INPUT:
+            return IGNORED, decision
+        awake = first_s <= self._awake_until_s
+        self._awake_until_s = -math.inf
+        if decision.status == RECOGNISED and decision.label == wake:
+            self._awake_until_s = last_s + self._attention.within_s
+            return WAKE, decision
+        return COMMAND if awake else IGNORED, decision
+
+
+def with_threshold(decision: Decision, min_evidence: float | None) -> Decision:
+    """`decision` as if the model's threshold had been `min_evidence`; None leaves it as it is."""
+    if min_evidence is None or not decision.nbest:
+        return decision
+    if decision.evidence >= min_evidence:
+        return replace(decision, status=RECOGNISED, label=decision.nbest[0].label)
+    return replace(decision, status=UNKNOWN, label=UNKNOWN)
