@@ -25,19 +25,21 @@ CPP = {
 }
 PYTHON = {
     "errors": set(),
+    "optional": set(),
     "features": {"errors"},
-    "media": {"errors"},
+    "media": {"errors", "optional"},
     "wavelets": {"errors"},
     "noise_reduction": {"errors"},
-    "datasets": {"errors", "media"},
-    "recognition": {"errors"},
-    "live": {"errors", "media", "datasets", "recognition"},
+    "datasets": {"errors", "optional", "media"},
+    "recognition": {"errors", "optional"},
+    "live": {"errors", "optional", "media", "datasets", "recognition"},
     "training": {"errors", "media", "datasets", "recognition"},
-    "evaluation": {"errors", "media", "datasets", "recognition"},
+    "evaluation": {"errors", "optional", "media", "datasets", "recognition"},
     "fusion": {"errors", "recognition.decision"},
-    "robot": {"errors", "media"},
+    "robot": {"errors", "optional", "media"},
     "studies": {
         "errors",
+        "optional",
         "media",
         "datasets",
         "evaluation",
@@ -50,6 +52,7 @@ PYTHON = {
     },
     "cli": {
         "errors",
+        "optional",
         "features",
         "media",
         "datasets",
@@ -63,7 +66,18 @@ PYTHON = {
         "live",
         "demo",
     },
-    "demo": {"errors", "media", "datasets", "recognition", "training", "evaluation", "fusion", "robot", "cli"},
+    "demo": {
+        "errors",
+        "optional",
+        "media",
+        "datasets",
+        "recognition",
+        "training",
+        "evaluation",
+        "fusion",
+        "robot",
+        "cli",
+    },
 }
 ONLY_IN = {"pybullet": {"robot/pybullet_backend.py"}}
 MAX_LINES = 450

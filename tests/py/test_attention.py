@@ -51,6 +51,15 @@ def test_a_command_follows_the_wake_word_at_once() -> None:
     assert judged(wake, (0, heard("robot", -1)), (1, left)) == [IGNORED, IGNORED]
 
 
+def test_stop_needs_no_wake_word() -> None:
+    wake = Attention("robot", within_s=2.0)
+    robot, stop, left = heard("robot", 1), heard("stop", 1), heard("left", 1)
+    assert judged(wake, (0, stop), (1, left), (2, robot), (3, stop)) == [COMMAND, IGNORED, WAKE, COMMAND]
+    assert judged(wake, (0, heard("stop", -1))) == [IGNORED]
+    assert judged(Attention("robot", always=("halt",)), (0, stop), (1, heard("halt", 1))) == [IGNORED, COMMAND]
+    assert judged(Attention("stop"), (0, stop), (1, left)) == [WAKE, COMMAND]
+
+
 def test_the_threshold_may_be_another_than_the_models() -> None:
     assert with_threshold(heard("a", 1.0), 2.0).status == UNKNOWN
     assert with_threshold(heard("a", 1.0), 2.0).label == UNKNOWN
@@ -77,7 +86,7 @@ def test_the_study_counts_as_the_listener_does() -> None:
         said.append(Utterance(at, at + 0.4, str(rng.choice(["robot", "left", "right"])), float(rng.normal())))
         at += 0.4
     for threshold in (-10.0, 0.0, 0.7):
-        tracker = AttentionTracker(Attention("robot", 2.0, threshold))
+        tracker = AttentionTracker(Attention("robot", 2.0, min_evidence=threshold))
         told = [tracker.judge(u.first_s, u.last_s, heard(u.label, u.evidence)) for u in said]
         commands = sum(meant == COMMAND and d.status == RECOGNISED for meant, d in told)
         counted = sum(evidence >= threshold for _, _, evidence in pair_evidence(said, "robot", 2.0))

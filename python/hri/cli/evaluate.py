@@ -14,7 +14,7 @@ from hri.cli.progress import progress_bars
 from hri.cli.recognizers import load_dataset, mode_argument, options_option, pattern_option, recognizer_factory
 from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, cross_validate, evaluate_split
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 
 _folder = click.Path(exists=True, file_okay=False)
 

@@ -17,7 +17,7 @@ from hri.cli.recognizers import parse_options
 from hri.errors import InvalidArgument
 from hri.features import KINDS, PRESETS, cepstra_options, column_names
 from hri.media import Audio, read_audio
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 
 
 @click.command()

@@ -37,6 +37,14 @@ from hri.recognition import WordRecognizer
     "--within", "within_s", type=float, default=3.0, show_default=True, help="Seconds from wake word to command."
 )
 @click.option(
+    "--always",
+    multiple=True,
+    default=("stop",),
+    show_default=True,
+    metavar="WORD",
+    help="A word that is a command at any moment, without the wake word.",
+)
+@click.option(
     "--min-evidence", type=float, metavar="E", help="Evidence a command needs; by default the model's own threshold."
 )
 @click.option("--locale", default="", help="Language of the words, passed on with decisions.")
@@ -51,6 +59,7 @@ def listen(
     stall_s: float,
     wake: str,
     within_s: float,
+    always: tuple[str, ...],
     min_evidence: float | None,
     locale: str,
     top: int,
@@ -73,7 +82,7 @@ def listen(
     path = Path(model_path) if model_path else kept_model("speech")
     words = WordRecognizer.load(path)
     model_id = f"{path.name}:{hashlib.sha256(path.read_bytes()).hexdigest()[:12]}"
-    attention = Attention(wake, within_s, min_evidence)
+    attention = Attention(wake, within_s, always, min_evidence)
     listener = Listener(words, attention=attention, locale=locale, model_id=model_id)
     if files:
         sources: Iterable[AudioSource] = (FileSource(file, paced) for file in files)

@@ -12,7 +12,7 @@ import click
 from hri.live import draw_sight
 from hri.live.sights import Sight
 from hri.media import VideoWriter
-from hri.media.optional import import_opencv
+from hri.optional import import_opencv
 from hri.recognition import Decision
 
 _WINDOW = "hri watch"

@@ -34,7 +34,7 @@ from hri.datasets.drawing.signer import Signer, make_signer
 from hri.datasets.manifest import SampleRow
 from hri.errors import InvalidArgument
 from hri.media import write_image, write_video
-from hri.media.optional import import_opencv
+from hri.optional import import_opencv
 
 SIGNS = tuple(DIGIT_POSES)
 """The labels that can be drawn."""

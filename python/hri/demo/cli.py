@@ -15,7 +15,7 @@ from hri.cli.output import write_json
 from hri.cli.progress import progress_bars
 from hri.errors import InvalidArgument, IoError
 from hri.media import write_image
-from hri.media.optional import import_opencv, import_optional
+from hri.optional import import_opencv, import_optional
 
 MARKER = ".hri-demo"
 """A folder with this file was made by the demo, and may be made anew."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from hri.demo.scenes import Scene
 from hri.fusion import FusedDecision
 from hri.media import write_video
-from hri.media.optional import import_opencv
+from hri.optional import import_opencv
 from hri.recognition import Decision
 from hri.recognition.decision import RECOGNISED
 from hri.robot import Robot, gesture_trajectory, open_robot

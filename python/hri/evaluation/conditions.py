@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.errors import InvalidArgument
-from hri.media.optional import import_opencv
+from hri.optional import import_opencv
 
 Samples = NDArray[np.float32]
 

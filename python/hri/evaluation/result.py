@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
 
 

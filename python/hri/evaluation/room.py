@@ -16,7 +16,7 @@ from hri.errors import InvalidArgument
 from hri.evaluation.conditions import Samples
 from hri.evaluation.noise import active_power, make_noise, noise_at
 from hri.media import read_audio
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 
 REFERENCE_M = 0.5
 """Simulated responses have a direct sound of gain 1 at this distance."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from hri.errors import InvalidArgument
 from hri.evaluation.conditions import Samples
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 
 _FRAME_S = 0.03
 _MARGIN_S = 0.1

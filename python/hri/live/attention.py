@@ -26,12 +26,15 @@ class Attention:
     within_s : float
         A command begins at most so long after the wake word has ended. It is the first utterance after it: anything
         else that is said in between ends the listener's attention, or conversations would be full of commands.
+    always : tuple of str
+        Words that are commands at any moment, without the wake word: whoever shouts "stop" is heard.
     min_evidence : float, optional
         What wake word and command need (``Decision.evidence``) in place of the model's own threshold.
     """
 
     wake: str = ""
     within_s: float = 3.0
+    always: tuple[str, ...] = ("stop",)
     min_evidence: float | None = None
 
     def __post_init__(self) -> None:
@@ -64,6 +67,8 @@ class AttentionTracker:
         if decision.status == RECOGNISED and decision.label == wake:
             self._awake_until_s = last_s + self._attention.within_s
             return WAKE, decision
+        if decision.status == RECOGNISED and decision.label in self._attention.always:
+            return COMMAND, decision
         return COMMAND if awake else IGNORED, decision
 
 

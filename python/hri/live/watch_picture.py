@@ -8,7 +8,7 @@ import numpy as np
 
 from hri.live.frames import Frame
 from hri.live.sights import Sight
-from hri.media.optional import import_opencv
+from hri.optional import import_opencv
 from hri.recognition import Decision
 
 _HAND = (80, 220, 80)

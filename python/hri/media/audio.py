@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.errors import FormatError, IoError
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 
 AUDIO_SUFFIXES = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aiff", ".aif")
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.errors import FormatError, InvalidArgument, IoError
-from hri.media.optional import import_opencv
+from hri.optional import import_opencv
 
 IMAGE_SUFFIXES = (".jpg", ".jpeg", ".png", ".bmp")
 VIDEO_SUFFIXES = (".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm")

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from hri.errors import InvalidArgument, IoError
-from hri.media.optional import import_opencv
 from hri.media.video import Frame, temporary_beside
+from hri.optional import import_opencv
 
 _CODECS = {
     ".mp4": "mp4v",

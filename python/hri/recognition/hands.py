@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 
 Frame = NDArray[np.uint8]
 

@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.media.optional import import_opencv
+from hri.optional import import_opencv
 from hri.robot import scene
 from hri.robot.joints import JointTable, Shape
 from hri.robot.kinematics import Pose

@@ -9,7 +9,7 @@ from os import PathLike
 import numpy as np
 
 from hri.errors import IoError
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 from hri.robot.joints import HOAP2, JointTable
 from hri.robot.trajectory import Trajectory
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from hri.errors import Error, InvalidArgument
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 from hri.robot import scene
 from hri.robot.backend import Image, Robot
 from hri.robot.balance import Balance

@@ -7,7 +7,7 @@ from __future__ import annotations
 from os import PathLike, fspath
 from typing import Any
 
-from hri.media.optional import import_optional
+from hri.optional import import_optional
 from hri.studies.registry import Layout
 from hri.studies.tables import Row, axes_of, result_rows
 

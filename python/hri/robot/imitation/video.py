@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.media import write_video
-from hri.media.optional import import_opencv
+from hri.optional import import_opencv
 from hri.robot import scene
 from hri.robot.arm import SIDES
 from hri.robot.imitation.body import NOSE_ABOVE_SHOULDERS, SHOULDER_WIDTH
