@@ -4,13 +4,24 @@
 
 from __future__ import annotations
 
+import statistics
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
 import cv2
 import numpy as np
 
+import hand_pictures
 from hri import _native, _native_vision
-from timing import Bench, Timed, medians
+from hri.media import write_video
+from timing import Bench, Details, Timed, medians
 
 cv2.setNumThreads(1)
+_FRAME_REPEATS = 301
 
 
 def _picture(width: int, height: int) -> np.ndarray:
@@ -85,7 +96,86 @@ def orientation_histogram() -> Timed:
     return medians(lambda: _native.orientation_histogram(image, options), peer, 101)
 
 
+def _python_hand(frame: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The chain that most programs have: blur, fixed HSV bounds, opening and closing, largest outline, its moments."""
+    hsv = cv2.cvtColor(cv2.GaussianBlur(frame, (5, 5), 0), cv2.COLOR_BGR2HSV)
+    mask = cv2.inRange(hsv, (0, 0.23 * 255, 40), (25, 0.68 * 255, 255))
+    square = np.ones((5, 5), np.uint8)
+    mask = cv2.morphologyEx(cv2.morphologyEx(mask, cv2.MORPH_OPEN, square), cv2.MORPH_CLOSE, square)
+    outlines, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
+    hand = max(outlines, key=cv2.contourArea)
+    moments = cv2.moments(hand)
+    return hand, np.append(cv2.HuMoments(moments), (moments["m10"], moments["m01"])) / moments["m00"]
+
+
+def _agree(mask: np.ndarray, outline: np.ndarray) -> bool:
+    """Whether both found the same hand."""
+    theirs = np.zeros((hand_pictures.HEIGHT, hand_pictures.WIDTH), np.uint8)
+    cv2.drawContours(theirs, [outline], -1, 255, cv2.FILLED)
+    found, wanted = mask > 0, cv2.resize(theirs, mask.shape[::-1], interpolation=cv2.INTER_AREA) > 127
+    return bool(np.sum(found & wanted) > 0.85 * np.sum(found | wanted))
+
+
+def _decode_ms(clip: Sequence[np.ndarray]) -> float:
+    """A frame of the clip, from a file in MPEG-4; the same for us and for every peer."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "hand.mp4"
+        write_video(path, list(clip), hand_pictures.FPS)
+        seconds = []
+        for _ in range(5):
+            capture = cv2.VideoCapture(str(path))
+            begun = time.perf_counter()
+            while capture.read()[0]:
+                pass
+            seconds.append((time.perf_counter() - begun) / len(clip))
+            capture.release()
+    return 1000 * statistics.median(seconds)
+
+
+def _tracker_ms(clip: Sequence[np.ndarray]) -> float:
+    """A frame by MediaPipe's hand tracker, once it has found the hand."""
+    import mediapipe
+
+    seconds = []
+    with mediapipe.solutions.hands.Hands(max_num_hands=1, model_complexity=1) as tracker:
+        for frame in [*clip, *clip]:
+            begun = time.perf_counter()
+            tracker.process(np.ascontiguousarray(frame[:, :, ::-1]))
+            seconds.append(time.perf_counter() - begun)
+    return 1000 * statistics.median(seconds[len(clip) :])
+
+
+def _hand_frame(make_finder: Callable[[Sequence[np.ndarray]], Any]) -> Timed:
+    clip = hand_pictures.hand_clip("right", 2)
+    frame, finder = clip[len(clip) // 2], make_finder(clip)
+    options = _native.HandFeatureOptions()
+
+    def ours() -> Any:
+        found = finder.extract(frame)
+        return found.mask, _native.GestureRecognizer.features([found.grey], [found.mask], options)
+
+    mask, row = ours()
+    assert row.shape[0] == 1 and np.isfinite(row).all()
+    assert _agree(mask, _python_hand(frame)[0])
+    details: Details = {"decode_ms": _decode_ms(clip)}
+    if find_spec("mediapipe") is not None:
+        details["mediapipe_ms"] = _tracker_ms(clip)
+    return *medians(ours, lambda: _python_hand(frame), _FRAME_REPEATS), details
+
+
+def hand_frame() -> Timed:
+    """A picture of 640 x 480 to the hand's features, by colours learned from its clip; decoding comes on top."""
+    return _hand_frame(_native_vision.HandColours.learn)
+
+
+def hand_frame_otsu() -> Timed:
+    """The same, the hand found in the picture by itself."""
+    return _hand_frame(lambda _: _native_vision.SilhouetteExtractor(_native_vision.SilhouetteOptions()))
+
+
 BENCHES = [
+    Bench("hand_frame", hand_frame, "OpenCV in Python"),
+    Bench("hand_frame_otsu", hand_frame_otsu, "OpenCV in Python"),
     Bench("silhouette", silhouette, "OpenCV in Python"),
     Bench("orientation_histogram", orientation_histogram, "OpenCV and NumPy"),
 ]

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "hri/core/error.hpp"
+#include "hri/core/simd.hpp"
 
 namespace hri {
 namespace {
@@ -32,21 +34,71 @@ Extent extent_of(ImageView mask) {
   return e;
 }
 
-// Bilinear value at a point given in pixel centres, borders repeated.
-float sample(ImageView image, float y, float x) {
-  const float fy = std::clamp(y, 0.0F, static_cast<float>(image.height_px - 1));
-  const float fx = std::clamp(x, 0.0F, static_cast<float>(image.width_px - 1));
-  const int y0 = static_cast<int>(fy);
-  const int x0 = static_cast<int>(fx);
-  const int y1 = std::min(y0 + 1, image.height_px - 1);
-  const int x1 = std::min(x0 + 1, image.width_px - 1);
-  const float wy = fy - static_cast<float>(y0);
-  const float wx = fx - static_cast<float>(x0);
-  const std::uint8_t* r0 = image.row(y0);
-  const std::uint8_t* r1 = image.row(y1);
-  const float upper = static_cast<float>(r0[x0]) * (1 - wx) + static_cast<float>(r0[x1]) * wx;
-  const float lower = static_cast<float>(r1[x0]) * (1 - wx) + static_cast<float>(r1[x1]) * wx;
-  return upper * (1 - wy) + lower * wy;
+// What the samples inside one pixel of the crop take from the rows (or columns) of the image: a
+// bilinear sample takes from two neighbours, borders repeated, and neighbouring samples share them.
+struct Taps {
+  int first = 0;
+  int count = 0;
+  std::size_t weights = 0;  // where they begin
+};
+
+constexpr int kMaxSamples = 8;  // a side, inside one pixel of the crop
+
+// Working memory of one thread.
+struct Workspace {
+  std::vector<Taps> across, down;
+  std::vector<float> across_weights, down_weights;
+  std::vector<float> rows;  // those that are needed, already scaled across
+};
+
+void find_taps(float start, float step, int size, int image_size, std::vector<Taps>* taps,
+               std::vector<float>* weights) {
+  const int samples = std::clamp(static_cast<int>(std::ceil(step)), 1, kMaxSamples);
+  const auto share = 1.0F / static_cast<float>(samples);
+  const auto last = static_cast<float>(image_size - 1);
+  const auto at = [&](int pixel, int sample) {
+    const float inside = (static_cast<float>(sample) + 0.5F) / static_cast<float>(samples);
+    const float place = start + (static_cast<float>(pixel) + inside) * step - 0.5F;
+    return std::clamp(place, 0.0F, last);
+  };
+  taps->clear();
+  weights->clear();
+  for (int i = 0; i < size; ++i) {
+    const auto first = static_cast<int>(at(i, 0));
+    const int end = std::min(static_cast<int>(at(i, samples - 1)) + 1, image_size - 1);
+    const std::size_t begin = weights->size();
+    weights->resize(begin + static_cast<std::size_t>(end - first + 1), 0.0F);
+    for (int s = 0; s < samples; ++s) {
+      const float place = at(i, s);
+      const auto lower = static_cast<int>(place);
+      const float upper_share = place - static_cast<float>(lower);
+      const auto k = begin + static_cast<std::size_t>(lower - first);
+      (*weights)[k] += (1 - upper_share) * share;
+      if (upper_share > 0) (*weights)[k + 1] += upper_share * share;
+    }
+    taps->push_back({first, end - first + 1, begin});
+  }
+}
+
+// One row of the image, scaled across.
+void scale_row(const std::uint8_t* row, const std::vector<Taps>& taps, const float* weights,
+               float* out) {
+  for (std::size_t i = 0; i < taps.size(); ++i) {
+    const std::uint8_t* pixel = row + taps[i].first;
+    const float* weight = weights + taps[i].weights;
+    float sum = 0;
+    for (int k = 0; k < taps[i].count; ++k) sum += weight[k] * static_cast<float>(pixel[k]);
+    out[i] = sum;
+  }
+}
+
+// What weights that add up to 1 +- rounding make of values up to 1 stays there.
+HRI_SIMD_CLONES void cap(float* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) values[i] = values[i] < 1.0F ? values[i] : 1.0F;
+}
+
+HRI_SIMD_CLONES void add_scaled(float* out, const float* row, float weight, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) out[i] += weight * row[i];
 }
 
 }  // namespace
@@ -73,25 +125,28 @@ void crop(ImageView image, const HandBox& box, MatrixRefF out) {
   require(std::isfinite(box.left_px) && std::isfinite(box.top_px) && std::isfinite(box.side_px),
           "box must be finite");
   const auto size = static_cast<int>(out.rows());
+  const auto width = static_cast<std::size_t>(size);
   const float step = box.side_px / static_cast<float>(size);
-  const int samples = std::clamp(static_cast<int>(std::ceil(step)), 1, 8);
-  const float scale = 1.0F / (255.0F * static_cast<float>(samples * samples));
+  thread_local Workspace w;
+  find_taps(box.left_px, step, size, image.width_px, &w.across, &w.across_weights);
+  find_taps(box.top_px, step, size, image.height_px, &w.down, &w.down_weights);
+  const int top = w.down.front().first;
+  const int bottom = w.down.back().first + w.down.back().count;
+  w.rows.resize(static_cast<std::size_t>(bottom - top) * width);
+  for (int y = top; y < bottom; ++y) {
+    scale_row(image.row(y), w.across, w.across_weights.data(),
+              w.rows.data() + static_cast<std::size_t>(y - top) * width);
+  }
   for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      float sum = 0;
-      for (int sy = 0; sy < samples; ++sy) {
-        const float fy = box.top_px + (static_cast<float>(y) + (static_cast<float>(sy) + 0.5F) /
-                                                                   static_cast<float>(samples)) *
-                                          step;
-        for (int sx = 0; sx < samples; ++sx) {
-          const float fx = box.left_px + (static_cast<float>(x) + (static_cast<float>(sx) + 0.5F) /
-                                                                      static_cast<float>(samples)) *
-                                             step;
-          sum += sample(image, fy - 0.5F, fx - 0.5F);
-        }
-      }
-      out(y, x) = sum * scale;
+    float* row = out.data() + y * out.outerStride();
+    std::fill(row, row + size, 0.0F);
+    const Taps& taps = w.down[static_cast<std::size_t>(y)];
+    for (int k = 0; k < taps.count; ++k) {
+      const std::size_t from = static_cast<std::size_t>(taps.first + k - top) * width;
+      const float weight = w.down_weights[taps.weights + static_cast<std::size_t>(k)] / 255.0F;
+      add_scaled(row, w.rows.data() + from, weight, width);
     }
+    cap(row, width);
   }
 }
 

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "regions.hpp"
+
 namespace hri::detail {
 namespace {
 
 constexpr int kNumValues = 6;
 constexpr int kNumBins = 256;
-constexpr int kMedian_px = 3;
 constexpr int kBand_px = 5;            // both sides of an outline, for its sharpness
 constexpr double kRidge = 1e-4;        // keeps channels that hardly vary from large weights
 constexpr double kMinMeanArea = 0.01;  // of the frames learned from
@@ -36,30 +37,86 @@ struct Split {
   double quality = 0;  // between-class share of the variance
 };
 
-// Otsu's threshold over `values`, over a histogram of the range that holds all but stray values.
-Split otsu(const std::vector<float>& values) {
-  constexpr std::size_t kStray = 500;  // one value of so many on each side
-  std::vector<float> sorted = values;
-  const std::size_t stray = sorted.size() / kStray;
-  const auto low_at = sorted.begin() + static_cast<std::ptrdiff_t>(stray);
-  const auto high_at = sorted.end() - 1 - static_cast<std::ptrdiff_t>(stray);
-  std::nth_element(sorted.begin(), low_at, sorted.end());
-  const float low = *low_at;
-  std::nth_element(low_at, high_at, sorted.end());
-  const float high = *high_at;
-  if (!(high > low)) return {high, 0};
-  std::array<double, kNumBins> count{};
+// Where values that are not worth a bin of their own end, from below and from above: one value in
+// kStray on each side.
+struct Range {
+  float low = 0;
+  float high = 0;
+};
+
+// Otsu's threshold over scores, over a histogram of the range that holds all but stray ones.
+class Otsu {
+ public:
+  // No score lies below `least` or above `most`.
+  Split split(const std::vector<float>& scores, float least, float most) {
+    const Range range = without_stray(scores, least, most);
+    if (!(range.high > range.low)) return {range.high, 0};
+    return threshold(scores, range);
+  }
+
+ private:
+  static constexpr std::size_t kStray = 500;
+  static constexpr int kNumPlaces = 4096;  // coarse places; within one, scores are sorted out
+
+  Range without_stray(const std::vector<float>& scores, float least, float most) {
+    if (!(most > least)) return {most, most};
+    const float scale = static_cast<float>(kNumPlaces) / (most - least);
+    const auto place = [&](float s) {
+      return static_cast<std::size_t>(
+          std::clamp(static_cast<int>((s - least) * scale), 0, kNumPlaces - 1));
+    };
+    counts_.assign(kNumPlaces, 0);
+    for (const float s : scores) ++counts_[place(s)];
+    const std::size_t stray = scores.size() / kStray;
+    const Rank low = rank(stray);
+    const Rank high = rank(scores.size() - 1 - stray);
+    at_low_.clear();
+    at_high_.clear();
+    for (const float s : scores) {
+      const std::size_t p = place(s);
+      if (p == low.place) at_low_.push_back(s);
+      if (p == high.place) at_high_.push_back(s);
+    }
+    return {nth(&at_low_, low.within), nth(&at_high_, high.within)};
+  }
+
+  struct Rank {
+    std::size_t place = 0;
+    std::size_t within = 0;  // how many of the same place come before
+  };
+  [[nodiscard]] Rank rank(std::size_t n) const {
+    std::size_t place = 0;
+    while (n >= counts_[place]) n -= counts_[place++];
+    return {place, n};
+  }
+  static float nth(std::vector<float>* values, std::size_t n) {
+    const auto at = values->begin() + static_cast<std::ptrdiff_t>(n);
+    std::nth_element(values->begin(), at, values->end());
+    return *at;
+  }
+
+  static Split threshold(const std::vector<float>& scores, Range range);
+
+  std::vector<std::size_t> counts_;
+  std::vector<float> at_low_, at_high_;
+};
+
+Split Otsu::threshold(const std::vector<float>& scores, Range range) {
+  std::array<int, kNumBins> count{};
+  const float scale = kNumBins / (range.high - range.low);
+  for (const float s : scores) {
+    if (s < range.low || s > range.high) continue;
+    ++count[static_cast<std::size_t>(
+        std::min(kNumBins - 1, static_cast<int>((s - range.low) * scale)))];
+  }
   double total = 0;
   double sum = 0;
   double squares = 0;
-  const float scale = kNumBins / (high - low);
-  for (const float v : values) {
-    if (v < low || v > high) continue;
-    const int bin = std::min(kNumBins - 1, static_cast<int>((v - low) * scale));
-    ++count[static_cast<std::size_t>(bin)];
-    ++total;
-    sum += bin;
-    squares += static_cast<double>(bin) * bin;
+  for (int bin = 0; bin < kNumBins; ++bin) {
+    const double n = count[static_cast<std::size_t>(bin)];
+    total += n;
+    sum += n * bin;
+    squares += n * bin * bin;
   }
   double below = 0;
   double below_sum = 0;
@@ -67,7 +124,7 @@ Split otsu(const std::vector<float>& values) {
   int best_bin = 0;
   for (int bin = 0; bin < kNumBins - 1; ++bin) {
     below += count[static_cast<std::size_t>(bin)];
-    below_sum += bin * count[static_cast<std::size_t>(bin)];
+    below_sum += static_cast<double>(bin) * count[static_cast<std::size_t>(bin)];
     if (below == 0 || below == total) continue;
     const double apart = sum * below / total - below_sum;
     const double between = apart * apart / (below * (total - below));
@@ -77,32 +134,29 @@ Split otsu(const std::vector<float>& values) {
     }
   }
   const double variance = squares / total - (sum / total) * (sum / total);
-  return {low + static_cast<float>(best_bin + 1) / scale,
+  return {range.low + static_cast<float>(best_bin + 1) / scale,
           variance > 0 ? best / total / variance : 0};
 }
 
 class Fitter {
  public:
-  Fitter(const FitPixels& pixels, const HandColourOptions& options)
-      : frames_(pixels.frames), options_(options) {
-    Eigen::Index count = 0;
-    for (const cv::Mat& f : frames_) count += static_cast<Eigen::Index>(f.total());
-    values_.resize(count, kNumValues);
-    Eigen::Index at = 0;
-    for (const cv::Mat& f : frames_) {
-      for (int y = 0; y < f.rows; ++y) {
-        const auto* pixel = f.ptr<uchar>(y);
-        for (int x = 0; x < f.cols; ++x, pixel += 3, ++at) {
-          for (int c = 0; c < 3; ++c) {
-            values_(at, c) = log_level(pixel[c]);
-            values_(at, c + 3) = level(pixel[c]);
-          }
-        }
-      }
+  Fitter(const std::vector<ColourImage>& frames, const HandColourOptions& options)
+      : frames_(frames), options_(options), masks_(frames.size()) {
+    std::size_t count = 0;
+    for (const ColourImage& f : frames_) count += f.num_pixels();
+    for (int v = 0; v < kNumBins; ++v) {
+      logs_[static_cast<std::size_t>(v)] = log_level(v);
+      levels_[static_cast<std::size_t>(v)] = level(v);
     }
-    sum_ = values_.cast<double>().colwise().sum();
-    products_ = moments(Rows(values_));
-    scores_.resize(static_cast<std::size_t>(count));
+    Rows all(static_cast<Eigen::Index>(count), kNumValues);
+    Eigen::Index row = 0;
+    for (const ColourImage& f : frames_) {
+      for (std::size_t i = 0; i < f.num_pixels(); ++i)
+        set_values(f.pixels.data() + 3 * i, &all, row++);
+    }
+    sum_ = all.cast<double>().colwise().sum();
+    products_ = moments(all);
+    scores_.resize(count);
   }
 
   // What a start leads to, and how convincing a hand that is; the rank is -infinity for none.
@@ -120,7 +174,7 @@ class Fitter {
       std::copy_if(scores_.begin(), scores_.end(), std::back_inserter(above),
                    [&](float s) { return s > split.threshold; });
       if (above.empty()) return outcome;
-      split.threshold = otsu(above).threshold;
+      split.threshold = otsu_.split(above, least_, most_).threshold;
     }
     for (int round = 0; round < options_.num_rounds; ++round) {
       if (!segment(split.threshold)) return outcome;
@@ -143,11 +197,27 @@ class Fitter {
     return m.cast<double>();
   }
 
+  void set_values(const std::uint8_t* bgr, Rows* rows, Eigen::Index row) const {
+    for (int c = 0; c < 3; ++c) {
+      (*rows)(row, c) = logs_[bgr[c]];
+      (*rows)(row, c + 3) = levels_[bgr[c]];
+    }
+  }
+
   Split score(const std::array<float, kNumValues>& weights) {
-    const Eigen::Map<const Eigen::Matrix<float, kNumValues, 1>> w(weights.data());
-    Eigen::Map<Eigen::VectorXf>(scores_.data(), static_cast<Eigen::Index>(scores_.size())) =
-        values_ * w;
-    return otsu(scores_);
+    const ScoreTables tables = score_tables(weights);
+    least_ = most_ = 0;
+    for (const auto& table : tables) {
+      least_ += *std::min_element(table.begin(), table.end());
+      most_ += *std::max_element(table.begin(), table.end());
+    }
+    float* out = scores_.data();
+    for (const ColourImage& f : frames_) {
+      const std::uint8_t* bgr = f.pixels.data();
+      for (std::size_t i = 0; i < f.num_pixels(); ++i, bgr += 3)
+        *out++ = tables[0][bgr[0]] + tables[1][bgr[1]] + tables[2][bgr[2]];
+    }
+    return otsu_.split(scores_, least_, most_);
   }
 
   [[nodiscard]] double share_above(float threshold) const {
@@ -158,38 +228,40 @@ class Fitter {
 
   // The largest region of every frame; false where it cannot be a hand.
   bool segment(float threshold) {
-    masks_.clear();
-    std::size_t at = 0;
-    double inside = 0;
+    const float* score = scores_.data();
+    num_inside_ = 0;
     int empty = 0;
-    for (const cv::Mat& f : frames_) {
-      cv::Mat mask(f.size(), CV_8U);
-      for (int i = 0; i < static_cast<int>(f.total()); ++i, ++at)
-        mask.data[i] = scores_[at] > threshold ? 255 : 0;
-      cv::medianBlur(mask, mask, kMedian_px);
-      if (!keep_largest(mask, options_.min_area)) ++empty;
-      inside += cv::countNonZero(mask);
-      masks_.push_back(mask);
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      resize(&raw_, frames_[i].width_px, frames_[i].height_px);
+      for (std::uint8_t& p : raw_.pixels) p = *score++ > threshold ? 255 : 0;
+      majority(raw_, &bytes_, &masks_[i]);
+      if (!regions_.keep_largest(&masks_[i], options_.min_area)) ++empty;
+      num_inside_ += count_set(masks_[i].pixels.data(), 1, masks_[i].pixels.size());
     }
-    mean_area_ = inside / static_cast<double>(scores_.size());
+    mean_area_ = static_cast<double>(num_inside_) / static_cast<double>(scores_.size());
     share_of_empty_ = empty / static_cast<double>(frames_.size());
     return mean_area_ >= kMinMeanArea && mean_area_ <= options_.max_area;
   }
 
+  static std::ptrdiff_t count_set(const std::uint8_t* pixels, std::size_t step, std::size_t count) {
+    std::ptrdiff_t result = 0;
+    for (std::size_t i = 0; i < count; ++i) result += pixels[i * step] != 0 ? 1 : 0;
+    return result;
+  }
+
   // Fisher's discriminant between the masks and the rest, scaled to scores of unit spread.
   [[nodiscard]] std::array<float, kNumValues> discriminant() const {
-    const auto inside_count =
-        static_cast<Eigen::Index>(std::lround(mean_area_ * static_cast<double>(values_.rows())));
-    Rows inside(inside_count, kNumValues);
-    Eigen::Index row = 0;
+    Rows inside(static_cast<Eigen::Index>(num_inside_), kNumValues);
     Eigen::Index used = 0;
-    for (const cv::Mat& m : masks_) {
-      for (int i = 0; i < static_cast<int>(m.total()); ++i, ++row) {
-        if (m.data[i] != 0) inside.row(used++) = values_.row(row);
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      const std::uint8_t* bgr = frames_[f].pixels.data();
+      for (const std::uint8_t in : masks_[f].pixels) {
+        if (in != 0) set_values(bgr, &inside, used++);
+        bgr += 3;
       }
     }
-    const auto n = static_cast<double>(inside_count);
-    const double rest = static_cast<double>(values_.rows()) - n;
+    const auto n = static_cast<double>(num_inside_);
+    const double rest = static_cast<double>(scores_.size()) - n;
     const Values hand_sum = inside.cast<double>().colwise().sum();
     const Square hand_products = moments(inside);
     const Values hand = hand_sum / n;
@@ -210,32 +282,31 @@ class Fitter {
   [[nodiscard]] double border_share() const {
     double inside = 0;
     double all = 0;
-    for (const cv::Mat& m : masks_) {
-      inside += cv::countNonZero(m.row(0)) + cv::countNonZero(m.col(0)) +
-                cv::countNonZero(m.col(m.cols - 1));
-      all += m.cols + 2 * m.rows;
+    for (const GreyImage& m : masks_) {
+      const auto width = static_cast<std::size_t>(m.width_px);
+      const auto height = static_cast<std::size_t>(m.height_px);
+      inside += static_cast<double>(count_set(m.pixels.data(), 1, width) +
+                                    count_set(m.pixels.data(), width, height) +
+                                    count_set(m.pixels.data() + width - 1, width, height));
+      all += static_cast<double>(width + 2 * height);
     }
     return inside / all;
   }
 
   // Between-class share of the variance of the scores in a narrow band round the outlines.
-  [[nodiscard]] double sharpness() const {
-    const cv::Mat kernel = cv::Mat::ones(kBand_px, kBand_px, CV_8U);
+  [[nodiscard]] double sharpness() {
     std::array<double, 2> count{};
     std::array<double, 2> sum{};
     double squares = 0;
-    std::size_t at = 0;
-    cv::Mat inner;
-    cv::Mat outer;
-    for (const cv::Mat& m : masks_) {
-      cv::erode(m, inner, kernel);
-      cv::dilate(m, outer, kernel);
-      for (int i = 0; i < static_cast<int>(m.total()); ++i, ++at) {
-        if (inner.data[i] != 0 || outer.data[i] == 0) continue;
-        const std::size_t side = m.data[i] != 0 ? 1 : 0;
+    const float* score = scores_.data();
+    for (const GreyImage& m : masks_) {
+      find_band(m, kBand_px / 2, &bytes_, &raw_);
+      for (std::size_t i = 0; i < m.pixels.size(); ++i, ++score) {
+        if (raw_.pixels[i] == 0) continue;
+        const std::size_t side = m.pixels[i] != 0 ? 1 : 0;
         ++count[side];
-        sum[side] += scores_[at];
-        squares += static_cast<double>(scores_[at]) * scores_[at];
+        sum[side] += *score;
+        squares += static_cast<double>(*score) * *score;
       }
     }
     if (count[0] == 0 || count[1] == 0) return 0;
@@ -246,21 +317,39 @@ class Fitter {
     return variance > 0 ? count[0] * count[1] / (n * n) * apart * apart / variance : 0;
   }
 
-  const std::vector<cv::Mat>& frames_;
+  const std::vector<ColourImage>& frames_;
   const HandColourOptions& options_;
-  Rows values_;
+  std::array<float, kNumBins> logs_{}, levels_{};
   Values sum_;
   Square products_;
   std::vector<float> scores_;
-  std::vector<cv::Mat> masks_;
+  float least_ = 0;  // what no score lies below
+  float most_ = 0;   // or above
+  std::vector<GreyImage> masks_;
+  std::ptrdiff_t num_inside_ = 0;
   double mean_area_ = 0;
   double share_of_empty_ = 0;
+  Otsu otsu_;
+  RegionFinder regions_;
+  GreyImage raw_;
+  std::vector<std::uint8_t> bytes_;
 };
 
 }  // namespace
 
-std::optional<ColourFit> fit_colours(const FitPixels& pixels, const HandColourOptions& options) {
-  Fitter fitter(pixels, options);
+ScoreTables score_tables(const std::array<float, 6>& weights) {
+  ScoreTables tables{};
+  for (std::size_t c = 0; c < tables.size(); ++c) {
+    for (int v = 0; v < kNumBins; ++v)
+      tables[c][static_cast<std::size_t>(v)] =
+          weights[c] * log_level(v) + weights[c + 3] * level(v);
+  }
+  return tables;
+}
+
+std::optional<ColourFit> fit_colours(const std::vector<ColourImage>& frames,
+                                     const HandColourOptions& options) {
+  Fitter fitter(frames, options);
   Fitter::Outcome best;
   for (const auto& start : kStarts) {
     for (const bool split_again : {false, true}) {
@@ -272,26 +361,6 @@ std::optional<ColourFit> fit_colours(const FitPixels& pixels, const HandColourOp
       best.fit.quality < options.min_quality)
     return std::nullopt;
   return best.fit;
-}
-
-bool keep_largest(cv::Mat& mask, double min_area) {
-  cv::Mat labels;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids);
-  int largest = 0;
-  int area = 0;
-  for (int i = 1; i < count; ++i) {
-    if (stats.at<int>(i, cv::CC_STAT_AREA) <= area) continue;
-    area = stats.at<int>(i, cv::CC_STAT_AREA);
-    largest = i;
-  }
-  if (largest == 0 || area < min_area * static_cast<double>(mask.total())) {
-    mask.setTo(0);
-    return false;
-  }
-  mask = labels == largest;
-  return true;
 }
 
 }  // namespace hri::detail

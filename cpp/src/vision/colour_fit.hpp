@@ -6,17 +6,13 @@
 
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
 
 #include "hri/vision/hand_colours.hpp"
+#include "pixels.hpp"
 
 namespace hri::detail {
-
-struct FitPixels {
-  std::vector<cv::Mat> frames;  // CV_8UC3
-};
 
 /// score = sum over channels of weights[c] * log_level + weights[c + 3] * level; hand above the
 /// threshold.
@@ -33,10 +29,11 @@ inline float log_level(int value) {
   return std::log(static_cast<float>(value) + 2.0F) / std::log(257.0F);
 }
 
-std::optional<ColourFit> fit_colours(const FitPixels& pixels, const HandColourOptions& options);
+/// What every value of blue, green and red adds to the score.
+using ScoreTables = std::array<std::array<float, 256>, 3>;
+ScoreTables score_tables(const std::array<float, 6>& weights);
 
-/// Leaves only the largest region; nothing and false where it covers less than `min_area` of the
-/// mask.
-bool keep_largest(cv::Mat& mask, double min_area);
+std::optional<ColourFit> fit_colours(const std::vector<ColourImage>& frames,
+                                     const HandColourOptions& options);
 
 }  // namespace hri::detail

@@ -3,17 +3,15 @@
 #include "hri/vision/hand_colours.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "colour_fit.hpp"
 #include "hri/core/error.hpp"
-#include "pictures.hpp"
+#include "pixels.hpp"
+#include "regions.hpp"
 
 namespace hri {
 namespace {
-
-constexpr int kMedian_px = 3;
 
 void validate(const HandColourOptions& o) {
   require(o.max_side_px >= 32 && o.max_side_px <= 4096, "max_side_px must lie in 32..4096");
@@ -25,19 +23,28 @@ void validate(const HandColourOptions& o) {
   require(o.min_quality >= 0 && o.min_quality <= 1, "min_quality must lie in 0..1");
 }
 
-// Frames spread evenly over the clip, scaled down and below each other.
-detail::FitPixels fit_pixels(const std::vector<ImageView>& frames,
-                             const HandColourOptions& options) {
+// Frames spread evenly over the clip, scaled down.
+std::vector<detail::ColourImage> frames_to_fit(const std::vector<ImageView>& frames,
+                                               const HandColourOptions& options) {
   const std::size_t count =
       std::min(frames.size(), static_cast<std::size_t>(options.num_fit_frames));
-  detail::FitPixels pixels;
+  std::vector<detail::ColourImage> chosen(count);
+  detail::Shrinker shrinker;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = count == 1 ? frames.size() / 2 : i * (frames.size() - 1) / (count - 1);
-    pixels.frames.push_back(
-        detail::scaled_down(detail::as_mat(frames[at]), options.fit_side_px).clone());
+    shrinker.shrink(frames[at], options.fit_side_px, &chosen[i]);
   }
-  return pixels;
+  return chosen;
 }
+
+// Working memory of one thread.
+struct Workspace {
+  detail::Shrinker shrinker;
+  detail::ColourImage small;
+  GreyImage raw;
+  std::vector<std::uint8_t> counts;
+  detail::RegionFinder regions;
+};
 
 }  // namespace
 
@@ -51,42 +58,37 @@ std::optional<HandColours> HandColours::learn(const std::vector<ImageView>& fram
            "frame " + std::to_string(i) + " must have three channels and at least one pixel");
     }
   }
-  const auto fit = detail::fit_colours(fit_pixels(frames, options), options);
+  const auto fit = detail::fit_colours(frames_to_fit(frames, options), options);
   if (!fit) return std::nullopt;
   HandColours result;
   result.options_ = options;
   result.threshold_ = fit->threshold;
   result.quality_ = fit->quality;
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (int v = 0; v < 256; ++v) {
-      result.scores_[c][static_cast<std::size_t>(v)] =
-          fit->weights[c] * detail::log_level(v) + fit->weights[c + 3] * detail::level(v);
-    }
-  }
+  result.scores_ = detail::score_tables(fit->weights);
   return result;
 }
 
 Silhouette HandColours::extract(ImageView bgr) const {
+  Silhouette result;
+  extract(bgr, &result);
+  return result;
+}
+
+void HandColours::extract(ImageView bgr, Silhouette* out) const {
   require(!bgr.empty() && bgr.channels == 3,
           "picture must have three channels and at least one pixel");
-  const cv::Mat small = detail::scaled_down(detail::as_mat(bgr), options_.max_side_px);
-  cv::Mat grey;
-  cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
-  cv::Mat mask(small.size(), CV_8U);
-  for (int y = 0; y < small.rows; ++y) {
-    const auto* pixel = small.ptr<uchar>(y);
-    auto* out = mask.ptr<uchar>(y);
-    for (int x = 0; x < small.cols; ++x, pixel += 3) {
-      const float score = scores_[0][pixel[0]] + scores_[1][pixel[1]] + scores_[2][pixel[2]];
-      out[x] = score > threshold_ ? 255 : 0;
-    }
+  thread_local Workspace w;
+  w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
+  detail::to_grey(w.small, &out->grey);
+  detail::resize(&w.raw, w.small.width_px, w.small.height_px);
+  const std::uint8_t* pixel = w.small.pixels.data();
+  for (std::uint8_t& in : w.raw.pixels) {
+    const float score = scores_[0][pixel[0]] + scores_[1][pixel[1]] + scores_[2][pixel[2]];
+    in = score > threshold_ ? 255 : 0;
+    pixel += 3;
   }
-  cv::medianBlur(mask, mask, kMedian_px);
-  Silhouette result;
-  result.grey = detail::copy_of(grey);
-  if (detail::keep_largest(mask, options_.min_area)) result.quality = quality_;
-  result.mask = detail::copy_of(mask);
-  return result;
+  detail::majority(w.raw, &w.counts, &out->mask);
+  out->quality = w.regions.keep_largest(&out->mask, options_.min_area) ? quality_ : 0;
 }
 
 }  // namespace hri

@@ -43,6 +43,10 @@ class HandColours {
   /// InvalidArgument for another layout or an empty picture.
   [[nodiscard]] Silhouette extract(ImageView bgr) const;
 
+  /// The same into a silhouette whose memory is used again: pictures of one size allocate nothing
+  /// from the second on, where their sides are whole multiples of the working ones.
+  void extract(ImageView bgr, Silhouette* out) const;
+
   /// How well the pixels on both sides of the outline separate (share of their variance), 0..1.
   [[nodiscard]] double quality() const { return quality_; }
 

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The library's own steps over pixels give what OpenCV gives."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from hri import _native_vision
+
+Frame = NDArray[np.uint8]
+
+
+def film(size: tuple[int, int]) -> list[Frame]:
+    """A hand of two fingers that goes right, with specks of skin colour beside it."""
+    rng = np.random.default_rng(0)
+    frames = []
+    for t in range(8):
+        picture = np.full((120, 160, 3), (170, 150, 140), np.uint8)
+        skin, x = (110, 140, 200), 50 + 3 * t
+        cv2.circle(picture, (x, 70), 16, skin, -1)
+        cv2.line(picture, (x - 6, 70), (x - 12, 36), skin, 7)
+        cv2.line(picture, (x + 6, 70), (x + 14, 38), skin, 7)
+        for speck in rng.integers(5, 115, (4, 2)):
+            cv2.circle(picture, tuple(int(v) for v in speck), 3, skin, -1)
+        large = cv2.resize(picture, size, interpolation=cv2.INTER_LINEAR)
+        frames.append(np.clip(large + rng.normal(0, 6, large.shape), 0, 255).astype(np.uint8))
+    return frames
+
+
+@pytest.mark.parametrize(
+    "size", [(160, 120), (320, 240), (480, 360), (640, 480), (800, 600), (1280, 720), (480, 640), (333, 250), (90, 67)]
+)
+def test_pictures_are_scaled_down_and_greyed_as_opencv_does(size: tuple[int, int]) -> None:
+    clip = film(size)
+    colours = _native_vision.HandColours.learn(clip)
+    assert colours is not None
+    scale = min(1.0, 160 / max(size))
+    small = cv2.resize(clip[3], (round(size[0] * scale), round(size[1] * scale)), interpolation=cv2.INTER_AREA)
+    found = colours.extract(clip[3])
+    np.testing.assert_array_equal(found.grey, cv2.cvtColor(small, cv2.COLOR_BGR2GRAY))
+
+
+def test_the_mask_is_the_largest_region_of_what_most_neighbours_are() -> None:
+    clip = film((640, 480))
+    options = _native_vision.HandColourOptions
+    everything = _native_vision.HandColours.learn(clip, options(min_area=0.0))
+    for frame in clip:
+        mask = everything.extract(frame).mask
+        count, _, stats, _ = cv2.connectedComponentsWithStats(mask)
+        assert count == 2 and stats[1, cv2.CC_STAT_AREA] > 1000
+        # The rule of this picture by hand: red above blue is skin.
+        small = cv2.resize(frame, (160, 120), interpolation=cv2.INTER_AREA).astype(int)
+        skin = cv2.medianBlur(np.where(small[:, :, 2] > small[:, :, 0] + 25, 255, 0).astype(np.uint8), 3)
+        _, labels, regions, _ = cv2.connectedComponentsWithStats(skin)
+        wanted = labels == 1 + np.argmax(regions[1:, cv2.CC_STAT_AREA])
+        assert ((mask > 0) & wanted).sum() > 0.95 * ((mask > 0) | wanted).sum()
