@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import json
 import signal
+import subprocess
+import sys
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -153,6 +155,8 @@ def test_help_teaches_by_example(hri, name: str):
 def test_version_and_bare_call(hri):
     assert hri("--version").out.strip().endswith(_native.__version__)
     assert all(name in hri("--help").out for name in COMMANDS)
+    as_module = subprocess.run([sys.executable, "-m", "hri", "--version"], capture_output=True, text=True, check=True)
+    assert as_module.stdout == hri("--version").out
 
 
 def test_options_are_nested_and_typed():

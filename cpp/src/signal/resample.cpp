@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <numeric>
 
 #include "hri/core/error.hpp"
@@ -37,6 +39,51 @@ double kernel(double t, double half_width, double cutoff) {
   return cutoff * sinc * scale * bessel_i0(kKaiserBeta * std::sqrt(1 - r * r));
 }
 
+// The weights that bring one sample rate to another: output n lies at n * down / up input samples,
+// so only `up` different phases occur, with one row of weights each.
+struct Phases {
+  int from_hz = 0, to_hz = 0;
+  std::int64_t up = 0, down = 0, reach = 0, taps = 0;
+  std::vector<float> weights;
+};
+
+Phases make_phases(int from_hz, int to_hz) {
+  Phases p;
+  p.from_hz = from_hz;
+  p.to_hz = to_hz;
+  const std::int64_t common = std::gcd(from_hz, to_hz);
+  p.up = to_hz / common;
+  p.down = from_hz / common;
+  // Time is counted in input samples; the cut-off falls with the output rate when that is the lower
+  // one.
+  const double cutoff =
+      kPassBand * std::min(1.0, static_cast<double>(p.up) / static_cast<double>(p.down));
+  const double half_width = kZeroCrossings / cutoff;
+  p.reach = static_cast<std::int64_t>(half_width);
+  p.taps = 2 * p.reach + 2;
+  p.weights.resize(static_cast<std::size_t>(p.up * p.taps));
+  for (std::int64_t phase = 0; phase < p.up; ++phase) {
+    const double fraction = static_cast<double>(phase) / static_cast<double>(p.up);
+    for (std::int64_t k = 0; k < p.taps; ++k) {
+      p.weights[static_cast<std::size_t>(phase * p.taps + k)] = static_cast<float>(
+          kernel(static_cast<double>(k - p.reach) - fraction, half_width, cutoff));
+    }
+  }
+  return p;
+}
+
+// A microphone has one rate: computing its weights takes longer than applying them to a word, so
+// each thread keeps those it used last, unless they are large (rates with no common divisor to
+// speak of).
+std::shared_ptr<const Phases> phases_of(int from_hz, int to_hz) {
+  constexpr std::size_t kKept = std::size_t{1} << 18;  // weights: a megabyte
+  thread_local std::shared_ptr<const Phases> kept;
+  if (kept && kept->from_hz == from_hz && kept->to_hz == to_hz) return kept;
+  auto phases = std::make_shared<const Phases>(make_phases(from_hz, to_hz));
+  if (phases->weights.size() <= kKept) kept = phases;
+  return phases;
+}
+
 }  // namespace
 
 std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz) {
@@ -46,33 +93,18 @@ std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz) {
                                           std::to_string(to_hz));
   }
   if (from_hz == to_hz) return {samples.begin(), samples.end()};
-  const std::int64_t common = std::gcd(from_hz, to_hz);
-  const std::int64_t up = to_hz / common;
-  const std::int64_t down = from_hz / common;
-  // Time is counted in input samples; the cut-off falls with the output rate when that is the lower
-  // one.
-  const double cutoff =
-      kPassBand * std::min(1.0, static_cast<double>(up) / static_cast<double>(down));
-  const double half_width = kZeroCrossings / cutoff;
-  const auto reach = static_cast<std::int64_t>(half_width);
-  const std::int64_t taps = 2 * reach + 2;
-
-  // Output n lies at n * down / up, so only `up` different phases occur: one row of weights each.
-  std::vector<float> weights(static_cast<std::size_t>(up * taps));
-  for (std::int64_t phase = 0; phase < up; ++phase) {
-    const double fraction = static_cast<double>(phase) / static_cast<double>(up);
-    for (std::int64_t k = 0; k < taps; ++k) {
-      weights[static_cast<std::size_t>(phase * taps + k)] =
-          static_cast<float>(kernel(static_cast<double>(k - reach) - fraction, half_width, cutoff));
-    }
-  }
+  const std::shared_ptr<const Phases> phases = phases_of(from_hz, to_hz);
+  const std::int64_t up = phases->up;
+  const std::int64_t down = phases->down;
+  const std::int64_t reach = phases->reach;
+  const std::int64_t taps = phases->taps;
   const auto num_in = static_cast<std::int64_t>(samples.size());
   const std::int64_t num_out = (num_in * up + down - 1) / down;
   std::vector<float> out(static_cast<std::size_t>(num_out));
   for (std::int64_t n = 0; n < num_out; ++n) {
     const std::int64_t position = n * down;
     const std::int64_t first = position / up - reach;
-    const float* row = weights.data() + (position % up) * taps;
+    const float* row = phases->weights.data() + (position % up) * taps;
     const std::int64_t begin = std::max<std::int64_t>(0, -first);
     const std::int64_t end = std::min(taps, num_in - first);
     if (begin >= end) continue;

@@ -8,7 +8,10 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <thread>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
@@ -108,6 +111,18 @@ TEST(Resample, KeepsAConstantAndIsLinear) {
       std::tuple{resample(a, 16000, 11025), resample(b, 16000, 11025), resample(sum, 16000, 11025)};
   for (std::size_t n = 0; n < of_a.size(); ++n)
     EXPECT_NEAR(of_sum[n], of_a[n] + 2 * of_b[n], 2e-5) << n;
+}
+
+TEST(Resample, DoesNotDependOnWhatWasResampledBefore) {
+  std::vector<float> x(500);
+  Random random(6);
+  for (float& v : x) v = static_cast<float>(random.normal());
+  const std::vector<float> up = resample(x, 8000, 16000);
+  const std::vector<float> down = resample(x, 16000, 11025);
+  EXPECT_EQ(resample(x, 8000, 16000), up);
+  std::thread other([&] { EXPECT_EQ(resample(x, 16000, 11025), down); });
+  other.join();
+  EXPECT_EQ(resample(x, 16000, 11025), down);
 }
 
 TEST(Resample, RefusesRatesOutOfRangeByName) {

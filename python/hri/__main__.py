@@ -1,0 +1,8 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""`python -m hri` is the command line `hri`."""
+
+from hri.cli.main import run
+
+if __name__ == "__main__":
+    run()
