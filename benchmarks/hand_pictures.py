@@ -43,15 +43,33 @@ def hand_clip(movement: str, person: int, take: int = 0, rest: int = 6) -> list[
     return [hand_picture(still, *(start + share * far), rng) for share in way]
 
 
-def hand_stream(movement: str, person: int, take: int, wait: int) -> tuple[list[Frame], int]:
-    """The same as a stream, and where it ends: the hand comes from below, holds for `wait` frames, moves, holds."""
+def sign_picture(sign: str, person: int, take: int) -> Frame:
+    """A sign held before the camera."""
+    rng = np.random.default_rng([person, take, 8])
+    x, y = rng.normal(0, 0.03, 2)
+    return hand_picture(draw_still(make_signer(person), sign, take), x, y, rng)
+
+
+def _arrival(still: Frame, x: float, y: float, wait: int, rng: np.random.Generator) -> list[Frame]:
+    """The wall, the hand that comes from below to a place, and `wait` frames in which it holds still."""
+    heights = [*[_AWAY] * 10, *np.linspace(_AWAY, y, 15), *[y] * wait]
+    return [hand_picture(still, x, height, rng) for height in heights]
+
+
+def sign_stream(sign: str, person: int, take: int, wait: int) -> tuple[list[Frame], int]:
+    """A hand that comes and holds a sign, and the frame from which on it holds still."""
+    rng = np.random.default_rng([person, take, 7])
+    frames = _arrival(draw_still(make_signer(person), sign, take), 0.0, 0.0, wait, rng)
+    return frames, len(frames) - wait
+
+
+def movement_stream(movement: str, person: int, take: int, wait: int) -> tuple[list[Frame], int]:
+    """A hand that comes, holds still, moves and holds still again, and the frame from which on it does so."""
     rng = np.random.default_rng([person, take, 9])
     still = draw_still(make_signer(person), "5", take)
     far = np.array(_FAR[movement])
-    wall = [hand_picture(still, 0.0, _AWAY, rng) for _ in range(10)]
-    rise = [hand_picture(still, *(-far / 2 + (0, height)), rng) for height in np.linspace(_AWAY, 0, 15)]
-    held = [hand_picture(still, *(-far / 2), rng) for _ in range(wait)]
+    frames = _arrival(still, *(-far / 2), wait, rng)
     way = np.sin(np.linspace(0, np.pi / 2, 18)) ** 2
-    moving = [hand_picture(still, *(far * (share - 0.5)), rng) for share in way]
-    after = [hand_picture(still, *(far / 2), rng) for _ in range(wait)]
-    return [*wall, *rise, *held, *moving, *after], len(wall) + len(rise) + len(held) + len(moving)
+    frames += [hand_picture(still, *(far * (share - 0.5)), rng) for share in way]
+    end = len(frames)
+    return frames + [hand_picture(still, *(far / 2), rng) for _ in range(wait)], end

@@ -79,6 +79,7 @@ PYTHON = {
         "cli",
     },
 }
+PYTHON["__main__"] = {"cli"}
 ONLY_IN = {"pybullet": {"robot/pybullet_backend.py"}}
 MAX_LINES = 450
 

@@ -83,8 +83,8 @@ def test_a_wall_gives_no_decision_and_a_hand_the_recogniser_does_not_see_no_inpu
     assert {e.event for e in Watcher(signs).watch(ClipSource(wall, FPS))} == {"watching", "hand", "ended"}
 
     class Blind(hri.GestureRecognizer):
-        def features(self, clip: Any) -> Any:
-            return super().features([wall[0] for _ in clip])
+        def silhouette_features(self, silhouettes: Any) -> Any:
+            return super().silhouette_features(silhouettes)[:0]
 
     blind = Blind._wrap(signs._native)
     decided = [e for e in Watcher(blind).watch(ClipSource(shown(["flat"]), FPS)) if e.event == "decision"]
@@ -105,13 +105,18 @@ def test_movements_by_their_masks() -> None:
 
     moving = [0, 5, 10, 15, 20, 15, 10, 5]
     gone = [-1] * 10
-    start, rested, left = ("start", ""), ("end", "rested"), ("end", "left")
+    start, rested, left, ended = ("start", ""), ("end", "rested"), ("end", "left"), ("end", "ended")
     assert told([*moving * 2, *gone]) == [start, left]
     assert told([*moving[:4], *gone]) == [start, ("dropped", "left")]
     assert told([*moving, *[5] * 20, *gone]) == [start, rested]
     assert told([*moving, *[5] * 20, *moving, *gone]) == [start, rested, start, ("dropped", "left")]
     assert told([*moving, *[5] * 20, *moving * 4, *gone]) == [start, rested, start, left]
-    assert told(moving * 2) == [start, left]
+    assert told(moving * 2) == [start, ended]
+    # A stream that ends takes no hand away, and a hand that comes may be told to have shown nothing yet.
+    assert told([*moving, *[5] * 20, *moving * 2]) == [start, rested, start, ended]
+    still = MovementOptions(arrivals=False)
+    assert told([*moving, *[5] * 20, *moving * 2], still) == [start, ("dropped", "arrived"), start, ended]
+    assert told([*moving * 2, *gone], still) == [start, left]
     assert told([*moving * 8], MovementOptions(max_movement_s=1.0)) == [start, ("end", "cut")]
     assert told([0, -1, 5, -1, 10, -1]) == []
     for fields in ({"rest_s": 0.0}, {"still_change": 1.0}, {"max_movement_s": 0.1}):

@@ -3,7 +3,9 @@
 //
 // Movements from few examples: a gesture is a path through shapes and places. It is resampled at
 // a few points, spaced by how much changes rather than by time, so that pauses and tempo matter
-// little; the points together are one vector for a linear support vector machine.
+// little; the points together are one vector for a linear support vector machine. A gesture that
+// begins at rest, pauses and moves again is also learned from that last movement alone, as somebody
+// who is watched may take up the pose of its start long before.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,14 +17,19 @@
 namespace hri {
 namespace {
 
-constexpr Eigen::Index kMaxRows = 32;    // more frames than that only add noise to the steps
-constexpr Eigen::Index kNumPoints = 8;   // of the resampled path
-constexpr double kStillQuantile = 0.25;  // the stillest steps tell the noise of the shapes
-constexpr float kNoiseMargin = 1.5F;     // times that, which does not count as change
-constexpr float kTimeShare = 0.5F;       // weight of even spacing in time beside change
-constexpr float kStepTrackScale = 4.0F;  // of the hand's place beside its shape, in a step
-constexpr float kTrackScale = 0.5F;      // and in the vector
-constexpr float kVectorLength = 3.0F;    // of an average vector, to suit a cost of 1
+constexpr const char* kStartsAtRest = "path.starts_at_rest";
+constexpr Eigen::Index kMaxRows = 32;     // more frames than that only add noise to the steps
+constexpr Eigen::Index kNumPoints = 8;    // of the resampled path
+constexpr double kStillQuantile = 0.25;   // the stillest steps tell the noise of the shapes
+constexpr float kNoiseMargin = 1.5F;      // times that, which does not count as change
+constexpr float kTimeShare = 0.5F;        // weight of even spacing in time beside change
+constexpr float kStepTrackScale = 4.0F;   // of the hand's place beside its shape, in a step
+constexpr float kTrackScale = 0.5F;       // and in the vector
+constexpr double kPauseShare = 0.08;      // of a gesture's frames that a pause takes at least
+constexpr float kPauseChange = 0.05F;     // share of all change that may lie in a pause
+constexpr float kMovementChange = 0.15F;  // and that makes a movement
+constexpr float kReturned = 0.5F;  // of the way out: a hand that ends closer to its start came back
+constexpr float kVectorLength = 3.0F;  // of an average vector, to suit a cost of 1
 constexpr float kTrackUnits[detail::kNumTrackColumns] = {1.0F, 0.75F, 0.25F};  // x, y, log area
 
 MatrixF thinned(ConstMatrixRefF rows) {
@@ -47,8 +54,8 @@ MatrixF smoothed(const MatrixF& rows) {
   return result;
 }
 
-// How far along the path every row lies, from 0 to 1.
-std::vector<float> positions(const MatrixF& rows) {
+// Which share of all change lies before every row, 0 to 1; all 0 where nothing changes.
+std::vector<float> change_before(const MatrixF& rows) {
   const Eigen::Index num_steps = rows.rows() - 1;
   const MatrixF smooth = smoothed(rows);
   std::vector<float> steps(static_cast<std::size_t>(num_steps));
@@ -58,16 +65,21 @@ std::vector<float> positions(const MatrixF& rows) {
   const auto still = sorted.begin() + static_cast<std::ptrdiff_t>(
                                           kStillQuantile * static_cast<double>(num_steps - 1));
   std::nth_element(sorted.begin(), still, sorted.end());
-  float sum = 0;
-  for (float& s : steps) {
-    s = std::max(s - kNoiseMargin * *still, 0.0F);
-    sum += s;
-  }
   std::vector<float> result{0};
-  for (const float s : steps) {
-    const float change = sum > 0 ? s / sum : 0.0F;
-    result.push_back(result.back() + change + kTimeShare / static_cast<float>(num_steps));
+  for (const float s : steps)
+    result.push_back(result.back() + std::max(s - kNoiseMargin * *still, 0.0F));
+  const float sum = result.back();
+  if (sum > 0) {
+    for (float& c : result) c /= sum;
   }
+  return result;
+}
+
+// How far along the path every row lies, from 0 to 1.
+std::vector<float> positions(const MatrixF& rows) {
+  std::vector<float> result = change_before(rows);
+  const float step = kTimeShare / static_cast<float>(rows.rows() - 1);
+  for (std::size_t t = 0; t < result.size(); ++t) result[t] += step * static_cast<float>(t);
   const float length = result.back();
   for (float& p : result) p /= length;
   return result;
@@ -88,14 +100,20 @@ MatrixF resampled(const MatrixF& rows, const std::vector<float>& at) {
   return result;
 }
 
-// The path as one row. `shape_scale` brings shapes to unit length.
-VectorF path_vector(ConstMatrixRefF gesture, float shape_scale) {
+// Shapes brought to unit length by `shape_scale`, beside the track in units of its own.
+MatrixF scaled(MatrixF rows, float shape_scale) {
   constexpr Eigen::Index kTrack = detail::kNumTrackColumns;
-  MatrixF rows = thinned(gesture);
   const Eigen::Index num_shapes = rows.cols() - kTrack;
   rows.leftCols(num_shapes) *= shape_scale;
   for (Eigen::Index c = 0; c < kTrack; ++c)
     rows.col(num_shapes + c) *= kStepTrackScale * kTrackUnits[c];
+  return rows;
+}
+
+// The path as one row.
+VectorF path_vector(ConstMatrixRefF gesture, float shape_scale) {
+  constexpr Eigen::Index kTrack = detail::kNumTrackColumns;
+  const MatrixF rows = scaled(thinned(gesture), shape_scale);
   MatrixF points(kNumPoints, rows.cols());
   if (rows.rows() == 1) {
     points.rowwise() = rows.row(0);
@@ -109,9 +127,38 @@ VectorF path_vector(ConstMatrixRefF gesture, float shape_scale) {
   return Eigen::Map<const VectorF>(points.data(), points.size());
 }
 
+// Where a gesture rests, by its rows.
+struct Rests {
+  bool at_start = false;
+  Eigen::Index last_movement = 0;  // its first row; 0 where there is but one movement
+};
+
+Rests find_rests(ConstMatrixRefF gesture, float shape_scale) {
+  constexpr Eigen::Index kFewRows = 8;
+  if (gesture.rows() < kFewRows) return {};
+  const MatrixF rows = scaled(gesture, shape_scale);
+  const std::vector<float> before = change_before(rows);
+  const auto pause = std::max<std::size_t>(
+      2, static_cast<std::size_t>(kPauseShare * static_cast<double>(before.size())));
+  Rests found;
+  if (before.back() <= 0 || before[pause] > kPauseChange) return found;
+  found.at_start = true;
+  const VectorF away =
+      (smoothed(rows).rowwise() - rows.topRows(3).colwise().mean()).rowwise().norm();
+  if (away[away.size() - 1] < kReturned * away.maxCoeff()) return found;
+  for (std::size_t t = before.size() - 1; t >= pause; --t) {
+    if (1 - before[t] < kMovementChange || before[t] - before[t - pause] > kPauseChange) continue;
+    // A pause before which nothing moved is the rest at the start.
+    if (before[t] >= kMovementChange) found.last_movement = static_cast<Eigen::Index>(t);
+    break;
+  }
+  return found;
+}
+
 class PathScorer : public GestureScorer {
  public:
-  PathScorer(LinearSvm svm, float shape_scale) : svm_(std::move(svm)), shape_scale_(shape_scale) {}
+  PathScorer(LinearSvm svm, float shape_scale, bool starts_at_rest)
+      : svm_(std::move(svm)), shape_scale_(shape_scale), starts_at_rest_(starts_at_rest) {}
 
   [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
     require(rows.cols() * kNumPoints == svm_.dim(),
@@ -125,11 +172,14 @@ class PathScorer : public GestureScorer {
   void write(ModelFile& file) const override {
     svm_.write(file, "path.svm.");
     file.set_number("path.shape_scale", shape_scale_);
+    file.set_number(kStartsAtRest, starts_at_rest_ ? 1 : 0);
   }
+  [[nodiscard]] bool starts_at_rest() const override { return starts_at_rest_; }
 
  private:
   LinearSvm svm_;
   float shape_scale_;
+  bool starts_at_rest_;
 };
 
 }  // namespace
@@ -153,20 +203,29 @@ std::shared_ptr<const GestureScorer> train_path_scorer(
     }
   }
   const auto shape_scale = squares > 0 ? static_cast<float>(std::sqrt(num_rows / squares)) : 1.0F;
-  MatrixF paths(num_gestures, num_columns * kNumPoints);
+  std::vector<VectorF> paths;
   std::vector<int> classes;
+  Eigen::Index num_at_rest = 0;
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     for (const MatrixF& g : per_class[c]) {
-      paths.row(static_cast<Eigen::Index>(classes.size())) = path_vector(g, shape_scale);
-      classes.push_back(static_cast<int>(c));
+      const Rests rests = find_rests(g, shape_scale);
+      num_at_rest += rests.at_start ? 1 : 0;
+      paths.push_back(path_vector(g, shape_scale));
+      if (rests.last_movement > 0)
+        paths.push_back(path_vector(g.bottomRows(g.rows() - rests.last_movement), shape_scale));
+      classes.resize(paths.size(), static_cast<int>(c));
     }
   }
+  MatrixF vectors(static_cast<Eigen::Index>(paths.size()), num_columns * kNumPoints);
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    vectors.row(static_cast<Eigen::Index>(i)) = paths[i].transpose();
   LinearSvmOptions svm;
   svm.cost = options.svm_cost;
   svm.seed = options.seed;
   svm.should_stop = should_stop;
   return std::make_shared<PathScorer>(
-      LinearSvm::train(paths, classes, static_cast<int>(per_class.size()), svm), shape_scale);
+      LinearSvm::train(vectors, classes, static_cast<int>(per_class.size()), svm), shape_scale,
+      2 * num_at_rest > num_gestures);
 }
 
 std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int num_classes) {
@@ -179,7 +238,9 @@ std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int
   }
   if (!(shape_scale > 0) || !std::isfinite(shape_scale))
     fail(ErrorKind::format, file.name() + ": field 'path.shape_scale' is out of range");
-  return std::make_shared<PathScorer>(std::move(svm), shape_scale);
+  // Files from before this was known say nothing of it.
+  const bool starts_at_rest = file.has(kStartsAtRest) && file.number(kStartsAtRest) != 0;
+  return std::make_shared<PathScorer>(std::move(svm), shape_scale, starts_at_rest);
 }
 
 }  // namespace detail

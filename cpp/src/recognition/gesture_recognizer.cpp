@@ -146,6 +146,8 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
   return result;
 }
 
+bool GestureRecognizer::starts_at_rest() const { return scorer_->starts_at_rest(); }
+
 VectorF GestureRecognizer::scores(ConstMatrixRefF features) const {
   require(features.rows() > 0, "features must have at least one row");
   return scorer_->scores(features);

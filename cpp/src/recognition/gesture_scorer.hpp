@@ -27,6 +27,8 @@ class GestureScorer {
   /// What the rejection threshold is compared with; larger is surer.
   [[nodiscard]] virtual float evidence(ConstMatrixRefF rows, const VectorF& scores) const = 0;
   virtual void write(ModelFile& file) const = 0;
+  /// Whether most training gestures began with a hand that rested in view.
+  [[nodiscard]] virtual bool starts_at_rest() const { return false; }
 };
 
 /// `options.model` must not be automatic. `per_class[c]` holds the rows of every gesture of class

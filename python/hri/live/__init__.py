@@ -13,6 +13,7 @@ from hri.live.movements import MovementDetector, MovementOptions
 from hri.live.recorder import WordRecorder
 from hri.live.ring import SampleRing
 from hri.live.sources import ArraySource, AudioSource, FileSource, Stalled
+from hri.live.stream_hands import HandFinder, PlainHands, StreamHands
 from hri.live.watch_picture import draw_sight
 from hri.live.watcher import Watcher
 
@@ -26,12 +27,15 @@ __all__ = [
     "FileSource",
     "FrameQueue",
     "FrameSource",
+    "HandFinder",
     "Listener",
     "MicrophoneSource",
     "MovementDetector",
     "MovementOptions",
+    "PlainHands",
     "SampleRing",
     "Stalled",
+    "StreamHands",
     "VideoSource",
     "Watcher",
     "WordRecorder",

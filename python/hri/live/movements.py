@@ -19,6 +19,8 @@ Mask = NDArray[np.uint8]
 RESTED = "rested"
 LEFT = "left"
 CUT = "cut"
+ENDED = "ended"
+ARRIVED = "arrived"
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,9 @@ class MovementOptions:
         A hand that rested and leaves within this time is taken away, and shows nothing.
     context_s : float
         Kept before a movement.
+    arrivals : bool
+        A hand that comes into view and rests has shown something: a sign that it holds, say. Otherwise only what comes
+        after that rest is a movement.
     """
 
     appear_s: float = 0.1
@@ -56,10 +61,12 @@ class MovementOptions:
     max_movement_s: float = 6.0
     take_away_s: float = 1.0
     context_s: float = 0.1
+    arrivals: bool = True
 
     def __post_init__(self) -> None:
         for one in fields(self):
-            require_positive(one.name, getattr(self, one.name))
+            if one.name != "arrivals":
+                require_positive(one.name, getattr(self, one.name))
         if self.still_change >= 1:
             raise InvalidArgument(f"still_change must be below 1, got {self.still_change}")
         if self.max_movement_s <= self.min_movement_s:
@@ -78,8 +85,8 @@ class MovementKind(Enum):
 
 @dataclass(frozen=True)
 class Movement:
-    """A movement that began, ended, or was none: its first and last moment, and why it ended ("rested", "left" or
-    "cut")."""
+    """A movement that began, ended, or was none: its first and last moment, and why it ended: "rested", "left", "cut",
+    "ended" with the stream, or "arrived" where arrivals are none."""
 
     kind: MovementKind
     first_s: float
@@ -141,7 +148,11 @@ class MovementDetector:
 
     def finish(self) -> Movement | None:
         """The stream has ended, and with it any movement."""
-        return self._end(LEFT, self._last_hand_s) if self.in_movement else None
+        return self._end(ENDED, self._last_hand_s) if self.in_movement else None
+
+    def see_anew(self, mask: Mask) -> None:
+        """From now on the hand of now looks like `mask`, because it is found in another way; nothing has moved."""
+        self._masks = deque((time_s, mask) for time_s, _ in self._masks)
 
     def _appear(self, hand: bool, time_s: float) -> Movement | None:
         if not hand:
@@ -190,13 +201,16 @@ class MovementDetector:
 
     def _end(self, reason: str, last_s: float) -> Movement:
         lasted_s = last_s - self._first_s
-        least_s = self.options.take_away_s if self._from_rest else self.options.min_movement_s
-        kind = MovementKind.dropped if reason == LEFT and lasted_s < least_s else MovementKind.end
-        if reason == LEFT:
+        taken_away = self._from_rest and reason == LEFT
+        least_s = self.options.take_away_s if taken_away else self.options.min_movement_s
+        kind = MovementKind.dropped if reason in (LEFT, ENDED) and lasted_s < least_s else MovementKind.end
+        if reason in (LEFT, ENDED):
             self._leave()
         else:
             self._phase, self._moving_since, self._spent = _Phase.resting, None, reason == CUT
             self._still_since = None
+        if reason == RESTED and not self._from_rest and not self.options.arrivals:
+            return Movement(MovementKind.dropped, self._first_s, last_s, ARRIVED)
         return Movement(kind, self._first_s, last_s, reason)
 
     def _leave(self) -> None:

@@ -18,6 +18,7 @@ from hri.live.events import Event
 from hri.live.frames import Frame, FrameSource, TimedFrame
 from hri.live.movements import CUT, Mask, Movement, MovementDetector, MovementKind, MovementOptions
 from hri.live.sources import Stalled, require_positive
+from hri.live.stream_hands import HandFinder, PlainHands
 
 GestureEvent = partial(Event, mode="gesture")
 _RETRY_S = 0.5
@@ -41,6 +42,8 @@ class Sight:
         What happened with it.
     frame, mask : ndarray of uint8, or None
         The picture (BGR) and the hand in it; the mask is smaller.
+    silhouette : hri._native_vision.Silhouette, or None
+        The hand as recognisers take it.
     quality : float
         How well the hand stands out, 0..1.
     track : list of (float, float)
@@ -55,6 +58,7 @@ class Sight:
     events: list[Event] = field(default_factory=list)
     frame: Frame | None = None
     mask: Mask | None = None
+    silhouette: Any = None
     quality: float = 0.0
     track: list[tuple[float, float]] = field(default_factory=list)
     running: list[TimedFrame] = field(default_factory=list)
@@ -68,8 +72,8 @@ class MovementFinder:
     ----------
     options : MovementOptions, optional
         When a movement begins and ends.
-    silhouette : hri._native_vision.SilhouetteOptions, optional
-        How the hand is found in every picture.
+    hands : HandFinder, optional
+        How hands are found; by default in every picture by itself.
     hand_interval_s : float
         How often the hand's place is told.
     reconnect_s : float
@@ -79,16 +83,14 @@ class MovementFinder:
     def __init__(
         self,
         options: MovementOptions | None = None,
-        silhouette: Any = None,
+        hands: HandFinder | None = None,
         *,
         hand_interval_s: float = 0.1,
         reconnect_s: float = 0.0,
     ) -> None:
         require_positive("hand_interval_s", hand_interval_s)
-        from hri import _native_vision
-
         self._options = options or MovementOptions()
-        self._extractor = _native_vision.SilhouetteExtractor(silhouette or _native_vision.SilhouetteOptions())
+        self._hands = hands or PlainHands()
         self._hand_interval_s = hand_interval_s
         self._reconnect_s = reconnect_s
 
@@ -117,8 +119,8 @@ class MovementFinder:
                     continue
                 if timed is None:
                     break
-                found = self._extractor.extract(np.ascontiguousarray(timed[0]))
-                sight = stream.push(timed, np.asarray(found.mask), float(found.quality))
+                found = self._hands.find(timed[0], timed[1], stream.in_movement)
+                sight = stream.push(timed, found, self._hands.renewed())
                 if source.num_lost > num_lost:
                     fields = {"lost_frames": source.num_lost - num_lost}
                     sight.events.insert(0, GestureEvent(sight.time_s, events.OVERFLOW, fields))
@@ -154,8 +156,13 @@ class _Stream:
         self._track: list[tuple[float, float, float]] = []
         self.time_s = 0.0
 
-    def push(self, timed: TimedFrame, mask: Mask, quality: float) -> Sight:
+    @property
+    def in_movement(self) -> bool:
+        return self._detector.in_movement
+
+    def push(self, timed: TimedFrame, found: Any, renewed: bool) -> Sight:
         frame, time_s = timed
+        mask: Mask = np.asarray(found.mask)
         if time_s < self.time_s:
             raise FormatError(f"time runs backwards: a picture at {time_s:g} s after one at {self.time_s:g} s")
         self.time_s = time_s
@@ -164,8 +171,10 @@ class _Stream:
         if len(rows):
             self._track.append((time_s, float(columns.mean() / mask.shape[1]), float(rows.mean() / mask.shape[0])))
         self._track = [place for place in self._track if place[0] > time_s - _TRACK_S]
+        if renewed:
+            self._detector.see_anew(mask)
         sight = self._told(self._detector.push(mask, time_s))
-        sight.frame, sight.mask, sight.quality = frame, mask, quality
+        sight.frame, sight.mask, sight.silhouette, sight.quality = frame, mask, found, float(found.quality)
         sight.track = [(x, y) for _, x, y in self._track]
         if self._detector.in_movement:
             sight.running = self._kept

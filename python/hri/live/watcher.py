@@ -5,30 +5,44 @@
 from __future__ import annotations
 
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import closing
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
 from hri.live import events
 from hri.live.events import Event, decision_fields
-from hri.live.frames import FrameSource
+from hri.live.frames import FrameSource, TimedFrame
 from hri.live.movements import MovementOptions
 from hri.live.sights import GestureEvent, MovementFinder, Sight
 from hri.live.sources import require_positive
+from hri.live.stream_hands import HandFinder, PlainHands, StreamHands
 from hri.recognition import Decision, GestureRecognizer
+
+_STILL_SIGNS = (_native.GestureModel.svm, _native.GestureModel.bayes, _native.GestureModel.knn)
+_STILL_CHANGE = 0.12
+"""Outlines by colours of the stream hardly flicker, and slow movements must not count as rest."""
 
 
 class Watcher:
     """Recognises every gesture in a stream of pictures.
+
+    Hands are found as in training: in every picture by itself for still signs, by colours learned from the stream for
+    movements. Features are computed as the pictures come, so that a decision stands at once when a movement ends.
 
     Parameters
     ----------
     recognizer : GestureRecognizer
         Trained or loaded.
     options : MovementOptions, optional
-        When a movement begins and ends.
+        When a movement begins and ends; by default as suits how hands are found and whether the recogniser's gestures
+        begin at rest.
     silhouette : hri._native_vision.SilhouetteOptions, optional
-        How the hand is found in every picture, to find movements; the recogniser looks for itself.
+        Find the hand in every picture by itself, like this.
     hand_interval_s : float
         How often the hand's place is told.
     partial_interval_s : float
@@ -58,7 +72,17 @@ class Watcher:
     ) -> None:
         require_positive("partial_interval_s", partial_interval_s)
         self._recognizer = recognizer
-        self._finder = MovementFinder(options, silhouette, hand_interval_s=hand_interval_s, reconnect_s=reconnect_s)
+        learns = silhouette is None and recognizer.model not in _STILL_SIGNS
+        if options is None:
+            options = MovementOptions(
+                still_change=_STILL_CHANGE if learns else MovementOptions.still_change,
+                arrivals=not recognizer.starts_at_rest,
+            )
+        self._options = options
+        self._silhouette = silhouette
+        self._learns = learns
+        self._intervals = {"hand_interval_s": hand_interval_s, "reconnect_s": reconnect_s}
+        self._finder()  # refuses intervals out of range now rather than when watching
         self._partial_interval_s = partial_interval_s
         self._locale = locale
         self._model_id = model_id
@@ -74,35 +98,67 @@ class Watcher:
         """
         newest: Decision | None = None
         partial_s = 0.0
-        with closing(self._finder.see(source, model=self._model_id)) as sights:
+        rows = _Rows(self._recognizer, self._options.context_s)
+        with closing(self._finder().see(source, model=self._model_id)) as sights:
             for sight in sights:
+                rows.push(sight)
                 yield from sight.events
                 decided: Event | None = None
                 if sight.movement:
                     told = next(event for event in sight.events if event.event == events.MOVEMENT_END)
-                    decided = self._decide(sight, told)
+                    decided = self._decide(sight, told, rows)
                 elif not sight.running:
                     partial_s = sight.time_s
                 elif sight.time_s - partial_s >= self._partial_interval_s:
                     partial_s = sight.time_s
-                    decided = self._so_far(sight)
+                    decided = self._so_far(sight, rows)
                 newest = newest if decided is None else decided.decision
                 if self._on_sight is not None:
                     self._on_sight(sight, newest)
                 if decided is not None:
                     yield decided
 
-    def _decide(self, sight: Sight, end: Event) -> Event:
+    def _finder(self) -> MovementFinder:
+        hands: HandFinder = StreamHands() if self._learns else PlainHands(self._silhouette)
+        return MovementFinder(self._options, hands, **self._intervals)
+
+    def _decide(self, sight: Sight, end: Event, rows: _Rows) -> Event:
         begun = time.perf_counter()
-        decision = self._recognizer.recognise([frame for frame, _ in sight.movement])
+        decision = rows.recognise(sight.movement)
         compute_ms = 1000 * (time.perf_counter() - begun)
         fields: dict[str, Any] = {name: end.fields[name] for name in ("first_s", "last_s")}
         fields |= decision_fields(decision, self._locale, self._model_id) | {"compute_ms": round(compute_ms, 3)}
         return GestureEvent(sight.time_s, events.DECISION, fields, decision)
 
-    def _so_far(self, sight: Sight) -> Event:
+    def _so_far(self, sight: Sight, rows: _Rows) -> Event:
         """What the movement looks like before its end: for the eye, and not to act on."""
-        decision = self._recognizer.recognise([frame for frame, _ in sight.running])
+        decision = rows.recognise(sight.running)
         fields = decision_fields(decision, self._locale, self._model_id)
         fields |= {"incremental": fields["final"], "final": ""}
         return GestureEvent(sight.time_s, events.PARTIAL, fields, decision)
+
+
+class _Rows:
+    """Features of the pictures that may belong to a movement, computed once, as they come."""
+
+    def __init__(self, recognizer: GestureRecognizer, context_s: float) -> None:
+        self._recognizer = recognizer
+        self._context_s = context_s
+        self._by_pictures = recognizer.options.source == _native.GestureSource.silhouettes
+        self._rows: deque[tuple[float, NDArray[np.float32]]] = deque()
+
+    def push(self, sight: Sight) -> None:
+        if sight.silhouette is None or not self._by_pictures:
+            return
+        kept = sight.running or sight.movement
+        first_s = kept[0][1] if kept else sight.time_s - self._context_s
+        while self._rows and self._rows[0][0] < first_s - 1.0:
+            self._rows.popleft()
+        self._rows.append((sight.time_s, self._recognizer.silhouette_features([sight.silhouette])))
+
+    def recognise(self, frames: list[TimedFrame]) -> Decision:
+        if not self._by_pictures:
+            return self._recognizer.recognise([frame for frame, _ in frames])
+        first_s, last_s = frames[0][1], frames[-1][1]
+        found = [row for time_s, row in self._rows if first_s <= time_s <= last_s]
+        return self._recognizer.recognise_features(np.concatenate(found))

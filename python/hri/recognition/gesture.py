@@ -58,12 +58,28 @@ class GestureRecognizer(Recognizer):
         if self.options.source == _native.GestureSource.landmarks:
             size = (frames[0].shape[1], frames[0].shape[0]) if frames else (1, 1)
             return landmark_features(find_landmarks(frames), size)
-        shapes = find_silhouettes(frames, self._silhouette)
+        return self.silhouette_features(find_silhouettes(frames, self._silhouette))
+
+    def silhouette_features(self, silhouettes: Sequence[Any]) -> NDArray[np.float32]:
+        """Features as `features` gives them, of hands that are found already (`hri._native_vision.Silhouette`)."""
         return np.asarray(
             _native.GestureRecognizer.features(
-                [s.grey for s in shapes], [s.mask for s in shapes], self.options.features
+                [s.grey for s in silhouettes], [s.mask for s in silhouettes], self.options.features
             )
         )
+
+    @property
+    def model(self) -> Any:
+        """The `hri.GestureModel` that training came to."""
+        return self._trained.options.model
+
+    @property
+    def starts_at_rest(self) -> bool:
+        """Whether most gestures trained on began with a hand that rested in view (model `path`).
+
+        Then a hand that comes into view and rests has shown nothing yet.
+        """
+        return bool(self._trained.starts_at_rest)
 
     def fit(
         self,

@@ -24,6 +24,7 @@ from hri.studies import (
     unknown_words,
     wavelets,
     webcam,
+    webcam_live,
 )
 from hri.studies.pictures import draw
 from hri.studies.registry import Layout, Study, find_data, run_study
@@ -44,6 +45,7 @@ _MODULES = (
     denoise,
     unknown_words,
     webcam,
+    webcam_live,
     signs,
     fusion,
     imitation,

@@ -104,6 +104,10 @@ class GestureRecognizer {
   [[nodiscard]] const GestureRecognizerOptions& options() const { return options_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
 
+  /// Whether most gestures trained on began with a hand that rested in view (model path): then a
+  /// hand that comes into view and rests has shown nothing yet.
+  [[nodiscard]] bool starts_at_rest() const;
+
  private:
   GestureRecognizer() = default;
   static GestureRecognizer read(const ModelFile& file);
