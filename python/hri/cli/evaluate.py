@@ -27,6 +27,7 @@ _folder = click.Path(exists=True, file_okay=False)
 @pattern_option
 @click.option("--folds", type=click.IntRange(2), help="Folds by person; the default holds out one person at a time.")
 @click.option("--train-persons", type=click.IntRange(1), help="Train on so many persons only, drawn at random.")
+@click.option("--leave-out", metavar="CONDITION", help="Hold out a condition's values, such as background.")
 @click.option("--noise", help="Added to the test clips: white, pink, or a recording.")
 @click.option("--snr", type=click.FloatRange(-30, 60), metavar="DB", help="Signal-to-noise ratio of --noise.")
 @click.option("--train-noise", is_flag=True, help="Train on a noisy copy of every clip too.")
@@ -48,6 +49,7 @@ def evaluate(
     pattern: str | None,
     folds: int | None,
     train_persons: int | None,
+    leave_out: str | None,
     noise: str | None,
     snr: float | None,
     train_noise: bool,
@@ -66,6 +68,7 @@ def evaluate(
       hri evaluate speech --train ours/ --test theirs/ --json result.json
       hri evaluate speech --data spoken/ --noise white --snr 10 --train-noise
       hri evaluate gesture --data signed/ --exposure 0.5
+      hri evaluate gesture --data skig/ --leave-out illumination
     """
     if (data is None) == (train_dir is None) or (train_dir is None) != (test_dir is None):
         raise click.UsageError("give either --data DIR, or --train DIR and --test DIR")
@@ -77,8 +80,10 @@ def evaluate(
         raise click.UsageError("--noise is for speech; pictures have --exposure")
     if mode == "speech" and exposure is not None:
         raise click.UsageError("--exposure is for gestures; speech has --noise")
-    if data is None and (folds is not None or train_persons is not None):
-        raise click.UsageError("--folds and --train-persons need --data")
+    if data is None and (folds is not None or train_persons is not None or leave_out is not None):
+        raise click.UsageError("--folds, --train-persons and --leave-out need --data")
+    if leave_out is not None and (folds is not None or train_persons is not None):
+        raise click.UsageError("--leave-out goes without --folds and --train-persons")
     if confusion is not None:
         import_optional("matplotlib", "plots", "to draw the confusion matrix")
     make = recognizer_factory(mode, options, seed)
@@ -93,7 +98,9 @@ def evaluate(
         conditions["progress"] = progress
         if data is not None:
             dataset = load_dataset(data, mode, pattern)
-            result = cross_validate(dataset, make, num_folds=folds, train_persons=train_persons, **conditions)
+            result = cross_validate(
+                dataset, make, num_folds=folds, train_persons=train_persons, leave_out=leave_out, **conditions
+            )
         else:
             assert train_dir is not None and test_dir is not None
             parts = [load_dataset(folder, mode, pattern) for folder in (train_dir, test_dir)]

@@ -10,20 +10,23 @@ from os import PathLike
 from pathlib import Path
 
 from hri.datasets.detection import detect_kind, detect_pattern, media_files, natural_key
-from hri.datasets.folds import Fold, split_by_person, split_stratified
+from hri.datasets.folds import Fold, split_by_person, split_by_value, split_stratified
 from hri.datasets.manifest import KINDS, MANIFEST_NAME, Manifest, read_manifest
 from hri.datasets.pattern import Pattern
+from hri.datasets.skig import is_skig, skig_clips
 from hri.errors import FormatError, InvalidArgument, IoError
 
 
 @dataclass(frozen=True)
 class Sample:
-    """One recording: its file, what is said or shown, by whom, which repetition ("" if unknown)."""
+    """One recording: its file, what is said or shown, by whom, which repetition ("" if unknown), and under which
+    conditions, such as {"illumination": "dark"}, where the data set says so."""
 
     path: Path
     label: str
     person: str = ""
     take: str = ""
+    conditions: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,8 @@ class Dataset:
         files = media_files(root, kind)
         if not files:
             raise FormatError(f"{root}: no {kind} recordings in it")
+        if kind == "gesture" and is_skig(root):
+            return load_skig(root)
         return _load_pattern(root, kind, detect_pattern(root, files))
 
     def __len__(self) -> int:
@@ -111,6 +116,15 @@ class Dataset:
     def persons(self) -> list[str]:
         """All persons, each once, in natural order; empty when they are not known."""
         return sorted({s.person for s in self.samples if s.person}, key=natural_key)
+
+    @property
+    def conditions(self) -> dict[str, list[str]]:
+        """What is known of the conditions of all samples: every name with its values, in natural order."""
+        names = set.intersection(*(set(s.conditions) for s in self.samples)) if self.samples else set()
+        return {
+            name: sorted({s.conditions[name] for s in self.samples}, key=natural_key)
+            for name in sorted(names, key=natural_key)
+        }
 
     def select(self, labels: Collection[str] | None = None, persons: Collection[str] | None = None) -> Dataset:
         """The part with these labels and these persons (None: all).
@@ -141,9 +155,29 @@ class Dataset:
         """
         return split_by_person([sample.person for sample in self.samples], num_folds, seed)
 
+    def folds_by_condition(self, name: str) -> list[Fold]:
+        """Folds that each hold out one value of a condition.
+
+        Raises
+        ------
+        InvalidArgument
+            For a condition that not every sample has, or that has one value only.
+        """
+        known = self.conditions
+        if name not in known:
+            raise InvalidArgument(f"condition {name!r} is not known of every sample; known are {sorted(known)}")
+        return split_by_value(name, [sample.conditions[name] for sample in self.samples])
+
     def folds_stratified(self, num_folds: int = 5, seed: int = 0) -> list[Fold]:
         """Folds with nearly the same share of every label, whoever made the recordings."""
         return split_stratified([sample.label for sample in self.samples], num_folds, seed)
+
+
+def load_skig(root: Path, stream: str = "rgb") -> Dataset:
+    """The Sheffield Kinect Gesture data set: one of its two streams, "rgb" or "dep"; errors as of `skig_clips`."""
+    samples = [Sample(c.path, c.label, c.person, c.take, c.conditions) for c in skig_clips(root, stream)]
+    used = {sample.path for sample in samples}
+    return Dataset(root, "gesture", samples, ignored=[p for p in media_files(root, "gesture") if p not in used])
 
 
 def _load_pattern(root: Path, kind: str, pattern: Pattern) -> Dataset:

@@ -61,6 +61,20 @@ def split_by_person(persons: Sequence[str], num_folds: int | None, seed: int) ->
     return [_fold(_group_name(group, part, num_folds), persons, set(group)) for part, group in enumerate(groups)]
 
 
+def split_by_value(name: str, values: Sequence[str]) -> list[Fold]:
+    """Folds that each hold out one of the values that samples have.
+
+    Raises
+    ------
+    InvalidArgument
+        For fewer than two values.
+    """
+    different = sorted(set(values))
+    if len(different) < 2:
+        raise InvalidArgument(f"a split by {name} needs 2 values or more, got {different}")
+    return [_fold(value, values, {value}) for value in different]
+
+
 def split_stratified(labels: Sequence[str], num_folds: int, seed: int) -> list[Fold]:
     """Folds with nearly the same share of every label, for recordings of one or of unknown persons.
 

@@ -29,6 +29,7 @@ def cross_validate(
     *,
     num_folds: int | None = None,
     train_persons: int | None = None,
+    leave_out: str | None = None,
     seed: int = 0,
     noise: str | None = None,
     snr_db: float | None = None,
@@ -48,6 +49,9 @@ def cross_validate(
         persons are not known, folds are stratified by label, and the result says so.
     train_persons : int, optional
         Train on this many persons of each fold's training part, drawn at random; None takes all.
+    leave_out : str, optional
+        A condition that the data set knows of every recording, such as "background": one of its values at a time is
+        held out, instead of persons.
     seed : int
         Of folds, of the persons drawn, and of noise.
     noise, snr_db : str and float, optional
@@ -61,7 +65,12 @@ def cross_validate(
         Called with (what, done, total).
     """
     conditions = _conditions(dataset.kind, seed, noise, snr_db, train_noise, exposure)
-    if dataset.persons:
+    if leave_out is not None:
+        if num_folds is not None or train_persons is not None:
+            raise InvalidArgument("leave_out goes without num_folds and train_persons")
+        folds = dataset.folds_by_condition(leave_out)
+        conditions["folds"] = f"by {leave_out}"
+    elif dataset.persons:
         if num_folds is None and dataset.kind == "gesture" and len(dataset.persons) > 10:
             num_folds = 5
         folds = dataset.folds_by_person(num_folds, seed)
