@@ -122,9 +122,9 @@ def test_what_is_not_good_enough_is_asked_for_again(tmp_path: Path) -> None:
 
 def test_what_cannot_be_recorded_is_said_before(tmp_path: Path) -> None:
     for labels, person, takes, message in (
-        ([], "asha", 1, "no word to record"),
+        ([], "asha", 1, "there is none to record"),
         (["go", "go"], "asha", 1, "'go' is there twice"),
-        (["unknown"], "asha", 1, "when no word was said"),
+        (["unknown"], "asha", 1, "when none was given"),
         (["left/right"], "asha", 1, "label 'left/right' cannot be the name of a file: '/'"),
         (["go\n"], "asha", 1, "cannot be the name"),
         ([".go"], "asha", 1, "cannot be the name"),

@@ -5,13 +5,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 
 import click
 
-from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, stall_option, tell
+from hri.cli.live_screen import (
+    camera,
+    camera_option,
+    describe_stream,
+    device_option,
+    events_json_option,
+    microphone,
+    stall_option,
+    tell,
+)
+from hri.cli.sight_screen import SightScreen
 from hri.errors import FormatError
-from hri.live import AudioSource, Event, FileSource, WordRecorder
+from hri.live import AudioSource, Event, FileSource, FrameSource, GestureRecorder, VideoSource, WordRecorder
 
 
 @click.group()
@@ -21,6 +32,7 @@ def record() -> None:
     \b
     Example:
       hri record word go stop left right --person asha --out commands/
+      hri record gesture wave circle push --person asha --out signs/
     """
 
 
@@ -67,6 +79,68 @@ def word(
         sources = (microphone(device, stall_s) for _ in range(1))
     for source in sources:
         tell(recorder.record(source), as_json, describe)
+    _tell_done(recorder, person, out, files)
+
+
+@record.command()
+@click.argument("labels", nargs=-1, required=True, metavar="GESTURE...")
+@click.option("--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to add to.")
+@click.option("--person", required=True, help="Who is seen.")
+@click.option(
+    "--takes", default=5, show_default=True, type=click.IntRange(1, 10000), help="Recordings of each gesture."
+)
+@click.option("--held", is_flag=True, help="Signs that are held: the hand comes into view with them.")
+@click.option(
+    "--pause", "pause_s", default=2.5, show_default=True, type=float, help="Seconds to go back before the next prompt."
+)
+@click.option(
+    "--from",
+    "files",
+    multiple=True,
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="FILE",
+    help="Watch this video of the gestures, in the order they are asked for, instead of a camera.",
+)
+@camera_option
+@click.option("--show", is_flag=True, help="Show the picture and the hand in a window.")
+@stall_option
+@events_json_option
+def gesture(
+    labels: tuple[str, ...],
+    out: str,
+    person: str,
+    takes: int,
+    held: bool,
+    pause_s: float,
+    files: tuple[str, ...],
+    device: str,
+    show: bool,
+    stall_s: float,
+    as_json: bool,
+) -> None:
+    """Record gestures from the camera, label by label, into a folder that 'hri train gesture' reads.
+
+    Asks for one gesture after the other and finds where it begins and ends. Movements begin and end with the hand at
+    rest in view; signs (--held) come into view and are held. What is in the folder already stays and is not asked for
+    again: after Ctrl-C the same command goes on. To record a take anew, delete its file.
+
+    \b
+    Examples:
+      hri record gesture wave circle push --person asha --out signs/
+      hri record gesture one two five --held --person ben --device 1 --out digits/
+      hri record gesture wave circle --person cem --takes 1 --from cem.mp4 --out signs/
+    """
+    recorder = GestureRecorder(out, labels, person, takes, held=held, pause_s=pause_s)
+    sources: Iterable[FrameSource] = (VideoSource(file) for file in files)
+    if not files and recorder.missing():
+        sources = (camera(device, stall_s) for _ in range(1))
+    for source in sources:
+        with SightScreen(None, source.fps, show, 1) as screen:
+            tell(recorder.record(source, partial(screen.draw, decision=None)), as_json, describe)
+    _tell_done(recorder, person, out, files)
+
+
+def _tell_done(recorder: WordRecorder | GestureRecorder, person: str, out: str, files: tuple[str, ...]) -> None:
     missing = recorder.missing()
     done = f"{recorder.num_takes - len(missing)} of {recorder.num_takes} recordings by {person} are in {out}"
     click.echo(done, err=True)
@@ -78,9 +152,11 @@ def describe(event: Event) -> str:
     """One line for people; "" for what they need not read."""
     fields = event.fields
     if event.event == "prompt":
-        return f"{fields['done'] + 1:4d} of {fields['total']}: say  {fields['label']}"
+        what = "show" if event.mode == "gesture" else "say"
+        return f"{fields['done'] + 1:4d} of {fields['total']}: {what}  {fields['label']}"
     if event.event == "recorded":
-        return f"             {fields['duration_s']:.1f} s, {fields['peak_db']:.0f} dB: {Path(fields['path']).name}"
+        how = f"{fields['peak_db']:.0f} dB" if "peak_db" in fields else f"quality {fields['quality']:.2f}"
+        return f"             {fields['duration_s']:.1f} s, {how}: {Path(fields['path']).name}"
     if event.event == "refused":
         return f"             not kept: {fields['reason']}"
     return describe_stream(event)

@@ -7,6 +7,7 @@ from hri.live.attention import Attention
 from hri.live.camera import CameraSource, FrameQueue
 from hri.live.events import Event
 from hri.live.frames import ClipSource, FrameSource, VideoSource
+from hri.live.gesture_recorder import GestureRecorder
 from hri.live.listener import Listener
 from hri.live.microphone import MicrophoneSource, list_microphones
 from hri.live.movements import MovementDetector, MovementOptions
@@ -27,6 +28,7 @@ __all__ = [
     "FileSource",
     "FrameQueue",
     "FrameSource",
+    "GestureRecorder",
     "HandFinder",
     "Listener",
     "MicrophoneSource",

@@ -16,6 +16,9 @@ from hri.live.sources import require_positive
 
 Mask = NDArray[np.uint8]
 
+LEARNED_STILL_CHANGE = 0.12
+"""`still_change` for hands found by colours of the stream: outlines hardly flicker, and slow movements are no rest."""
+
 RESTED = "rested"
 LEFT = "left"
 CUT = "cut"

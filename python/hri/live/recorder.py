@@ -7,25 +7,21 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import closing
-from pathlib import Path
 
 import numpy as np
 
 from hri import _native
-from hri.datasets.manifest import MANIFEST_NAME, Manifest, read_manifest, write_manifest
-from hri.errors import InvalidArgument, IoError
 from hri.live import events
 from hri.live.events import Event
 from hri.live.sources import AudioSource
+from hri.live.takes import Takes
 from hri.live.utterances import Samples, UtteranceFinder
-from hri.recognition.decision import NO_INPUT, UNKNOWN
 
 PATTERN = "{label}/{person}_{take}.wav"
 CLIPPED = 0.999
 """Of full scale: what reaches it may have been louder."""
 MAX_CLIPPED = 3
 """Samples of an utterance that may."""
-_BAD_IN_NAMES = set('/\\:*?"<>|')
 
 
 class WordRecorder:
@@ -37,24 +33,12 @@ class WordRecorder:
 
     Parameters
     ----------
-    folder : path-like
-        Made if it is not there. A manifest in it must have the recorder's pattern.
-    labels : sequence of str
-        The words, in the order in which they are asked for.
-    person : str
-        Who speaks; no "_" in it, which ends the person in a file's name.
-    takes : int
-        Recordings of every word by this person.
+    folder, labels, person, takes
+        Where to, which words by whom, and how many recordings of each; errors as of `Takes`.
     options : EndpointerOptions, optional
         When a word begins and ends; by default as `Listener` has it for a recogniser's default options.
     level_interval_s : float
         How often the level is told.
-
-    Raises
-    ------
-    InvalidArgument
-        For labels or a person that cannot be names of files, labels that are there twice or reserved ("unknown",
-        "no_input"), takes below 1, or a folder that holds another kind of data set.
     """
 
     def __init__(
@@ -67,43 +51,18 @@ class WordRecorder:
         *,
         level_interval_s: float = 0.1,
     ) -> None:
-        if takes < 1:
-            raise InvalidArgument(f"takes must be at least 1, got {takes}")
-        if not labels:
-            raise InvalidArgument("labels: there is no word to record")
-        for label in labels:
-            _require_name("label", label)
-            if label in (UNKNOWN, NO_INPUT):
-                raise InvalidArgument(f"label '{label}' is what recognisers answer when no word was said")
-            if list(labels).count(label) > 1:
-                raise InvalidArgument(f"label '{label}' is there twice")
-        _require_name("person", person)
-        if "_" in person:
-            raise InvalidArgument(f"person '{person}' has a '_', which ends the person in the name of a file")
-        self._folder = Path(folder)
-        self._labels = list(labels)
-        self._person = person
-        self._takes = takes
+        self._takes = Takes(folder, labels, person, takes, "speech", PATTERN)
         chosen = options or _native.EndpointerOptions(activity=_native.WordRecognizerOptions().activity)
         self._finder = UtteranceFinder(chosen, level_interval_s)
-        manifest = self._folder / MANIFEST_NAME
-        if manifest.exists():
-            found = read_manifest(manifest)
-            if (found.kind, found.pattern, found.synthetic) != ("speech", PATTERN, False):
-                raise InvalidArgument(f"{self._folder} holds another data set: {manifest} has not pattern '{PATTERN}'")
-            for label in labels if found.labels else ():
-                if label not in found.labels:
-                    raise InvalidArgument(f"label '{label}' is not among the labels of {manifest}")
 
     @property
     def num_takes(self) -> int:
         """Recordings that are wanted in all."""
-        return self._takes * len(self._labels)
+        return len(self._takes)
 
     def missing(self) -> list[tuple[str, int]]:
         """Label and take of every recording that is not there yet, in the order in which they are asked for."""
-        wanted = [(label, take) for take in range(1, self._takes + 1) for label in self._labels]
-        return [place for place in wanted if not self._path(*place).exists()]
+        return self._takes.missing()
 
     def record(self, source: AudioSource) -> Iterator[Event]:
         """Ask, listen and keep until nothing is missing or the source ends, which is closed then.
@@ -122,13 +81,13 @@ class WordRecorder:
         if not missing:
             source.close()
             return
-        self._write_manifest()
+        self._takes.begin()
         num_lost = source.num_lost
-        with closing(self._finder.hear(source, folder=str(self._folder))) as heard:
+        with closing(self._finder.hear(source, folder=str(self._takes.folder))) as heard:
             for event, utterance in heard:
                 yield event
                 if event.event == events.LISTENING:
-                    yield self._prompt(0.0, missing)
+                    yield self._takes.prompt(0.0, missing)
                 if utterance is None:
                     continue
                 lost, num_lost = source.num_lost - num_lost, source.num_lost
@@ -137,8 +96,12 @@ class WordRecorder:
                 if reason:
                     yield Event(event.time, events.REFUSED, {**told, "reason": reason})
                 else:
-                    path = self._path(*missing.pop(0))
-                    _keep(path, utterance, source.sample_rate_hz)
+                    path = self._takes.keep(
+                        *missing.pop(0),
+                        lambda part, samples=utterance: _native.write_wav_pcm16(  # type: ignore[misc]
+                            str(part), samples, source.sample_rate_hz
+                        ),
+                    )
                     measured = {
                         "duration_s": round(len(utterance) / source.sample_rate_hz, 4),
                         "peak_db": round(20 * float(np.log10(max(1e-6, np.abs(utterance).max()))), 1),
@@ -146,33 +109,7 @@ class WordRecorder:
                     yield Event(event.time, events.RECORDED, {**told, "path": str(path), **measured})
                 if not missing:
                     return
-                yield self._prompt(event.time, missing)
-
-    def _prompt(self, time_s: float, missing: Sequence[tuple[str, int]]) -> Event:
-        label, take = missing[0]
-        done = self.num_takes - len(missing)
-        return Event(time_s, events.PROMPT, {"label": label, "take": take, "done": done, "total": self.num_takes})
-
-    def _path(self, label: str, take: int) -> Path:
-        return self._folder / PATTERN.format(label=label, person=self._person, take=take)
-
-    def _write_manifest(self) -> None:
-        manifest = self._folder / MANIFEST_NAME
-        try:
-            self._folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise IoError(f"{self._folder}: {error.strerror or error}") from error
-        if not manifest.exists():
-            write_manifest(manifest, Manifest("speech", name=self._folder.absolute().name, pattern=PATTERN))
-
-
-def _require_name(what: str, text: str) -> None:
-    """A name that files may have on every system, and that is read back as it was written."""
-    if not text or text != text.strip() or text.startswith(".") or text.endswith("."):
-        raise InvalidArgument(f"{what} '{text}' cannot be the name of a file")
-    for character in text:
-        if character in _BAD_IN_NAMES or not character.isprintable():
-            raise InvalidArgument(f"{what} '{text}' cannot be the name of a file: {character!r} is in it")
+                yield self._takes.prompt(event.time, missing)
 
 
 def _fault(utterance: Samples, cut: bool, num_lost: int) -> str:
@@ -184,18 +121,3 @@ def _fault(utterance: Samples, cut: bool, num_lost: int) -> str:
     if int((np.abs(utterance) >= CLIPPED).sum()) > MAX_CLIPPED:
         return "too loud: speak farther away or turn the microphone down"
     return ""
-
-
-def _keep(path: Path, utterance: Samples, sample_rate_hz: int) -> None:
-    """Write a recording whole or not at all, and never over another one."""
-    part = path.with_name(f".{path.name}")
-    try:
-        path.parent.mkdir(exist_ok=True)
-        _native.write_wav_pcm16(str(part), utterance, sample_rate_hz)
-        os.link(part, path)  # which, other than renaming, replaces nothing
-    except IoError:
-        raise
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
-    finally:
-        part.unlink(missing_ok=True)

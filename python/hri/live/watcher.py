@@ -17,15 +17,13 @@ from hri import _native
 from hri.live import events
 from hri.live.events import Event, decision_fields
 from hri.live.frames import FrameSource, TimedFrame
-from hri.live.movements import MovementOptions
+from hri.live.movements import LEARNED_STILL_CHANGE, MovementOptions
 from hri.live.sights import GestureEvent, MovementFinder, Sight
 from hri.live.sources import require_positive
 from hri.live.stream_hands import HandFinder, PlainHands, StreamHands
 from hri.recognition import Decision, GestureRecognizer
 
 _STILL_SIGNS = (_native.GestureModel.svm, _native.GestureModel.bayes, _native.GestureModel.knn)
-_STILL_CHANGE = 0.12
-"""Outlines by colours of the stream hardly flicker, and slow movements must not count as rest."""
 
 
 class Watcher:
@@ -75,7 +73,7 @@ class Watcher:
         learns = silhouette is None and recognizer.model not in _STILL_SIGNS
         if options is None:
             options = MovementOptions(
-                still_change=_STILL_CHANGE if learns else MovementOptions.still_change,
+                still_change=LEARNED_STILL_CHANGE if learns else MovementOptions.still_change,
                 arrivals=not recognizer.starts_at_rest,
             )
         self._options = options
