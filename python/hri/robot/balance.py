@@ -3,8 +3,11 @@
 """Keeps a robot upright and on its course while it follows a motion that knows nothing of the floor.
 
 A motion recorded on one robot, played on another whose joints are a degree off, ends in a fall. What is missing is what
-the robot's gyroscope tells: how the base leans and turns beyond what the joints make it. The ankles of the loaded foot
-lean the robot back in proportion to lean and its rate, the hip of the loaded leg turns it back to its heading.
+the robot's gyroscope tells: how the base leans and turns beyond what the joints make it. The ankles of loaded feet lean
+the robot back, in proportion to lean and its rate. The hips of loaded legs go on turning as long as the robot is off
+its course, and turn back while their foot is in the air: two feet on the floor turn alike, as feet that twist against
+one another slip. Nothing is corrected before the feet alone carry the robot: while it sits and pushes itself up with
+its hands, an ankle that moves only tilts its foot onto an edge.
 """
 
 from __future__ import annotations
@@ -15,19 +18,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.robot.joints import Joint, JointTable
-from hri.robot.kinematics import rotation_about
 
-Vector3 = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 _LEAN = 0.5  # rad of an ankle per rad of lean
 _LEAN_RATE_S = 0.05  # rad of an ankle per rad/s of lean
-_HEADING = 0.8  # rad of the hip per rad off the course
-_HEADING_PER_S = 0.3  # and per rad s: what turns the robot at every step is not left over
+_HEADING_PER_S = 3.0  # rad/s of a loaded hip per rad off the course
+_BACK_PER_S = 8.0  # a hip without load turns back at this many times its turn, per second
 _MOST_ANKLE_RAD = 0.12
 _MOST_HIP_RAD = 0.4
 _MOST_ANKLE_SPEED = 2.0  # rad/s
 _MOST_HIP_SPEED = 1.0
-_LEAST_LOAD_N = 5.0
+_LOAD_S = 0.02  # the force on a sole chatters: what counts is its mean over about this time
+_LOADED = 0.3  # share of the load with which a leg counts in full
+_CARRY_S = 0.1  # likewise for whether feet carry the robot
+_CARRIED = (0.7, 0.9)  # share of the weight on the feet: below the first it lies or sits, above the second it stands
 _LEAST_UP = 0.2  # cosine of the lean beyond which soles do not hold a robot
 _LEAST_UP_FOR_HEADING = 0.9
 
@@ -44,33 +49,35 @@ class Balance:
 
     def __init__(self, table: JointTable, follow_per_s: float) -> None:
         self._follow_per_s = follow_per_s
-        self._legs = [_chain(table, foot) for foot in table.feet]
-        joints = {joint.name: joint for leg in self._legs for joint in leg}
+        legs = [_chain(table, foot) for foot in table.feet]
+        joints = {joint.name: joint for leg in legs for joint in leg}
         self._place = {name: place for place, name in enumerate(joints)}
-        self._axes = [np.array(joint.axis) for joint in joints.values()]
-        self._limits = np.array([(joint.lower_rad, joint.upper_rad) for joint in joints.values()])
+        limits = np.array([(joint.lower_rad, joint.upper_rad) for joint in joints.values()])
+        self._low, self._high = limits.T
+        self._weight_n = 9.81 * sum(link.mass_kg for link in table.links.values())
+        self._legs = _Legs(legs, self._place)
         # Of every leg the lowest joint that rolls, pitches and turns: places in what is corrected.
-        self._hands_on = [[_lowest(leg, axis, self._place) for axis in np.eye(3)] for leg in self._legs]
+        self._hands_on = [[_lowest(leg, axis, self._place) for axis in np.eye(3)] for leg in legs]
+        self._hips = np.array([leg[2] if leg[2] is not None else -1 for leg in self._hands_on])
         most = np.array([_MOST_ANKLE_RAD, _MOST_ANKLE_RAD, _MOST_HIP_RAD])
-        self._most = np.tile(most, (len(self._legs), 1))
-        self._most_speed = np.tile([_MOST_ANKLE_SPEED, _MOST_ANKLE_SPEED, _MOST_HIP_SPEED], (len(self._legs), 1))
+        self._most = np.tile(most, (len(legs), 1))
+        self._most_speed = np.tile([_MOST_ANKLE_SPEED, _MOST_ANKLE_SPEED, _MOST_HIP_SPEED], (len(legs), 1))
         self._most[np.array([[place is None for place in leg] for leg in self._hands_on])] = 0.0
-        self._positions: NDArray[np.float64] | None = None
-        self._given = np.zeros_like(self._most)
-        self._course: float | None = None
-        self._sum_off = 0.0  # rad s
+        self.start({})
 
     def start(self, positions_rad: Mapping[str, float]) -> None:
         """Forget everything; joints are at these positions."""
         self._positions = np.array([positions_rad.get(name, 0.0) for name in self._place])
         self._given = np.zeros_like(self._most)
-        self._course, self._sum_off = None, 0.0
+        self._loads = np.zeros(len(self._most))
+        self._carried_n = 0.0
+        self._course: float | None = None
 
     def corrections(
         self,
         sent_rad: Mapping[str, float],
-        turn: NDArray[np.float64],
-        rate_rad_s: Vector3,
+        turn: Floats,
+        rate_rad_s: Floats,
         loads_n: Sequence[float],
         elapsed_s: float,
     ) -> dict[str, float]:
@@ -90,70 +97,89 @@ class Balance:
             Since the last call.
         """
         goal = np.array([sent_rad.get(name, 0.0) for name in self._place])
-        if self._positions is None:
-            self._positions = goal
         followed = 1.0 - (1.0 - self._follow_per_s * 0.001) ** (1000.0 * elapsed_s)
         speeds = self._follow_per_s * (goal - self._positions) * (1.0 - 0.5 * followed)
         self._positions = self._positions + followed * (goal - self._positions)
-        load = float(sum(loads_n))
+        self._loads += (1.0 - np.exp(-elapsed_s / _LOAD_S)) * (np.array(loads_n) - self._loads)
+        load = max(float(self._loads.sum()), 1e-9)
+        self._carried_n += (1.0 - np.exp(-elapsed_s / _CARRY_S)) * (sum(loads_n) - self._carried_n)
+        carried = _ramp(self._carried_n / self._weight_n, _CARRIED)
         up = turn[2]
-        wanted = np.zeros_like(self._most)
-        if up[2] < _LEAST_UP_FOR_HEADING:
-            self._course, self._sum_off = None, 0.0
-        if load >= _LEAST_LOAD_N and up[2] >= _LEAST_UP:  # between two steps there may be no load for a moment
-            shares = np.array(loads_n) / load
-            soles, rates = zip(*(self._base_over(leg, speeds) for leg in self._legs), strict=True)
-            lean = -np.cross(shares @ np.array(soles), up)
-            own_rate = shares @ np.array(rates)
-            lean_rate = rate_rad_s @ turn - own_rate
-            back = _LEAN * lean[:2] + _LEAN_RATE_S * lean_rate[:2]
-            wanted[:, :2] = shares[:, np.newaxis] * back
-            off = self._off_course(turn, self._own_turn(shares, speeds), elapsed_s)
-            wanted[:, 2] = shares * (_HEADING * off + _HEADING_PER_S * self._sum_off)
+        wanted = (1.0 - elapsed_s * _BACK_PER_S) * self._given
+        if carried == 0.0 or up[2] < _LEAST_UP_FOR_HEADING:
+            self._course = None
+        if carried > 0.0 and up[2] >= _LEAST_UP:
+            shares = self._loads / load
+            soles, rates = self._legs.base_over(self._positions, speeds)
+            (x, y, z), (a, b, c) = shares @ soles, up
+            lean = np.array([z * b - y * c, x * c - z * a])  # up x sole
+            lean_rate = (rate_rad_s @ turn - shares @ rates)[:2]
+            wanted[:, :2] = carried * shares[:, np.newaxis] * (_LEAN * lean + _LEAN_RATE_S * lean_rate)
+            off = self._off_course(turn, -float(shares @ np.where(self._hips >= 0, speeds[self._hips], 0.0)), elapsed_s)
+            loaded = carried * np.minimum(1.0, shares / _LOADED)
+            wanted[:, 2] += elapsed_s * loaded * (_HEADING_PER_S * off + _BACK_PER_S * self._given[:, 2])
         wanted = np.clip(wanted, -self._most, self._most)
         speed = np.clip((wanted - self._given) / elapsed_s, -self._most_speed, self._most_speed)
         self._given = self._given + elapsed_s * speed
         return self._by_name(goal, self._given + speed / self._follow_per_s)  # joints follow late: lead by that
 
-    def _own_turn(self, shares: NDArray[np.float64], speeds: NDArray[np.float64]) -> float:
-        """Rate at which the motion's loaded hips turn the base; other joints sway it, which would add up to a drift."""
-        hips = [leg[2] for leg in self._hands_on]
-        return -sum(share * speeds[hip] for share, hip in zip(shares.tolist(), hips, strict=True) if hip is not None)
+    def _off_course(self, turn: Floats, own_turn: float, elapsed_s: float) -> float:
+        """Angle from where the motion would have turned the base to where it points.
 
-    def _off_course(self, turn: NDArray[np.float64], own_turn: float, elapsed_s: float) -> float:
-        """Angle from where the motion would have turned the base to where it points."""
+        Only the motion's loaded hips turn the base; other joints sway it, which would add up to a drift.
+        """
         if turn[2, 2] < _LEAST_UP_FOR_HEADING:
-            self._course, self._sum_off = None, 0.0
             return 0.0
         heading = float(np.arctan2(turn[1, 0], turn[0, 0]))
         if self._course is None:
-            self._course, self._sum_off = heading, 0.0
+            self._course = heading
         self._course += elapsed_s * own_turn
-        off = float((heading - self._course + np.pi) % (2.0 * np.pi) - np.pi)
-        most = _MOST_HIP_RAD / _HEADING_PER_S
-        self._sum_off = min(max(self._sum_off + elapsed_s * off, -most), most)
-        return off
+        return float((heading - self._course + np.pi) % (2.0 * np.pi) - np.pi)
 
-    def _base_over(self, leg: Sequence[Joint], speeds: NDArray[np.float64]) -> tuple[Vector3, Vector3]:
-        """The sole's z axis, and the angular velocity of the base if the sole stays; in the base's frame."""
-        assert self._positions is not None
-        turn, rate = np.eye(3), np.zeros(3)
-        for joint in leg:
-            place = self._place[joint.name]
-            rate -= speeds[place] * (turn @ self._axes[place])
-            turn = turn @ rotation_about(self._axes[place], self._positions[place])
-        return turn[:, 2], rate
-
-    def _by_name(self, goal: NDArray[np.float64], given: NDArray[np.float64]) -> dict[str, float]:
+    def _by_name(self, goal: Floats, given: Floats) -> dict[str, float]:
         names = list(self._place)
         found: dict[str, float] = {}
         for leg, values in zip(self._hands_on, given.tolist(), strict=True):
             for place, value in zip(leg, values, strict=True):
                 if place is not None:
-                    low, high = self._limits[place]
-                    low, high = min(low, goal[place]), max(high, goal[place])
-                    found[names[place]] = min(max(goal[place] + value, low), high) - goal[place]
+                    at = float(goal[place])
+                    low, high = min(self._low[place], at), max(self._high[place], at)
+                    found[names[place]] = float(min(max(at + value, low), high)) - at
         return found
+
+
+class _Legs:
+    """Turns the joints of all legs at once."""
+
+    def __init__(self, legs: Sequence[Sequence[Joint]], places: Mapping[str, int]) -> None:
+        longest = max(map(len, legs))
+        self._places = np.zeros((longest, len(legs)), dtype=np.intp)
+        self._axes = np.zeros((longest, len(legs), 3))  # a leg with fewer joints ends with some that do not turn
+        for column, leg in enumerate(legs):
+            for row, joint in enumerate(leg):
+                self._places[row, column] = places[joint.name]
+                self._axes[row, column] = joint.axis
+        x, y, z = np.moveaxis(self._axes, 2, 0)
+        none = np.zeros_like(x)
+        crosses = np.stack((none, -z, y, z, none, -x, -y, x, none), axis=-1).reshape(longest, len(legs), 3, 3)
+        self._crosses, self._squares = crosses, crosses @ crosses
+
+    def base_over(self, positions: Floats, speeds: Floats) -> tuple[Floats, Floats]:
+        """Of every leg the sole's z axis, and the base's angular velocity if the sole stays; in the base's frame."""
+        angles = positions[self._places][:, :, np.newaxis, np.newaxis]
+        turns = np.eye(3) + np.sin(angles) * self._crosses + (1.0 - np.cos(angles)) * self._squares
+        spins = speeds[self._places][:, :, np.newaxis] * self._axes
+        turn = turns[0]
+        rate = -spins[0]
+        for row in range(1, len(turns)):
+            rate -= (turn @ spins[row][:, :, np.newaxis])[:, :, 0]
+            turn = turn @ turns[row]
+        return turn[:, :, 2], rate
+
+
+def _ramp(value: float, ends: tuple[float, float]) -> float:
+    """0 at the first end, 1 at the second, linear between them."""
+    return min(max((value - ends[0]) / (ends[1] - ends[0]), 0.0), 1.0)
 
 
 def _chain(table: JointTable, link: str) -> list[Joint]:
@@ -166,7 +192,7 @@ def _chain(table: JointTable, link: str) -> list[Joint]:
     return joints
 
 
-def _lowest(leg: Sequence[Joint], axis: Vector3, places: Mapping[str, int]) -> int | None:
+def _lowest(leg: Sequence[Joint], axis: Floats, places: Mapping[str, int]) -> int | None:
     """Place of the joint nearest to the foot that turns about an axis; None when there is none."""
     found = [places[joint.name] for joint in leg if np.array_equal(joint.axis, axis)]
     return found[-1] if found else None
