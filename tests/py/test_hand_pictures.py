@@ -58,3 +58,25 @@ def test_the_mask_is_the_largest_region_of_what_most_neighbours_are() -> None:
         _, labels, regions, _ = cv2.connectedComponentsWithStats(skin)
         wanted = labels == 1 + np.argmax(regions[1:, cv2.CC_STAT_AREA])
         assert ((mask > 0) & wanted).sum() > 0.95 * ((mask > 0) | wanted).sum()
+
+
+@pytest.mark.parametrize("size", [(640, 480), (320, 240), (333, 250), (1280, 720), (31, 7)])
+def test_a_single_picture_is_split_as_opencv_does_it(size: tuple[int, int]) -> None:
+    frame = film(size)[2]
+    scale = min(1.0, 320 / max(size))
+    small = frame
+    if scale < 1:
+        small = cv2.resize(frame, (round(size[0] * scale), round(size[1] * scale)), interpolation=cv2.INTER_AREA)
+    _, red, blue = cv2.split(cv2.cvtColor(cv2.GaussianBlur(small, (5, 5), 0), cv2.COLOR_BGR2YCrCb))
+    redness = cv2.addWeighted(red, 1.0, blue, -1.0, 128.0)
+    _, raw = cv2.threshold(redness, 0, 255, cv2.THRESH_BINARY | cv2.THRESH_OTSU)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(cv2.medianBlur(raw, 5))
+    hand = 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA]))
+    options = _native_vision.SilhouetteOptions(remove_face=False)
+    found = _native_vision.SilhouetteExtractor(options).extract(frame)
+    np.testing.assert_array_equal(found.grey, cv2.cvtColor(small, cv2.COLOR_BGR2GRAY))
+    np.testing.assert_array_equal(found.mask, np.where(labels == hand, 255, 0))
+    inside = redness > cv2.threshold(redness, 0, 255, cv2.THRESH_OTSU)[0]
+    share, values = inside.mean(), redness.astype(float)
+    between = share * (1 - share) * (values[inside].mean() - values[~inside].mean()) ** 2
+    assert found.quality == pytest.approx(between / values.var(), rel=1e-6)

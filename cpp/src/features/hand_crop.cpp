@@ -19,17 +19,22 @@ struct Extent {
   int bottom = -1;
 };
 
+HRI_SIMD_CLONES bool any_set(const std::uint8_t* row, int count) {
+  std::uint8_t all = 0;
+  for (int x = 0; x < count; ++x) all = static_cast<std::uint8_t>(all | row[x]);
+  return all != 0;
+}
+
 Extent extent_of(ImageView mask) {
   Extent e{mask.width_px, -1, mask.height_px, -1};
   for (int y = 0; y < mask.height_px; ++y) {
     const std::uint8_t* row = mask.row(y);
-    for (int x = 0; x < mask.width_px; ++x) {
-      if (row[x] == 0) continue;
-      e.left = std::min(e.left, x);
-      e.right = std::max(e.right, x);
-      e.top = std::min(e.top, y);
-      e.bottom = y;
-    }
+    if (!any_set(row, mask.width_px)) continue;
+    int left = 0;
+    while (left < e.left && row[left] == 0) ++left;
+    int right = mask.width_px - 1;
+    while (right > e.right && row[right] == 0) --right;
+    e = {left, right, std::min(e.top, y), y};
   }
   return e;
 }

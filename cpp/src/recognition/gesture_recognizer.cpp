@@ -8,11 +8,26 @@
 
 #include "gesture_scorer.hpp"
 #include "hri/core/error.hpp"
+#include "hri/core/simd.hpp"
 
 namespace hri {
 namespace {
 
 constexpr int kMaxFolds = 5;
+
+struct RowSums {
+  int count = 0;
+  int places = 0;  // of what is set
+};
+
+HRI_SIMD_CLONES RowSums sums_of(const std::uint8_t* row, int width) {
+  RowSums s;
+  for (int x = 0; x < width; ++x) {
+    s.count += row[x] != 0 ? 1 : 0;
+    s.places += row[x] != 0 ? x : 0;
+  }
+  return s;
+}
 
 // Centre (0..1 of the frame) and log of the share of the frame that the mask covers; false for an
 // empty mask.
@@ -21,15 +36,10 @@ bool track_point(ImageView mask, float* out) {
   double sum_x = 0;
   double sum_y = 0;
   for (int y = 0; y < mask.height_px; ++y) {
-    const std::uint8_t* row = mask.row(y);
-    int count = 0;
-    for (int x = 0; x < mask.width_px; ++x) {
-      if (row[x] == 0) continue;
-      ++count;
-      sum_x += x;
-    }
-    sum += count;
-    sum_y += static_cast<double>(count) * y;
+    const RowSums row = sums_of(mask.row(y), mask.width_px);
+    sum += row.count;
+    sum_x += row.places;
+    sum_y += static_cast<double>(row.count) * y;
   }
   if (sum == 0) return false;
   out[0] = static_cast<float>((sum_x / sum + 0.5) / mask.width_px);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kNumValues = 6;
 constexpr int kNumBins = 256;
+constexpr int kMajority_px = 1;        // 3 x 3 pixels
 constexpr int kBand_px = 5;            // both sides of an outline, for its sharpness
 constexpr double kRidge = 1e-4;        // keeps channels that hardly vary from large weights
 constexpr double kMinMeanArea = 0.01;  // of the frames learned from
@@ -234,7 +235,7 @@ class Fitter {
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       resize(&raw_, frames_[i].width_px, frames_[i].height_px);
       for (std::uint8_t& p : raw_.pixels) p = *score++ > threshold ? 255 : 0;
-      majority(raw_, &bytes_, &masks_[i]);
+      majority(raw_, kMajority_px, &counts_, &masks_[i]);
       if (!regions_.keep_largest(&masks_[i], options_.min_area)) ++empty;
       num_inside_ += count_set(masks_[i].pixels.data(), 1, masks_[i].pixels.size());
     }
@@ -333,6 +334,7 @@ class Fitter {
   RegionFinder regions_;
   GreyImage raw_;
   std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint16_t> counts_;
 };
 
 }  // namespace

@@ -13,6 +13,8 @@
 namespace hri {
 namespace {
 
+constexpr int kRadius_px = 1;  // of the pixels whose majority counts
+
 void validate(const HandColourOptions& o) {
   require(o.max_side_px >= 32 && o.max_side_px <= 4096, "max_side_px must lie in 32..4096");
   require(o.fit_side_px >= 32 && o.fit_side_px <= 4096, "fit_side_px must lie in 32..4096");
@@ -42,7 +44,7 @@ struct Workspace {
   detail::Shrinker shrinker;
   detail::ColourImage small;
   GreyImage raw;
-  std::vector<std::uint8_t> counts;
+  std::vector<std::uint16_t> counts;
   detail::RegionFinder regions;
 };
 
@@ -87,7 +89,7 @@ void HandColours::extract(ImageView bgr, Silhouette* out) const {
     in = score > threshold_ ? 255 : 0;
     pixel += 3;
   }
-  detail::majority(w.raw, &w.counts, &out->mask);
+  detail::majority(w.raw, kRadius_px, &w.counts, &out->mask);
   out->quality = w.regions.keep_largest(&out->mask, options_.min_area) ? quality_ : 0;
 }
 

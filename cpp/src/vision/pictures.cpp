@@ -22,10 +22,4 @@ cv::Mat scaled_down(const cv::Mat& picture, int max_side_px) {
   return small;
 }
 
-GreyImage copy_of(const cv::Mat& m) {
-  GreyImage image(m.cols, m.rows);
-  m.copyTo(cv::Mat(m.rows, m.cols, CV_8U, image.pixels.data()));
-  return image;
-}
-
 }  // namespace hri::detail

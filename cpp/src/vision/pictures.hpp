@@ -17,6 +17,4 @@ cv::Mat as_mat(ImageView bgr);
 /// `picture`, or a copy scaled down so that its longer side has `max_side_px`.
 cv::Mat scaled_down(const cv::Mat& picture, int max_side_px);
 
-GreyImage copy_of(const cv::Mat& m);
-
 }  // namespace hri::detail

@@ -5,6 +5,7 @@
 // so that a stream of pictures of one size allocates nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -44,9 +45,32 @@ class Shrinker {
 /// Brightness as OpenCV weighs the channels.
 void to_grey(const ColourImage& bgr, GreyImage* grey);
 
-/// What most of the 3 x 3 pixels around every pixel of a mask of 0 and 255 are; borders repeat.
-/// `counts` is working memory; `out` must not be `mask`.
-void majority(const GreyImage& mask, std::vector<std::uint8_t>* counts, GreyImage* out);
+/// What most of the pixels around every pixel of a mask of 0 and 255 are, within `radius_px` along
+/// rows and columns, up to 15; borders repeat. `counts` is working memory; `out` must not be
+/// `mask`.
+void majority(const GreyImage& mask, int radius_px, std::vector<std::uint16_t>* counts,
+              GreyImage* out);
+
+/// Smooths pictures as OpenCV's Gaussian blur of 1, 3, 5, ... pixels does.
+class Smoother {
+ public:
+  void smooth(const ColourImage& bgr, int blur_px, ColourImage* out);
+
+ private:
+  void smooth_five(const ColourImage& bgr, ColourImage* out);
+
+  std::vector<std::uint8_t> padded_;
+  std::vector<std::uint16_t> rows_;
+};
+
+/// Cr - Cb + 128, as OpenCV rounds them: what is red is bright.
+void to_redness(const ColourImage& bgr, GreyImage* redness);
+
+/// How many pixels have every value.
+std::array<std::int64_t, 256> histogram(const GreyImage& image);
+
+/// Sets in `mask` what is above the threshold, or what is not, to 255.
+void set_where(const GreyImage& image, int threshold, bool above, GreyImage* mask);
 
 /// Sets in `band` the pixels that have both kinds of pixels of the mask within `radius_px`, counted
 /// along rows and columns. `bytes` is working memory.

@@ -61,23 +61,48 @@ void RegionFinder::join_runs() {
   }
 }
 
-bool RegionFinder::keep_largest(GreyImage* mask, double min_area) {
-  find_runs(*mask);
+const std::vector<Region>& RegionFinder::find(const GreyImage& mask) {
+  find_runs(mask);
   join_runs();
-  areas_.assign(runs_.size(), 0);
-  for (int i = 0; i < static_cast<int>(runs_.size()); ++i)
-    areas_[at(root(i))] += runs_[at(i)].end - runs_[at(i)].first;
-  const auto largest = std::max_element(areas_.begin(), areas_.end());
-  std::fill(mask->pixels.begin(), mask->pixels.end(), std::uint8_t{0});
-  if (largest == areas_.end() || *largest < min_area * static_cast<double>(mask->pixels.size()))
-    return false;
-  const auto kept = static_cast<int>(largest - areas_.begin());
+  regions_.clear();
+  numbers_.resize(runs_.size());
   for (int i = 0; i < static_cast<int>(runs_.size()); ++i) {
-    if (root(i) != kept) continue;
+    const Run& run = runs_[at(i)];
+    const int first = root(i);  // never after i
+    if (first == i) {
+      numbers_[at(i)] = static_cast<int>(regions_.size());
+      regions_.push_back({0, run.first, run.y, run.end, run.y + 1, i});
+    }
+    Region& region = regions_[at(numbers_[at(first)])];
+    region.area += run.end - run.first;
+    region.left = std::min(region.left, run.first);
+    region.right = std::max(region.right, run.end);
+    region.bottom = run.y + 1;
+  }
+  return regions_;
+}
+
+void RegionFinder::keep(const Region& region, GreyImage* mask) {
+  std::fill(mask->pixels.begin(), mask->pixels.end(), std::uint8_t{0});
+  for (int i = region.first_run; i < static_cast<int>(runs_.size()); ++i) {
+    if (root(i) != region.first_run) continue;
     const Run& run = runs_[at(i)];
     std::uint8_t* row = mask->pixels.data() + at(run.y) * at(mask->width_px);
     std::fill(row + run.first, row + run.end, std::uint8_t{255});
   }
+}
+
+bool RegionFinder::keep_largest(GreyImage* mask, double min_area) {
+  find(*mask);
+  const auto largest =
+      std::max_element(regions_.begin(), regions_.end(),
+                       [](const Region& a, const Region& b) { return a.area < b.area; });
+  if (largest == regions_.end() ||
+      largest->area < min_area * static_cast<double>(mask->pixels.size())) {
+    std::fill(mask->pixels.begin(), mask->pixels.end(), std::uint8_t{0});
+    return false;
+  }
+  keep(*largest, mask);
   return true;
 }
 

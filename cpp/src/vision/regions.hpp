@@ -10,10 +10,23 @@
 
 namespace hri::detail {
 
+/// A connected region: pixels left .. right - 1 of rows top .. bottom - 1.
+struct Region {
+  int area = 0;
+  int left = 0, top = 0, right = 0, bottom = 0;
+  int first_run = 0;  // by which the finder knows it
+};
+
 class RegionFinder {
  public:
+  /// All regions, in the order of their first pixels. Pixels that touch at a corner belong
+  /// together.
+  const std::vector<Region>& find(const GreyImage& mask);
+  /// Leaves only a region that was found in the mask.
+  void keep(const Region& region, GreyImage* mask);
+
   /// Leaves only the largest region (of several the first); nothing and false where it covers less
-  /// than `min_area` of the mask. Pixels that touch at a corner belong together.
+  /// than `min_area` of the mask.
   bool keep_largest(GreyImage* mask, double min_area);
 
  private:
@@ -26,7 +39,8 @@ class RegionFinder {
   [[nodiscard]] int root(int run);
 
   std::vector<Run> runs_;
-  std::vector<int> areas_;
+  std::vector<int> numbers_;  // of the region that a run begins
+  std::vector<Region> regions_;
 };
 
 }  // namespace hri::detail

@@ -3,108 +3,132 @@
 #include "hri/vision/silhouette.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "hri/core/error.hpp"
 #include "pictures.hpp"
+#include "pixels.hpp"
+#include "regions.hpp"
 
 namespace hri {
 namespace {
 
-// A threshold's result: the mask, and how far apart the classes lie.
+// How a picture is split in two.
 struct Split {
-  cv::Mat mask;
+  int threshold = 0;
   double contrast = 0;  // difference of the classes' means
   double quality = 0;   // between-class share of the variance, 0..1
 };
 
-Split split_by_otsu(const cv::Mat& channel, bool bright_is_hand) {
+using Histogram = std::array<std::int64_t, 256>;
+
+// Otsu's threshold, as OpenCV finds it; values above it are the other class.
+int otsu_threshold(const Histogram& counts, double total, double mean) {
+  double below_mean = 0;
+  double below = 0;
+  double largest = 0;
+  int best = 0;
+  for (int v = 0; v < 256; ++v) {
+    const double share = static_cast<double>(counts[static_cast<std::size_t>(v)]) / total;
+    below_mean *= below;
+    below += share;
+    const double above = 1 - below;
+    constexpr double kNone = std::numeric_limits<float>::epsilon();
+    if (std::min(below, above) < kNone || std::max(below, above) > 1 - kNone) continue;
+    below_mean = (below_mean + v * share) / below;
+    const double above_mean = (mean - below * below_mean) / above;
+    const double between = below * above * (below_mean - above_mean) * (below_mean - above_mean);
+    if (between > largest) {
+      largest = between;
+      best = v;
+    }
+  }
+  return best;
+}
+
+// Of the values above `least`.
+Split split_by_otsu(const Histogram& all, int least = -1) {
+  Histogram counts = all;
+  std::fill(counts.begin(), counts.begin() + (least + 1), 0);
+  double total = 0;
+  double sum = 0;
+  double squares = 0;
+  for (int v = 0; v < 256; ++v) {
+    const auto count = static_cast<double>(counts[static_cast<std::size_t>(v)]);
+    total += count;
+    sum += count * v;
+    squares += count * v * v;
+  }
+  const double mean = sum / total;
   Split s;
-  cv::threshold(channel, s.mask, 0, 255,
-                cv::THRESH_OTSU | (bright_is_hand ? cv::THRESH_BINARY : cv::THRESH_BINARY_INV));
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(channel, mean, deviation);
-  const double share = cv::countNonZero(s.mask) / static_cast<double>(s.mask.total());
-  if (share <= 0 || share >= 1) return s;
-  const double inside = cv::mean(channel, s.mask)[0];
-  const double outside = (mean[0] - share * inside) / (1 - share);
-  s.contrast = std::abs(inside - outside);
-  const double variance = deviation[0] * deviation[0];
+  s.threshold = otsu_threshold(counts, total, mean);
+  double above = 0;
+  double above_sum = 0;
+  for (int v = s.threshold + 1; v < 256; ++v) {
+    above += static_cast<double>(counts[static_cast<std::size_t>(v)]);
+    above_sum += static_cast<double>(counts[static_cast<std::size_t>(v)]) * v;
+  }
+  if (above <= 0 || above >= total) return s;
+  const double share = above / total;
+  s.contrast = std::abs(above_sum / above - (sum - above_sum) / (total - above));
+  const double variance = squares / total - mean * mean;
   if (variance > 0) s.quality = share * (1 - share) * s.contrast * s.contrast / variance;
   return s;
 }
 
 // A hand does not reach three corners of the picture: then the wall was taken for skin, because
 // something else, such as a blue shirt, lies further from both.
-bool holds_background(const cv::Mat& mask) {
-  const int right = mask.cols - 1;
-  const int bottom = mask.rows - 1;
-  const int corners = (mask.at<uchar>(0, 0) != 0) + (mask.at<uchar>(0, right) != 0) +
-                      (mask.at<uchar>(bottom, 0) != 0) + (mask.at<uchar>(bottom, right) != 0);
-  return corners >= 3 ||
-         (corners == 2 && mask.at<uchar>(0, 0) != 0 && mask.at<uchar>(0, right) != 0);
-}
-
-// Splits again what lies inside `coarse`, as an image of its own.
-Split split_inside(const cv::Mat& channel, const Split& coarse) {
-  std::vector<uchar> values;
-  values.reserve(channel.total());
-  for (int y = 0; y < channel.rows; ++y) {
-    const auto* value = channel.ptr<uchar>(y);
-    const auto* inside = coarse.mask.ptr<uchar>(y);
-    for (int x = 0; x < channel.cols; ++x) {
-      if (inside[x] != 0) values.push_back(value[x]);
-    }
-  }
-  cv::Mat row(1, static_cast<int>(values.size()), CV_8U, values.data());
-  Split fine = split_by_otsu(row, true);
-  const double threshold = cv::threshold(row, row, 0, 255, cv::THRESH_OTSU | cv::THRESH_BINARY);
-  cv::threshold(channel, fine.mask, threshold, 255, cv::THRESH_BINARY);
-  return fine;
-}
-
-// Cr - Cb, shifted to 0..255.
-cv::Mat redness(const cv::Mat& bgr) {
-  cv::Mat ycrcb;
-  cv::cvtColor(bgr, ycrcb, cv::COLOR_BGR2YCrCb);
-  std::vector<cv::Mat> planes;
-  cv::split(ycrcb, planes);
-  cv::Mat difference;
-  cv::addWeighted(planes[1], 1.0, planes[2], -1.0, 128.0, difference);
-  return difference;
+bool holds_background(const GreyImage& channel, int threshold) {
+  const ImageView view = channel.view();
+  const auto set = [&](int x, int y) { return view.at(x, y) > threshold ? 1 : 0; };
+  const int right = channel.width_px - 1;
+  const int bottom = channel.height_px - 1;
+  const int upper = set(0, 0) + set(right, 0);
+  const int corners = upper + set(0, bottom) + set(right, bottom);
+  return corners >= 3 || (corners == 2 && upper == 2);
 }
 
 // Thesis section 5.1.1: hue 0..50 degrees, saturation 0.23..0.68 of the scale.
-Split split_by_hsv(const cv::Mat& bgr) {
-  Split s;
+void split_by_hsv(const detail::ColourImage& bgr, GreyImage* mask) {
+  detail::resize(mask, bgr.width_px, bgr.height_px);
   cv::Mat hsv;
-  cv::cvtColor(bgr, hsv, cv::COLOR_BGR2HSV);
-  cv::inRange(hsv, cv::Scalar(0, 0.23 * 255, 40), cv::Scalar(25, 0.68 * 255, 255), s.mask);
-  s.contrast = 255;
-  s.quality = 1;
-  return s;
+  cv::cvtColor(detail::as_mat(bgr.view()), hsv, cv::COLOR_BGR2HSV);
+  cv::Mat out(mask->height_px, mask->width_px, CV_8U, mask->pixels.data());
+  cv::inRange(hsv, cv::Scalar(0, 0.23 * 255, 40), cv::Scalar(25, 0.68 * 255, 255), out);
 }
 
-Split split(const cv::Mat& bgr, SilhouetteMethod method) {
-  if (method == SilhouetteMethod::hsv) return split_by_hsv(bgr);
-  if (method == SilhouetteMethod::chroma_otsu) {
-    const cv::Mat channel = redness(bgr);
-    Split found = split_by_otsu(channel, true);
-    if (holds_background(found.mask)) found = split_inside(channel, found);
+// Sets what may be a hand.
+Split split(const detail::ColourImage& bgr, SilhouetteMethod method, GreyImage* channel,
+            GreyImage* mask) {
+  if (method == SilhouetteMethod::hsv) {
+    split_by_hsv(bgr, mask);
+    return {0, 255, 1};
+  }
+  if (method == SilhouetteMethod::grey_otsu) {
+    detail::to_grey(bgr, channel);
+    const Split found = split_by_otsu(detail::histogram(*channel));
+    detail::set_where(*channel, found.threshold, false, mask);
     return found;
   }
-  cv::Mat grey;
-  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
-  return split_by_otsu(grey, false);
+  detail::to_redness(bgr, channel);
+  const Histogram counts = detail::histogram(*channel);
+  Split found = split_by_otsu(counts);
+  // Splits again what was taken for skin, as an image of its own.
+  if (holds_background(*channel, found.threshold)) found = split_by_otsu(counts, found.threshold);
+  detail::set_where(*channel, found.threshold, true, mask);
+  return found;
 }
 
 // How well a region fills the ellipse that has its moments: 1 for an ellipse, less for a hand with
 // fingers.
-double ellipticity(const cv::Mat& labels, int label, const cv::Rect& box) {
-  cv::Mat region = labels(box) == label;
+double ellipticity(const GreyImage& mask, const detail::Region& found) {
+  cv::Mat region(found.bottom - found.top, found.right - found.left, CV_8U);
+  for (int y = found.top; y < found.bottom; ++y)
+    std::copy_n(mask.view().row(y) + found.left, region.cols, region.ptr<uchar>(y - found.top));
   // Eyes, glasses and a mouth are holes in a face.
   std::vector<std::vector<cv::Point>> outline;
   cv::findContours(region.clone(), outline, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
@@ -130,38 +154,51 @@ double ellipticity(const cv::Mat& labels, int label, const cv::Rect& box) {
   return any > 0 ? both / any : 0;
 }
 
-// The label of the hand among the connected regions of `mask`; 0 when there is none.
-int hand_label(const cv::Mat& labels, const cv::Mat& stats, const SilhouetteOptions& options) {
-  const double total = static_cast<double>(labels.total());
-  std::vector<int> candidates;
-  for (int i = 1; i < stats.rows; ++i) {
-    const double area = stats.at<int>(i, cv::CC_STAT_AREA) / total;
-    if (area >= options.min_area && area <= options.max_area) candidates.push_back(i);
+// Working memory of one thread.
+struct Workspace {
+  detail::Shrinker shrinker;
+  detail::Smoother smoother;
+  detail::ColourImage small, smooth;
+  GreyImage channel, raw, cleaned, other;
+  std::vector<std::uint16_t> counts;
+  detail::RegionFinder finder;
+  std::vector<detail::Region> candidates;
+};
+
+// Fills w.candidates with what may be a hand by its size, the largest first.
+void find_candidates(const SilhouetteOptions& options, Workspace* w) {
+  const auto total = static_cast<double>(w->cleaned.pixels.size());
+  w->candidates.clear();
+  for (const detail::Region& r : w->finder.find(w->cleaned)) {
+    const double area = r.area / total;
+    if (area >= options.min_area && area <= options.max_area) w->candidates.push_back(r);
   }
-  const auto by_area = [&](int p, int q) {
-    return stats.at<int>(p, cv::CC_STAT_AREA) > stats.at<int>(q, cv::CC_STAT_AREA);
-  };
-  std::stable_sort(candidates.begin(), candidates.end(), by_area);
-  if (candidates.empty()) return 0;
+  std::sort(w->candidates.begin(), w->candidates.end(),
+            [](const detail::Region& p, const detail::Region& q) {
+              return p.area != q.area ? p.area > q.area : p.first_run < q.first_run;
+            });
+  if (w->candidates.empty()) return;
   // Regions much smaller than the largest are specks, not a second body part.
   constexpr double kComparable = 0.15;
-  const double least = kComparable * stats.at<int>(candidates.front(), cv::CC_STAT_AREA);
-  while (stats.at<int>(candidates.back(), cv::CC_STAT_AREA) < least) candidates.pop_back();
-  if (!options.remove_face || candidates.size() < 2) return candidates.front();
+  const double least = kComparable * w->candidates.front().area;
+  while (w->candidates.back().area < least) w->candidates.pop_back();
+}
+
+// Of several candidates the one most like an ellipse is a face.
+void remove_face(Workspace* w) {
+  if (w->candidates.size() < 2) return;
   std::size_t face = 0;
   double best = -1;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const int* s = stats.ptr<int>(candidates[i]);
-    const cv::Rect box(s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH],
-                       s[cv::CC_STAT_HEIGHT]);
-    const double likeness = ellipticity(labels, candidates[i], box);
+  for (std::size_t i = 0; i < w->candidates.size(); ++i) {
+    w->other = w->cleaned;
+    w->finder.keep(w->candidates[i], &w->other);
+    const double likeness = ellipticity(w->other, w->candidates[i]);
     if (likeness > best) {
       best = likeness;
       face = i;
     }
   }
-  candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(face));
-  return candidates.front();
+  w->candidates.erase(w->candidates.begin() + static_cast<std::ptrdiff_t>(face));
 }
 
 }  // namespace
@@ -180,31 +217,36 @@ SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options) : opt
 }
 
 Silhouette SilhouetteExtractor::extract(ImageView bgr) const {
+  Silhouette result;
+  extract(bgr, &result);
+  return result;
+}
+
+void SilhouetteExtractor::extract(ImageView bgr, Silhouette* out) const {
   require(!bgr.empty() && bgr.channels == 3,
           "picture must have three channels and at least one pixel");
-  const cv::Mat small = detail::scaled_down(detail::as_mat(bgr), options_.max_side_px);
-  cv::Mat grey;
-  cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
-  cv::Mat smooth;
-  cv::GaussianBlur(small, smooth, cv::Size(options_.blur_px, options_.blur_px), 0);
-
-  Silhouette result;
-  result.grey = detail::copy_of(grey);
-  result.mask = GreyImage(grey.cols, grey.rows);
-  Split found = split(smooth, options_.method);
-  if (found.contrast < options_.min_contrast) return result;
-  if (found.contrast < options_.sure_contrast && found.quality < options_.min_quality)
-    return result;
-  cv::medianBlur(found.mask, found.mask, options_.blur_px);
-  cv::Mat labels;
-  cv::Mat stats;
-  cv::Mat centroids;
-  cv::connectedComponentsWithStats(found.mask, labels, stats, centroids);
-  const int hand = hand_label(labels, stats, options_);
-  if (hand == 0) return result;
-  result.mask = detail::copy_of(labels == hand);
-  result.quality = std::clamp(found.quality, 0.0, 1.0);
-  return result;
+  thread_local Workspace w;
+  w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
+  detail::to_grey(w.small, &out->grey);
+  w.smoother.smooth(w.small, options_.blur_px, &w.smooth);
+  out->quality = 0;
+  detail::resize(&out->mask, w.small.width_px, w.small.height_px);
+  const Split found = split(w.smooth, options_.method, &w.channel, &w.raw);
+  const bool clear =
+      found.contrast >= options_.min_contrast &&
+      (found.contrast >= options_.sure_contrast || found.quality >= options_.min_quality);
+  w.candidates.clear();
+  if (clear) {
+    detail::majority(w.raw, options_.blur_px / 2, &w.counts, &w.cleaned);
+    find_candidates(options_, &w);
+    if (options_.remove_face) remove_face(&w);
+  }
+  if (w.candidates.empty()) {
+    std::fill(out->mask.pixels.begin(), out->mask.pixels.end(), std::uint8_t{0});
+    return;
+  }
+  w.finder.keep(w.candidates.front(), &out->mask);
+  out->quality = std::clamp(found.quality, 0.0, 1.0);
 }
 
 }  // namespace hri

@@ -50,6 +50,11 @@ class SilhouetteExtractor {
   /// picture.
   [[nodiscard]] Silhouette extract(ImageView bgr) const;
 
+  /// The same into a silhouette whose memory is used again. With the default method and blur,
+  /// pictures of one size allocate nothing from the second on where their sides are whole multiples
+  /// of the working ones and there is but one region of skin.
+  void extract(ImageView bgr, Silhouette* out) const;
+
  private:
   SilhouetteOptions options_;
 };

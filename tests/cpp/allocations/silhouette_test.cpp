@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stream of pictures allocates nothing once the first one was segmented.
-#include "hri/vision/hand_colours.hpp"
-
+// A stream of pictures allocates nothing once the first one was segmented, in either way.
 #include <gtest/gtest.h>
 
 #include "allocations/allocation_counter.hpp"
 #include "features/hand_testing.hpp"
+#include "hri/vision/hand_colours.hpp"
 
 namespace hri {
 namespace {
@@ -39,6 +38,21 @@ TEST(HandColours, AllocateNothingFromTheSecondPictureOn) {
     colours->extract(view, &found);
     EXPECT_GT(found.quality, 0.5);
     EXPECT_EQ(testing_data::allocations_of([&] { colours->extract(view, &found); }), 0) << factor;
+  }
+}
+
+TEST(Silhouette, AllocatesNothingFromTheSecondPictureOn) {
+  SilhouetteOptions options;
+  options.max_side_px = 200;
+  const SilhouetteExtractor extractor(options);
+  for (const int factor : {1, 2, 3, 4}) {
+    const std::vector<std::uint8_t> pixels = picture(factor);
+    const int side = 200 * factor;
+    const ImageView view{pixels.data(), side, side, 3, std::ptrdiff_t{3} * side};
+    Silhouette found;
+    extractor.extract(view, &found);
+    EXPECT_GT(found.quality, 0.5);
+    EXPECT_EQ(testing_data::allocations_of([&] { extractor.extract(view, &found); }), 0) << factor;
   }
 }
 
