@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The robot HOAP-2: joints, trajectories, gestures and simulation."""
+"""The robots HOAP-2 and NAO: joints, trajectories, gestures and simulation."""
 
 from hri.robot.backend import Robot
 from hri.robot.checks import check_pulse_csv, check_trajectory, require_safe
@@ -12,8 +12,9 @@ from hri.robot.gestures import (
     load_gestures,
     rest_positions,
 )
-from hri.robot.joints import HOAP2, Joint, JointTable
+from hri.robot.joints import HOAP2, NAO, ROBOTS, Camera, Joint, JointTable
 from hri.robot.kinematics import link_poses
+from hri.robot.nao_arms import with_nao_arms
 from hri.robot.physics import Physics
 from hri.robot.plots import plot_trajectory
 from hri.robot.postures import POSTURES
@@ -22,7 +23,7 @@ from hri.robot.repair import Change, repair_pulse_csv
 from hri.robot.self_collision import Touch, self_collisions
 from hri.robot.shaping import concatenate, resample, slow_to_limits, smooth, spline
 from hri.robot.short_csv import read_short_csv, write_short_csv
-from hri.robot.simulation import BACKENDS, open_robot, render_video
+from hri.robot.simulation import BACKENDS, open_robot, render_still, render_video
 from hri.robot.state import Contact, Event, MotionLog, RobotState
 from hri.robot.trajectory import Finding, Trajectory, TrajectoryError
 from hri.robot.urdf import urdf_text
@@ -31,7 +32,10 @@ __all__ = [
     "BACKENDS",
     "GESTURE_JOINTS",
     "HOAP2",
+    "NAO",
     "POSTURES",
+    "ROBOTS",
+    "Camera",
     "Change",
     "Contact",
     "Event",
@@ -56,6 +60,7 @@ __all__ = [
     "plot_trajectory",
     "read_pulse_csv",
     "read_short_csv",
+    "render_still",
     "render_video",
     "repair_pulse_csv",
     "require_safe",
@@ -66,6 +71,7 @@ __all__ = [
     "smooth",
     "spline",
     "urdf_text",
+    "with_nao_arms",
     "write_gallery",
     "write_pulse_csv",
     "write_short_csv",

@@ -15,14 +15,15 @@ from hri.robot.checks import check_pulse_csv, check_trajectory, require_safe
 from hri.robot.gallery import write_gallery
 from hri.robot.gestures import gesture_trajectory, load_gestures
 from hri.robot.imitation.cli import imitate
-from hri.robot.joints import HOAP2
+from hri.robot.joints import HOAP2, ROBOTS, JointTable
+from hri.robot.nao_arms import with_nao_arms
 from hri.robot.plots import plot_trajectory
 from hri.robot.postures import POSTURES
 from hri.robot.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.repair import repair_pulse_csv
 from hri.robot.shaping import slow_to_limits
 from hri.robot.short_csv import is_short_csv, read_short_csv, write_short_csv
-from hri.robot.simulation import BACKENDS, open_robot, render_video
+from hri.robot.simulation import BACKENDS, open_robot, render_still, render_video
 from hri.robot.state import MotionLog
 from hri.robot.trajectory import Trajectory
 
@@ -35,11 +36,20 @@ _backend = click.option(
     show_default=True,
     help="With physics, or without.",
 )
+_robot = click.option(
+    "--robot",
+    "table",
+    type=click.Choice(tuple(ROBOTS)),
+    default="hoap2",
+    show_default=True,
+    callback=lambda context, option, name: ROBOTS[name],
+    help="NAO makes gestures that its arms allow, and motions in the short form.",
+)
 
 
 @click.group()
 def robot() -> None:
-    """Check motions of the robot HOAP-2, carry them out in simulation and film them.
+    """Check motions of the robot HOAP-2 or NAO, carry them out in simulation and film them.
 
     \b
     Examples:
@@ -56,7 +66,8 @@ robot.add_command(imitate)
 @click.option(
     "--repair", "repaired", type=click.Path(dir_okay=False, path_type=Path), help="Write a mended pulse CSV file."
 )
-def check(file: Path, repaired: Path | None) -> None:
+@_robot
+def check(file: Path, repaired: Path | None, table: JointTable) -> None:
     """Look over FILE, pulses or the short form; tab-separated findings go to stdout, exit code 3 for errors.
 
     With --repair, cells that hold no count are taken from their neighbours and counts beyond a limit become the limit
@@ -67,12 +78,15 @@ def check(file: Path, repaired: Path | None) -> None:
       hri robot check motion.csv
       hri robot check motion.csv --repair mended.csv
     """
+    if table is not HOAP2 and not is_short_csv(file):
+        raise InvalidArgument(f"{file}: pulses are HOAP-2's, {table.name} has the short form")
     if repaired is not None:
         for change in repair_pulse_csv(file, repaired):
             where = f"row {change.row}, column {change.column} ({change.joint})"
             click.echo(f"{where}: {change.before!r} is now {change.after}: {change.reason}", err=True)
         file = repaired
-    findings = check_trajectory(read_short_csv(file)) if is_short_csv(file) else check_pulse_csv(file)
+    short = is_short_csv(file)
+    findings = check_trajectory(read_short_csv(file, table), table) if short else check_pulse_csv(file)
     for finding in findings:
         place = (finding.severity, str(finding.row), finding.column, finding.joint)
         click.echo("\t".join((*place, finding.message)))
@@ -92,7 +106,7 @@ def plot(motion: str, out: Path) -> None:
     Example:
       hri robot plot namaste namaste.png
     """
-    plot_trajectory(_motion(motion), out)
+    plot_trajectory(_motion(motion, HOAP2), out)
     click.echo(str(out))
 
 
@@ -103,7 +117,10 @@ def plot(motion: str, out: Path) -> None:
 @click.option("--stand", is_flag=True, help="Stand on the feet instead of holding the torso.")
 @click.option("--posture", type=click.Choice(POSTURES), default="standing", show_default=True, help="To begin in.")
 @click.option("--log", "log_path", type=click.Path(dir_okay=False, path_type=Path), help="Write states as JSON.")
-def play(motion: str, backend: str, gui: bool, stand: bool, posture: str, log_path: Path | None) -> None:
+@_robot
+def play(
+    motion: str, backend: str, gui: bool, stand: bool, posture: str, log_path: Path | None, table: JointTable
+) -> None:
     """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
 
     A robot on its feet begins with the motion's first row, standing or lying, and tells where it got to, and whether it
@@ -114,13 +131,13 @@ def play(motion: str, backend: str, gui: bool, stand: bool, posture: str, log_pa
       hri robot play namaste --gui
       hri robot play walk.csv --stand --log walk.json
     """
-    trajectory = _motion(motion)
+    trajectory = _motion(motion, table)
     stand = stand or posture != "standing"
-    idle = [name for name in HOAP2.names if name not in trajectory.joint_names] if stand else []
+    idle = [name for name in table.names if name not in trajectory.joint_names] if stand and table is HOAP2 else []
     log = MotionLog()
-    with open_robot(backend, gui=gui, fixed_base=not stand, locked=idle) as opened:
+    with open_robot(backend, gui=gui, fixed_base=not stand, locked=idle, table=table) as opened:
         if stand:
-            require_safe(trajectory)
+            require_safe(trajectory, table)
             first = trajectory.positions_rad[0].tolist()
             opened.reset(dict(zip(trajectory.joint_names, first, strict=True)), posture)
         opened.perform(trajectory, log=log)
@@ -144,24 +161,31 @@ def play(motion: str, backend: str, gui: bool, stand: bool, posture: str, log_pa
 @_backend
 @click.option("--fps", type=click.FloatRange(1, 120), default=12.0, show_default=True)
 @click.option("--size", type=(int, int), default=(480, 360), show_default=True, help="Pixels.")
-def render(motion: str, out: Path, backend: str, fps: float, size: tuple[int, int]) -> None:
-    """Film MOTION, the name of a gesture or a pulse CSV file, as the video OUT.
+@click.option("--still", type=click.FloatRange(0), metavar="SECONDS", help="One picture (.png, .jpg) of this moment.")
+@_robot
+def render(
+    motion: str, out: Path, backend: str, fps: float, size: tuple[int, int], still: float | None, table: JointTable
+) -> None:
+    """Film MOTION, the name of a gesture or a pulse CSV file, as the video OUT, or take one picture of it.
 
     \b
     Example:
       hri robot render 7 seven.mp4
       hri robot render motion.csv motion.webm --backend kinematic --size 640 480
+      hri robot render namaste namaste.png --still 1.5
     """
-    trajectory = _motion(motion)
-    if sys.stderr.isatty():
+    trajectory = _motion(motion, table)
+    if still is not None:
+        render_still(trajectory, out, still, backend, size, table)
+    elif sys.stderr.isatty():
         with click.progressbar(length=1000, label="Filming", file=sys.stderr) as bar:
 
             def show(made: int, total: int) -> None:
                 bar.update(1000 * made // total - bar.pos)
 
-            render_video(trajectory, out, backend, fps, size, show)
+            render_video(trajectory, out, backend, fps, size, show, table)
     else:
-        render_video(trajectory, out, backend, fps, size)
+        render_video(trajectory, out, backend, fps, size, table=table)
     click.echo(str(out))
 
 
@@ -181,7 +205,7 @@ def convert(motion: str, out: Path, short: bool, slow: bool) -> None:
       hri robot convert motion.csv motion.tsv
       hri robot convert wave wave.csv --short
     """
-    trajectory = _motion(motion)
+    trajectory = _motion(motion, HOAP2)
     if slow:
         slower = slow_to_limits(trajectory)
         if slower is not trajectory:
@@ -202,7 +226,8 @@ def convert(motion: str, out: Path, short: bool, slow: bool) -> None:
 
 @robot.command(short_help="List the joints with limits, CSV columns and pulses.")
 @click.option("--markdown", is_flag=True, help="As a table for a Markdown page.")
-def joints(markdown: bool) -> None:
+@_robot
+def joints(markdown: bool, table: JointTable) -> None:
     """List the joints with limits in degrees, CSV column and pulses per degree.
 
     \b
@@ -210,7 +235,7 @@ def joints(markdown: bool) -> None:
       hri robot joints --markdown
     """
     rows = [("joint", "meaning", "lower deg", "upper deg", "column", "pulses/deg")]
-    for joint, limits in zip(HOAP2.joints, np.degrees(HOAP2.limits_rad), strict=True):
+    for joint, limits in zip(table.joints, np.degrees(table.limits_rad), strict=True):
         pulses = "" if joint.pulses_per_degree is None else str(joint.pulses_per_degree)
         degrees = (f"{limits[0]:.1f}", f"{limits[1]:.1f}")
         rows.append((joint.name, joint.meaning, *degrees, joint.column, pulses))
@@ -249,9 +274,13 @@ def gestures() -> None:
         click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
 
 
-def _motion(motion: str) -> Trajectory:
-    if motion in load_gestures():
-        return gesture_trajectory(motion)
-    if Path(motion).suffix.lower() == ".csv" or Path(motion).is_file():
-        return read_short_csv(motion) if is_short_csv(motion) else read_pulse_csv(motion)
-    return gesture_trajectory(motion)  # its error names the gestures
+def _motion(motion: str, table: JointTable) -> Trajectory:
+    named = motion in load_gestures()
+    if not named and (Path(motion).suffix.lower() == ".csv" or Path(motion).is_file()):
+        if is_short_csv(motion):
+            return read_short_csv(motion, table)
+        if table is not HOAP2:
+            raise InvalidArgument(f"{motion}: pulses are HOAP-2's, {table.name} has the short form")
+        return read_pulse_csv(motion)
+    found = gesture_trajectory(motion)  # its error names the gestures
+    return found if table is HOAP2 else with_nao_arms(found)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The joints and links of HOAP-2, read from hoap2.toml: the one place that knows them."""
+"""The joints and links of the robots, read from hoap2.toml and nao.toml: the one place that knows them."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Joint:
     rest_rad : float
         Where it is when nothing is to do.
     column : str
-        Letter of its column in a pulse CSV, as a spreadsheet names it.
+        Letter of its column in a pulse CSV, as a spreadsheet names it; empty for a robot that has no such files.
     pulses_per_degree : int or None
         Signed; None where no counter is known.
     link : Link
@@ -105,8 +105,35 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class Camera:
+    """A camera that is part of a robot.
+
+    Attributes
+    ----------
+    name, link : str
+    origin_m : three floats
+        In the link's frame.
+    down_rad : float
+        By how much it looks down from x, which is forward.
+    field_of_view_rad : two floats
+        Horizontal and vertical.
+    size_px : two ints
+        Width and height.
+    fps : float
+    """
+
+    name: str
+    link: str
+    origin_m: Vector
+    down_rad: float
+    field_of_view_rad: tuple[float, float]
+    size_px: tuple[int, int]
+    fps: float
+
+
+@dataclass(frozen=True)
 class JointTable:
-    """A robot: its base, its joints (each parent before its children), its motors' limits, the links it stands on."""
+    """A robot: base, joints (each parent before its children), limits of motors, links it stands on, cameras."""
 
     name: str
     max_speed_rad_s: float
@@ -116,6 +143,7 @@ class JointTable:
     feet: tuple[str, ...]
     base: Link
     joints: tuple[Joint, ...]
+    cameras: tuple[Camera, ...] = ()
 
     def __getitem__(self, name: str) -> Joint:
         return self.joints[self.index(name)]
@@ -189,6 +217,21 @@ def load_joint_table(resource: str = "hoap2.toml") -> JointTable:
         feet=tuple(table["feet"]),
         base=_link(table["base"]["name"], table["base"], colours),
         joints=joints,
+        cameras=tuple(_camera(entry) for entry in table.get("camera", ())),
+    )
+
+
+def _camera(entry: dict[str, Any]) -> Camera:
+    across, upright = (float(np.radians(value)) for value in entry["field_of_view_deg"])
+    width, height = entry["size_px"]
+    return Camera(
+        name=entry["name"],
+        link=entry["link"],
+        origin_m=_vector(entry["origin_m"]),
+        down_rad=float(np.radians(entry["down_deg"])),
+        field_of_view_rad=(across, upright),
+        size_px=(width, height),
+        fps=entry["fps"],
     )
 
 
@@ -203,7 +246,7 @@ def _joint(entry: dict[str, Any], colours: dict[str, Vector]) -> Joint:
         lower_rad=entry["lower_rad"],
         upper_rad=entry["upper_rad"],
         rest_rad=float(np.radians(entry.get("rest_deg", 0.0))),
-        column=entry["column"],
+        column=entry.get("column", ""),
         pulses_per_degree=entry.get("pulses_per_degree"),
         link=_link(entry["child"], entry["link"], colours),
     )
@@ -238,3 +281,5 @@ def _vector(values: Any) -> Vector:
 
 
 HOAP2 = load_joint_table()
+NAO = load_joint_table("nao.toml")
+ROBOTS = {"hoap2": HOAP2, "nao": NAO}

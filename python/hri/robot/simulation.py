@@ -10,7 +10,7 @@ from os import PathLike
 import numpy as np
 
 from hri.errors import InvalidArgument
-from hri.media import write_video
+from hri.media import write_image, write_video
 from hri.robot.backend import Image, Robot
 from hri.robot.checks import require_safe
 from hri.robot.joints import HOAP2, JointTable
@@ -78,6 +78,7 @@ def render_video(
     fps: float = 12.0,
     size: tuple[int, int] = (480, 360),
     progress: Callable[[int, int], None] | None = None,
+    table: JointTable = HOAP2,
 ) -> int:
     """Film a motion, from its first row on, the torso held.
 
@@ -90,6 +91,7 @@ def render_video(
     fps : float
     size : width and height in pixels
     progress : callable of (frames made, frames in all), optional
+    table : JointTable
 
     Returns
     -------
@@ -103,7 +105,7 @@ def render_video(
     InvalidArgument, IoError
         As `open_robot` and `hri.media.write_video` do.
     """
-    require_safe(trajectory)
+    require_safe(trajectory, table)
     frames: list[Image] = []
 
     def keep(image: Image, time_s: float) -> None:
@@ -111,10 +113,51 @@ def render_video(
         if progress is not None:
             progress(len(frames), max(total, len(frames)))
 
-    with open_robot(backend) as robot:
+    with open_robot(backend, table=table) as robot:
         total = int(trajectory.duration_s * fps + 1e-6) + 1
         first = trajectory.positions_rad[0].tolist()
         robot.reset(dict(zip(trajectory.joint_names, first, strict=True)))
         robot.perform(trajectory, keep, fps, size)
     write_video(path, frames, fps)
     return len(frames)
+
+
+def render_still(
+    trajectory: Trajectory,
+    path: str | PathLike[str],
+    at_s: float,
+    backend: str = "pybullet",
+    size: tuple[int, int] = (480, 360),
+    table: JointTable = HOAP2,
+) -> None:
+    """Take one picture of a motion, the torso held.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+    path : path-like
+        The suffix chooses the format, see `hri.media.write_image`.
+    at_s : float
+        Time from the motion's first row, within the motion.
+    backend : "pybullet" or "kinematic"
+    size : width and height in pixels
+    table : JointTable
+
+    Raises
+    ------
+    TrajectoryError
+        When the check finds errors; nothing is written.
+    InvalidArgument, IoError
+        As `open_robot` and `hri.media.write_image` do, and for a time outside the motion.
+    """
+    if not 0.0 <= at_s <= trajectory.duration_s + 1e-9:
+        raise InvalidArgument(f"at_s is {at_s:g}, must be 0 to {trajectory.duration_s:g}, where the motion ends")
+    require_safe(trajectory, table)
+    with open_robot(backend, table=table) as robot:
+        first = trajectory.positions_rad[0].tolist()
+        robot.reset(dict(zip(trajectory.joint_names, first, strict=True)))
+        rows = round(at_s / trajectory.period_s) + 1
+        if rows > 1:
+            robot.perform(Trajectory(trajectory.joint_names, trajectory.period_s, trajectory.positions_rad[:rows]))
+        image = robot.render(*size)
+    write_image(path, np.ascontiguousarray(image[:, :, ::-1]))

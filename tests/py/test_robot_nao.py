@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""NAO from its own table: it has the maker's numbers, stands, makes gestures that its arms allow, and is drawn."""
+
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+from hri.errors import InvalidArgument
+from hri.robot import (
+    HOAP2,
+    NAO,
+    Trajectory,
+    check_trajectory,
+    gesture_trajectory,
+    link_poses,
+    load_gestures,
+    open_robot,
+    render_still,
+    self_collisions,
+    urdf_text,
+    with_nao_arms,
+)
+
+needs_pybullet = pytest.mark.skipif(find_spec("pybullet") is None, reason="no pybullet")
+
+
+def errors(trajectory):
+    return [finding for finding in check_trajectory(trajectory, NAO) if finding.severity == "error"]
+
+
+def possible():
+    return [name for name in load_gestures() if not errors(with_nao_arms(gesture_trajectory(name)))]
+
+
+def test_the_table_has_the_makers_numbers():
+    assert len(NAO) == 24 and not NAO.counted
+    assert sum(link.mass_kg for link in NAO.links.values()) == pytest.approx(5.195, abs=0.005)
+    poses = link_poses({}, table=NAO)
+    # Sole below ankle 45.19 mm, thigh 100, tibia 102.9, hip 85 below the torso's middle.
+    assert poses["l_sole"][2, 3] == pytest.approx(0.04519, abs=1e-6)
+    np.testing.assert_allclose(poses["l_wrist"][:3, 3] - poses["LBicep"][:3, 3], (0.16095, 0.015, 0.0), atol=1e-9)
+    for name in ("ShoulderRoll", "ElbowRoll", "HipRoll"):
+        left, right = NAO["L" + name], NAO["R" + name]
+        assert (left.lower_rad, left.upper_rad) == pytest.approx((-right.upper_rad, -right.lower_rad))
+    for joint in NAO.joints:
+        assert joint.lower_rad <= joint.rest_rad <= joint.upper_rad, joint.name
+        assert np.linalg.norm(joint.axis) == pytest.approx(1.0)
+    for camera in NAO.cameras:
+        assert np.degrees(camera.field_of_view_rad) == pytest.approx((60.97, 47.64))
+        assert camera.size_px == (640, 480) and camera.link in NAO.links
+    assert 'name="NAO"' in urdf_text(NAO)
+
+
+def test_nothing_touches_at_rest_and_a_hand_in_the_body_is_found():
+    names = ["LShoulderPitch", "LElbowRoll"]
+    rest = Trajectory(names, 0.1, [[NAO[name].rest_rad for name in names]] * 2)
+    assert errors(rest) == [] and self_collisions(rest, NAO) == []
+    inside = Trajectory(["LShoulderPitch", "LElbowYaw", "LElbowRoll", "LShoulderRoll"], 5.0, [[1.2, 0, -1.5, -0.3]] * 2)
+    assert {touch.other for touch in self_collisions(inside, NAO)} >= {"torso"}
+
+
+def test_arms_point_as_those_of_hoap2():
+    gesture = gesture_trajectory("house")
+    moved = with_nao_arms(gesture)
+    for row in range(0, len(gesture), 25):
+        theirs = link_poses(dict(zip(gesture.joint_names, gesture.positions_rad[row], strict=True)))
+        ours = link_poses(dict(zip(moved.joint_names, moved.positions_rad[row], strict=True)), table=NAO)
+        for side, nao in (("l", "L"), ("r", "R")):
+            for link, other in ((f"{side}arm_link_3", f"{nao}Bicep"), (f"{side}arm_link_4", f"{nao}ForeArm")):
+                np.testing.assert_allclose(ours[other][:3, 0], theirs[link][:3, 0], atol=1e-9)
+
+
+def test_some_gestures_are_possible_and_the_others_say_why():
+    names = possible()
+    assert len(names) >= 10 and "house" in names
+    beyond = errors(with_nao_arms(gesture_trajectory("namaste")))
+    assert beyond and all("outside" in finding.message or "touch" in finding.message for finding in beyond)
+    with pytest.raises(InvalidArgument, match="lleg_joint_1"):
+        with_nao_arms(Trajectory(["lleg_joint_1"], 0.1, [[0.0], [0.0]]))
+
+
+def test_a_still_is_taken(tmp_path):
+    import cv2
+
+    motion = with_nao_arms(gesture_trajectory("house"))
+    for at_s in (0.0, 1.0):
+        render_still(motion, tmp_path / f"{at_s}.png", at_s, "kinematic", (160, 120), NAO)
+    first, second = (cv2.imread(str(tmp_path / f"{at_s}.png")) for at_s in (0.0, 1.0))
+    assert first.shape == (120, 160, 3) and (first != second).any()
+    with pytest.raises(InvalidArgument, match="at_s"):
+        render_still(motion, tmp_path / "late.png", 1e3, "kinematic", table=NAO)
+
+
+@needs_pybullet
+def test_it_stands_and_moves_its_arms():
+    with open_robot("pybullet", fixed_base=False, table=NAO) as robot:
+        assert {(c.link, c.other) for c in robot.state().contacts} == {(foot, "floor") for foot in NAO.feet}
+        assert robot.perform(with_nao_arms(gesture_trajectory("house"))) and robot.events == []
+        state = robot.state()
+        assert state.base_position_m[2] == pytest.approx(NAO.standing_height_m, abs=0.02)
+        assert np.degrees(np.abs(state.base_rpy_rad[:2])).max() < 5.0
+
+
+@needs_pybullet
+def test_lying_is_no_fall():
+    with open_robot("pybullet", fixed_base=False, locked=["head_joint_1", "head_joint_2"]) as robot:
+        robot.reset(HOAP2.rest_rad, "back")
+        assert robot.hold(1.0) and robot.events == []
+
+
+def test_commands_know_nao(tmp_path):
+    testing = pytest.importorskip("click.testing")
+    from hri.robot.cli import robot
+
+    def run(*arguments):
+        return testing.CliRunner().invoke(robot, [str(argument) for argument in arguments])
+
+    assert "LElbowRoll" in run("joints", "--robot", "nao").output
+    played = run("play", "house", "--robot", "nao", "--backend", "kinematic")
+    assert played.exit_code == 0 and "LShoulderPitch\t" in played.output
+    assert run("play", "namaste", "--robot", "nao", "--backend", "kinematic").exit_code != 0
+    taken = run("render", "house", tmp_path / "h.png", "--still", "1", "--robot", "nao", "--backend", "kinematic")
+    assert taken.exit_code == 0 and (tmp_path / "h.png").stat().st_size > 1000
+    short = tmp_path / "short.csv"
+    short.write_text("time_s,LElbowRoll\n0,-20\n0.1,-20\n0.2,10\n")
+    checked = run("check", short, "--robot", "nao")
+    assert checked.exit_code == 3 and "LElbowRoll" in checked.output
+    pulses = tmp_path / "pulses.csv"
+    pulses.write_text("1,2" + ",R" * 25 + "\n")
+    assert isinstance(run("check", pulses, "--robot", "nao").exception, InvalidArgument)
