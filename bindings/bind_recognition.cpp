@@ -250,6 +250,7 @@ void bind_gestures(py::module_& m) {
       .def("save", &hri::GestureRecognizer::save, py::arg("path"),
            py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("starts_at_rest", &hri::GestureRecognizer::starts_at_rest)
+      .def_property_readonly("pauses", &hri::GestureRecognizer::pauses)
       .def(
           "recognise_features",
           [](const hri::GestureRecognizer& self, const FloatArray& features) {

@@ -261,6 +261,8 @@ def test_what_is_seen_is_drawn(signs: hri.GestureRecognizer) -> None:
     assert drawn[0][1] is None and drawn[-1][1].nbest[0].label == "tall"
     middle = pictures[26][85, 90].astype(int) - frames[26][85, 90]  # the hand is tinted green
     assert middle[2] < -20 and middle[1] > 0
+    corner = pictures[26][:40, 120:]  # strokes along the edges of the hand, on black
+    assert (corner == 0).all(axis=2).mean() > 0.2 and corner.max() > 150 and np.ptp(frames[26][:40, 120:]) < 40
     np.testing.assert_array_equal(pictures[0][120:], frames[0][120:])  # where there is neither hand nor text
 
 

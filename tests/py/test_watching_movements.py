@@ -50,7 +50,7 @@ def movements() -> hri.GestureRecognizer:
 def test_a_file_gives_the_same_label_whether_watched_or_recognised(
     movements: hri.GestureRecognizer, tmp_path: Path
 ) -> None:
-    assert movements.starts_at_rest
+    assert movements.starts_at_rest and not movements.pauses
     for label in FAR:
         path = tmp_path / f"{label}.avi"
         write_video(path, clip(label, 9), FPS)
@@ -90,6 +90,26 @@ def test_a_gesture_that_pauses_is_known_by_its_last_movement_too() -> None:
         whole = paused(label, 7)
         assert known.recognise(whole).nbest[0].label == label
         assert known.recognise(whole[24:]).nbest[0].label == label
+    assert known.pauses
+
+    # Live, the second movement is decided by itself and together with the first, and the surer answer stands.
+    class Forgetful(hri.GestureRecognizer):
+        @property
+        def pauses(self) -> bool:
+            return False
+
+    gained = []
+    for label in labels:
+        whole = paused(label, 8)
+        stream = [*[whole[0]] * 30, *whole[:24], *[whole[23]] * 12, *whole[24:], *[whole[-1]] * 14]
+        both, alone = (
+            [e.decision for e in Watcher(one).watch(ClipSource(stream, FPS)) if e.event == "decision" and e.decision]
+            for one in (known, Forgetful._wrap(known._native))
+        )
+        assert len(both) == len(alone) == 2 and both[1].nbest[0].label == label
+        assert both[0].evidence == alone[0].evidence
+        gained.append(both[1].evidence - alone[1].evidence)
+    assert min(gained) >= 0 and max(gained) > 0
 
 
 def test_colours_are_learned_from_the_stream_and_kept_when_the_hand_is_away() -> None:

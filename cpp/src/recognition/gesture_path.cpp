@@ -18,6 +18,7 @@ namespace hri {
 namespace {
 
 constexpr const char* kStartsAtRest = "path.starts_at_rest";
+constexpr const char* kPauses = "path.pauses";
 constexpr Eigen::Index kMaxRows = 32;     // more frames than that only add noise to the steps
 constexpr Eigen::Index kNumPoints = 8;    // of the resampled path
 constexpr double kStillQuantile = 0.25;   // the stillest steps tell the noise of the shapes
@@ -157,8 +158,11 @@ Rests find_rests(ConstMatrixRefF gesture, float shape_scale) {
 
 class PathScorer : public GestureScorer {
  public:
-  PathScorer(LinearSvm svm, float shape_scale, bool starts_at_rest)
-      : svm_(std::move(svm)), shape_scale_(shape_scale), starts_at_rest_(starts_at_rest) {}
+  PathScorer(LinearSvm svm, float shape_scale, bool starts_at_rest, bool pauses)
+      : svm_(std::move(svm)),
+        shape_scale_(shape_scale),
+        starts_at_rest_(starts_at_rest),
+        pauses_(pauses) {}
 
   [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
     require(rows.cols() * kNumPoints == svm_.dim(),
@@ -173,13 +177,16 @@ class PathScorer : public GestureScorer {
     svm_.write(file, "path.svm.");
     file.set_number("path.shape_scale", shape_scale_);
     file.set_number(kStartsAtRest, starts_at_rest_ ? 1 : 0);
+    file.set_number(kPauses, pauses_ ? 1 : 0);
   }
   [[nodiscard]] bool starts_at_rest() const override { return starts_at_rest_; }
+  [[nodiscard]] bool pauses() const override { return pauses_; }
 
  private:
   LinearSvm svm_;
   float shape_scale_;
   bool starts_at_rest_;
+  bool pauses_;
 };
 
 }  // namespace
@@ -206,13 +213,16 @@ std::shared_ptr<const GestureScorer> train_path_scorer(
   std::vector<VectorF> paths;
   std::vector<int> classes;
   Eigen::Index num_at_rest = 0;
+  Eigen::Index num_pausing = 0;
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     for (const MatrixF& g : per_class[c]) {
       const Rests rests = find_rests(g, shape_scale);
       num_at_rest += rests.at_start ? 1 : 0;
       paths.push_back(path_vector(g, shape_scale));
-      if (rests.last_movement > 0)
+      if (rests.last_movement > 0) {
+        ++num_pausing;
         paths.push_back(path_vector(g.bottomRows(g.rows() - rests.last_movement), shape_scale));
+      }
       classes.resize(paths.size(), static_cast<int>(c));
     }
   }
@@ -225,7 +235,7 @@ std::shared_ptr<const GestureScorer> train_path_scorer(
   svm.should_stop = should_stop;
   return std::make_shared<PathScorer>(
       LinearSvm::train(vectors, classes, static_cast<int>(per_class.size()), svm), shape_scale,
-      2 * num_at_rest > num_gestures);
+      2 * num_at_rest > num_gestures, 2 * num_pausing > num_gestures);
 }
 
 std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int num_classes) {
@@ -239,8 +249,9 @@ std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int
   if (!(shape_scale > 0) || !std::isfinite(shape_scale))
     fail(ErrorKind::format, file.name() + ": field 'path.shape_scale' is out of range");
   // Files from before this was known say nothing of it.
-  const bool starts_at_rest = file.has(kStartsAtRest) && file.number(kStartsAtRest) != 0;
-  return std::make_shared<PathScorer>(std::move(svm), shape_scale, starts_at_rest);
+  const auto says = [&](const char* key) { return file.has(key) && file.number(key) != 0; };
+  return std::make_shared<PathScorer>(std::move(svm), shape_scale, says(kStartsAtRest),
+                                      says(kPauses));
 }
 
 }  // namespace detail

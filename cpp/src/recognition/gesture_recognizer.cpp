@@ -157,6 +157,7 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
 }
 
 bool GestureRecognizer::starts_at_rest() const { return scorer_->starts_at_rest(); }
+bool GestureRecognizer::pauses() const { return scorer_->pauses(); }
 
 VectorF GestureRecognizer::scores(ConstMatrixRefF features) const {
   require(features.rows() > 0, "features must have at least one row");

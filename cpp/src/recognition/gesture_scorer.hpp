@@ -29,6 +29,8 @@ class GestureScorer {
   virtual void write(ModelFile& file) const = 0;
   /// Whether most training gestures began with a hand that rested in view.
   [[nodiscard]] virtual bool starts_at_rest() const { return false; }
+  /// Whether most were made of several movements with pauses between them.
+  [[nodiscard]] virtual bool pauses() const { return false; }
 };
 
 /// `options.model` must not be automatic. `per_class[c]` holds the rows of every gesture of class

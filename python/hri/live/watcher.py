@@ -24,13 +24,16 @@ from hri.live.stream_hands import HandFinder, PlainHands, StreamHands
 from hri.recognition import Decision, GestureRecognizer
 
 _STILL_SIGNS = (_native.GestureModel.svm, _native.GestureModel.bayes, _native.GestureModel.knn)
+_PAUSE_S = 2.5
+"""After a longer pause, the movement before it is another gesture."""
 
 
 class Watcher:
     """Recognises every gesture in a stream of pictures.
 
     Hands are found as in training: in every picture by itself for still signs, by colours learned from the stream for
-    movements. Features are computed as the pictures come, so that a decision stands at once when a movement ends.
+    movements. Features are computed as the pictures come, so that a decision stands at once when a movement ends. Where
+    the gestures trained on pause, a movement is decided by itself and with the one before it; the surer answer stands.
 
     Parameters
     ----------
@@ -122,7 +125,7 @@ class Watcher:
 
     def _decide(self, sight: Sight, end: Event, rows: _Rows) -> Event:
         begun = time.perf_counter()
-        decision = rows.recognise(sight.movement)
+        decision = rows.decide(sight.movement)
         compute_ms = 1000 * (time.perf_counter() - begun)
         fields: dict[str, Any] = {name: end.fields[name] for name in ("first_s", "last_s")}
         fields |= decision_fields(decision, self._locale, self._model_id) | {"compute_ms": round(compute_ms, 3)}
@@ -144,19 +147,39 @@ class _Rows:
         self._context_s = context_s
         self._by_pictures = recognizer.options.source == _native.GestureSource.silhouettes
         self._rows: deque[tuple[float, NDArray[np.float32]]] = deque()
+        self._before: tuple[float, float] | None = None  # the movement before the pause
 
     def push(self, sight: Sight) -> None:
         if sight.silhouette is None or not self._by_pictures:
             return
         kept = sight.running or sight.movement
         first_s = kept[0][1] if kept else sight.time_s - self._context_s
+        if self._before is not None:
+            if first_s - self._before[1] > _PAUSE_S:
+                self._before = None
+            else:
+                first_s = self._before[0]
         while self._rows and self._rows[0][0] < first_s - 1.0:
             self._rows.popleft()
         self._rows.append((sight.time_s, self._recognizer.silhouette_features([sight.silhouette])))
 
+    def decide(self, frames: list[TimedFrame]) -> Decision:
+        """On a movement that has ended."""
+        alone = self.recognise(frames)
+        if not self._by_pictures or not self._recognizer.pauses:
+            return alone
+        before, self._before = self._before, (frames[0][1], frames[-1][1])
+        if before is None or frames[0][1] - before[1] > _PAUSE_S:
+            return alone
+        both = self._recognise(before[0], frames[-1][1])
+        return both if both.evidence > alone.evidence else alone
+
     def recognise(self, frames: list[TimedFrame]) -> Decision:
+        """On a movement by itself."""
         if not self._by_pictures:
             return self._recognizer.recognise([frame for frame, _ in frames])
-        first_s, last_s = frames[0][1], frames[-1][1]
+        return self._recognise(frames[0][1], frames[-1][1])
+
+    def _recognise(self, first_s: float, last_s: float) -> Decision:
         found = [row for time_s, row in self._rows if first_s <= time_s <= last_s]
         return self._recognizer.recognise_features(np.concatenate(found))

@@ -81,6 +81,11 @@ class GestureRecognizer(Recognizer):
         """
         return bool(self._trained.starts_at_rest)
 
+    @property
+    def pauses(self) -> bool:
+        """Whether most gestures trained on were made of several movements with pauses between them (model `path`)."""
+        return bool(self._trained.pauses)
+
     def fit(
         self,
         X: Sequence[Clip],

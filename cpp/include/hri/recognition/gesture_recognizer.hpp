@@ -107,6 +107,9 @@ class GestureRecognizer {
   /// Whether most gestures trained on began with a hand that rested in view (model path): then a
   /// hand that comes into view and rests has shown nothing yet.
   [[nodiscard]] bool starts_at_rest() const;
+  /// Whether most were made of several movements with pauses between them (model path): then the
+  /// movement before a short pause may belong to a gesture.
+  [[nodiscard]] bool pauses() const;
 
  private:
   GestureRecognizer() = default;
