@@ -83,7 +83,15 @@ void bind_hand_features(py::module_& m) {
       .field("use_silhouette", &hri::HandFeatureOptions::use_silhouette)
       .field("use_cepstrum", &hri::HandFeatureOptions::use_cepstrum)
       .field("cepstrum", &hri::HandFeatureOptions::cepstrum)
-      .field("cepstrum_weight", &hri::HandFeatureOptions::cepstrum_weight);
+      .field("cepstrum_weight", &hri::HandFeatureOptions::cepstrum_weight)
+      .field("use_wavelet", &hri::HandFeatureOptions::use_wavelet)
+      .field("wavelet", &hri::HandFeatureOptions::wavelet)
+      .field("use_moments", &hri::HandFeatureOptions::use_moments)
+      .field("use_fourier", &hri::HandFeatureOptions::use_fourier)
+      .field("fourier", &hri::HandFeatureOptions::fourier)
+      .field("use_chain_code", &hri::HandFeatureOptions::use_chain_code)
+      .field("chain_code", &hri::HandFeatureOptions::chain_code)
+      .field("descriptor_weight", &hri::HandFeatureOptions::descriptor_weight);
   py::class_<hri::HandFeatureComputer>(m, "HandFeatureComputer", "Features of one hand picture.")
       .def(py::init<const hri::HandFeatureOptions&>(),
            py::arg("options") = hri::HandFeatureOptions{})

@@ -17,6 +17,7 @@ void bind_filter_bank(py::module_& m);
 void bind_end_points(py::module_& m);
 void bind_wavelet_tools(py::module_& m);
 void bind_features(py::module_& m);
+void bind_hand_shapes(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_codebook(py::module_& m);
 void bind_models(py::module_& m);
@@ -88,6 +89,7 @@ PYBIND11_MODULE(_native, m) {
   bind_end_points(m);
   bind_wavelet_tools(m);
   bind_features(m);
+  bind_hand_shapes(m);
   bind_hand_features(m);
   bind_codebook(m);
   bind_models(m);

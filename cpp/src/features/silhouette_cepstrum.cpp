@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/features/silhouette_cepstrum.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "hri/core/error.hpp"
+#include "hri/features/contour.hpp"
 #include "hri/features/hand_crop.hpp"
 #include "hri/signal/dwt2.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr int kPointsPerSecond = 1000;
 
 CepstraOptions cepstra_options(const SilhouetteCepstrumOptions& o) {
-  require(o.num_levels >= 1 && o.num_levels <= 4, "num_levels must lie in 1..4");
+  require(o.num_levels >= 0 && o.num_levels <= 4, "num_levels must lie in 0..4");
   require(o.mask_px >= 64 && o.mask_px <= 1024, "mask_px must lie in 64..1024");
   require(o.num_points >= 64 && o.num_points <= 4096, "num_points must lie in 64..4096");
   require(o.num_filters >= 2 && o.num_filters <= 64, "num_filters must lie in 2..64");
@@ -35,45 +35,7 @@ CepstraOptions cepstra_options(const SilhouetteCepstrumOptions& o) {
   return c;
 }
 
-constexpr std::array<ContourPoint, 8> kAround = {
-    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-
 }  // namespace
-
-std::vector<ContourPoint> trace_contour(ConstMatrixRefF image, float threshold) {
-  const auto inside = [&](int x, int y) {
-    return x >= 0 && y >= 0 && x < image.cols() && y < image.rows() && image(y, x) > threshold;
-  };
-  ContourPoint start{-1, -1};
-  for (int y = 0; y < image.rows() && start.x_px < 0; ++y) {
-    for (int x = 0; x < image.cols() && start.x_px < 0; ++x) {
-      if (inside(x, y)) start = {x, y};
-    }
-  }
-  std::vector<ContourPoint> contour;
-  if (start.x_px < 0) return contour;
-  ContourPoint at = start;
-  int direction = 0;  // of the last step; nothing lies left of or above the start
-  const std::size_t limit = 4 * static_cast<std::size_t>(image.size());
-  do {
-    contour.push_back(at);
-    int step = -1;
-    // Look around clockwise, beginning behind the left shoulder.
-    for (int turn = 0; turn < 8; ++turn) {
-      const int candidate = (direction + 6 + turn) % 8;
-      const ContourPoint& d = kAround[static_cast<std::size_t>(candidate)];
-      if (inside(at.x_px + d.x_px, at.y_px + d.y_px)) {
-        step = candidate;
-        break;
-      }
-    }
-    if (step < 0) break;  // a single pixel
-    at = {at.x_px + kAround[static_cast<std::size_t>(step)].x_px,
-          at.y_px + kAround[static_cast<std::size_t>(step)].y_px};
-    direction = step;
-  } while ((at.x_px != start.x_px || at.y_px != start.y_px) && contour.size() < limit);
-  return contour;
-}
 
 SilhouetteCepstrumComputer::SilhouetteCepstrumComputer(const SilhouetteCepstrumOptions& options)
     : options_(options), cepstra_(cepstra_options(options)) {
@@ -92,7 +54,8 @@ std::vector<float> SilhouetteCepstrumComputer::contour_signal(ImageView mask) co
     square = dwt2<float>(square, w, Border::zero).approx;
     gain *= 2;  // of a constant image, a level
   }
-  const std::vector<ContourPoint> contour = trace_contour(square, 0.5F * gain);
+  std::vector<ContourPoint> contour;
+  trace_contour(square, 0.5F * gain, &contour);
   std::vector<float> signal(static_cast<std::size_t>(options_.num_points), 1.0F);
   if (contour.size() < 3) return signal;
   double mean_x = 0;

@@ -20,6 +20,7 @@ ModelFile GestureRecognizer::to_model_file() const {
   file.set_kind(kKind);
   file.set_text_list("labels", labels_);
   detail::visit_gesture(detail::FieldWriter{file}, options_);
+  detail::visit_descriptors(detail::FieldWriter{file}, options_);
   detail::FieldWriter{file}("source", options_.source);
   calibration_.write(file);
   scorer_->write(file);
@@ -37,6 +38,8 @@ GestureRecognizer GestureRecognizer::from_model_file(const ModelFile& file) {
 GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
   GestureRecognizer result;
   detail::visit_gesture(detail::FieldReader{file}, result.options_);
+  if (file.has("features.use_wavelet"))
+    detail::visit_descriptors(detail::FieldReader{file}, result.options_);
   // Files from before there was a choice are of silhouettes.
   if (file.has("source")) detail::FieldReader{file}("source", result.options_.source);
   if (result.options_.source > GestureSource::landmarks)

@@ -93,6 +93,24 @@ void visit_word(V&& v, O& o) {
   v("false_reject_rate", o.false_reject_rate);
 }
 
+// Files from before there were such descriptors have none of these.
+template <class V, class O>
+void visit_descriptors(V&& v, O& o) {
+  v("features.use_wavelet", o.features.use_wavelet);
+  v("features.wavelet.source", o.features.wavelet.source);
+  v("features.wavelet.num_scales", o.features.wavelet.num_scales);
+  v("features.wavelet.num_frequencies", o.features.wavelet.num_frequencies);
+  v("features.use_fourier", o.features.use_fourier);
+  v("features.fourier.num_points", o.features.fourier.num_points);
+  v("features.fourier.num_harmonics", o.features.fourier.num_harmonics);
+  v("features.fourier.use_phase", o.features.fourier.use_phase);
+  v("features.use_chain_code", o.features.use_chain_code);
+  v("features.chain_code.num_parts", o.features.chain_code.num_parts);
+  v("features.chain_code.use_turns", o.features.chain_code.use_turns);
+  v("features.use_moments", o.features.use_moments);
+  v("features.descriptor_weight", o.features.descriptor_weight);
+}
+
 template <class V, class O>
 void visit_gesture(V&& v, O& o) {
   v("features.crop_px", o.features.crop_px);

@@ -7,6 +7,8 @@ from __future__ import annotations
 from os import PathLike, fspath
 from typing import Any
 
+import numpy as np
+
 from hri.optional import import_optional
 from hri.studies.registry import Layout
 from hri.studies.tables import Row, axes_of, result_rows
@@ -15,7 +17,7 @@ from hri.studies.tables import Row, axes_of, result_rows
 def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
     """Write the picture of a result (PNG, SVG or PDF by suffix): lines over `Layout.x`, or bars; bars of error are
     the spread over the persons held out. A result with ``"curves"``, shares or rates over shares by name, gets those
-    drawn.
+    drawn; one with ``"points"``, planes of points by feature and class, gets them and the distances in its rows.
 
     Raises
     ------
@@ -32,6 +34,13 @@ def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
         _curves(figure.subplots(), result["curves"])
         figure.suptitle(str(result["study"]))
         figure.savefig(fspath(path), dpi=110)
+        return
+    if "points" in result:
+        figure = Figure(figsize=(3.2 * len(result["points"]), 9.0), layout="constrained")
+        FigureCanvasAgg(figure)
+        _points(figure, result)
+        figure.suptitle(str(result["study"]))
+        figure.savefig(fspath(path), dpi=90)
         return
     rows = [row for row in result_rows(result, layout) if row.get(f"{layout.measure}_mean") is not None]
     panels = list(dict.fromkeys(row.get(layout.panel, "") for row in rows)) or [""]
@@ -62,6 +71,28 @@ def _curves(axes: Any, curves: Row) -> None:
     axes.set_ylim(bottom=0)
     axes.grid(alpha=0.3)
     axes.legend(fontsize="small")
+
+
+def _points(figure: Any, result: Row) -> None:
+    """A column for each feature: its planes, and below them the distances within and between classes."""
+    num_planes = max(len(planes) for planes in result["points"].values())
+    every = figure.subplots(num_planes + 1, len(result["points"]), squeeze=False)
+    for column, (name, planes) in enumerate(result["points"].items()):
+        for axes, (plane, classes) in zip(every[:, column], planes.items(), strict=False):
+            for label, points in classes.items():
+                axes.plot(*zip(*points, strict=True), ".", markersize=3, alpha=0.6, label=label)
+            axes.set(title=f"{name}: {plane}", xlim=(-3.5, 3.5), ylim=(-3.5, 3.5))
+        rows = [row for row in result["rows"] if row["features"] == name]
+        for shift, measure in ((-0.2, "within"), (0.2, "between")):
+            means = [row[f"{measure}_mean"] for row in rows]
+            spreads = [row[f"{measure}_std"] for row in rows]
+            places = np.arange(len(rows)) + shift
+            every[-1, column].bar(places, means, 0.4, yerr=spreads, capsize=2, label=measure)
+        every[-1, column].set_xticks(range(len(rows)), [row["sign"] for row in rows])
+        every[-1, column].set(xlabel="sign", ylim=(0, None))
+    every[0, 0].legend(fontsize="x-small", ncols=2)
+    every[-1, 0].set_ylabel("distance")
+    every[-1, 0].legend(fontsize="x-small")
 
 
 def _values(rows: list[Row], layout: Layout) -> tuple[list[float], list[float]]:

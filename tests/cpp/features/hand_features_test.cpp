@@ -41,6 +41,40 @@ TEST(HandFeatures, PartsCanBeTurnedOff) {
   EXPECT_THROW(HandFeatureComputer{options}, InvalidArgument);
 }
 
+// The joined feature of descriptors alone.
+VectorF descriptors(const GreyImage& mask) {
+  HandFeatureOptions options;
+  options.use_grey = options.use_silhouette = options.use_cepstrum = false;
+  options.use_wavelet = options.use_moments = options.use_fourier = options.use_chain_code = true;
+  options.descriptor_weight = 0.5;
+  const HandFeatureComputer computer(options);
+  EXPECT_EQ(computer.num_features(), 136 + 7 + 32 + 8);
+  return computer.compute(grey(mask).view(), mask.view());
+}
+
+TEST(HandFeatures, ScaleEveryDescriptorToOneLength) {
+  const VectorF all = descriptors(hand(4));
+  EXPECT_NEAR(all.head(136).norm(), 0.5, 1e-5);
+  EXPECT_NEAR(all.segment(136, 7).norm(), 0.5, 1e-5);
+  EXPECT_NEAR(all.segment(143, 32).norm(), 0.5, 1e-5);
+  EXPECT_NEAR(all.tail(8).norm(), 0.5, 1e-5);
+  HandFeatureOptions options;
+  options.descriptor_weight = 0;
+  EXPECT_THROW(HandFeatureComputer{options}, InvalidArgument);
+}
+
+TEST(HandFeatures, DescriptorsLeaveALongForearmOut) {
+  const auto with_arm = [](int last) {
+    GreyImage mask(100, 200);
+    for (int y = 10; y < last; ++y) {
+      for (int x = 30; x < 70; ++x) mask.pixels[static_cast<std::size_t>(y * 100 + x)] = 255;
+    }
+    for (int x = 30; x < 70; ++x) mask.pixels[static_cast<std::size_t>((10 + x % 7) * 100 + x)] = 0;
+    return mask;
+  };
+  EXPECT_EQ(descriptors(with_arm(120)), descriptors(with_arm(190)));
+}
+
 TEST(HandFeatures, RefuseAnEmptyMaskAndUnequalSizes) {
   const GreyImage empty(200, 200);
   EXPECT_THROW(features(empty), InvalidArgument);

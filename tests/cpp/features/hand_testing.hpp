@@ -8,13 +8,16 @@
 
 namespace hri::hand_testing {
 
-/// The mask of a palm with `num_fingers` fingers, moved and scaled.
-inline GreyImage hand(int num_fingers, double x_px = 100, double y_px = 120, double scale = 1.0) {
+/// The mask of a palm with `num_fingers` fingers, moved, scaled and turned (clockwise).
+inline GreyImage hand(int num_fingers, double x_px = 100, double y_px = 120, double scale = 1.0,
+                      double turn_rad = 0.0) {
   GreyImage mask(200, 200);
   for (int y = 0; y < 200; ++y) {
     for (int x = 0; x < 200; ++x) {
-      const double u = (x - x_px) / scale;
-      const double v = (y - y_px) / scale;
+      const double dx = (x - x_px) / scale;
+      const double dy = (y - y_px) / scale;
+      const double u = dx * std::cos(turn_rad) + dy * std::sin(turn_rad);
+      const double v = dy * std::cos(turn_rad) - dx * std::sin(turn_rad);
       bool inside = u * u + v * v < 30 * 30;
       for (int f = 0; f < num_fingers; ++f) {
         const double angle = -0.9 + 0.45 * f;

@@ -21,24 +21,6 @@ VectorF cepstrum(const GreyImage& mask) {
   return out;
 }
 
-TEST(Contour, GoesOnceRoundARectangle) {
-  MatrixF image = MatrixF::Zero(10, 12);
-  image.block(2, 3, 4, 5).setOnes();
-  const auto outline = trace_contour(image, 0.5F);
-  EXPECT_EQ(outline.size(), 14U);  // 2 (4 + 5) - 4
-  EXPECT_EQ(outline.front().x_px, 3);
-  EXPECT_EQ(outline.front().y_px, 2);
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const ContourPoint& a = outline[i];
-    const ContourPoint& b = outline[(i + 1) % outline.size()];
-    EXPECT_EQ(std::max(std::abs(a.x_px - b.x_px), std::abs(a.y_px - b.y_px)), 1);
-  }
-  EXPECT_TRUE(trace_contour(MatrixF::Zero(5, 5), 0.5F).empty());
-  MatrixF dot = MatrixF::Zero(5, 5);
-  dot(2, 2) = 1;
-  EXPECT_EQ(trace_contour(dot, 0.5F).size(), 1U);
-}
-
 TEST(ContourSignal, IsFlatForACircleAndHasAPeakForEveryFinger) {
   const SilhouetteCepstrumComputer computer({});
   const auto spread = [](const std::vector<float>& s) {

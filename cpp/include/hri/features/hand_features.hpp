@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The joined feature of one hand picture: orientation histograms of the grey crop and of its
-// silhouette, and the silhouette cepstrum (DWT + MFCC, thesis chapter 3). Works on plain pixels,
-// without OpenCV.
+// silhouette, the silhouette cepstrum (DWT + MFCC, thesis chapter 3), and descriptors of the shape.
+// Works on plain pixels, without OpenCV.
 #pragma once
 
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
+#include "hri/features/chain_code.hpp"
+#include "hri/features/fourier_descriptor.hpp"
+#include "hri/features/hand_crop.hpp"
 #include "hri/features/orientation_histogram.hpp"
 #include "hri/features/silhouette_cepstrum.hpp"
+#include "hri/features/wavelet_descriptor.hpp"
 
 namespace hri {
 
@@ -22,6 +26,15 @@ struct HandFeatureOptions {
   SilhouetteCepstrumOptions cepstrum;
   double cepstrum_weight =
       0.1;  ///< scale of the cepstrum beside the histograms (blocks of length 1), > 0
+  bool use_wavelet = false;  ///< moment-invariant wavelet descriptor of the mask
+  WaveletDescriptorOptions wavelet;
+  bool use_moments = false;  ///< roots of Hu's moments of the mask
+  bool use_fourier = false;  ///< Fourier descriptor of the outline
+  FourierDescriptorOptions fourier;
+  bool use_chain_code = false;  ///< chain code histograms of the outline
+  ChainCodeOptions chain_code;
+  double descriptor_weight = 1.0;  ///< length that each of these four is scaled to, > 0; they leave
+                                   ///< out the forearm that hand_box() cuts off
 };
 
 /// Immutable; const calls are safe from several threads.
@@ -40,8 +53,15 @@ class HandFeatureComputer {
   [[nodiscard]] VectorF compute(ImageView grey, ImageView mask) const;
 
  private:
+  [[nodiscard]] std::size_t compute_pictures(ImageView grey, ImageView mask, const HandBox& box,
+                                             Span<float> out) const;
+  void compute_descriptors(ImageView mask, Span<float> out) const;
+
   HandFeatureOptions options_;
   SilhouetteCepstrumComputer cepstrum_;
+  WaveletDescriptorComputer wavelet_;
+  FourierDescriptorComputer fourier_;
+  ChainCodeComputer chain_code_;
   int num_features_ = 0;
 };
 

@@ -17,22 +17,12 @@ namespace hri {
 
 struct SilhouetteCepstrumOptions {
   std::string wavelet = "db2";
-  int num_levels = 3;    ///< of the DWT, 1..4
+  int num_levels = 3;    ///< of the DWT, 0 (none) .. 4
   int mask_px = 256;     ///< side of the square the mask is scaled to before the DWT, 64..1024
   int num_points = 256;  ///< samples along the contour, 64..4096
   int num_filters = 20;  ///< 2..64
   int num_cepstra = 13;  ///< 1..num_filters - 1
 };
-
-/// A closed outline, clockwise in image axes, one pixel a step.
-struct ContourPoint {
-  int x_px = 0;
-  int y_px = 0;
-};
-
-/// Outer outline of the first region (in reading order) of values above `threshold`, by Moore's
-/// neighbour tracing. Empty where no value is above.
-std::vector<ContourPoint> trace_contour(ConstMatrixRefF image, float threshold);
 
 /// Immutable; const calls are safe from several threads.
 class SilhouetteCepstrumComputer {

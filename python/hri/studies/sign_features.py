@@ -1,0 +1,199 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Shape features of still signs (thesis section 3.2): against classifiers, by size, and how they part the signs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hri.studies.registry import Layout, Progress, Study
+from hri.studies.sign_shapes import CLASSIFIERS, SignPictures, Vectors, accuracies, read_signs, scaled
+from hri.studies.tables import Row
+
+NUM_FILTERS = 26
+"""Room for 20 cepstra and more."""
+
+Feature = tuple[str, dict[str, Any]]
+"""A kind of `hand_features` and its options."""
+
+
+def _cepstrum(wavelet: str, num_levels: int, num_cepstra: int = 13) -> Feature:
+    fields = {"num_levels": num_levels, "num_cepstra": num_cepstra, "num_filters": NUM_FILTERS}
+    return "dwt-mfcc", fields | ({"wavelet": wavelet} if num_levels else {})
+
+
+FEATURES: dict[str, Feature] = {
+    **{f"orientation {bins}": ("orientation", {"num_bins": bins}) for bins in (9, 18, 27, 36)},
+    "orientation 8x8x9": ("orientation", {"num_cells": 8, "num_bins": 9}),
+    "mfcc": _cepstrum("", 0),
+    "dwt+mfcc": _cepstrum("db2", 3),
+    "wavelet moments": ("wavelet", {}),
+    "wavelet moments, outline": ("wavelet", {"source": "contour"}),
+    "fourier": ("fourier", {}),
+    "fourier, phase": ("fourier", {"use_phase": True}),
+    "chain code": ("chain-code", {}),
+    "chain code, 8 parts": ("chain-code", {"num_parts": 8}),
+    "hu moments": ("moments", {}),
+    "joined": ("hand", {}),
+}
+"""By name, as the study compares them; "joined" is what `GestureRecognizer` uses."""
+
+NUM_CEPSTRA = (6, 8, 10, 12, 13, 14, 15, 17, 20, 24)
+COEFFICIENT_CLASSIFIERS = ("3-nn", "svm")
+WAVELETS = ("haar", "db2", "db4", "sym8")
+LEVELS = (0, 1, 2, 3, 4)
+DISTANCE_FEATURES = ("mfcc", "dwt+mfcc", "orientation 18", "wavelet moments", "fourier, phase", "joined")
+PLACES = ((0, 1), (1, 9))
+"""Of figures 3.14-3.15 and 3.12-3.13: features 1 and 2, and 2 and 10."""
+
+
+def _run_features(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    features: Sequence[str] = tuple(FEATURES),
+    classifier: Sequence[str] = tuple(CLASSIFIERS),
+) -> dict[str, Any]:
+    signs = read_signs(data_dir, progress)
+    rows: list[Row] = []
+    for name in features:
+        vectors = signs.vectors(*FEATURES[name])
+        found = accuracies(signs, vectors, classifier, progress, name)
+        rows += [{"features": name, **row} for row in found]
+    return {"rows": rows, "num_without_hand": signs.num_without_hand, "passed": None}
+
+
+def _run_coefficients(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    features: Sequence[str] = ("mfcc", "haar+mfcc", "db2+mfcc"),
+    classifier: Sequence[str] = COEFFICIENT_CLASSIFIERS,
+) -> dict[str, Any]:
+    signs = read_signs(data_dir, progress)
+    rows: list[Row] = []
+    for name in features:
+        wavelet = name.partition("+")[0]
+        for count in NUM_CEPSTRA:
+            vectors = signs.vectors(*_cepstrum(wavelet, 0 if name == "mfcc" else 3, count))
+            found = accuracies(signs, vectors, classifier, progress, f"{name}, {count} coefficients")
+            rows += [{"features": name, "coefficients": count, **row} for row in found]
+    return {"rows": rows, "num_without_hand": signs.num_without_hand, "passed": None}
+
+
+def _run_wavelets(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    wavelet: Sequence[str] = WAVELETS,
+    classifier: Sequence[str] = COEFFICIENT_CLASSIFIERS,
+) -> dict[str, Any]:
+    signs = read_signs(data_dir, progress)
+    rows: list[Row] = []
+    for name in wavelet:
+        for level in LEVELS:
+            vectors = signs.vectors(*_cepstrum(name, level))
+            found = accuracies(signs, vectors, classifier, progress, f"{name}, level {level}")
+            rows += [{"wavelet": name, "level": level, **row} for row in found]
+    return {"rows": rows, "num_without_hand": signs.num_without_hand, "passed": None}
+
+
+def separation(vectors: Vectors, classes: Any, num_classes: int) -> list[Row]:
+    """How every class lies among the others, after `scaled`, in units of the root of the number of features.
+
+    Returns
+    -------
+    list of dict
+        By class: ``within``, mean distance to the class's mean; ``between``, of its mean to those of the others;
+        ``nearest``, to the nearest of them; ``ratio``, of between to within; spreads are over what is averaged.
+    """
+    rows = scaled(vectors, vectors) / np.sqrt(vectors.shape[1])
+    means = np.array([rows[classes == c].mean(axis=0) for c in range(num_classes)])
+    found = []
+    for c in range(num_classes):
+        within = np.linalg.norm(rows[classes == c] - means[c], axis=1)
+        between = np.delete(np.linalg.norm(means - means[c], axis=1), c)
+        found.append(
+            {
+                "within_mean": float(within.mean()),
+                "within_std": float(within.std()),
+                "between_mean": float(between.mean()),
+                "between_std": float(between.std()),
+                "nearest_mean": float(between.min()),
+                "ratio_mean": float(between.mean() / within.mean()),
+            }
+        )
+    return found
+
+
+def _run_distances(
+    data_dir: Path, progress: Progress, *, features: Sequence[str] = DISTANCE_FEATURES
+) -> dict[str, Any]:
+    signs = read_signs(data_dir, progress)
+    rows: list[Row] = []
+    points = {}
+    for done, name in enumerate(features):
+        vectors = signs.vectors(*FEATURES[name])
+        found = separation(vectors, signs.classes, len(signs.labels))
+        rows += [{"features": name, "sign": label, **row} for label, row in zip(signs.labels, found, strict=True)]
+        points[name] = _points(signs, vectors)
+        progress("distances", done + 1, len(features))
+    return {"rows": rows, "points": points, "num_without_hand": signs.num_without_hand, "passed": None}
+
+
+def _points(signs: SignPictures, vectors: Vectors) -> dict[str, Any]:
+    """Two planes of the features of each sign, as pictures draw them."""
+    rows = scaled(vectors, vectors)
+    planes = {}
+    for x, y in PLACES:
+        planes[f"features {x + 1} and {y + 1}"] = {
+            label: np.round(rows[signs.classes == c][:, [x, y]], 3).tolist() for c, label in enumerate(signs.labels)
+        }
+    return planes
+
+
+_DATA = ("sign_digits",)
+_TARGET = "none: a comparison"
+
+STUDIES = (
+    Study(
+        "sign-features",
+        "shape features against classifiers (thesis tables 3.3-3.10) on hand signs for 0-9, 5 folds by person",
+        _DATA,
+        _TARGET,
+        _run_features,
+        layout=Layout(columns="classifier"),
+        axes={"features": tuple(FEATURES), "classifier": tuple(CLASSIFIERS)},
+    ),
+    Study(
+        "sign-coefficients",
+        "the number of cepstra of a silhouette with and without DWT (figures 3.21, 3.22), as sign-features",
+        _DATA,
+        _TARGET,
+        _run_coefficients,
+        layout=Layout(columns="coefficients", x="coefficients", panel="classifier"),
+        axes={"features": ("mfcc", "haar+mfcc", "db2+mfcc"), "classifier": tuple(CLASSIFIERS)},
+    ),
+    Study(
+        "sign-wavelets",
+        "wavelet and level before the cepstra of a silhouette (level 0: no wavelet), as sign-features",
+        _DATA,
+        _TARGET,
+        _run_wavelets,
+        layout=Layout(columns="level", x="level", panel="classifier"),
+        axes={"wavelet": WAVELETS, "classifier": tuple(CLASSIFIERS)},
+    ),
+    Study(
+        "sign-distances",
+        "distances within and between signs, and planes of features (figures 3.12-3.19)",
+        _DATA,
+        _TARGET,
+        _run_distances,
+        layout=Layout(panel="features", measure="ratio", percent=False),
+        axes={"features": tuple(FEATURES)},
+    ),
+)

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Still signs as vectors, and the classifiers that studies compare on them (thesis section 3.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.datasets import Dataset, Fold
+from hri.hand_features import hand_features
+from hri.media import read_image
+from hri.recognition.hands import find_silhouettes
+from hri.studies.registry import Progress
+from hri.studies.tables import Row, statistics
+
+NUM_FOLDS = 5
+NUM_COMPONENTS = 40
+"""Principal components kept of longer vectors, but for the support vector machine."""
+NUM_NEIGHBOURS = (1, 3, 5, 7)
+"""As in the thesis, table 3.7."""
+
+Vectors = NDArray[np.float32]
+Predict = Callable[[Vectors], NDArray[np.int64]]
+Fit = Callable[[Vectors, NDArray[np.int64], int], Predict]
+"""Trains on vectors and their classes in 0..num_classes - 1."""
+
+
+@dataclass(frozen=True)
+class SignPictures:
+    """Every picture of a folder of still signs with the mask of its hand; where none is found, the whole picture."""
+
+    dataset: Dataset
+    greys: list[NDArray[np.uint8]]
+    masks: list[NDArray[np.uint8]]
+    num_without_hand: int
+
+    @property
+    def labels(self) -> list[str]:
+        return self.dataset.labels
+
+    @property
+    def classes(self) -> NDArray[np.int64]:
+        return np.array([self.labels.index(sample.label) for sample in self.dataset.samples])
+
+    def folds(self) -> list[Fold]:
+        return self.dataset.folds_by_person(NUM_FOLDS, 0)
+
+    def vectors(self, kind: str, options: dict[str, Any]) -> Vectors:
+        return hand_features(self.greys, self.masks, kind, **options)  # type: ignore[arg-type]
+
+
+def read_signs(data_dir: Path, progress: Progress) -> SignPictures:
+    """The pictures of `sign_digits`."""
+    dataset = Dataset.load(data_dir / "sign_digits", "gesture")
+    greys, masks, missing = [], [], 0
+    for done, sample in enumerate(dataset.samples):
+        (found,) = find_silhouettes([read_image(sample.path)])
+        mask = np.asarray(found.mask)
+        if not mask.any():
+            mask, missing = np.full_like(mask, 255), missing + 1
+        greys.append(np.asarray(found.grey))
+        masks.append(mask)
+        progress("finding hands", done + 1, len(dataset))
+    return SignPictures(dataset, greys, masks, missing)
+
+
+def _fit(model: Any, options: Any, rows: Vectors, classes: NDArray[np.int64], count: int) -> Predict:
+    pca = _native.Pca.train(rows, min(NUM_COMPONENTS, rows.shape[1]))
+    trained = model.train(pca.transform(rows), classes, count, options)
+    return lambda test: trained.decision_values(pca.transform(test)).argmax(axis=1)
+
+
+def _fit_svm(rows: Vectors, classes: NDArray[np.int64], count: int) -> Predict:
+    # An average vector of length 1 suits a cost of 1.
+    scale = 1 / np.sqrt(np.mean(np.sum(rows**2, axis=1)))
+    trained = _native.LinearSvm.train(scale * rows, classes, count, _native.LinearSvmOptions())
+    return lambda test: trained.decision_values(scale * test).argmax(axis=1)
+
+
+def _nearest(metric: str) -> Fit:
+    return partial(_fit, _native.DistanceClassifier, _native.DistanceClassifierOptions(metric=metric))
+
+
+CLASSIFIERS: dict[str, Fit] = {
+    **{metric: _nearest(metric) for metric in ("euclidean", "manhattan", "mahalanobis", "bhattacharyya")},
+    **{f"{k}-nn": partial(_fit, _native.Knn, _native.KnnOptions(num_neighbours=k)) for k in NUM_NEIGHBOURS},
+    "bayes": partial(_fit, _native.GaussianBayes, _native.GaussianBayesOptions(covariance="full")),
+    "svm": _fit_svm,
+}
+"""By name; distances are to class means."""
+
+
+def scaled(rows: Vectors, by: Vectors) -> Vectors:
+    """Columns with the mean and spread that those of `by` have taken off; what is constant there becomes 0."""
+    spread = by.std(axis=0)
+    steady = spread < 1e-6 * max(float(np.abs(by).max()), 1e-12)
+    return np.where(steady, 0, (rows - by.mean(axis=0)) / np.where(steady, 1, spread)).astype(np.float32)
+
+
+def accuracies(
+    signs: SignPictures, vectors: Vectors, classifiers: Sequence[str], say: Progress, what: str
+) -> list[Row]:
+    """Of every classifier on the signs of persons it was not trained on, as rows of a result."""
+    classes = signs.classes
+    per_fold: dict[str, dict[str, float]] = {name: {} for name in classifiers}
+    folds = signs.folds()
+    for done, fold in enumerate(folds):
+        train = scaled(vectors[fold.train], vectors[fold.train])
+        test = scaled(vectors[fold.test], vectors[fold.train])
+        for name in classifiers:
+            predict = CLASSIFIERS[name](train, classes[fold.train], len(signs.labels))
+            per_fold[name][fold.name] = float(np.mean(predict(test) == classes[fold.test]))
+        say(what, done + 1, len(folds))
+    return [{"classifier": name, **statistics(shares)} for name, shares in per_fold.items()]
