@@ -18,6 +18,8 @@ __all__: list[str] = [
     "CepstraKind",
     "CepstraOptions",
     "CepstraStream",
+    "ChainCodeComputer",
+    "ChainCodeOptions",
     "ClassDistance",
     "Codebook",
     "CodebookOptions",
@@ -42,6 +44,8 @@ __all__: list[str] = [
     "FilterBankOptions",
     "FixedPointHmmSet",
     "FormatError",
+    "FourierDescriptorComputer",
+    "FourierDescriptorOptions",
     "FramePadding",
     "GaussianBayes",
     "GaussianBayesOptions",
@@ -54,8 +58,11 @@ __all__: list[str] = [
     "GestureRecognizer",
     "GestureRecognizerOptions",
     "GestureSource",
+    "HAND_TRACK_COLUMNS",
     "HandFeatureComputer",
     "HandFeatureOptions",
+    "HandTrackComputer",
+    "HandTrackOptions",
     "Interrupted",
     "InvalidArgument",
     "IoError",
@@ -95,6 +102,9 @@ __all__: list[str] = [
     "Topology",
     "TrainingReport",
     "Wav",
+    "WaveletDescriptorComputer",
+    "WaveletDescriptorOptions",
+    "WaveletDescriptorSource",
     "WaveletStream32",
     "WaveletStream64",
     "WaveletStreamOptions",
@@ -103,8 +113,10 @@ __all__: list[str] = [
     "WordRecognizerOptions",
     "activity_frames",
     "approximate",
+    "b_spline_wavelet",
     "best_basis",
     "bhattacharyya_gaussian",
+    "chain_code",
     "choose_num_states",
     "denoise",
     "distance",
@@ -114,6 +126,8 @@ __all__: list[str] = [
     "filter_edges",
     "find_speech",
     "frequency_order",
+    "hu_features",
+    "hu_moments",
     "idwt",
     "idwt2",
     "initial_start",
@@ -131,9 +145,14 @@ __all__: list[str] = [
     "read_wav",
     "reconstruct_packets",
     "resample",
+    "resample_contour",
+    "shape_axis",
+    "shape_moments",
+    "shape_number",
     "shrink",
     "shrinkage_threshold",
     "spectral_envelope",
+    "trace_contour",
     "wavedec",
     "wavedec2",
     "wavelet_names",
@@ -1240,6 +1259,186 @@ class CepstraStream:
     @property
     def options(self) -> CepstraOptions: ...
 
+class ChainCodeOptions:
+    """
+    Histograms of chain codes.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    use_turns: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_parts(self) -> int: ...
+    @num_parts.setter
+    def num_parts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class ChainCodeComputer:
+    """
+    Histograms of the directions of an outline.
+    """
+    def __init__(self, options: ChainCodeOptions = ...) -> None: ...
+    def compute(
+        self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, of a mask.
+        """
+    def compute_contour(
+        self, contour: typing.Annotated[numpy.typing.ArrayLike, numpy.int32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, of an outline as trace_contour gives it.
+        """
+    @property
+    def num_features(self) -> int: ...
+
+class FourierDescriptorOptions:
+    """
+    Harmonics of an outline.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    use_phase: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_harmonics(self) -> int: ...
+    @num_harmonics.setter
+    def num_harmonics(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_points(self) -> int: ...
+    @num_points.setter
+    def num_points(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class FourierDescriptorComputer:
+    """
+    Fourier descriptors of an outline.
+    """
+    def __init__(self, options: FourierDescriptorOptions = ...) -> None: ...
+    def compute(
+        self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, of a mask.
+        """
+    def compute_contour(
+        self, contour: typing.Annotated[numpy.typing.ArrayLike, numpy.int32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, of an outline as trace_contour gives it.
+        """
+    @property
+    def num_features(self) -> int: ...
+
+class WaveletDescriptorSource:
+    """
+    Members:
+
+      silhouette
+
+      contour
+    """
+
+    __members__: typing.ClassVar[dict[str, WaveletDescriptorSource]]
+    contour: typing.ClassVar[WaveletDescriptorSource]
+    silhouette: typing.ClassVar[WaveletDescriptorSource]
+    @typing.overload
+    def __eq__(self, other: WaveletDescriptorSource) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: WaveletDescriptorSource) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class WaveletDescriptorOptions:
+    """
+    Moment-invariant wavelet descriptors.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    source: WaveletDescriptorSource
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def num_frequencies(self) -> int: ...
+    @num_frequencies.setter
+    def num_frequencies(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_scales(self) -> int: ...
+    @num_scales.setter
+    def num_scales(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class WaveletDescriptorComputer:
+    """
+    Moment-invariant wavelet descriptors of a mask.
+    """
+    def __init__(self, options: WaveletDescriptorOptions = ...) -> None: ...
+    def compute(
+        self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, by frequency, scale and place.
+        """
+    @property
+    def num_features(self) -> int: ...
+
+class HandTrackOptions:
+    """
+    The way of a hand.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def delta_orders(self) -> int: ...
+    @delta_orders.setter
+    def delta_orders(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def delta_window(self) -> int: ...
+    @delta_window.setter
+    def delta_window(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def frames_per_second(self) -> float: ...
+    @frames_per_second.setter
+    def frames_per_second(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class HandTrackComputer:
+    """
+    Place, size, axis and speed of a hand, with deltas.
+    """
+    def __init__(self, options: HandTrackOptions = ...) -> None: ...
+    def compute(
+        self, masks: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, a row for every mask that shows a hand.
+        """
+    @property
+    def num_features(self) -> int: ...
+
 class OrientationHistogramOptions:
     """
     Grid of cells and bins.
@@ -1316,10 +1515,17 @@ class HandFeatureOptions:
 
     __hash__: typing.ClassVar[None] = None
     cepstrum: SilhouetteCepstrumOptions
+    chain_code: ChainCodeOptions
+    fourier: FourierDescriptorOptions
     histogram: OrientationHistogramOptions
     use_cepstrum: bool
+    use_chain_code: bool
+    use_fourier: bool
     use_grey: bool
+    use_moments: bool
     use_silhouette: bool
+    use_wavelet: bool
+    wavelet: WaveletDescriptorOptions
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __init__(self, **kwargs) -> None: ...
     def __repr__(self) -> str: ...
@@ -1332,6 +1538,10 @@ class HandFeatureOptions:
     def crop_px(self) -> int: ...
     @crop_px.setter
     def crop_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def descriptor_weight(self) -> float: ...
+    @descriptor_weight.setter
+    def descriptor_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class HandFeatureComputer:
     """
@@ -3362,6 +3572,11 @@ def approximate(
     The approximation of a level, as loud as the signal.
     """
 
+def b_spline_wavelet(r: typing.SupportsFloat | typing.SupportsIndex) -> float:
+    """
+    The wavelet along the radius (thesis eq. 3.22).
+    """
+
 @typing.overload
 def best_basis(packets: list[numpy.typing.NDArray[numpy.float32]]) -> list[tuple[int, int]]:
     """
@@ -3380,6 +3595,11 @@ def bhattacharyya_gaussian(
     mean_b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     covariance_b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
 ) -> float: ...
+def chain_code(contour: typing.Annotated[numpy.typing.ArrayLike, numpy.int32]) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    Freeman's directions, uint8: 0 right, 2 up, 4 left, 6 down.
+    """
+
 @typing.overload
 def choose_num_states(
     sequences: collections.abc.Sequence[numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]],
@@ -3497,6 +3717,16 @@ def find_speech(
 def frequency_order(level: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
     """
     Natural indices of a level's nodes by rising frequency.
+    """
+
+def hu_features(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The root of each of Hu's invariants by its degree, float32.
+    """
+
+def hu_moments(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Hu's seven invariants, float64.
     """
 
 @typing.overload
@@ -3672,6 +3902,29 @@ def resample(
     Band-limited change of sampling rate.
     """
 
+def resample_contour(
+    contour: typing.Annotated[numpy.typing.ArrayLike, numpy.int32],
+    num_points: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Points at equal distances along the smoothed outline: float32, shape (num_points, 2).
+    """
+
+def shape_axis(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> tuple[float, float]:
+    """
+    Angle of the longer axis from x towards y (down), and elongation, 0 (round) to 1 (a line).
+    """
+
+def shape_moments(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> dict:
+    """
+    Moments to the third order, named as OpenCV names them.
+    """
+
+def shape_number(contour: typing.Annotated[numpy.typing.ArrayLike, numpy.int32]) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    Turns of the outline from their least start on, uint8.
+    """
+
 @typing.overload
 def shrink(
     details: numpy.typing.NDArray[numpy.float32],
@@ -3720,6 +3973,11 @@ def spectral_envelope(
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     exp(sum of c_i cos(pi i t / num_bins)), t = 1 .. num_bins, of rows c_1, c_2, ...; shape (num_frames, num_bins) (thesis eq. 3.34-3.36).
+    """
+
+def trace_contour(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> numpy.typing.NDArray[numpy.int32]:
+    """
+    Outer outline of the largest region, clockwise in image axes: int32, shape (num_points, 2), x and y.
     """
 
 @typing.overload
@@ -3845,4 +4103,5 @@ def write_wav_pcm16(
     sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
 ) -> None: ...
 
+HAND_TRACK_COLUMNS: tuple = ("x", "y", "log_area", "axis_cosine", "axis_sine", "speed", "move_cosine", "move_sine")
 __version__: str = "0.1.0"

@@ -99,7 +99,7 @@ void ChainCodeComputer::compute(Span<const ContourPoint> contour, Span<float> ou
     const auto part =
         std::min(static_cast<int>((along + step / 2) / part_length), options_.num_parts - 1);
     const std::uint8_t bin = options_.use_turns ? turns[i] : code[i];
-    out[static_cast<std::size_t>(8 * part + bin)] += step;
+    out[8 * static_cast<std::size_t>(part) + bin] += step;
     along += step;
   }
   for (std::size_t part = 0; part < out.size(); part += 8) {

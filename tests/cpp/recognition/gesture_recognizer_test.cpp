@@ -169,6 +169,24 @@ TEST(GestureRecognizer, RemembersWhatItsFeaturesAreMadeFrom) {
   EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
 }
 
+TEST(GestureRecognizer, RemembersItsDescriptors) {
+  GestureRecognizerOptions options;
+  options.features.use_fourier = options.features.use_moments = true;
+  options.features.fourier.use_phase = true;
+  options.features.wavelet.source = WaveletDescriptorSource::contour;
+  options.features.chain_code.num_parts = 5;
+  options.features.descriptor_weight = 0.25;
+  ModelFile file = GestureRecognizer::train(stills(), options).to_model_file();
+  const HandFeatureOptions found = GestureRecognizer::from_model_file(file).options().features;
+  EXPECT_TRUE(found.use_fourier && found.use_moments && found.fourier.use_phase);
+  EXPECT_FALSE(found.use_wavelet || found.use_chain_code);
+  EXPECT_EQ(found.wavelet.source, WaveletDescriptorSource::contour);
+  EXPECT_EQ(found.chain_code.num_parts, 5);
+  EXPECT_EQ(found.descriptor_weight, 0.25);
+  file.set_integer("features.fourier.num_points", 17);
+  EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
+}
+
 TEST(GestureRecognizer, RefusesBadSets) {
   std::vector<GestureSample> samples = stills();
   samples[3].features(0, 5) = std::nanf("");
