@@ -82,6 +82,8 @@ def _points(figure: Any, result: Row) -> None:
             for label, points in classes.items():
                 axes.plot(*zip(*points, strict=True), ".", markersize=3, alpha=0.6, label=label)
             axes.set(title=f"{name}: {plane}", xlim=(-3.5, 3.5), ylim=(-3.5, 3.5))
+        for axes in every[len(planes) : -1, column]:
+            axes.set_axis_off()
         rows = [row for row in result["rows"] if row["features"] == name]
         for shift, measure in ((-0.2, "within"), (0.2, "between")):
             means = [row[f"{measure}_mean"] for row in rows]

@@ -150,6 +150,8 @@ def _points(signs: SignPictures, vectors: Vectors) -> dict[str, Any]:
     rows = scaled(vectors, vectors)
     planes = {}
     for x, y in PLACES:
+        if y >= rows.shape[1]:
+            continue
         planes[f"features {x + 1} and {y + 1}"] = {
             label: np.round(rows[signs.classes == c][:, [x, y]], 3).tolist() for c, label in enumerate(signs.labels)
         }
