@@ -30,7 +30,7 @@ def run(name: str, data_dir: Path, **only: list[str]) -> dict:
 
 
 def test_every_classifier_tells_drawn_signs_of_unseen_persons_apart(data_dir: Path) -> None:
-    chosen = ["orientation 18", "dwt+mfcc", "wavelet moments", "fourier, phase"]
+    chosen = ["orientation 18", "dwt+mfcc", "wavelet moments", "fourier (phase)"]
     result = run("sign-features", data_dir, features=chosen)
     assert result["num_without_hand"] == 0
     found = {(row["features"], row["classifier"]): row for row in result["rows"]}

@@ -32,11 +32,11 @@ FEATURES: dict[str, Feature] = {
     "mfcc": _cepstrum("", 0),
     "dwt+mfcc": _cepstrum("db2", 3),
     "wavelet moments": ("wavelet", {}),
-    "wavelet moments, outline": ("wavelet", {"source": "contour"}),
+    "wavelet moments (outline)": ("wavelet", {"source": "contour"}),
     "fourier": ("fourier", {}),
-    "fourier, phase": ("fourier", {"use_phase": True}),
+    "fourier (phase)": ("fourier", {"use_phase": True}),
     "chain code": ("chain-code", {}),
-    "chain code, 8 parts": ("chain-code", {"num_parts": 8}),
+    "chain code (8 parts)": ("chain-code", {"num_parts": 8}),
     "hu moments": ("moments", {}),
     "joined": ("hand", {}),
 }
@@ -46,7 +46,7 @@ NUM_CEPSTRA = (6, 8, 10, 12, 13, 14, 15, 17, 20, 24)
 COEFFICIENT_CLASSIFIERS = ("3-nn", "svm")
 WAVELETS = ("haar", "db2", "db4", "sym8")
 LEVELS = (0, 1, 2, 3, 4)
-DISTANCE_FEATURES = ("mfcc", "dwt+mfcc", "orientation 18", "wavelet moments", "fourier, phase", "joined")
+DISTANCE_FEATURES = ("mfcc", "dwt+mfcc", "orientation 18", "wavelet moments", "fourier (phase)", "joined")
 PLACES = ((0, 1), (1, 9))
 """Of figures 3.14-3.15 and 3.12-3.13: features 1 and 2, and 2 and 10."""
 

@@ -73,9 +73,8 @@ def read_signs(data_dir: Path, progress: Progress) -> SignPictures:
 
 
 def _fit(model: Any, options: Any, rows: Vectors, classes: NDArray[np.int64], count: int) -> Predict:
-    pca = _native.Pca.train(rows, min(NUM_COMPONENTS, rows.shape[1]))
-    trained = model.train(pca.transform(rows), classes, count, options)
-    return lambda test: trained.decision_values(pca.transform(test)).argmax(axis=1)
+    trained = model.train(rows, classes, count, options)
+    return lambda test: trained.decision_values(test).argmax(axis=1)
 
 
 def _fit_svm(rows: Vectors, classes: NDArray[np.int64], count: int) -> Predict:
@@ -95,7 +94,7 @@ CLASSIFIERS: dict[str, Fit] = {
     "bayes": partial(_fit, _native.GaussianBayes, _native.GaussianBayesOptions(covariance="full")),
     "svm": _fit_svm,
 }
-"""By name; distances are to class means."""
+"""By name; distances are to class means. All but "svm" get principal components."""
 
 
 def scaled(rows: Vectors, by: Vectors) -> Vectors:
@@ -115,8 +114,11 @@ def accuracies(
     for done, fold in enumerate(folds):
         train = scaled(vectors[fold.train], vectors[fold.train])
         test = scaled(vectors[fold.test], vectors[fold.train])
+        pca = _native.Pca.train(train, min(NUM_COMPONENTS, train.shape[1]))
+        shown = (pca.transform(train), pca.transform(test))
         for name in classifiers:
-            predict = CLASSIFIERS[name](train, classes[fold.train], len(signs.labels))
-            per_fold[name][fold.name] = float(np.mean(predict(test) == classes[fold.test]))
+            known, unknown = (train, test) if name == "svm" else shown
+            predict = CLASSIFIERS[name](known, classes[fold.train], len(signs.labels))
+            per_fold[name][fold.name] = float(np.mean(predict(unknown) == classes[fold.test]))
         say(what, done + 1, len(folds))
     return [{"classifier": name, **statistics(shares)} for name, shares in per_fold.items()]
