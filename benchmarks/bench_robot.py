@@ -56,21 +56,31 @@ def robot_csv() -> Timed:
         found = read_pulse_csv(path)
         assert found.joint_names == tuple(joint.name for joint in HOAP2.counted)
         np.testing.assert_array_equal(np.rint(np.degrees(found.positions_rad) * pulses), peer())
-        return medians(lambda: check_pulse_csv(path), peer, repeats=7)
+        ours, theirs = medians(lambda: check_pulse_csv(path), peer, repeats=7)
+        begin_cpu = time.process_time()
+        check_pulse_csv(path)
+        return ours, theirs, {"processor_time_s": time.process_time() - begin_cpu}
 
 
 def robot_walk() -> Timed:
-    """Simulating a motion of the robot on its feet: walk.csv in HRI_DATA, else a made one; the peer is real time."""
+    """Simulating a motion of the robot on its feet: walk.csv in HRI_DATA, else a made one; the peer is real time.
+
+    On a machine that does other things too, the time of this process alone tells more than the clock on the wall.
+    """
     path = Path(os.environ.get("HRI_DATA", ".")) / "walk.csv"
     motion = read_pulse_csv(path) if path.is_file() else _motion(5_000)
     idle = [name for name in HOAP2.names if name not in motion.joint_names]
     with open_robot("pybullet", fixed_base=False, locked=idle) as robot:
         robot.reset(dict(zip(motion.joint_names, motion.positions_rad[0].tolist(), strict=True)), "standing")
-        begin = time.perf_counter()
+        begin, begin_cpu = time.perf_counter(), time.process_time()
         done = robot.perform(motion)
-        ours = time.perf_counter() - begin
+        ours, ours_cpu = time.perf_counter() - begin, time.process_time() - begin_cpu
         assert done and robot.events == []
-        return ours, motion.duration_s, {"forward_m": robot.state().base_position_m[0]}
+        factors = {
+            "real_time_factor": motion.duration_s / ours,
+            "real_time_factor_of_processor_time": motion.duration_s / ours_cpu,
+        }
+        return ours, motion.duration_s, {"forward_m": robot.state().base_position_m[0], **factors}
 
 
 def robot_video() -> Timed:
@@ -79,11 +89,11 @@ def robot_video() -> Timed:
     times = np.linspace(0.0, gesture.duration_s, 501)
     five = Trajectory(gesture.joint_names, 0.01, gesture.at(times))
     with tempfile.TemporaryDirectory() as folder:
-        begin = time.perf_counter()
+        begin, begin_cpu = time.perf_counter(), time.process_time()
         frames = render_video(five, Path(folder) / "gesture.mp4")
-        ours = time.perf_counter() - begin
+        ours, ours_cpu = time.perf_counter() - begin, time.process_time() - begin_cpu
         assert frames == 61
-    return ours, VIDEO_BUDGET_S
+    return ours, VIDEO_BUDGET_S, {"processor_time_s": ours_cpu}
 
 
 BENCHES = (

@@ -146,6 +146,30 @@ def test_stop_slows_down_and_holds(robot):
     assert robot.perform(gesture_trajectory("rest")), "it moves again when told"
 
 
+@pytest.mark.parametrize("part", [0.2, 0.5])
+def test_stop_from_any_gesture_keeps_the_limits(part):
+    for name in load_gestures():
+        with open_robot("kinematic") as robot:
+            trajectory = gesture_trajectory(name)
+            sent, command = [], robot._command
+
+            def spy(positions, robot=robot, sent=sent, command=command, last=part * trajectory.duration_s):
+                sent.append([robot._commanded[joint] for joint in HOAP2.names])
+                command(positions)
+                if robot.time_s > last:
+                    robot.stop()
+
+            robot._command = spy
+            assert robot.perform(trajectory) is False
+            robot._command = command
+            speeds = np.diff(sent, axis=0) / robot.step_s
+            assert np.abs(speeds).max() <= HOAP2.max_speed_rad_s, name
+            mean = (np.array(sent[5:]) - sent[:-5]) / 0.05
+            assert np.abs(mean[5:] - mean[:-5]).max() / 0.05 <= HOAP2.max_acceleration_rad_s2, name
+            held = robot.joint_positions_rad()
+            assert robot.hold(0.2) and robot.joint_positions_rad() == held, name
+
+
 def test_stop_from_another_thread(robot):
     slow = Trajectory(["head_joint_1"], 10.0, [[0.0], [0.5], [-0.5], [0.5], [0.0]] * 50)
     timer = threading.Timer(0.2, robot.stop)

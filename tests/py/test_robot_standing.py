@@ -157,6 +157,9 @@ def test_stop_in_mid_walk_ends_in_a_held_pose():
         assert [event.kind for event in robot.events] == ["stop"]
     arms = np.array([[v for n, v in s.positions_rad.items() if "arm" in n] for s in log.states])
     assert np.abs(np.diff(arms, axis=0)).max() / 0.002 < HOAP2.max_speed_rad_s
+    mean_speed = (arms[25:] - arms[:-25]) / 0.05
+    assert np.abs(mean_speed[25:] - mean_speed[:-25]).max() / 0.05 < HOAP2.max_acceleration_rad_s2
+    assert np.abs(mean_speed[1000:3000]).max() > 0.1  # they did move
     assert np.abs(arms[-1] - arms[-100]).max() < 0.01
 
 
