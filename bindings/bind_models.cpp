@@ -16,6 +16,7 @@
 #include "hri/models/pca.hpp"
 #include "hri/models/possibility.hpp"
 #include "hri/models/possibility_classifier.hpp"
+#include "hri/models/rbf_classifier.hpp"
 #include "model_inputs.hpp"
 #include "options.hpp"
 
@@ -158,6 +159,20 @@ void bind_svm(py::module_& m) {
                             [](const hri::LinearSvm& self) { return to_array(self.biases()); });
 }
 
+void bind_rbf(py::module_& m) {
+  py::class_<hri::RbfClassifierOptions> options(m, "RbfClassifierOptions",
+                                                "Options of RbfClassifier.");
+  hri_bind::options(options)
+      .field("cost", &hri::RbfClassifierOptions::cost)
+      .field("sharpness", &hri::RbfClassifierOptions::sharpness);
+  py::class_<hri::RbfClassifier> cls(
+      m, "RbfClassifier",
+      "Least-squares support vector machines with a radial kernel, one class against the rest.");
+  bind_classifier<hri::RbfClassifier, hri::RbfClassifierOptions>(
+      cls, [](hri::RbfClassifierOptions* o) { o->should_stop = hri_bind::interrupted; });
+  cls.def_property_readonly("num_rows", &hri::RbfClassifier::num_rows);
+}
+
 void bind_bayes(py::module_& m) {
   py::enum_<hri::CovarianceKind>(m, "CovarianceKind")
       .value("shared", hri::CovarianceKind::shared)
@@ -279,6 +294,7 @@ void bind_models(py::module_& m) {
   bind_pca(m);
   bind_lda(m);
   bind_svm(m);
+  bind_rbf(m);
   bind_bayes(m);
   bind_knn(m);
   bind_distance_classifier(m);

@@ -222,6 +222,7 @@ void bind_gestures(py::module_& m) {
       .value("hmm", hri::GestureModel::hmm)
       .value("ptbhmm", hri::GestureModel::ptbhmm)
       .value("path", hri::GestureModel::path)
+      .value("rbf", hri::GestureModel::rbf)
       .value("automatic", hri::GestureModel::automatic);
 
   py::class_<hri::GestureRecognizerOptions> options(m, "GestureRecognizerOptions",
@@ -231,6 +232,8 @@ void bind_gestures(py::module_& m) {
       .field("features", &hri::GestureRecognizerOptions::features)
       .field("model", &hri::GestureRecognizerOptions::model)
       .field("svm_cost", &hri::GestureRecognizerOptions::svm_cost)
+      .field("rbf_cost", &hri::GestureRecognizerOptions::rbf_cost)
+      .field("rbf_sharpness", &hri::GestureRecognizerOptions::rbf_sharpness)
       .field("num_components", &hri::GestureRecognizerOptions::num_components)
       .field("num_neighbours", &hri::GestureRecognizerOptions::num_neighbours)
       .field("num_states", &hri::GestureRecognizerOptions::num_states)

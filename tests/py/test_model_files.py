@@ -92,7 +92,7 @@ def test_recogniser_comes_back_to_the_bit(spoken: Path, tmp_path: Path, kind: st
         assert again.recognise(*clip) == words.recognise(*clip)
 
 
-@pytest.mark.parametrize("model", ["svm", "bayes", "knn", "hmm", "ptbhmm"])
+@pytest.mark.parametrize("model", ["svm", "rbf", "bayes", "knn", "hmm", "ptbhmm"])
 def test_gesture_recogniser_comes_back_to_the_bit(signed: Path, tmp_path: Path, model: str) -> None:
     signs = hri.train(hri.Dataset.load(signed), hri.GestureRecognizer(model=model, num_states=2, num_codewords=4))
     signs.save(tmp_path / "g.hri")

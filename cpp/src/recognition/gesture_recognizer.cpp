@@ -87,7 +87,12 @@ GestureModel model_for(const std::vector<GestureSample>& samples) {
     return s.features.rows() >= kShortestMovement;
   });
   const bool most = 2 * movements > static_cast<std::ptrdiff_t>(samples.size());
-  return most ? GestureModel::path : GestureModel::svm;
+  if (most) return GestureModel::path;
+  // The time of rbf grows with the cube of the frames.
+  constexpr Eigen::Index kMostFrames = 3000;
+  Eigen::Index num_frames = 0;
+  for (const GestureSample& s : samples) num_frames += s.features.rows();
+  return num_frames > kMostFrames ? GestureModel::svm : GestureModel::rbf;
 }
 
 bool any_empty(const std::vector<std::vector<MatrixF>>& per_class) {

@@ -12,10 +12,15 @@
 #include "hri/models/knn.hpp"
 #include "hri/models/linear_svm.hpp"
 #include "hri/models/pca.hpp"
+#include "hri/models/rbf_classifier.hpp"
 #include "hri/recognition/key_frames.hpp"
 
 namespace hri {
 namespace {
+
+bool needs_components(GestureModel model) {
+  return model == GestureModel::bayes || model == GestureModel::knn;
+}
 
 MatrixF held_rows(ConstMatrixRefF rows) {
   const FrameRange held = key_frames(rows, detail::kNumTrackColumns);
@@ -28,6 +33,7 @@ class VoteScorer : public GestureScorer {
   std::optional<LinearSvm> svm;
   std::optional<GaussianBayes> bayes;
   std::optional<Knn> knn;
+  std::optional<RbfClassifier> rbf;
   Eigen::Index num_shape_columns = 0;
 
   [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
@@ -52,14 +58,17 @@ class VoteScorer : public GestureScorer {
     if (svm) svm->write(file, "svm.");
     if (bayes) bayes->write(file, "bayes.");
     if (knn) knn->write(file, "knn.");
+    if (rbf) rbf->write(file, "rbf.");
   }
 
   [[nodiscard]] int num_classes() const {
     if (svm) return svm->num_classes();
+    if (rbf) return rbf->num_classes();
     return bayes ? bayes->num_classes() : knn->num_classes();
   }
   [[nodiscard]] int input_dim() const {
     if (pca) return pca->dim();
+    if (rbf) return rbf->dim();
     return svm ? svm->dim() : -1;
   }
 
@@ -72,6 +81,7 @@ class VoteScorer : public GestureScorer {
   }
   [[nodiscard]] VectorF frame_scores(Span<const float> row) const {
     if (svm) return svm->decision_values(row);
+    if (rbf) return rbf->decision_values(row);
     return bayes ? bayes->decision_values(row) : knn->decision_values(row);
   }
 };
@@ -93,7 +103,7 @@ std::shared_ptr<const GestureScorer> train_vote_scorer(
   scorer->num_shape_columns = all.rows.cols() - kNumTrackColumns;
   MatrixF shapes = all.rows.leftCols(scorer->num_shape_columns);
   const auto num_classes = static_cast<int>(per_class.size());
-  if (options.model != GestureModel::svm) {
+  if (needs_components(options.model)) {
     scorer->pca = Pca::train(shapes, options.num_components);
     shapes = scorer->pca->transform(shapes);
   }
@@ -103,6 +113,12 @@ std::shared_ptr<const GestureScorer> train_vote_scorer(
     svm.seed = options.seed;
     svm.should_stop = should_stop;
     scorer->svm = LinearSvm::train(shapes, all.classes, num_classes, svm);
+  } else if (options.model == GestureModel::rbf) {
+    RbfClassifierOptions rbf;
+    rbf.cost = options.rbf_cost;
+    rbf.sharpness = options.rbf_sharpness;
+    rbf.should_stop = should_stop;
+    scorer->rbf = RbfClassifier::train(shapes, all.classes, num_classes, rbf);
   } else if (options.model == GestureModel::bayes) {
     scorer->bayes = GaussianBayes::train(shapes, all.classes, num_classes, {});
   } else {
@@ -118,10 +134,11 @@ std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file,
                                                       int num_classes) {
   auto scorer = std::make_shared<VoteScorer>();
   scorer->num_shape_columns = file.integer("num_shape_columns");
-  if (options.model != GestureModel::svm) scorer->pca = Pca::read(file, "pca.");
+  if (needs_components(options.model)) scorer->pca = Pca::read(file, "pca.");
   if (options.model == GestureModel::svm) scorer->svm = LinearSvm::read(file, "svm.");
   if (options.model == GestureModel::bayes) scorer->bayes = GaussianBayes::read(file, "bayes.");
   if (options.model == GestureModel::knn) scorer->knn = Knn::read(file, "knn.");
+  if (options.model == GestureModel::rbf) scorer->rbf = RbfClassifier::read(file, "rbf.");
   const int reduced = scorer->pca ? scorer->pca->num_components() : 0;
   const bool fits = scorer->num_classes() == num_classes &&
                     scorer->input_dim() == scorer->num_shape_columns &&

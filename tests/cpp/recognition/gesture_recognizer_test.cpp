@@ -111,14 +111,15 @@ TEST_P(GestureRecognizerOf, RefusesAModelThatWasDamaged) {
 }
 
 std::string model_name(const ::testing::TestParamInfo<GestureModel>& test) {
-  constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm", "path"};
+  constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm", "path", "rbf"};
   return kNames[static_cast<std::size_t>(test.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, GestureRecognizerOf,
                          ::testing::Values(GestureModel::svm, GestureModel::bayes,
                                            GestureModel::knn, GestureModel::hmm,
-                                           GestureModel::ptbhmm, GestureModel::path),
+                                           GestureModel::ptbhmm, GestureModel::path,
+                                           GestureModel::rbf),
                          model_name);
 
 TEST(GestureRecognizer, SeesNothingWithoutAHand) {
@@ -154,7 +155,7 @@ TEST(GestureRecognizer, FollowsAPathAtAnotherTempo) {
 }
 
 TEST(GestureRecognizer, ChoosesItsModelByTheLengthOfTheClips) {
-  EXPECT_EQ(GestureRecognizer::train(stills(), {}).options().model, GestureModel::svm);
+  EXPECT_EQ(GestureRecognizer::train(stills(), {}).options().model, GestureModel::rbf);
   const std::vector<GestureSample> movements{movement(true, 0), movement(true, 1),
                                              movement(false, 0), movement(false, 1)};
   EXPECT_EQ(GestureRecognizer::train(movements, {}).options().model, GestureModel::path);

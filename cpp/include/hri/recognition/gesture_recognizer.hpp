@@ -30,8 +30,9 @@ enum class GestureModel : std::uint8_t {
   ptbhmm,     ///< possibility-theory HMM over a codebook of the same
   path,       ///< linear support vector machine over the whole movement, resampled at a few points;
               ///< needs few examples
-  automatic,  ///< svm, or path where most training gestures have 8 frames or more; a trained
-              ///< recogniser's options say which it became
+  rbf,        ///< least-squares support vector machine with a radial kernel; frames vote
+  automatic,  ///< rbf; svm for more than 3000 frames; path where most training gestures have
+              ///< 8 frames or more; a trained recogniser's options say which it became
 };
 
 /// What the rows of features are made from. C++ makes them from silhouettes; landmarks come from
@@ -45,12 +46,14 @@ struct GestureRecognizerOptions {
   GestureSource source = GestureSource::silhouettes;
   HandFeatureOptions features;
   GestureModel model = GestureModel::automatic;
-  double svm_cost = 1.0;    ///< C of the linear SVM (svm, path), > 0
-  int num_components = 40;  ///< principal components (bayes, knn, hmm, ptbhmm), 1..1000
-  int num_neighbours = 5;   ///< k of knn, 1..1000
-  int num_states = 6;       ///< left-right states a gesture (hmm, ptbhmm), 1..64
-  int num_codewords = 64;   ///< codebook size (ptbhmm), 2..4096
-  int max_iterations = 12;  ///< Baum-Welch iterations, 1..1000
+  double svm_cost = 1.0;       ///< C of the linear SVM (svm, path), > 0
+  double rbf_cost = 10;        ///< C of rbf, > 0
+  double rbf_sharpness = 1.5;  ///< of its kernel, see RbfClassifierOptions, > 0
+  int num_components = 40;     ///< principal components (bayes, knn, hmm, ptbhmm), 1..1000
+  int num_neighbours = 5;      ///< k of knn, 1..1000
+  int num_states = 6;          ///< left-right states a gesture (hmm, ptbhmm), 1..64
+  int num_codewords = 64;      ///< codebook size (ptbhmm), 2..4096
+  int max_iterations = 12;     ///< Baum-Welch iterations, 1..1000
   double false_reject_rate =
       0.02;  ///< share of correct held-out gestures that the threshold may reject, 0..0.5
   std::uint64_t seed = 0;

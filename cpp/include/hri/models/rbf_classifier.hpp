@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Least-squares support vector machines with a radial kernel, one class against the rest: every
+// training row is a support vector, and its weight solves one linear system (Suykens and
+// Vandewalle, "Least squares support vector machine classifiers", Neural Processing Letters 1999).
+#pragma once
+
+#include <string>
+
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/stop_check.hpp"
+
+namespace hri {
+
+struct RbfClassifierOptions {
+  double cost = 10;  ///< of a squared error, against the weights; larger fits more closely, > 0
+  double sharpness = 1.5;  ///< the kernel is exp(-sharpness) at the root mean square distance of
+                           ///< the training rows, > 0
+  StopCheck should_stop;
+};
+
+/// Immutable; const calls are safe from several threads. It keeps its training rows.
+class RbfClassifier {
+ public:
+  /// `classes[r]` in 0..num_classes - 1 is the class of row r. Time grows with the cube of the
+  /// rows, memory with the square. Throws InvalidArgument for rows not finite, a class without a
+  /// row (names it), fewer than two classes, or more than 20000 rows; Interrupted when asked to
+  /// stop.
+  static RbfClassifier train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
+                             const RbfClassifierOptions& options);
+
+  /// Value of every class for one row, shape (num_classes,): near 1 for its own, near -1 for
+  /// others.
+  [[nodiscard]] VectorF decision_values(Span<const float> row) const;
+
+  /// Mean squared distance of a row to the `count` training rows that are nearest (at least 1;
+  /// fewer where there are fewer), in units of the mean squared distance of the training rows.
+  [[nodiscard]] float nearness(Span<const float> row, int count) const;
+
+  [[nodiscard]] int num_classes() const { return static_cast<int>(weights_.rows()); }
+  [[nodiscard]] int dim() const { return static_cast<int>(rows_.cols()); }
+  [[nodiscard]] int num_rows() const { return static_cast<int>(rows_.rows()); }
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  static RbfClassifier read(const ModelFile& file, const std::string& prefix);
+
+ private:
+  RbfClassifier() = default;
+  [[nodiscard]] VectorF squared_distances(Span<const float> row) const;
+
+  MatrixF rows_;
+  VectorF squares_;    // of the rows' lengths
+  MatrixF weights_;    // (num_classes, num_rows)
+  double spread_ = 1;  // mean squared distance of the training rows
+  double sharpness_ = 1;
+};
+
+}  // namespace hri
