@@ -88,6 +88,8 @@ __all__: list[str] = [
     "PossibilisticRule",
     "PossibilisticTraining",
     "PossibilityClassifier",
+    "RbfClassifier",
+    "RbfClassifierOptions",
     "SequenceModelKind",
     "SequenceModelOptions",
     "ShrinkageOptions",
@@ -1908,6 +1910,63 @@ class LinearSvm:
     @property
     def weights(self) -> numpy.typing.NDArray[numpy.float32]: ...
 
+class RbfClassifierOptions:
+    """
+    Options of RbfClassifier.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def cost(self) -> float: ...
+    @cost.setter
+    def cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def sharpness(self) -> float: ...
+    @sharpness.setter
+    def sharpness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class RbfClassifier:
+    """
+    Least-squares support vector machines with a radial kernel, one class against the rest.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> RbfClassifier:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: RbfClassifierOptions = ...,
+    ) -> RbfClassifier:
+        """
+        Trains on rows (num_rows, dim), float32, and classes (num_rows,) in 0..num_classes - 1.
+
+        Raises InvalidArgument for values not finite (names the row) or a class without a row.
+        """
+    def decision_values(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a matrix.
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int: ...
+    @property
+    def num_classes(self) -> int: ...
+    @property
+    def num_rows(self) -> int: ...
+
 class CovarianceKind:
     """
     Members:
@@ -3367,6 +3426,8 @@ class GestureModel:
 
       path
 
+      rbf
+
       automatic
     """
 
@@ -3377,6 +3438,7 @@ class GestureModel:
     knn: typing.ClassVar[GestureModel]
     path: typing.ClassVar[GestureModel]
     ptbhmm: typing.ClassVar[GestureModel]
+    rbf: typing.ClassVar[GestureModel]
     svm: typing.ClassVar[GestureModel]
     @typing.overload
     def __eq__(self, other: GestureModel) -> bool: ...
@@ -3436,6 +3498,14 @@ class GestureRecognizerOptions:
     def num_states(self) -> int: ...
     @num_states.setter
     def num_states(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def rbf_cost(self) -> float: ...
+    @rbf_cost.setter
+    def rbf_cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def rbf_sharpness(self) -> float: ...
+    @rbf_sharpness.setter
+    def rbf_sharpness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def seed(self) -> int: ...
     @seed.setter

@@ -5,22 +5,28 @@
 // a few points, spaced by how much changes rather than by time, so that pauses and tempo matter
 // little; the points together are one vector for a linear support vector machine. A gesture that
 // begins at rest, pauses and moves again is also learned from that last movement alone, as somebody
-// who is watched may take up the pose of its start long before.
+// who is watched may take up the pose of its start long before. From how far the hand gets in
+// gestures and in the rests before them is learned what is no movement at all.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "gesture_scorer.hpp"
 #include "hri/core/error.hpp"
 #include "hri/models/linear_svm.hpp"
+#include "hri/models/logistic_regression.hpp"
 
 namespace hri {
 namespace {
 
+constexpr const char* kMovement = "path.movement.";
 constexpr const char* kStartsAtRest = "path.starts_at_rest";
 constexpr const char* kPauses = "path.pauses";
 constexpr Eigen::Index kMaxRows = 32;     // more frames than that only add noise to the steps
 constexpr Eigen::Index kNumPoints = 8;    // of the resampled path
+constexpr Eigen::Index kFewRows = 8;      // in which no rest is looked for
 constexpr double kStillQuantile = 0.25;   // the stillest steps tell the noise of the shapes
 constexpr float kNoiseMargin = 1.5F;      // times that, which does not count as change
 constexpr float kTimeShare = 0.5F;        // weight of even spacing in time beside change
@@ -130,12 +136,11 @@ VectorF path_vector(ConstMatrixRefF gesture, float shape_scale) {
 
 // Where a gesture rests, by its rows.
 struct Rests {
-  bool at_start = false;
-  Eigen::Index last_movement = 0;  // its first row; 0 where there is but one movement
+  Eigen::Index first_movement = 0;  // its first row; 0 where it does not begin at rest
+  Eigen::Index last_movement = 0;   // its first row; 0 where there is but one movement
 };
 
 Rests find_rests(ConstMatrixRefF gesture, float shape_scale) {
-  constexpr Eigen::Index kFewRows = 8;
   if (gesture.rows() < kFewRows) return {};
   const MatrixF rows = scaled(gesture, shape_scale);
   const std::vector<float> before = change_before(rows);
@@ -143,7 +148,8 @@ Rests find_rests(ConstMatrixRefF gesture, float shape_scale) {
       2, static_cast<std::size_t>(kPauseShare * static_cast<double>(before.size())));
   Rests found;
   if (before.back() <= 0 || before[pause] > kPauseChange) return found;
-  found.at_start = true;
+  found.first_movement =
+      std::upper_bound(before.begin(), before.end(), kPauseChange) - before.begin();
   const VectorF away =
       (smoothed(rows).rowwise() - rows.topRows(3).colwise().mean()).rowwise().norm();
   if (away[away.size() - 1] < kReturned * away.maxCoeff()) return found;
@@ -156,13 +162,48 @@ Rests find_rests(ConstMatrixRefF gesture, float shape_scale) {
   return found;
 }
 
+// Log of how far the path gets from its first point.
+double farthest(const VectorF& path) {
+  constexpr float kLeast = 0.05F;  // at which noise alone decides
+  const Eigen::Map<const MatrixF> points(path.data(), kNumPoints, path.size() / kNumPoints);
+  const float most = (points.rowwise() - points.row(0)).rowwise().norm().maxCoeff();
+  return std::log(static_cast<double>(most + kLeast));
+}
+
+// How far gestures (1) and the rests before them (0) get.
+class Distances {
+ public:
+  void add(int moved, double distance) {
+    moved_.push_back(moved);
+    distances_.push_back(distance);
+  }
+  // Tells them apart, both as often as the other; empty without rests.
+  [[nodiscard]] LogisticRegression movement() const {
+    const auto count = static_cast<double>(moved_.size());
+    const auto gestures = static_cast<double>(std::count(moved_.begin(), moved_.end(), 1));
+    if (gestures == count) return {};
+    std::vector<double> weights;
+    for (const int m : moved_)
+      weights.push_back(count / 2 / (m == 1 ? gestures : count - gestures));
+    const Eigen::Map<const MatrixD> rows(distances_.data(),
+                                         static_cast<Eigen::Index>(moved_.size()), 1);
+    return LogisticRegression::train(rows, moved_, weights, {});
+  }
+
+ private:
+  std::vector<int> moved_;
+  std::vector<double> distances_;
+};
+
 class PathScorer : public GestureScorer {
  public:
-  PathScorer(LinearSvm svm, float shape_scale, bool starts_at_rest, bool pauses)
+  PathScorer(LinearSvm svm, float shape_scale, bool starts_at_rest, bool pauses,
+             LogisticRegression movement)
       : svm_(std::move(svm)),
         shape_scale_(shape_scale),
         starts_at_rest_(starts_at_rest),
-        pauses_(pauses) {}
+        pauses_(pauses),
+        movement_(std::move(movement)) {}
 
   [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
     require(rows.cols() * kNumPoints == svm_.dim(),
@@ -170,14 +211,18 @@ class PathScorer : public GestureScorer {
     const VectorF path = path_vector(rows, shape_scale_);
     return svm_.decision_values({path.data(), static_cast<std::size_t>(path.size())});
   }
-  [[nodiscard]] float evidence(ConstMatrixRefF /*rows*/, const VectorF& scores) const override {
-    return scores.maxCoeff();
+  [[nodiscard]] float evidence(ConstMatrixRefF rows, const VectorF& scores) const override {
+    if (movement_.dim() == 0) return scores.maxCoeff();
+    const double distance = farthest(path_vector(rows, shape_scale_));
+    const double odds = movement_.log_odds({&distance, 1});
+    return scores.maxCoeff() + static_cast<float>(std::min(odds, 0.0));
   }
   void write(ModelFile& file) const override {
     svm_.write(file, "path.svm.");
     file.set_number("path.shape_scale", shape_scale_);
     file.set_number(kStartsAtRest, starts_at_rest_ ? 1 : 0);
     file.set_number(kPauses, pauses_ ? 1 : 0);
+    if (movement_.dim() > 0) movement_.write(file, kMovement);
   }
   [[nodiscard]] bool starts_at_rest() const override { return starts_at_rest_; }
   [[nodiscard]] bool pauses() const override { return pauses_; }
@@ -187,6 +232,7 @@ class PathScorer : public GestureScorer {
   float shape_scale_;
   bool starts_at_rest_;
   bool pauses_;
+  LogisticRegression movement_;  // against rest; empty where nothing was learned
 };
 
 }  // namespace
@@ -214,11 +260,15 @@ std::shared_ptr<const GestureScorer> train_path_scorer(
   std::vector<int> classes;
   Eigen::Index num_at_rest = 0;
   Eigen::Index num_pausing = 0;
+  Distances distances;
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     for (const MatrixF& g : per_class[c]) {
       const Rests rests = find_rests(g, shape_scale);
-      num_at_rest += rests.at_start ? 1 : 0;
+      num_at_rest += rests.first_movement > 0 ? 1 : 0;
       paths.push_back(path_vector(g, shape_scale));
+      distances.add(1, farthest(paths.back()));
+      if (rests.first_movement >= kFewRows)
+        distances.add(0, farthest(path_vector(g.topRows(rests.first_movement), shape_scale)));
       if (rests.last_movement > 0) {
         ++num_pausing;
         paths.push_back(path_vector(g.bottomRows(g.rows() - rests.last_movement), shape_scale));
@@ -235,7 +285,7 @@ std::shared_ptr<const GestureScorer> train_path_scorer(
   svm.should_stop = should_stop;
   return std::make_shared<PathScorer>(
       LinearSvm::train(vectors, classes, static_cast<int>(per_class.size()), svm), shape_scale,
-      2 * num_at_rest > num_gestures, 2 * num_pausing > num_gestures);
+      2 * num_at_rest > num_gestures, 2 * num_pausing > num_gestures, distances.movement());
 }
 
 std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int num_classes) {
@@ -250,8 +300,13 @@ std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int
     fail(ErrorKind::format, file.name() + ": field 'path.shape_scale' is out of range");
   // Files from before this was known say nothing of it.
   const auto says = [&](const char* key) { return file.has(key) && file.number(key) != 0; };
+  LogisticRegression movement;
+  if (file.has(std::string(kMovement) + "weights"))
+    movement = LogisticRegression::read(file, kMovement);
+  if (movement.dim() > 1)
+    fail(ErrorKind::format, file.name() + ": field '" + kMovement + "weights' is too long");
   return std::make_shared<PathScorer>(std::move(svm), shape_scale, says(kStartsAtRest),
-                                      says(kPauses));
+                                      says(kPauses), std::move(movement));
 }
 
 }  // namespace detail

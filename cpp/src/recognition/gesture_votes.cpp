@@ -4,6 +4,7 @@
 // Still signs: every frame in which the sign is held is classified by itself, and the scores are
 // averaged. The last columns (the hand's track in the picture) are left out, so that it does not
 // matter where a sign is shown.
+#include <cmath>
 #include <optional>
 
 #include "gesture_scorer.hpp"
@@ -17,6 +18,8 @@
 
 namespace hri {
 namespace {
+
+constexpr float kLeastDistance = 1e-3F;  // of a frame that was trained on
 
 bool needs_components(GestureModel model) {
   return model == GestureModel::bayes || model == GestureModel::knn;
@@ -44,12 +47,15 @@ class VoteScorer : public GestureScorer {
   }
 
   [[nodiscard]] float evidence(ConstMatrixRefF rows, const VectorF& scores) const override {
-    if (!knn) return scores.maxCoeff();
+    // Of what no gesture resembles, rbf says too little: its scores fade towards the average.
+    constexpr int kNumNearest = 3;
+    if (!knn && !rbf) return scores.maxCoeff();
     const MatrixF shapes = shape_rows(rows);
     float sum = 0;
     for (Eigen::Index t = 0; t < shapes.rows(); ++t)
-      sum -= knn->nearest_distance(row_span(shapes, t));
-    return sum / static_cast<float>(shapes.rows());
+      sum -= knn ? knn->nearest_distance(row_span(shapes, t))
+                 : std::log(rbf->nearness(row_span(shapes, t), kNumNearest) + kLeastDistance);
+    return sum / static_cast<float>(shapes.rows()) + (rbf ? scores.maxCoeff() : 0.0F);
   }
 
   void write(ModelFile& file) const override {

@@ -154,6 +154,37 @@ TEST(GestureRecognizer, FollowsAPathAtAnotherTempo) {
   EXPECT_THROW((void)recognizer.scores(MatrixF::Zero(3, 9)), InvalidArgument);
 }
 
+// A hand that rests before it moves; the rest alone is nothing that was taught.
+TEST(GestureRecognizer, TurnsDownAHandThatOnlyRests) {
+  constexpr Eigen::Index kRest = 12;
+  GestureRecognizerOptions options;
+  options.model = GestureModel::path;
+  std::vector<GestureSample> samples;
+  for (int take = 0; take < 6; ++take) {
+    for (const bool right : {true, false}) {
+      samples.push_back(movement(right, take));
+      MatrixF& rows = samples.back().features;
+      MatrixF with_rest(kRest + rows.rows(), rows.cols());
+      with_rest << rows.row(0).replicate(kRest, 1), rows;
+      for (Eigen::Index t = 0; t < with_rest.rows(); ++t)  // hands are never quite still
+        with_rest(t, rows.cols() - 3) += 1e-4F * static_cast<float>((t * 7 + take) % 5);
+      rows = with_rest;
+    }
+  }
+  const GestureRecognizer recognizer = GestureRecognizer::train(samples, options);
+  const ModelFile file = recognizer.to_model_file();
+  const GestureRecognizer again = GestureRecognizer::from_model_file(file);
+  for (const GestureSample& s : samples) {
+    EXPECT_EQ(recognizer.recognise_features(s.features).label, s.label);
+    const Decision rest = again.recognise_features(s.features.topRows(kRest));
+    EXPECT_EQ(rest.status, DecisionStatus::unknown);
+    EXPECT_LT(rest.evidence, again.recognise_features(s.features).evidence);
+  }
+  ModelFile broken = file;
+  broken.set_vector("path.movement.weights", VectorD(VectorD::Ones(2)));
+  EXPECT_THROW(GestureRecognizer::from_model_file(broken), FormatError);
+}
+
 TEST(GestureRecognizer, ChoosesItsModelByTheLengthOfTheClips) {
   EXPECT_EQ(GestureRecognizer::train(stills(), {}).options().model, GestureModel::rbf);
   const std::vector<GestureSample> movements{movement(true, 0), movement(true, 1),

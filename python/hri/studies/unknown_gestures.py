@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Gestures outside the vocabulary, hands at rest and pictures without a hand are turned down."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.datasets import Dataset, Fold
+from hri.evaluation.rejection import equal_error_rate
+from hri.media import read_frames
+from hri.recognition import Decision, GestureRecognizer
+from hri.recognition.decision import NO_INPUT, RECOGNISED
+from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.tables import Row, statistics
+from hri.studies.unknown_words import halves
+
+SEED = 0
+NUM_FOLDS = 5
+NUM_HALVES = 6
+TARGET = 0.10
+REST_CHANGE = 0.05
+"""Share of all change in a clip up to which the hand still rests."""
+SHORTEST_REST = 8
+NUM_EMPTY = 20
+DATA = {"webcam-gestures": ("webcam_gestures", "{label}/{take}.m4v"), "sign-digits": ("sign_digits", None)}
+
+Rows = NDArray[np.float32]
+
+
+def rest_before(rows: Rows) -> Rows:
+    """The first rows of a clip, in which the hand still rests; none where it moves from the start."""
+    padded = np.vstack([rows[:1], rows, rows[-1:]]).astype(np.float64)
+    smooth = (padded[:-2] + padded[1:-1] + padded[2:]) / 3
+    steps = np.linalg.norm(np.diff(smooth, axis=0), axis=1)
+    if steps.size == 0:
+        return rows[:0]
+    change = np.cumsum(np.maximum(steps - 1.5 * np.quantile(steps, 0.25), 0))
+    length = int(np.searchsorted(change, REST_CHANGE * change[-1], side="right"))
+    return rows[:length] if length >= SHORTEST_REST and change[-1] > 0 else rows[:0]
+
+
+def empty_clips(number: int = NUM_EMPTY, seed: int = SEED) -> list[list[NDArray[np.uint8]]]:
+    """Clips of plain walls of any colour, unevenly lit, in noise; no hand in any."""
+    rng = np.random.default_rng(seed)
+    clips = []
+    for _ in range(number):
+        colour, slope = rng.uniform(10, 220, 3), rng.uniform(-0.1, 0.1, 2)
+        y, x = np.mgrid[0:1:120j, 0:1:160j]
+        wall = colour * (1 + y * slope[0] + x * slope[1])[:, :, None]
+        clips.append([np.clip(wall + rng.normal(0, 3, wall.shape), 0, 255).astype(np.uint8) for _ in range(12)])
+    return clips
+
+
+def _evidence(decisions: Sequence[Decision]) -> list[float]:
+    return [decision.evidence if decision.nbest else -np.inf for decision in decisions]
+
+
+def _share(decisions: Sequence[Decision], status: str) -> float:
+    return float(np.mean([decision.status == status for decision in decisions]))
+
+
+def _folds(dataset: Dataset) -> list[Fold]:
+    by_person = bool(dataset.persons)
+    return dataset.folds_by_person(NUM_FOLDS, SEED) if by_person else dataset.folds_stratified(NUM_FOLDS, SEED)
+
+
+def _measure(dataset: Dataset, rows: Sequence[Rows], progress: Progress) -> tuple[Row, dict[str, Any]]:
+    measured: dict[str, dict[str, float]] = {}
+    chosen, folds = halves(dataset.labels, NUM_HALVES, SEED), _folds(dataset)
+    labels = [sample.label for sample in dataset.samples]
+    empty = empty_clips()
+    for number, half in enumerate(chosen):
+        known: list[Decision] = []
+        right: list[bool] = []
+        unknown: list[Decision] = []
+        resting: list[Decision] = []
+        absent: list[Decision] = []
+        for part, fold in enumerate(folds):
+            train = [i for i in fold.train if labels[i] in half]
+            signers = [dataset.samples[i].person for i in train] if dataset.persons else None
+            signs = GestureRecognizer().fit_features(
+                [rows[i] for i in train], [labels[i] for i in train], groups=signers
+            )
+            for i in fold.test:
+                decision = signs.recognise_features(rows[i])
+                (known if labels[i] in half else unknown).append(decision)
+                if labels[i] in half:
+                    right.append(bool(decision.nbest) and decision.nbest[0].label == labels[i])
+                rest = rest_before(rows[i])
+                if len(rest):
+                    resting.append(signs.recognise_features(rest))
+            if number == 0 and part == 0:
+                clips = empty if len(rows[train[0]]) > 1 else [clip[:1] for clip in empty]
+                absent += [signs.recognise(clip) for clip in clips]
+            progress("training", number * len(folds) + part + 1, len(chosen) * len(folds))
+        found = {
+            "eer": equal_error_rate(_evidence(known), _evidence(unknown)),
+            "false_rejects": 1 - _share(known, RECOGNISED),
+            "false_accepts": _share(unknown, RECOGNISED),
+            "accuracy": float(np.mean(right)),
+        }
+        if resting:
+            found["rest_eer"] = equal_error_rate(_evidence(known), _evidence(resting))
+            found["rest_accepts"] = _share(resting, RECOGNISED)
+        if absent:
+            found["absent_no_input"] = _share(absent, NO_INPUT)
+            found["absent_accepts"] = _share(absent, RECOGNISED)
+        for measure, value in found.items():
+            measured.setdefault(measure, {})[f"half {number + 1}"] = value
+    row: Row = {}
+    for measure, values in measured.items():
+        row |= {key: value for key, value in statistics(values, measure).items() if key != "per_fold"}
+    row["per_fold"] = measured["eer"]
+    return row, {"halves": chosen, "by_half": measured}
+
+
+def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(DATA)) -> dict[str, Any]:
+    result_rows, details = [], {}
+    for name in data:
+        folder, pattern = DATA[name]
+        dataset = Dataset.load(data_dir / folder, "gesture", pattern)
+        recognizer = GestureRecognizer()
+        rows = []
+        for done, sample in enumerate(dataset.samples):
+            rows.append(recognizer.features(read_frames(sample.path).frames))
+            progress(f"{name}: finding hands", done + 1, len(dataset))
+        row, details[name] = _measure(dataset, rows, within(progress, name))
+        result_rows.append({"data": name, **row})
+    return {
+        "seed": SEED,
+        "rows": result_rows,
+        "details": details,
+        "passed": all(max(row["eer_mean"], row.get("rest_eer_mean", 0.0)) < TARGET for row in result_rows),
+    }
+
+
+STUDIES = (
+    Study(
+        "unknown-gestures",
+        "gestures with half the vocabulary never trained, hands at rest, and pictures without a hand: equal error rate "
+        f"of rejection, shares at the default threshold; {NUM_HALVES} random halves, the evidence of {NUM_FOLDS} folds "
+        "together",
+        tuple(folder for folder, _ in DATA.values()),
+        f"equal error rate < {100 * TARGET:.0f} %, of other gestures and of hands at rest",
+        _run,
+        Layout(measure="eer"),
+        {"data": tuple(DATA)},
+    ),
+)
