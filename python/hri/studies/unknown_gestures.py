@@ -22,7 +22,7 @@ from hri.studies.unknown_words import halves
 
 SEED = 0
 NUM_FOLDS = 5
-NUM_HALVES = 6
+NUM_HALVES = 3
 TARGET = 0.10
 REST_CHANGE = 0.05
 """Share of all change in a clip up to which the hand still rests."""
