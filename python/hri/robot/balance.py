@@ -6,8 +6,8 @@ A motion recorded on one robot, played on another whose joints are a degree off,
 the robot's gyroscope tells: how the base leans and turns beyond what the joints make it. The ankles of loaded feet lean
 the robot back, in proportion to lean and its rate. The hips of loaded legs go on turning as long as the robot is off
 its course, and turn back while their foot is in the air: two feet on the floor turn alike, as feet that twist against
-one another slip. Nothing is corrected before the feet alone carry the robot: while it sits and pushes itself up with
-its hands, an ankle that moves only tilts its foot onto an edge.
+one another slip. None of that begins before the feet alone carry the robot: while it sits and pushes itself up with
+its hands, an ankle that moves only tilts its foot onto an edge; `getting_up` tells what helps then.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.robot.getting_up import GettingUp
 from hri.robot.joints import Joint, JointTable
 
 Floats = NDArray[np.float64]
@@ -38,7 +39,7 @@ _LEAST_UP_FOR_HEADING = 0.9
 
 
 class Balance:
-    """Corrections to the legs' joints.
+    """Corrections to the joints of legs and waist.
 
     Parameters
     ----------
@@ -56,6 +57,7 @@ class Balance:
         self._low, self._high = limits.T
         self._weight_n = 9.81 * sum(link.mass_kg for link in table.links.values())
         self._legs = _Legs(legs, self._place)
+        self._getting_up = GettingUp(legs)
         # Of every leg the lowest joint that rolls, pitches and turns: places in what is corrected.
         self._hands_on = [[_lowest(leg, axis, self._place) for axis in np.eye(3)] for leg in legs]
         self._hips = np.array([leg[2] if leg[2] is not None else -1 for leg in self._hands_on])
@@ -67,6 +69,7 @@ class Balance:
 
     def start(self, positions_rad: Mapping[str, float]) -> None:
         """Forget everything; joints are at these positions."""
+        self._getting_up.start()
         self._positions = np.array([positions_rad.get(name, 0.0) for name in self._place])
         self._given = np.zeros_like(self._most)
         self._loads = np.zeros(len(self._most))
@@ -103,7 +106,8 @@ class Balance:
         self._loads += (1.0 - np.exp(-elapsed_s / _LOAD_S)) * (np.array(loads_n) - self._loads)
         load = max(float(self._loads.sum()), 1e-9)
         self._carried_n += (1.0 - np.exp(-elapsed_s / _CARRY_S)) * (sum(loads_n) - self._carried_n)
-        carried = _ramp(self._carried_n / self._weight_n, _CARRIED)
+        share_carried = self._carried_n / self._weight_n
+        carried = _ramp(share_carried, _CARRIED)
         up = turn[2]
         wanted = (1.0 - elapsed_s * _BACK_PER_S) * self._given
         if carried == 0.0 or up[2] < _LEAST_UP_FOR_HEADING:
@@ -121,7 +125,8 @@ class Balance:
         wanted = np.clip(wanted, -self._most, self._most)
         speed = np.clip((wanted - self._given) / elapsed_s, -self._most_speed, self._most_speed)
         self._given = self._given + elapsed_s * speed
-        return self._by_name(goal, self._given + speed / self._follow_per_s)  # joints follow late: lead by that
+        found = self._by_name(goal, self._given + speed / self._follow_per_s)  # joints follow late: lead by that
+        return found | self._getting_up.corrections(sent_rad, turn, share_carried, elapsed_s)
 
     def _off_course(self, turn: Floats, own_turn: float, elapsed_s: float) -> float:
         """Angle from where the motion would have turned the base to where it points.
