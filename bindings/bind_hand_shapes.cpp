@@ -222,6 +222,7 @@ void bind_tracks(py::module_& m) {
           "compute",
           [](const hri::HandTrackComputer& self, const std::vector<ByteArray>& masks) {
             std::vector<hri::ImageView> views;
+            views.reserve(masks.size());
             for (const ByteArray& mask : masks) views.push_back(as_image(mask, 1, "masks"));
             hri::MatrixF out;
             {
