@@ -37,7 +37,7 @@ pytest.importorskip("hri._native_vision")
 def signs() -> hri.GestureRecognizer:
     rows = [(stills(sign, seed), sign, f"p{seed % 3}") for seed in range(6) for sign in ("flat", "tall")]
     x, y, persons = map(list, zip(*rows, strict=True))
-    return hri.GestureRecognizer(model="svm", false_reject_rate=0.0).fit(x, y, groups=persons)
+    return hri.GestureRecognizer(false_reject_rate=0.0).fit(x, y, groups=persons)
 
 
 def test_a_stream_gives_the_decisions_of_its_signs(signs: hri.GestureRecognizer) -> None:

@@ -23,7 +23,6 @@ from hri.live.sources import require_positive
 from hri.live.stream_hands import HandFinder, PlainHands, StreamHands
 from hri.recognition import Decision, GestureRecognizer
 
-_STILL_SIGNS = (_native.GestureModel.svm, _native.GestureModel.bayes, _native.GestureModel.knn)
 _PAUSE_S = 2.5
 """After a longer pause, the movement before it is another gesture."""
 
@@ -73,7 +72,7 @@ class Watcher:
     ) -> None:
         require_positive("partial_interval_s", partial_interval_s)
         self._recognizer = recognizer
-        learns = silhouette is None and recognizer.model not in _STILL_SIGNS
+        learns = silhouette is None and recognizer.knows_movements
         if options is None:
             options = MovementOptions(
                 still_change=LEARNED_STILL_CHANGE if learns else MovementOptions.still_change,

@@ -74,6 +74,11 @@ class GestureRecognizer(Recognizer):
         return self._trained.options.model
 
     @property
+    def knows_movements(self) -> bool:
+        """Whether it was trained on whole movements; frames of still signs vote, each by itself."""
+        return self.model in (_native.GestureModel.path, _native.GestureModel.hmm, _native.GestureModel.ptbhmm)
+
+    @property
     def starts_at_rest(self) -> bool:
         """Whether most gestures trained on began with a hand that rested in view (model `path`).
 
