@@ -13,13 +13,6 @@ namespace {
 
 constexpr const char* kKind = "gesture_recognizer";
 
-// Only models of that kind, which older files have not, need these.
-template <class V, class O>
-void visit_rbf(V&& v, O& o) {
-  v("rbf_cost", o.rbf_cost);
-  v("rbf_sharpness", o.rbf_sharpness);
-}
-
 }  // namespace
 
 ModelFile GestureRecognizer::to_model_file() const {
@@ -27,9 +20,6 @@ ModelFile GestureRecognizer::to_model_file() const {
   file.set_kind(kKind);
   file.set_text_list("labels", labels_);
   detail::visit_gesture(detail::FieldWriter{file}, options_);
-  detail::visit_descriptors(detail::FieldWriter{file}, options_);
-  detail::FieldWriter{file}("source", options_.source);
-  if (options_.model == GestureModel::rbf) visit_rbf(detail::FieldWriter{file}, options_);
   calibration_.write(file);
   scorer_->write(file);
   return file;
@@ -46,16 +36,10 @@ GestureRecognizer GestureRecognizer::from_model_file(const ModelFile& file) {
 GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
   GestureRecognizer result;
   detail::visit_gesture(detail::FieldReader{file}, result.options_);
-  if (file.has("features.use_wavelet"))
-    detail::visit_descriptors(detail::FieldReader{file}, result.options_);
-  // Files from before there was a choice are of silhouettes.
-  if (file.has("source")) detail::FieldReader{file}("source", result.options_.source);
   if (result.options_.source > GestureSource::landmarks)
     fail(ErrorKind::format, file.name() + ": field 'source' is out of range");
   if (result.options_.model > GestureModel::rbf)
     fail(ErrorKind::format, file.name() + ": field 'model' is out of range");
-  if (result.options_.model == GestureModel::rbf)
-    visit_rbf(detail::FieldReader{file}, result.options_);
   static_cast<void>(HandFeatureComputer(result.options_.features));  // refuses options out of range
   result.labels_ = sorted_labels(file.text_list("labels"));
   if (result.labels_ != file.text_list("labels"))

@@ -220,8 +220,8 @@ class PathScorer : public GestureScorer {
   void write(ModelFile& file) const override {
     svm_.write(file, "path.svm.");
     file.set_number("path.shape_scale", shape_scale_);
-    file.set_number(kStartsAtRest, starts_at_rest_ ? 1 : 0);
-    file.set_number(kPauses, pauses_ ? 1 : 0);
+    file.set_integer(kStartsAtRest, starts_at_rest_ ? 1 : 0);
+    file.set_integer(kPauses, pauses_ ? 1 : 0);
     if (movement_.dim() > 0) movement_.write(file, kMovement);
   }
   [[nodiscard]] bool starts_at_rest() const override { return starts_at_rest_; }
@@ -298,15 +298,13 @@ std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int
   }
   if (!(shape_scale > 0) || !std::isfinite(shape_scale))
     fail(ErrorKind::format, file.name() + ": field 'path.shape_scale' is out of range");
-  // Files from before this was known say nothing of it.
-  const auto says = [&](const char* key) { return file.has(key) && file.number(key) != 0; };
-  LogisticRegression movement;
+  LogisticRegression movement;  // written where training clips began at rest
   if (file.has(std::string(kMovement) + "weights"))
     movement = LogisticRegression::read(file, kMovement);
   if (movement.dim() > 1)
     fail(ErrorKind::format, file.name() + ": field '" + kMovement + "weights' is too long");
-  return std::make_shared<PathScorer>(std::move(svm), shape_scale, says(kStartsAtRest),
-                                      says(kPauses), std::move(movement));
+  return std::make_shared<PathScorer>(std::move(svm), shape_scale, file.integer(kStartsAtRest) != 0,
+                                      file.integer(kPauses) != 0, std::move(movement));
 }
 
 }  // namespace detail

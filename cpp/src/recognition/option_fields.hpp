@@ -93,7 +93,6 @@ void visit_word(V&& v, O& o) {
   v("false_reject_rate", o.false_reject_rate);
 }
 
-// Files from before there were such descriptors have none of these.
 template <class V, class O>
 void visit_descriptors(V&& v, O& o) {
   v("features.use_wavelet", o.features.use_wavelet);
@@ -126,8 +125,12 @@ void visit_gesture(V&& v, O& o) {
   v("features.cepstrum.num_filters", o.features.cepstrum.num_filters);
   v("features.cepstrum.num_cepstra", o.features.cepstrum.num_cepstra);
   v("features.cepstrum_weight", o.features.cepstrum_weight);
+  visit_descriptors(v, o);
+  v("source", o.source);
   v("model", o.model);
   v("svm_cost", o.svm_cost);
+  v("rbf_cost", o.rbf_cost);
+  v("rbf_sharpness", o.rbf_sharpness);
   v("num_components", o.num_components);
   v("num_neighbours", o.num_neighbours);
   v("num_states", o.num_states);
