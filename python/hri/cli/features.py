@@ -15,7 +15,7 @@ import click
 import numpy as np
 
 from hri._native import CepstraComputer
-from hri.cli.output import OutputFile, write_text
+from hri.cli.output import OutputFile, write_bytes, write_text
 from hri.cli.recognizers import parse_options
 from hri.errors import InvalidArgument
 from hri.features import KINDS, PRESETS, cepstra_options, column_names
@@ -82,8 +82,9 @@ def features(
     if plot is not None:
         _plot(plot, found)
     if out is not None and Path(out).suffix.lower() == ".npy":
-        Path(out).parent.mkdir(parents=True, exist_ok=True)
-        np.save(out, found.rows)
+        stored = io.BytesIO()
+        np.save(stored, found.rows)
+        write_bytes(Path(out), stored.getvalue())
     else:
         text = _table(found.rows, found.names, "," if out else "\t")
         click.echo(text, nl=False) if out is None else write_text(Path(out), text)

@@ -67,11 +67,16 @@ def write_json(path: str | None, value: Any) -> None:
 
 def write_text(target: Path, text: str) -> None:
     """Write `text` to `target`; an old file stays whole if this fails."""
+    write_bytes(target, text.encode())
+
+
+def write_bytes(target: Path, content: bytes) -> None:
+    """Write `content` to `target`; an old file stays whole if this fails."""
     target.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
         Path(temporary).chmod(0o644)
         Path(temporary).replace(target)
     except BaseException:
