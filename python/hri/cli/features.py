@@ -5,8 +5,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +14,7 @@ import numpy as np
 
 from hri._native import CepstraComputer
 from hri.cli.output import OutputFile, write_bytes, write_text
-from hri.cli.recognizers import parse_options
+from hri.cli.recognizers import naming_options, parse_options
 from hri.errors import InvalidArgument
 from hri.features import KINDS, PRESETS, cepstra_options, column_names
 from hri.hand_features import HAND_KINDS, hand_column_names, hand_features
@@ -92,15 +90,6 @@ def features(
         click.echo(f"{out}: {found.rows.shape[0]} frames of {found.rows.shape[1]} features", err=True)
 
 
-@contextmanager
-def _naming_options() -> Iterator[None]:
-    """An unknown name, or a value of another type, is said to come from --option."""
-    try:
-        yield
-    except (TypeError, ValueError) as error:
-        raise InvalidArgument(f"--option: {error}") from error
-
-
 @dataclass(frozen=True)
 class _Found:
     """Features, what they are called, and what is drawn beside them: the sound, or a picture with a mask."""
@@ -118,7 +107,7 @@ def _heard(recording: str, kind: Any, preset: Any, options: tuple[str, ...]) -> 
     audio = read_audio(recording)
     for note in audio.notes:
         click.echo(f"{recording}: {note}", err=True)
-    with _naming_options():
+    with naming_options():
         chosen = cepstra_options(audio.sample_rate_hz, kind, preset, **parse_options(options))
     rows = np.asarray(CepstraComputer(chosen).compute(audio.samples))
     title = f"{Path(recording).name}: {kind}, {preset}"
@@ -131,7 +120,7 @@ def _seen(recording: str, kind: Any, options: tuple[str, ...]) -> _Found:
     fields = parse_options(options)
     if kind == "track":
         fields.setdefault("frames_per_second", rate)
-    with _naming_options():
+    with naming_options():
         names = hand_column_names(kind, **fields)
     shapes = find_silhouettes(frames)
     empty = [str(i) for i, shape in enumerate(shapes) if not shape.mask.any()]

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -79,6 +80,15 @@ def recognizer_factory(
     except (TypeError, ValueError) as error:  # an unknown name, or a value of another type
         raise InvalidArgument(f"--option: {error}") from error
     return make
+
+
+@contextmanager
+def naming_options() -> Iterator[None]:
+    """An unknown name, or a value of another type, is said to come from --option."""
+    try:
+        yield
+    except (TypeError, ValueError) as error:
+        raise InvalidArgument(f"--option: {error}") from error
 
 
 def parse_options(options: tuple[str, ...]) -> dict[str, Any]:

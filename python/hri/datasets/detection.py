@@ -11,7 +11,7 @@ from pathlib import Path
 
 from hri.datasets.pattern import Pattern
 from hri.errors import FormatError
-from hri.media import AUDIO_SUFFIXES, IMAGE_SUFFIXES, VIDEO_SUFFIXES
+from hri.media import AUDIO_SUFFIXES, IMAGE_SUFFIXES, VIDEO_SUFFIXES, natural_key
 
 SUFFIXES = {"speech": AUDIO_SUFFIXES, "gesture": IMAGE_SUFFIXES + VIDEO_SUFFIXES}
 
@@ -41,13 +41,6 @@ def media_files(root: Path, kind: str) -> list[Path]:
         and not any(part.startswith(".") for part in path.relative_to(root).parts)
     ]
     return sorted(found, key=lambda path: natural_key(path.relative_to(root).as_posix()))
-
-
-def natural_key(text: str) -> list[tuple[int, int, str]]:
-    """Sort key that counts numbers as numbers."""
-    return [
-        (0, int(piece), piece) if piece.isdecimal() else (1, 0, piece) for piece in re.split(r"(\d+)", text) if piece
-    ]
 
 
 def detect_kind(root: Path) -> str:

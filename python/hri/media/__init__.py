@@ -3,7 +3,9 @@
 """Sound, pictures and video in and out of files."""
 
 from hri.media.audio import AUDIO_SUFFIXES, Audio, read_audio
+from hri.media.order import natural_key
 from hri.media.video import (
+    DEFAULT_FPS,
     IMAGE_SUFFIXES,
     VIDEO_SUFFIXES,
     Clip,
@@ -11,12 +13,14 @@ from hri.media.video import (
     iterate_frames,
     read_frames,
     read_image,
+    read_pictures,
     write_image,
 )
 from hri.media.video_writer import VideoWriter, write_video
 
 __all__ = [
     "AUDIO_SUFFIXES",
+    "DEFAULT_FPS",
     "IMAGE_SUFFIXES",
     "VIDEO_SUFFIXES",
     "Audio",
@@ -24,9 +28,11 @@ __all__ = [
     "VideoWriter",
     "frame_rate",
     "iterate_frames",
+    "natural_key",
     "read_audio",
     "read_frames",
     "read_image",
+    "read_pictures",
     "write_image",
     "write_video",
 ]

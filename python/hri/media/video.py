@@ -16,10 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.errors import FormatError, InvalidArgument, IoError
+from hri.media.order import natural_key
 from hri.optional import import_opencv
 
 IMAGE_SUFFIXES = (".jpg", ".jpeg", ".png", ".bmp")
 VIDEO_SUFFIXES = (".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm")
+DEFAULT_FPS = 25.0
 Frame = NDArray[np.uint8]
 
 
@@ -39,6 +41,12 @@ class Clip:
     frames: list[Frame]
     times_s: list[float]
     path: Path
+
+    @property
+    def fps(self) -> float:
+        """Frames a second by their times; 25 where these tell nothing."""
+        duration_s = self.times_s[-1] - self.times_s[0]
+        return (len(self.times_s) - 1) / duration_s if duration_s > 0 else DEFAULT_FPS
 
 
 def read_image(path: str | PathLike[str]) -> Frame:
@@ -138,6 +146,43 @@ def read_frames(path: str | PathLike[str], max_frames: int | None = None) -> Cli
     return Clip([frame for frame, _ in timed], [time_s for _, time_s in timed], path)
 
 
+def read_pictures(directory: str | PathLike[str], fps: float = DEFAULT_FPS) -> Clip:
+    """Read the pictures of a folder, in the order of their names (2 before 10), as a clip.
+
+    Parameters
+    ----------
+    directory : path-like
+        What is in folders within it is not looked at.
+    fps : float
+        At which they were taken, above 0.
+
+    Raises
+    ------
+    InvalidArgument
+        For a bad rate.
+    FormatError
+        For a folder without pictures, a file that is no picture, or pictures of different sizes.
+    IoError
+        For a folder that cannot be read.
+    """
+    if not 0.0 < fps < np.inf:
+        raise InvalidArgument(f"fps is {fps}, must be above 0 and finite")
+    root = Path(directory)
+    try:
+        found = [path for path in root.iterdir() if path.suffix.lower() in IMAGE_SUFFIXES and path.name[0] != "."]
+    except OSError as error:
+        raise IoError(f"{root}: {error.strerror or error}") from error
+    if not found:
+        raise FormatError(f"{root}: no pictures ({', '.join(IMAGE_SUFFIXES)}) in this folder")
+    found.sort(key=lambda path: natural_key(path.name))
+    frames = [read_image(path) for path in found]
+    for path, frame in zip(found, frames, strict=True):
+        if frame.shape != frames[0].shape:
+            width, height = frames[0].shape[1::-1]
+            raise FormatError(f"{path}: {frame.shape[1]} x {frame.shape[0]}, but {found[0].name} is {width} x {height}")
+    return Clip(frames, [i / fps for i in range(len(frames))], root)
+
+
 def write_image(path: str | PathLike[str], image: Frame, quality: int = 92) -> None:
     """Write a BGR picture in the format of the suffix; the file appears whole or not at all.
 
@@ -188,7 +233,7 @@ def frame_rate(path: str | PathLike[str]) -> float:
         rate = float(capture.get(cv2.CAP_PROP_FPS))
     finally:
         capture.release()
-    return rate if 1.0 <= rate <= 1000.0 else 25.0
+    return rate if 1.0 <= rate <= 1000.0 else DEFAULT_FPS
 
 
 def temporary_beside(path: Path) -> Path:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from hri.optional import import_optional
 
 Frame = NDArray[np.uint8]
+Progress = Callable[[int, int], None]
 
 NUM_LANDMARKS = 21
 NUM_TRACK_COLUMNS = 3
@@ -23,7 +24,7 @@ _WRIST = 0
 _FINGER_JOINTS = tuple(tuple(range(first, first + 4)) for first in (1, 5, 9, 13, 17))
 
 
-def find_silhouettes(clip: Sequence[Frame], silhouette: Any = None) -> list[Any]:
+def find_silhouettes(clip: Sequence[Frame], silhouette: Any = None, progress: Progress | None = None) -> list[Any]:
     """The silhouette of the hand in every frame.
 
     Parameters
@@ -33,6 +34,8 @@ def find_silhouettes(clip: Sequence[Frame], silhouette: Any = None) -> list[Any]
         How the hand is found in every picture by itself. Without it, the colours of hand and background are learned
         from a clip of `SHORTEST_CLIP` frames or more; shorter clips, and those in which no hand stands out, are
         segmented picture by picture with default options.
+    progress : callable, optional
+        Called with (done, total) frames.
 
     Returns
     -------
@@ -46,11 +49,17 @@ def find_silhouettes(clip: Sequence[Frame], silhouette: Any = None) -> list[Any]
         finder = _native_vision.HandColours.learn(frames)
     if finder is None:
         finder = _native_vision.SilhouetteExtractor(silhouette or _native_vision.SilhouetteOptions())
-    return [finder.extract(frame) for frame in frames]
+    return [finder.extract(frame) for frame in _counted(frames, progress)]
 
 
-def find_landmarks(clip: Iterable[Frame]) -> list[NDArray[np.float32] | None]:
+def find_landmarks(clip: Sequence[Frame], progress: Progress | None = None) -> list[NDArray[np.float32] | None]:
     """The joints of the hand in every frame, by MediaPipe's tracker (extra `mediapipe`).
+
+    Parameters
+    ----------
+    clip : sequence of uint8 arrays, shape (height, width, 3), BGR
+    progress : callable, optional
+        Called with (done, total) frames.
 
     Returns
     -------
@@ -67,7 +76,7 @@ def find_landmarks(clip: Iterable[Frame]) -> list[NDArray[np.float32] | None]:
     with mediapipe.solutions.hands.Hands(
         max_num_hands=1, model_complexity=1, min_detection_confidence=0.3, min_tracking_confidence=0.3
     ) as tracker:
-        for frame in clip:
+        for frame in _counted(clip, progress):
             hands = tracker.process(np.ascontiguousarray(frame[:, :, ::-1])).multi_hand_landmarks
             if not hands:
                 found.append(None)
@@ -75,6 +84,14 @@ def find_landmarks(clip: Iterable[Frame]) -> list[NDArray[np.float32] | None]:
             size = np.array([frame.shape[1], frame.shape[0]], np.float32)
             found.append(np.array([(p.x, p.y) for p in hands[0].landmark], np.float32) * size)
     return found
+
+
+def _counted(frames: Sequence[Frame], progress: Progress | None) -> Iterator[Frame]:
+    """The frames one by one; each is done when the next is asked for."""
+    for done, frame in enumerate(frames, 1):
+        yield frame
+        if progress is not None:
+            progress(done, len(frames))
 
 
 def landmark_features(
@@ -96,6 +113,13 @@ def landmark_features(
     num_bones = sum(len(finger) for finger in _FINGER_JOINTS)
     width = 2 * NUM_LANDMARKS + 2 * num_bones + NUM_TRACK_COLUMNS
     return np.asarray(rows, np.float32).reshape(len(rows), width)
+
+
+def landmark_column_names() -> list[str]:
+    """Names of the columns that `landmark_features` gives; joints are numbered as MediaPipe's are, 0 is the wrist."""
+    joints = [f"joint{joint}_{axis}" for joint in range(NUM_LANDMARKS) for axis in "xy"]
+    bones = [f"bone{joint}_{axis}" for finger in _FINGER_JOINTS for joint in finger for axis in "xy"]
+    return [*joints, *bones, "x", "y", "log_area"]
 
 
 def _landmark_row(points: NDArray[np.float64], frame_size: tuple[int, int]) -> NDArray[np.float64]:

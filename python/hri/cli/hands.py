@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri hands``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hri.cli.output import OutputFile, write_json, write_text
+from hri.cli.progress import progress_bars
+from hri.cli.recognizers import naming_options, parse_options
+from hri.hand_features import HAND_KINDS, hand_column_names
+from hri.hand_film import film_hands
+from hri.hand_report import SOURCES, HandReport, inspect_hands
+from hri.media import DEFAULT_FPS, VIDEO_SUFFIXES, Clip, read_frames, read_pictures
+
+
+@click.command()
+@click.argument("clip", type=click.Path(exists=True))
+@click.option(
+    "--source",
+    type=click.Choice(SOURCES),
+    default="silhouettes",
+    show_default=True,
+    help="What is looked for; landmarks need the extra mediapipe.",
+)
+@click.option(
+    "--kind",
+    type=click.Choice(list(HAND_KINDS)),
+    help="Features of silhouettes, as 'hri features' gives them.  [default: track]",
+)
+@click.option(
+    "--option",
+    "options",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="A field of the kind's options, such as delta_orders=0; may be given several times.",
+)
+@click.option(
+    "--fps",
+    type=click.FloatRange(min=0, min_open=True),
+    help=f"At which the pictures of a folder were taken.  [default: {DEFAULT_FPS:g}]",
+)
+@click.option(
+    "--video",
+    "video_path",
+    type=OutputFile(VIDEO_SUFFIXES),
+    metavar="FILE",
+    help="Film what is found: frame, mask, outline, track, features and quality.",
+)
+@click.option(
+    "-o",
+    "--out",
+    type=OutputFile((".csv", ".json")),
+    metavar="FILE",
+    help="Where to write the table, .csv or .json; without it, and without --video, to standard output.",
+)
+def hands(
+    clip: str,
+    source: Any,
+    kind: Any,
+    options: tuple[str, ...],
+    fps: float | None,
+    video_path: str | None,
+    out: str | None,
+) -> None:
+    """Show what is found of the hand in CLIP: a video, a picture, or a folder of pictures in the order of their names.
+
+    No trained model is needed. The table has a row for every frame: time, quality (0 no hand .. 1), the hand's middle
+    and area in shares of the picture, and features; cells are empty where there is no hand.
+
+    \b
+    Examples:
+      hri hands swipe.mp4 --video seen.mp4 -o seen.csv
+      hri hands pictures/ --fps 15 --kind fourier --video seen.webm
+      hri hands swipe.mp4 --source landmarks -o joints.json
+    """
+    if (kind is not None or options) and source != "silhouettes":
+        raise click.UsageError("--kind and --option are for silhouettes: landmarks have but one kind of features")
+    if fps is not None and not Path(clip).is_dir():
+        raise click.UsageError(f"--fps is for folders of pictures: {clip} is a file")
+    chosen: Any = kind or "track"
+    fields = parse_options(options)
+    with naming_options():
+        hand_column_names(chosen, **fields)
+    read = _read(clip, fps)
+    with progress_bars() as progress:
+        report = inspect_hands(
+            read, source, chosen, progress=lambda done, total: progress("finding hands", done, total), **fields
+        )
+        if video_path is not None:
+            film_hands(report, video_path, lambda done, total: progress("filming", done, total))
+    _write_table(report, out, video_path)
+    num_found = sum(hand.found for hand in report.hands)
+    written = ", ".join(path for path in (video_path, out) if path is not None)
+    told = f"a hand in {num_found} of {len(report.hands)} frames"
+    click.echo(f"{written or clip}: {told}", err=True)
+
+
+def _read(clip: str, fps: float | None) -> Clip:
+    return read_pictures(clip, fps or DEFAULT_FPS) if Path(clip).is_dir() else read_frames(clip)
+
+
+def _write_table(report: HandReport, out: str | None, video_path: str | None) -> None:
+    if out is None:
+        if video_path is None:
+            click.echo(report.table("\t"), nl=False)
+    elif Path(out).suffix.lower() == ".json":
+        write_json(out, report.as_dict())
+    else:
+        write_text(Path(out), report.table())

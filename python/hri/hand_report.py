@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What is found of the hand in every frame of a clip, as a table; no trained model is needed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.errors import InvalidArgument
+from hri.hand_features import hand_column_names, hand_features
+from hri.media import Clip
+from hri.recognition.hands import find_landmarks, find_silhouettes, landmark_column_names, landmark_features
+
+Source = Literal["silhouettes", "landmarks"]
+Progress = Callable[[int, int], None]
+SOURCES: tuple[Source, ...] = ("silhouettes", "landmarks")
+
+_PLACE = ("frame", "time_s", "quality", "x", "y", "area")
+
+
+@dataclass(frozen=True)
+class FrameHand:
+    """What was found of the hand in one frame.
+
+    Attributes
+    ----------
+    quality : float
+        0 (no hand) .. 1.
+    x, y, area : float or None
+        Its middle and what it covers, in shares of the picture; None without a hand.
+    features : ndarray of float32, or None
+    grey, mask : ndarray of uint8, or None
+        Of silhouettes: the picture and the hand in it, at the working size.
+    joints : ndarray of float32, shape (21, 2), or None
+        Of landmarks, in pixels.
+    """
+
+    quality: float
+    x: float | None = None
+    y: float | None = None
+    area: float | None = None
+    features: NDArray[np.float32] | None = None
+    grey: NDArray[np.uint8] | None = None
+    mask: NDArray[np.uint8] | None = None
+    joints: NDArray[np.float32] | None = None
+
+    @property
+    def found(self) -> bool:
+        """Whether there is a hand."""
+        return self.features is not None
+
+
+@dataclass(frozen=True)
+class HandReport:
+    """A clip and what was found in it, frame by frame; `inspect_hands` makes one.
+
+    Attributes
+    ----------
+    clip : Clip
+    source : "silhouettes" or "landmarks"
+    kind : str
+        Of the features.
+    names : list of str
+        Of the features.
+    hands : list of FrameHand
+        One for every frame of the clip.
+    """
+
+    clip: Clip
+    source: Source
+    kind: str
+    names: list[str]
+    hands: list[FrameHand]
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of what `rows` gives."""
+        return [*_PLACE, *self.names]
+
+    def rows(self) -> Iterator[list[float | None]]:
+        """A row for every frame; None for what a frame without a hand has not."""
+        nothing: list[float | None] = [None] * len(self.names)
+        for number, (time_s, hand) in enumerate(zip(self.clip.times_s, self.hands, strict=True)):
+            features = nothing if hand.features is None else hand.features.tolist()
+            yield [number, time_s, hand.quality, hand.x, hand.y, hand.area, *features]
+
+    def table(self, separator: str = ",") -> str:
+        """The rows as text below a line of names; empty cells where there is no hand."""
+        lines = [separator.join(self.columns)]
+        lines += [separator.join("" if v is None else f"{v:.9g}" for v in row) for row in self.rows()]
+        return "\n".join(lines) + "\n"
+
+    def as_dict(self) -> dict[str, Any]:
+        """The same for JSON."""
+        frames = []
+        for row in self.rows():
+            features = dict(zip(self.names, row[len(_PLACE) :], strict=True))
+            found = None if row[_PLACE.index("area")] is None else features
+            frames.append({**dict(zip(_PLACE, row, strict=False)), "features": found})
+        return {"clip": str(self.clip.path), "source": self.source, "kind": self.kind, "frames": frames}
+
+
+def inspect_hands(
+    clip: Clip,
+    source: Source = "silhouettes",
+    kind: Any = "track",
+    silhouette: Any = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> HandReport:
+    """Find the hand in every frame of a clip, and its features.
+
+    Parameters
+    ----------
+    clip : Clip
+        From `hri.read_frames` or `hri.media.read_pictures`; held in memory whole.
+    source : "silhouettes" or "landmarks"
+        Landmarks need the extra `mediapipe`.
+    kind : str
+        Of silhouettes, one of `hri.hand_features.HAND_KINDS`; landmarks have but one kind of features, those of
+        `hri.recognition.hands.landmark_features`.
+    silhouette : hri._native_vision.SilhouetteOptions, optional
+        As for `hri.recognition.hands.find_silhouettes`.
+    progress : callable, optional
+        Called with (done, total) frames.
+    **options
+        Fields of the kind's options; tracks are told the rate of the clip.
+
+    Raises
+    ------
+    InvalidArgument
+        For a source or kind that there is not, or an option out of range.
+    TypeError
+        For an option that the kind has not.
+    """
+    if source not in SOURCES:
+        raise InvalidArgument(f"source must be one of {', '.join(SOURCES)}, got {source!r}")
+    if source == "landmarks":
+        if options:
+            raise TypeError(f"landmarks have no options, got {', '.join(options)}")
+        return HandReport(clip, source, source, landmark_column_names(), _joints(clip, progress))
+    if kind == "track":
+        options.setdefault("frames_per_second", clip.fps)
+    names = hand_column_names(kind, **options)
+    found = find_silhouettes(clip.frames, silhouette, progress)
+    rows = iter(hand_features([s.grey for s in found], [s.mask for s in found], kind, **options))
+    return HandReport(clip, source, kind, names, [_outlined(shape, rows) for shape in found])
+
+
+def _outlined(shape: Any, rows: Any) -> FrameHand:
+    grey, mask = np.asarray(shape.grey), np.asarray(shape.mask)
+    if not mask.any():
+        return FrameHand(0.0, grey=grey, mask=mask)
+    down, across = np.nonzero(mask)
+    x, y = (float(across.mean()) + 0.5) / mask.shape[1], (float(down.mean()) + 0.5) / mask.shape[0]
+    return FrameHand(float(shape.quality), x, y, len(down) / mask.size, next(rows), grey, mask)
+
+
+def _joints(clip: Clip, progress: Progress | None) -> list[FrameHand]:
+    height, width = clip.frames[0].shape[:2]
+    found = find_landmarks(clip.frames, progress)
+    rows = iter(landmark_features(found, (width, height)))
+    hands = []
+    for joints in found:
+        if joints is None:
+            hands.append(FrameHand(0.0))
+            continue
+        shares = joints / np.array([width, height], np.float32)
+        inside = float(np.mean(np.all((shares >= 0) & (shares <= 1), axis=1)))
+        x, y = shares.mean(axis=0).tolist()
+        hands.append(FrameHand(inside, x, y, float(np.ptp(shares, axis=0).prod()), next(rows), joints=joints))
+    return hands
