@@ -4,9 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import click
 
 from hri.cli.progress import progress_bars
+from hri.datasets.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
+from hri.datasets.synthetic_signer import SIGNS, make_gesture_corpus
 from hri.datasets.synthetic_speech import DIGIT_WORDS, make_speech_corpus
 
 
@@ -17,6 +22,7 @@ def corpus() -> None:
     \b
     Example:
       hri corpus speech go stop left right --out commands/
+      hri corpus gesture 1 2 3 --out signs/
     """
 
 
@@ -48,6 +54,87 @@ def speech(words: tuple[str, ...], language: str, out: str, speakers: int, takes
             out, {language: table}, speakers, takes, seed, lambda done, total: progress("speaking", done, total)
         )
     click.echo(f"{len(dataset)} synthetic recordings of {len(dataset.labels)} words by {speakers} voices: {out}")
+
+
+def _number(name: str, text: str) -> Callable[[Any], Any]:
+    low, high = RANGES[name]
+    default = getattr(SignerOptions, name)
+    option = "--" + name.replace("_", "-")
+    return click.option(option, name, type=click.FloatRange(low, high), default=default, show_default=True, help=text)
+
+
+def _three(option: str, text: str) -> Callable[[Any], Any]:
+    return click.option(option, type=(float, float, float), metavar="BLUE GREEN RED", help=text)
+
+
+@corpus.command()
+@click.argument("labels", nargs=-1, metavar="[LABEL]...")
+@click.option("--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to write.")
+@click.option(
+    "--kind",
+    type=click.Choice(["still", "clip"]),
+    default="still",
+    show_default=True,
+    help="Close-ups of the hand, or clips of the whole person who raises it.",
+)
+@click.option("--persons", default=8, show_default=True, type=click.IntRange(1, 1000), help="Made-up people.")
+@click.option("--first-person", default=0, show_default=True, type=click.IntRange(0), help="Number of the first one.")
+@click.option(
+    "--takes", default=1, show_default=True, type=click.IntRange(1, 1000), help="Repetitions by each of them."
+)
+@click.option("--seed", default=0, show_default=True, help="Equal seeds give equal pictures.")
+@click.option("--skin", type=click.Choice(list(SKINS)), help="Tone of everybody's skin.")
+@click.option("--sleeve", type=click.Choice(list(SLEEVES)), help="Where everybody's sleeve ends.")
+@click.option("--light", type=click.Choice(list(LIGHTS)), help="Where the light comes from, and how hard it is.")
+@click.option("--background", type=click.Choice(BACKGROUNDS), help="What is behind everybody.")
+@_three("--wall", "Colour of the wall, 0..255 each.")
+@_three("--cast", "Factors of the colours, 0..2 each: coloured light.")
+@_number("exposure", "Factor on all light.")
+@_number("noise", "Of the camera, in grey levels.")
+@_number("vignette", "How much darker the corners are.")
+@_number("blur_px", "Of a lens out of focus, in pixels.")
+@_number("zoom", "Of the camera.")
+@_number("shift_x", "How far the picture moves right, in shares of its width.")
+@_number("shift_y", "How far it moves down, in shares of its height.")
+@_number("roll_deg", "How far it turns clockwise.")
+@_number("fps", "Frames a second of clips.")
+@_number("tempo", "How fast people move in clips; 2 is twice as fast.")
+def gesture(
+    labels: tuple[str, ...],
+    out: str,
+    kind: str,
+    persons: int,
+    first_person: int,
+    takes: int,
+    seed: int,
+    **asked: Any,
+) -> None:
+    """Drawn people who show digits with one hand; without labels, all ten.
+
+    What is not asked for differs from person to person. Drawn signs vary less than filmed ones: record people where you
+    can. The manifest says that nobody was filmed, and what was asked for.
+
+    \b
+    Examples:
+      hri corpus gesture 1 2 3 --persons 20 --out signs/
+      hri corpus gesture --kind clip --fps 30 --tempo 1.5 --out clips/
+      hri corpus gesture --skin dark --sleeve short --light left --cast 1.3 1 0.7 --noise 12 --out hard/
+    """
+    options = SignerOptions(**asked)
+    with progress_bars() as progress:
+        dataset = make_gesture_corpus(
+            out,
+            labels or SIGNS,
+            persons,
+            takes,
+            kind,
+            seed,
+            lambda done, total: progress("drawing", done, total),
+            options,
+            first_person,
+        )
+    what = "pictures" if kind == "still" else "clips"
+    click.echo(f"{len(dataset)} synthetic {what} of {len(dataset.labels)} signs by {persons} drawn people: {out}")
 
 
 def _split(word: str) -> tuple[str, str]:

@@ -34,7 +34,7 @@ COMMANDS = {
     "adapt": ("hri.cli.adapt:adapt", "Let a model of words get used to a speaker or a room."),
     "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on people who were not trained on."),
     "record": ("hri.cli.record:record", "Make a data set of your own words, from a microphone."),
-    "corpus": ("hri.cli.corpus:corpus", "Make recordings of words that nobody has recorded, by a synthesiser."),
+    "corpus": ("hri.cli.corpus:corpus", "Make up recordings: words by a synthesiser, signs by drawn people."),
     "hands": ("hri.cli.hands:hands", "Show what is found of the hand in a clip, as a film and a table."),
     "features": ("hri.cli.features:features", "Features of sound or of hands, as a table or a plot."),
     "denoise": ("hri.cli.denoise:denoise", "Take noise out of a recording by wavelets."),

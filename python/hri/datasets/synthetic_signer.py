@@ -28,7 +28,8 @@ from hri.datasets.drawing.hand_pose import (
 )
 from hri.datasets.drawing.height_field import HeightField, View
 from hri.datasets.drawing.light import cast_shadow, over, photograph, shade
-from hri.datasets.drawing.room import draw_wall
+from hri.datasets.drawing.options import SignerOptions, num_clip_frames
+from hri.datasets.drawing.room import draw_room, draw_wall
 from hri.datasets.drawing.scene import RAISED_ELBOW, Scene, arm_look
 from hri.datasets.drawing.signer import Signer, make_signer
 from hri.datasets.manifest import SampleRow
@@ -39,10 +40,10 @@ from hri.optional import import_opencv
 SIGNS = tuple(DIGIT_POSES)
 """The labels that can be drawn."""
 
-CLIP_FPS = 15.0
+CLIP_FPS = SignerOptions.fps
 _STILL_PX = 200
 _STILL_DRAWN_PX = 360
-_CLIP_FRAMES = 36
+_CLIP_S = 2.4
 
 Frame = NDArray[np.uint8]
 
@@ -79,14 +80,17 @@ def draw_still(signer: Signer, label: str, take: int = 0, seed: int = 0) -> Fram
     draw_hand(field, view, skeleton, signer.hand_shape, arm_look(signer), cv2)
     lamp = signer.light.direction
     offset = (-0.045 * size * np.sign(lamp[0]) * abs(lamp[0]), 0.03 * size)
-    wall = draw_wall(size, size, signer.wall, rng)
+    if signer.options.background is None:
+        wall = draw_wall(size, size, signer.wall, rng)
+    else:
+        wall = draw_room(size, size, signer.wall, signer.background, rng, cv2)
     picture = over(
         cast_shadow(wall, field.part > 0, offset, cv2),
         shade(field, signer.light, 0.02 * view.scale, cv2),
         field.part > 0,
     )
     picture = cv2.resize(picture, (_STILL_PX, _STILL_PX), interpolation=cv2.INTER_AREA)
-    return photograph(picture, signer.camera, rng)
+    return photograph(picture, signer.camera, rng, cv2)
 
 
 def draw_clip(
@@ -95,7 +99,7 @@ def draw_clip(
     take: int = 0,
     seed: int = 0,
     size_px: tuple[int, int] = (320, 240),
-    num_frames: int = _CLIP_FRAMES,
+    num_frames: int | None = None,
 ) -> list[Frame]:
     """The signer raises the hand, shows the sign, and lowers it again.
 
@@ -105,8 +109,8 @@ def draw_clip(
         As for `draw_still`.
     size_px : (int, int)
         Width and height, at least 64 each; 4:3 looks best.
-    num_frames : int
-        At `CLIP_FPS`, at least 3; the hand is still for the middle half.
+    num_frames : int, optional
+        At least 3, at the signer's rate; by default 2.4 s at the usual tempo. The hand is still for the middle half.
 
     Returns
     -------
@@ -118,6 +122,9 @@ def draw_clip(
         For a label that cannot be drawn, or a size or length too small.
     """
     width, height = size_px
+    fps = signer.options.fps
+    if num_frames is None:
+        num_frames = num_clip_frames(_CLIP_S, signer.options)
     if width < 64 or height < 64 or num_frames < 3:
         raise InvalidArgument(f"size_px is {size_px} and num_frames {num_frames}, must be at least (64, 64) and 3")
     cv2 = import_opencv("to draw signs")
@@ -131,7 +138,7 @@ def draw_clip(
     frames = []
     for index in range(num_frames):
         raised = _raised(index / (num_frames - 1))
-        wobble = np.sin(2 * np.pi * 0.6 * index / CLIP_FPS + sway)
+        wobble = np.sin(2 * np.pi * 0.6 * index / fps + sway)
         turn = rotation(
             lean[0] + 2.0 * wobble[0],
             lean[1] + 1.5 * wobble[1] + 38.0 * (1 - raised),
@@ -142,7 +149,7 @@ def draw_clip(
         picture = scene.with_arm(skeleton, elbow, turn)
         if sharp > 1:
             picture = cv2.resize(picture, size_px, interpolation=cv2.INTER_AREA)
-        frames.append(photograph(picture, signer.camera, rng))
+        frames.append(photograph(picture, signer.camera, rng, cv2))
     return frames
 
 
@@ -154,6 +161,8 @@ def make_gesture_corpus(
     kind: str = "still",
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
+    options: SignerOptions | None = None,
+    first_person: int = 0,
 ) -> Dataset:
     """Write drawn signs, ``{label}/{person}_{take}.jpg`` or ``.mp4``, and a manifest that says so.
 
@@ -173,11 +182,15 @@ def make_gesture_corpus(
         The same people appear in stills and clips of one seed.
     progress : callable, optional
         Called with (done, total) after every file.
+    options : SignerOptions, optional
+        Skin, sleeve, light, background, camera and tempo, where they are asked for.
+    first_person : int
+        Number of the first person, at least 0: others than those of another corpus.
 
     Raises
     ------
     InvalidArgument
-        For an unknown label or kind, no labels, or counts below 1.
+        For an unknown label or kind, no labels, counts below 1, or a first person below 0.
     IoError
         When a file cannot be written.
     ImportError
@@ -186,6 +199,8 @@ def make_gesture_corpus(
     labels = list(dict.fromkeys(labels))
     if not labels or num_persons < 1 or takes < 1:
         raise InvalidArgument(f"labels is {labels}, num_persons {num_persons}, takes {takes}; need at least one each")
+    if first_person < 0:
+        raise InvalidArgument(f"first_person is {first_person}, must be at least 0")
     if kind not in ("still", "clip"):
         raise InvalidArgument(f"kind is {kind!r}, must be 'still' or 'clip'")
     for label in labels:
@@ -193,8 +208,9 @@ def make_gesture_corpus(
     import_opencv("to draw signs")
     root = start_corpus(directory, labels)
     rows = []
-    for index in range(num_persons):
-        signer = make_signer(index, seed)
+    asked = options or SignerOptions()
+    for index in range(first_person, first_person + num_persons):
+        signer = make_signer(index, seed, options)
         for label in labels:
             for take in range(takes):
                 name = f"{label}/{signer.name}_{kind}{take + 1}"
@@ -203,7 +219,7 @@ def make_gesture_corpus(
                     write_image(root / name, draw_still(signer, label, take, seed))
                 else:
                     name += ".mp4"
-                    write_video(root / name, draw_clip(signer, label, take, seed), CLIP_FPS)
+                    write_video(root / name, draw_clip(signer, label, take, seed), asked.fps)
                 rows.append(SampleRow(name, label, signer.name, f"{kind}{take + 1}"))
                 if progress is not None:
                     progress(len(rows), num_persons * takes * len(labels))
@@ -218,6 +234,8 @@ def make_gesture_corpus(
             "num_persons": num_persons,
             "takes": takes,
             "kind": kind,
+            **({"first_person": first_person} if first_person else {}),
+            **asked.asked_for(),
         },
         rows,
     )
@@ -243,6 +261,7 @@ __all__ = [
     "CLIP_FPS",
     "SIGNS",
     "Signer",
+    "SignerOptions",
     "draw_clip",
     "draw_still",
     "make_gesture_corpus",

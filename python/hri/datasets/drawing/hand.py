@@ -16,6 +16,7 @@ from hri.datasets.drawing.height_field import Colour, HeightField, View
 PALM, FINGER, THUMB, SLEEVE = 1, 2, 6, 7  # parts; fingers are 2, 3, 4, 5
 
 _FINGER_RADII = np.array([[0.056, 0.051, 0.047, 0.040]] * 3 + [[0.050, 0.044, 0.040, 0.034]])
+_WRIST_END = 0.30  # below the wrist, in hand lengths: so far the palm is drawn
 _THUMB_RADII = np.array([0.085, 0.064, 0.057, 0.046])
 
 
@@ -77,9 +78,12 @@ def _add_palm(field: HeightField, view: View, skeleton: Skeleton, shape: HandSha
 
 def _add_arm(field: HeightField, view: View, skeleton: Skeleton, look: HandLook, cv2: Any) -> None:
     start, s = look.sleeve_start, look.sleeve_width
+    if start > _WRIST_END:
+        _add_forearm(field, view, skeleton, look, cv2)
+    cuff = 0.146 + 0.06 * max(0.0, start - _WRIST_END)  # the arm is wider further up
     pieces = [
-        (-1.9, -start - 0.03, 0.200, 0.138, look.sleeve),
-        (-start - 0.07, -start, 0.146, 0.146, look.cuff),
+        (-1.9, -start - 0.03, max(0.200, cuff), cuff - 0.008, look.sleeve),
+        (-start - 0.07, -start, cuff, cuff, look.cuff),
     ]
     for low, high, low_radius, high_radius, colour in pieces:
         with field.merged(cv2, 0.02 * view.scale) as layer:
@@ -88,6 +92,15 @@ def _add_arm(field: HeightField, view: View, skeleton: Skeleton, look: HandLook,
                 a, b = (view.project(end) for end in ends)
                 radii = low_radius * s * view.scale, high_radius * s * view.scale
                 layer.add_limb(a, b, *radii, colour, SLEEVE)
+
+
+def _add_forearm(field: HeightField, view: View, skeleton: Skeleton, look: HandLook, cv2: Any) -> None:
+    """Bare skin from the wrist to where the sleeve begins."""
+    with field.merged(cv2, 0.02 * view.scale) as layer:
+        for side in (-0.045, 0.0, 0.045):
+            ends = [skeleton.turn @ np.array([side, y, -0.02]) for y in (-0.25, -look.sleeve_start - 0.1)]
+            a, b = (view.project(end) for end in ends)
+            layer.add_limb(a, b, 0.092 * view.scale, 0.150 * view.scale, tinted(look.skin, 0.98), PALM)
 
 
 def _add_chain(field: HeightField, view: View, joints: Array, radii: Array, colour: Colour, part: int) -> None:

@@ -43,12 +43,26 @@ class Camera:
         Standard deviation, in grey levels.
     vignette : float, 0..1
         How much darker the corners are.
+    blur_px : float
+        Standard deviation of a lens out of focus.
+    zoom, shift_x, shift_y, roll_deg : float
+        Where it stands: its zoom, how far the picture moves right and down in shares of its size, and turns clockwise.
     """
 
     exposure: float = 1.0
     cast: tuple[float, float, float] = (1.0, 1.0, 1.0)
     noise: float = 2.5
     vignette: float = 0.12
+    blur_px: float = 0.0
+    zoom: float = 1.0
+    shift_x: float = 0.0
+    shift_y: float = 0.0
+    roll_deg: float = 0.0
+
+    @property
+    def moved(self) -> bool:
+        """Whether it stands elsewhere than pictures are drawn for."""
+        return (self.zoom, self.shift_x, self.shift_y, self.roll_deg) != (1.0, 0.0, 0.0, 0.0)
 
 
 def shade(field: HeightField, light: Light, crease_px: float, cv2: Any) -> Image:
@@ -86,9 +100,15 @@ def cast_shadow(background: Image, mask: NDArray[np.bool_], offset_px: tuple[flo
     return np.asarray(background * (1.0 - 0.28 * shadow[..., None]), dtype=np.float32)
 
 
-def photograph(picture: Image, camera: Camera, rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The picture as the camera delivers it, uint8 BGR."""
+def photograph(picture: Image, camera: Camera, rng: np.random.Generator, cv2: Any) -> NDArray[np.uint8]:
+    """The picture as the camera delivers it, uint8 BGR; what is drawn at its borders goes on beyond them."""
     height, width = picture.shape[:2]
+    if camera.moved:
+        turn = cv2.getRotationMatrix2D((width / 2, height / 2), -camera.roll_deg, camera.zoom)
+        turn[:, 2] += (camera.shift_x * width, camera.shift_y * height)
+        picture = cv2.warpAffine(picture, turn, (width, height), borderMode=cv2.BORDER_REPLICATE)
+    if camera.blur_px > 0:
+        picture = cv2.GaussianBlur(picture, (0, 0), camera.blur_px)
     y, x = np.ogrid[-1 : 1 : height * 1j, -1 : 1 : width * 1j]
     corner = 1.0 - camera.vignette * (0.5 * (x**2 + y**2)).astype(np.float32)
     gain = camera.exposure * np.array(camera.cast, dtype=np.float32)

@@ -4,25 +4,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hri.datasets.drawing.hand_pose import HandShape
 from hri.datasets.drawing.height_field import Colour
 from hri.datasets.drawing.light import Camera, Light
+from hri.datasets.drawing.options import BACKGROUNDS, LIGHTS, SKINS, SLEEVES, SignerOptions
 
 # BGR. Clothes and rooms keep clear of skin and of each other's brightness.
-_SKINS: tuple[Colour, ...] = (
-    (120.0, 156.0, 212.0),
-    (176.0, 198.0, 238.0),
-    (62.0, 88.0, 138.0),
-    (98.0, 134.0, 194.0),
-    (150.0, 182.0, 232.0),
-    (78.0, 110.0, 168.0),
-    (164.0, 192.0, 228.0),
-    (52.0, 74.0, 118.0),
-)
 _HAIRS: tuple[Colour, ...] = (
     (34.0, 32.0, 36.0),
     (28.0, 26.0, 28.0),
@@ -46,12 +37,11 @@ _WALLS: tuple[Colour, ...] = (
     (172.0, 182.0, 160.0),
 )
 HAIR_STYLES = ("short", "bob", "curly", "long", "bun", "scarf")
-BACKGROUNDS = ("plain", "window", "picture", "board")
 
 
 @dataclass(frozen=True)
 class Signer:
-    """One made-up person and the place of recording."""
+    """One made-up person and the place of recording; `options` are what was asked for."""
 
     name: str
     hand_shape: HandShape
@@ -66,10 +56,33 @@ class Signer:
     background: str
     light: Light
     camera: Camera
+    options: SignerOptions
 
 
-def make_signer(index: int, seed: int = 0) -> Signer:
-    """The person with this number; neighbours in number differ in every colour."""
+def make_signer(index: int, seed: int = 0, options: SignerOptions | None = None) -> Signer:
+    """The person with this number; neighbours in number differ in every colour that is not asked for."""
+    person = _person(index, seed)
+    return person if options is None else _changed(person, options)
+
+
+def _changed(person: Signer, options: SignerOptions) -> Signer:
+    """The same person as asked for: what is not, stays."""
+    seen = {name: getattr(options, name) for name in ("exposure", "cast", "noise", "vignette")}
+    place = {name: getattr(options, name) for name in ("blur_px", "zoom", "shift_x", "shift_y", "roll_deg")}
+    camera = replace(person.camera, **place, **{name: value for name, value in seen.items() if value is not None})
+    return replace(
+        person,
+        skin=person.skin if options.skin is None else SKINS[options.skin],
+        sleeve_start=person.sleeve_start if options.sleeve is None else SLEEVES[options.sleeve],
+        light=person.light if options.light is None else LIGHTS[options.light],
+        background=options.background or person.background,
+        wall=person.wall if options.wall is None else options.wall,
+        camera=camera,
+        options=options,
+    )
+
+
+def _person(index: int, seed: int) -> Signer:
     rng = np.random.default_rng((seed, 0x51642, index))
 
     def pick(colours: tuple[Colour, ...], step: int) -> Colour:
@@ -82,7 +95,7 @@ def make_signer(index: int, seed: int = 0) -> Signer:
     return Signer(
         name=f"signer{index + 1:02d}",
         hand_shape=HandShape(*(float(f) for f in rng.uniform(0.92, 1.08, size=4))),
-        skin=pick(_SKINS, 1),
+        skin=pick(tuple(SKINS.values()), 1),
         clothes=pick(_CLOTHES, 1),
         hair=pick(_HAIRS, 1),
         hair_style=HAIR_STYLES[(index + seed) % len(HAIR_STYLES)],
@@ -101,4 +114,5 @@ def make_signer(index: int, seed: int = 0) -> Signer:
             noise=float(rng.uniform(1.5, 4.0)),
             vignette=float(rng.uniform(0.05, 0.22)),
         ),
+        options=SignerOptions(),
     )
