@@ -31,7 +31,8 @@ void bind_vision(py::module_& m) {
       .field("min_quality", &hri::SilhouetteOptions::min_quality)
       .field("min_area", &hri::SilhouetteOptions::min_area)
       .field("max_area", &hri::SilhouetteOptions::max_area)
-      .field("remove_face", &hri::SilhouetteOptions::remove_face);
+      .field("remove_face", &hri::SilhouetteOptions::remove_face)
+      .field("max_hands", &hri::SilhouetteOptions::max_hands);
   py::class_<hri::Silhouette>(m, "Silhouette", "What was found in one picture.")
       .def_property_readonly("grey",
                              [](const hri::Silhouette& s) { return hri_bind::to_array(s.grey); })
@@ -59,7 +60,8 @@ void bind_vision(py::module_& m) {
       .field("num_rounds", &hri::HandColourOptions::num_rounds)
       .field("min_area", &hri::HandColourOptions::min_area)
       .field("max_area", &hri::HandColourOptions::max_area)
-      .field("min_quality", &hri::HandColourOptions::min_quality);
+      .field("min_quality", &hri::HandColourOptions::min_quality)
+      .field("max_hands", &hri::HandColourOptions::max_hands);
   py::class_<hri::HandColours>(m, "HandColours",
                                "Finds the hand by the colours it has in its own clip.")
       .def_static(

@@ -18,6 +18,7 @@ void bind_end_points(py::module_& m);
 void bind_wavelet_tools(py::module_& m);
 void bind_features(py::module_& m);
 void bind_hand_shapes(py::module_& m);
+void bind_hand_pair(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_codebook(py::module_& m);
 void bind_models(py::module_& m);
@@ -90,6 +91,7 @@ PYBIND11_MODULE(_native, m) {
   bind_wavelet_tools(m);
   bind_features(m);
   bind_hand_shapes(m);
+  bind_hand_pair(m);
   bind_hand_features(m);
   bind_codebook(m);
   bind_models(m);

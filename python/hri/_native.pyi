@@ -61,6 +61,8 @@ __all__: list[str] = [
     "HAND_TRACK_COLUMNS",
     "HandFeatureComputer",
     "HandFeatureOptions",
+    "HandPairOptions",
+    "HandPairTracker",
     "HandTrackComputer",
     "HandTrackOptions",
     "Interrupted",
@@ -80,6 +82,7 @@ __all__: list[str] = [
     "NoiseEstimate",
     "Normalisation",
     "OrientationHistogramOptions",
+    "PairedHand",
     "Pca",
     "PossibilisticGaussianHmmSet",
     "PossibilisticHmmOptions",
@@ -1440,6 +1443,63 @@ class HandTrackComputer:
         """
     @property
     def num_features(self) -> int: ...
+
+class HandPairOptions:
+    """
+    How two hands are kept apart.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def min_area(self) -> float: ...
+    @min_area.setter
+    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_share(self) -> float: ...
+    @min_share.setter
+    def min_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def num_kept_frames(self) -> int: ...
+    @num_kept_frames.setter
+    def num_kept_frames(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class PairedHand:
+    """
+    One of two hands in a frame.
+    """
+    @property
+    def mask(self) -> numpy.typing.NDArray[numpy.uint8]: ...
+    @property
+    def seen(self) -> bool: ...
+    @property
+    def touching(self) -> bool:
+        """
+        One region holds both hands: the border between them is a guess.
+        """
+    @property
+    def x_px(self) -> float: ...
+    @property
+    def y_px(self) -> float: ...
+
+class HandPairTracker:
+    """
+    Tells both hands of a stream of masks apart, also while they touch and where they cross.
+    """
+    def __init__(self, options: HandPairOptions = ...) -> None: ...
+    def push(
+        self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
+    ) -> typing.Annotated[list[PairedHand], "FixedSize(2)"]:
+        """
+        The left hand of the picture, then the right one. mask: uint8, shape (height, width).
+        """
+    def reset(self) -> None:
+        """
+        Forgets both hands.
+        """
 
 class OrientationHistogramOptions:
     """

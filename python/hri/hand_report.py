@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from hri.errors import InvalidArgument
 from hri.hand_features import hand_column_names, hand_features
 from hri.media import Clip
-from hri.recognition.hands import find_landmarks, find_silhouettes, landmark_column_names, landmark_features
+from hri.recognition.hands import find_hands, find_landmarks, landmark_column_names, landmark_features
 
 Source = Literal["silhouettes", "landmarks"]
 Progress = Callable[[int, int], None]
 SOURCES: tuple[Source, ...] = ("silhouettes", "landmarks")
 
-_PLACE = ("frame", "time_s", "quality", "x", "y", "area")
+_PLACE = ("quality", "centre_x", "centre_y", "area")
 
 
 @dataclass(frozen=True)
@@ -67,42 +67,49 @@ class HandReport:
         Of the features.
     names : list of str
         Of the features.
-    hands : list of FrameHand
-        One for every frame of the clip.
+    hands : dict of str to list of FrameHand
+        One for every frame of the clip: of "hand", or of "left" and "right" where two were looked for.
     """
 
     clip: Clip
     source: Source
     kind: str
     names: list[str]
-    hands: list[FrameHand]
+    hands: dict[str, list[FrameHand]]
 
     @property
     def columns(self) -> list[str]:
-        """Names of what `rows` gives."""
-        return [*_PLACE, *self.names]
+        """Names of what `rows` gives; "hand" is among them where two were looked for."""
+        return ["frame", "time_s", *(["hand"] if len(self.hands) > 1 else []), *_PLACE, *self.names]
 
-    def rows(self) -> Iterator[list[float | None]]:
-        """A row for every frame; None for what a frame without a hand has not."""
-        nothing: list[float | None] = [None] * len(self.names)
-        for number, (time_s, hand) in enumerate(zip(self.clip.times_s, self.hands, strict=True)):
-            features = nothing if hand.features is None else hand.features.tolist()
-            yield [number, time_s, hand.quality, hand.x, hand.y, hand.area, *features]
+    def rows(self) -> Iterator[list[float | str | None]]:
+        """A row for every hand of every frame; None for what a frame without it has not."""
+        for number, time_s in enumerate(self.clip.times_s):
+            for side, frames in self.hands.items():
+                hand = frames[number]
+                features = [None] * len(self.names) if hand.features is None else hand.features.tolist()
+                place = [hand.quality, hand.x, hand.y, hand.area]
+                yield [number, time_s, *([side] if len(self.hands) > 1 else []), *place, *features]
 
     def table(self, separator: str = ",") -> str:
         """The rows as text below a line of names; empty cells where there is no hand."""
-        lines = [separator.join(self.columns)]
-        lines += [separator.join("" if v is None else f"{v:.9g}" for v in row) for row in self.rows()]
-        return "\n".join(lines) + "\n"
+        lines = [self.columns, *([_cell(value) for value in row] for row in self.rows())]
+        return "".join(separator.join(line) + "\n" for line in lines)
 
     def as_dict(self) -> dict[str, Any]:
         """The same for JSON."""
         frames = []
         for row in self.rows():
-            features = dict(zip(self.names, row[len(_PLACE) :], strict=True))
-            found = None if row[_PLACE.index("area")] is None else features
-            frames.append({**dict(zip(_PLACE, row, strict=False)), "features": found})
+            cells = dict(zip(self.columns, row, strict=True))
+            features = {name: cells.pop(name) for name in self.names}
+            frames.append({**cells, "features": None if cells["area"] is None else features})
         return {"clip": str(self.clip.path), "source": self.source, "kind": self.kind, "frames": frames}
+
+
+def _cell(value: float | str | None) -> str:
+    if value is None:
+        return ""
+    return value if isinstance(value, str) else f"{value:.9g}"
 
 
 def inspect_hands(
@@ -111,9 +118,10 @@ def inspect_hands(
     kind: Any = "track",
     silhouette: Any = None,
     progress: Progress | None = None,
+    max_hands: int = 1,
     **options: Any,
 ) -> HandReport:
-    """Find the hand in every frame of a clip, and its features.
+    """Find the hand, or both, in every frame of a clip, and their features.
 
     Parameters
     ----------
@@ -128,6 +136,8 @@ def inspect_hands(
         As for `hri.recognition.hands.find_silhouettes`.
     progress : callable, optional
         Called with (done, total) frames.
+    max_hands : int
+        1, or 2 for the left and the right hand of the picture, of silhouettes: see `hri.recognition.hands.find_hands`.
     **options
         Fields of the kind's options; tracks are told the rate of the clip.
 
@@ -143,13 +153,17 @@ def inspect_hands(
     if source == "landmarks":
         if options:
             raise TypeError(f"landmarks have no options, got {', '.join(options)}")
-        return HandReport(clip, source, source, landmark_column_names(), _joints(clip, progress))
+        if max_hands != 1:
+            raise InvalidArgument(f"max_hands is {max_hands}, must be 1 for landmarks")
+        return HandReport(clip, source, source, landmark_column_names(), {"hand": _joints(clip, progress)})
     if kind == "track":
         options.setdefault("frames_per_second", clip.fps)
     names = hand_column_names(kind, **options)
-    found = find_silhouettes(clip.frames, silhouette, progress)
-    rows = iter(hand_features([s.grey for s in found], [s.mask for s in found], kind, **options))
-    return HandReport(clip, source, kind, names, [_outlined(shape, rows) for shape in found])
+    hands = {}
+    for side, found in find_hands(clip.frames, max_hands, silhouette, progress).items():
+        rows = iter(hand_features([s.grey for s in found], [s.mask for s in found], kind, **options))
+        hands[side] = [_outlined(shape, rows) for shape in found]
+    return HandReport(clip, source, kind, names, hands)
 
 
 def _outlined(shape: Any, rows: Any) -> FrameHand:

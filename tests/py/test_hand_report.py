@@ -34,18 +34,11 @@ def test_every_frame_has_a_row_and_rows_hold_what_the_frame_has(clip: Clip) -> N
     report = inspect_hands(clip, kind="fourier", num_harmonics=4, progress=lambda *done: steps.append(done))
     found = find_silhouettes(clip.frames)
     assert steps == [(i + 1, len(clip.frames)) for i in range(len(clip.frames))]
-    assert [hand.found for hand in report.hands] == [bool(s.mask.any()) for s in found]
-    assert 10 < sum(hand.found for hand in report.hands) < len(clip.frames)
+    assert [hand.found for hand in report.hands["hand"]] == [bool(s.mask.any()) for s in found]
+    assert 10 < sum(hand.found for hand in report.hands["hand"]) < len(clip.frames)
     expected = iter(hand_features([s.grey for s in found], [s.mask for s in found], "fourier", num_harmonics=4))
-    assert report.columns == [
-        "frame",
-        "time_s",
-        "quality",
-        "x",
-        "y",
-        "area",
-        *hand_column_names("fourier", num_harmonics=4),
-    ]
+    place = ["frame", "time_s", "quality", "centre_x", "centre_y", "area"]
+    assert report.columns == [*place, *hand_column_names("fourier", num_harmonics=4)]
     for number, (row, shape) in enumerate(zip(report.rows(), found, strict=True)):
         assert row[:3] == [number, clip.times_s[number], shape.quality if shape.mask.any() else 0.0]
         if not shape.mask.any():
@@ -59,7 +52,9 @@ def test_every_frame_has_a_row_and_rows_hold_what_the_frame_has(clip: Clip) -> N
 def test_tracks_are_told_the_rate_of_the_clip(clip: Clip) -> None:
     slow = Clip(clip.frames, [2 * t for t in clip.times_s], clip.path)
     speed = inspect_hands(clip).names.index("speed")
-    fast, half = ([h.features[speed] for h in inspect_hands(c).hands if h.features is not None] for c in (clip, slow))
+    fast, half = (
+        [h.features[speed] for h in inspect_hands(c).hands["hand"] if h.features is not None] for c in (clip, slow)
+    )
     assert max(fast) > 0.5
     np.testing.assert_allclose(np.array(fast), 2 * np.array(half), rtol=1e-5)
 
@@ -67,10 +62,10 @@ def test_tracks_are_told_the_rate_of_the_clip(clip: Clip) -> None:
 def test_films_show_the_hand_and_follow_the_clip(clip: Clip, tmp_path: Path) -> None:
     report = inspect_hands(clip)
     film = HandFilm(report)
-    with_hand = next(i for i, hand in enumerate(report.hands) if hand.area and hand.area > 0.05)
+    with_hand = next(i for i, hand in enumerate(report.hands["hand"]) if hand.area and hand.area > 0.05)
     drawn, bare = film.draw(with_hand), film.draw(0)
     assert drawn.shape == bare.shape and drawn.shape[1] == 480 and drawn.shape[0] > 480
-    mask = np.kron(report.hands[with_hand].mask, np.ones((3, 3))) > 0
+    mask = np.kron(report.hands["hand"][with_hand].mask, np.ones((3, 3))) > 0
     mask[:, :250] = mask[:120] = False  # numbers and edges are drawn there
     green = drawn[:480, :, 1].astype(int) - drawn[:480, :, 2]
     seen = clip.frames[with_hand].repeat(3, axis=0).repeat(3, axis=1).astype(int)
@@ -78,7 +73,7 @@ def test_films_show_the_hand_and_follow_the_clip(clip: Clip, tmp_path: Path) -> 
     assert mask.sum() > 1000 and np.mean(green[mask] > before[mask] + 20) > 0.9
     # The quality of frames with a hand is drawn below, and none where there is none.
     strip = drawn[480:530]
-    columns = (np.array([0.5, with_hand + 0.5]) * 480 / len(report.hands)).astype(int) + 1
+    columns = (np.array([0.5, with_hand + 0.5]) * 480 / len(clip.frames)).astype(int) + 1
     lit = [(strip[:, column] == (80, 220, 80)).all(axis=1).sum() for column in columns]
     assert lit[0] == 0 and lit[1] > 10
     film_hands(report, tmp_path / "seen.avi")
@@ -91,7 +86,7 @@ def test_one_picture_and_odd_sizes_are_filmed(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     picture = drawn_hands.picture("tall", 0.5, rng)[:157, :151]
     report = inspect_hands(Clip([picture], [0.0], Path("tall.png")), kind="hand")
-    assert report.hands[0].found and len(report.names) > 3000
+    assert report.hands["hand"][0].found and len(report.names) > 3000
     film_hands(report, tmp_path / "tall.mp4")
     assert len(read_frames(tmp_path / "tall.mp4").frames) == 1
 
@@ -122,10 +117,14 @@ def test_landmarks_are_reported_too(clip: Clip, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(hands, "import_optional", lambda *_: mediapipe)
     short = Clip(clip.frames[:3], clip.times_s[:3], clip.path)
     report = inspect_hands(short, "landmarks")
-    assert [hand.found for hand in report.hands] == [False, True, True]
-    assert report.hands[1].quality == 1.0 > report.hands[2].quality > 0.1
-    np.testing.assert_allclose(report.hands[1].joints, joints, rtol=1e-5)
-    assert len(report.names) == len(report.hands[1].features) == 85 and report.names[-3:] == ["x", "y", "log_area"]
+    assert [hand.found for hand in report.hands["hand"]] == [False, True, True]
+    assert report.hands["hand"][1].quality == 1.0 > report.hands["hand"][2].quality > 0.1
+    np.testing.assert_allclose(report.hands["hand"][1].joints, joints, rtol=1e-5)
+    assert len(report.names) == len(report.hands["hand"][1].features) == 85 and report.names[-3:] == [
+        "x",
+        "y",
+        "log_area",
+    ]
     film = HandFilm(report)
     assert not np.array_equal(film.draw(1)[:480], film.draw(0)[:480])
     with pytest.raises(TypeError, match="delta_orders"):

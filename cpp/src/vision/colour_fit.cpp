@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "regions.hpp"
+#include "hri/features/regions.hpp"
 
 namespace hri::detail {
 namespace {
@@ -227,7 +227,7 @@ class Fitter {
     return static_cast<double>(above) / static_cast<double>(scores_.size());
   }
 
-  // The largest region of every frame; false where it cannot be a hand.
+  // The largest regions of every frame; false where it cannot be a hand.
   bool segment(float threshold) {
     const float* score = scores_.data();
     num_inside_ = 0;
@@ -236,7 +236,7 @@ class Fitter {
       resize(&raw_, frames_[i].width_px, frames_[i].height_px);
       for (std::uint8_t& p : raw_.pixels) p = *score++ > threshold ? 255 : 0;
       majority(raw_, kMajority_px, &counts_, &masks_[i]);
-      if (!regions_.keep_largest(&masks_[i], options_.min_area)) ++empty;
+      if (!regions_.keep_largest(&masks_[i], options_.min_area, options_.max_hands)) ++empty;
       num_inside_ += count_set(masks_[i].pixels.data(), 1, masks_[i].pixels.size());
     }
     mean_area_ = static_cast<double>(num_inside_) / static_cast<double>(scores_.size());

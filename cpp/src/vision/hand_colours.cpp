@@ -7,8 +7,9 @@
 
 #include "colour_fit.hpp"
 #include "hri/core/error.hpp"
+#include "hri/features/regions.hpp"
+#include "mask_quality.hpp"
 #include "pixels.hpp"
-#include "regions.hpp"
 
 namespace hri {
 namespace {
@@ -23,6 +24,7 @@ void validate(const HandColourOptions& o) {
   require(o.min_area >= 0 && o.min_area <= o.max_area && o.max_area <= 1,
           "min_area and max_area must lie in 0..1, min_area not above max_area");
   require(o.min_quality >= 0 && o.min_quality <= 1, "min_quality must lie in 0..1");
+  require(o.max_hands >= 1 && o.max_hands <= 2, "max_hands must lie in 1..2");
 }
 
 // Frames spread evenly over the clip, scaled down.
@@ -45,7 +47,7 @@ struct Workspace {
   detail::ColourImage small;
   GreyImage raw;
   std::vector<std::uint16_t> counts;
-  detail::RegionFinder regions;
+  RegionFinder regions;
 };
 
 }  // namespace
@@ -83,14 +85,19 @@ void HandColours::extract(ImageView bgr, Silhouette* out) const {
   w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
   detail::to_grey(w.small, &out->grey);
   detail::resize(&w.raw, w.small.width_px, w.small.height_px);
+  const auto score_of = [&](const std::uint8_t* pixel) {
+    return scores_[0][pixel[0]] + scores_[1][pixel[1]] + scores_[2][pixel[2]];
+  };
   const std::uint8_t* pixel = w.small.pixels.data();
   for (std::uint8_t& in : w.raw.pixels) {
-    const float score = scores_[0][pixel[0]] + scores_[1][pixel[1]] + scores_[2][pixel[2]];
-    in = score > threshold_ ? 255 : 0;
+    in = score_of(pixel) > threshold_ ? 255 : 0;
     pixel += 3;
   }
   detail::majority(w.raw, kRadius_px, &w.counts, &out->mask);
-  out->quality = w.regions.keep_largest(&out->mask, options_.min_area) ? quality_ : 0;
+  w.regions.keep_largest(&out->mask, options_.min_area, options_.max_hands);
+  const std::uint8_t* const pixels = w.small.pixels.data();
+  out->quality = detail::mask_quality(out->mask, options_.max_hands,
+                                      [&](std::size_t i) { return score_of(pixels + 3 * i); });
 }
 
 }  // namespace hri

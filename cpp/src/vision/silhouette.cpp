@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "hri/core/error.hpp"
+#include "hri/features/regions.hpp"
+#include "mask_quality.hpp"
 #include "pictures.hpp"
 #include "pixels.hpp"
-#include "regions.hpp"
 
 namespace hri {
 namespace {
@@ -125,7 +126,7 @@ Split split(const detail::ColourImage& bgr, SilhouetteMethod method, GreyImage* 
 
 // How well a region fills the ellipse that has its moments: 1 for an ellipse, less for a hand with
 // fingers.
-double ellipticity(const GreyImage& mask, const detail::Region& found) {
+double ellipticity(const GreyImage& mask, const Region& found) {
   cv::Mat region(found.bottom - found.top, found.right - found.left, CV_8U);
   for (int y = found.top; y < found.bottom; ++y)
     std::copy_n(mask.view().row(y) + found.left, region.cols, region.ptr<uchar>(y - found.top));
@@ -161,22 +162,21 @@ struct Workspace {
   detail::ColourImage small, smooth;
   GreyImage channel, raw, cleaned, other;
   std::vector<std::uint16_t> counts;
-  detail::RegionFinder finder;
-  std::vector<detail::Region> candidates;
+  RegionFinder finder;
+  std::vector<Region> candidates;
 };
 
 // Fills w.candidates with what may be a hand by its size, the largest first.
 void find_candidates(const SilhouetteOptions& options, Workspace* w) {
   const auto total = static_cast<double>(w->cleaned.pixels.size());
   w->candidates.clear();
-  for (const detail::Region& r : w->finder.find(w->cleaned)) {
+  for (const Region& r : w->finder.find(w->cleaned)) {
     const double area = r.area / total;
     if (area >= options.min_area && area <= options.max_area) w->candidates.push_back(r);
   }
-  std::sort(w->candidates.begin(), w->candidates.end(),
-            [](const detail::Region& p, const detail::Region& q) {
-              return p.area != q.area ? p.area > q.area : p.first_run < q.first_run;
-            });
+  std::sort(w->candidates.begin(), w->candidates.end(), [](const Region& p, const Region& q) {
+    return p.area != q.area ? p.area > q.area : p.first_run < q.first_run;
+  });
   if (w->candidates.empty()) return;
   // Regions much smaller than the largest are specks, not a second body part.
   constexpr double kComparable = 0.15;
@@ -184,9 +184,9 @@ void find_candidates(const SilhouetteOptions& options, Workspace* w) {
   while (w->candidates.back().area < least) w->candidates.pop_back();
 }
 
-// Of several candidates the one most like an ellipse is a face.
-void remove_face(Workspace* w) {
-  if (w->candidates.size() < 2) return;
+// Of more candidates than hands the one most like an ellipse is a face.
+void remove_face(Workspace* w, int max_hands) {
+  if (static_cast<int>(w->candidates.size()) <= max_hands) return;
   std::size_t face = 0;
   double best = -1;
   for (std::size_t i = 0; i < w->candidates.size(); ++i) {
@@ -212,6 +212,7 @@ SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options) : opt
               options.sure_contrast <= 255,
           "min_contrast and sure_contrast must lie in 0..255, min_contrast not above");
   require(options.min_quality >= 0 && options.min_quality <= 1, "min_quality must lie in 0..1");
+  require(options.max_hands >= 1 && options.max_hands <= 2, "max_hands must lie in 1..2");
   require(options.min_area >= 0 && options.min_area <= options.max_area && options.max_area <= 1,
           "min_area and max_area must lie in 0..1, min_area not above max_area");
 }
@@ -239,14 +240,18 @@ void SilhouetteExtractor::extract(ImageView bgr, Silhouette* out) const {
   if (clear) {
     detail::majority(w.raw, options_.blur_px / 2, &w.counts, &w.cleaned);
     find_candidates(options_, &w);
-    if (options_.remove_face) remove_face(&w);
+    if (options_.remove_face) remove_face(&w, options_.max_hands);
   }
   if (w.candidates.empty()) {
     std::fill(out->mask.pixels.begin(), out->mask.pixels.end(), std::uint8_t{0});
     return;
   }
   w.finder.keep(w.candidates.front(), &out->mask);
-  out->quality = std::clamp(found.quality, 0.0, 1.0);
+  if (options_.max_hands > 1 && w.candidates.size() > 1) w.finder.fill(w.candidates[1], &out->mask);
+  if (options_.method == SilhouetteMethod::hsv) detail::to_redness(w.smooth, &w.channel);
+  const std::uint8_t* const values = w.channel.pixels.data();
+  out->quality =
+      detail::mask_quality(out->mask, options_.max_hands, [&](std::size_t i) { return values[i]; });
 }
 
 }  // namespace hri

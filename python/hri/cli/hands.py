@@ -40,6 +40,13 @@ from hri.media import DEFAULT_FPS, VIDEO_SUFFIXES, Clip, read_frames, read_pictu
     help="A field of the kind's options, such as delta_orders=0; may be given several times.",
 )
 @click.option(
+    "--max-hands",
+    type=click.IntRange(1, 2),
+    default=1,
+    show_default=True,
+    help="2 looks for the left and the right hand of the picture.",
+)
+@click.option(
     "--fps",
     type=click.FloatRange(min=0, min_open=True),
     help=f"At which the pictures of a folder were taken.  [default: {DEFAULT_FPS:g}]",
@@ -63,6 +70,7 @@ def hands(
     source: Any,
     kind: Any,
     options: tuple[str, ...],
+    max_hands: int,
     fps: float | None,
     video_path: str | None,
     out: str | None,
@@ -77,9 +85,12 @@ def hands(
       hri hands swipe.mp4 --video seen.mp4 -o seen.csv
       hri hands pictures/ --fps 15 --kind fourier --video seen.webm
       hri hands swipe.mp4 --source landmarks -o joints.json
+      hri hands clap.mp4 --max-hands 2 --video seen.mp4
     """
     if (kind is not None or options) and source != "silhouettes":
         raise click.UsageError("--kind and --option are for silhouettes: landmarks have but one kind of features")
+    if max_hands > 1 and source != "silhouettes":
+        raise click.UsageError("--max-hands 2 is for silhouettes")
     if fps is not None and not Path(clip).is_dir():
         raise click.UsageError(f"--fps is for folders of pictures: {clip} is a file")
     chosen: Any = kind or "track"
@@ -89,15 +100,21 @@ def hands(
     read = _read(clip, fps)
     with progress_bars() as progress:
         report = inspect_hands(
-            read, source, chosen, progress=lambda done, total: progress("finding hands", done, total), **fields
+            read,
+            source,
+            chosen,
+            progress=lambda done, total: progress("finding hands", done, total),
+            max_hands=max_hands,
+            **fields,
         )
         if video_path is not None:
             film_hands(report, video_path, lambda done, total: progress("filming", done, total))
     _write_table(report, out, video_path)
-    num_found = sum(hand.found for hand in report.hands)
     written = ", ".join(path for path in (video_path, out) if path is not None)
-    told = f"a hand in {num_found} of {len(report.hands)} frames"
-    click.echo(f"{written or clip}: {told}", err=True)
+    for side, found in report.hands.items():
+        which = "a hand" if side == "hand" else f"a {side} hand"
+        num_found = sum(hand.found for hand in found)
+        click.echo(f"{written or clip}: {which} in {num_found} of {len(found)} frames", err=True)
 
 
 def _read(clip: str, fps: float | None) -> Clip:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -41,18 +42,81 @@ def find_silhouettes(clip: Sequence[Frame], silhouette: Any = None, progress: Pr
     -------
     list of hri._native_vision.Silhouette
     """
+    return _silhouettes(clip, silhouette, progress, 1)
+
+
+@dataclass(frozen=True)
+class PairedHand:
+    """One of two hands in a frame, as recognisers take silhouettes.
+
+    Attributes
+    ----------
+    grey, mask : ndarray of uint8
+        The picture and the hand in it, at the working size; without a hand the mask is all 0.
+    quality : float
+        0 (no hand) .. 1, of both hands of the frame.
+    touching : bool
+        One region holds both hands: the border between them is a guess.
+    """
+
+    grey: NDArray[np.uint8]
+    mask: NDArray[np.uint8]
+    quality: float
+    touching: bool = False
+
+
+def find_hands(
+    clip: Sequence[Frame], max_hands: int = 2, silhouette: Any = None, progress: Progress | None = None
+) -> dict[str, list[Any]]:
+    """The silhouettes of one hand, or of both, in every frame.
+
+    Parameters
+    ----------
+    clip, silhouette, progress
+        As for `find_silhouettes`.
+    max_hands : int
+        1 or 2.
+
+    Returns
+    -------
+    dict of str to list
+        "hand": what `find_silhouettes` gives; or "left" and "right": a `PairedHand` for every frame, of the hand that
+        came into sight on that side of the picture. Labels stay with the hands when these touch or cross
+        (`hri._native.HandPairTracker`). A face in view may be taken for a hand.
+    """
+    from hri import _native
+
+    if max_hands not in (1, 2):
+        raise _native.InvalidArgument(f"max_hands is {max_hands}, must be 1 or 2")
+    found = _silhouettes(clip, silhouette, progress, max_hands)
+    if max_hands == 1:
+        return {"hand": found}
+    tracker = _native.HandPairTracker()
+    sides: dict[str, list[Any]] = {"left": [], "right": []}
+    for shape in found:
+        for hands, hand in zip(sides.values(), tracker.push(shape.mask), strict=True):
+            quality = shape.quality if hand.seen else 0.0
+            hands.append(PairedHand(np.asarray(shape.grey), np.asarray(hand.mask), quality, hand.touching))
+    return sides
+
+
+def _silhouettes(clip: Sequence[Frame], silhouette: Any, progress: Progress | None, max_hands: int) -> list[Any]:
     from hri import _native_vision
 
     frames = [np.ascontiguousarray(frame) for frame in clip]
     finder: Any = None
     if silhouette is None and len(frames) >= SHORTEST_CLIP:
-        finder = _native_vision.HandColours.learn(frames)
+        finder = _native_vision.HandColours.learn(frames, _native_vision.HandColourOptions(max_hands=max_hands))
     if finder is None:
-        finder = _native_vision.SilhouetteExtractor(silhouette or _native_vision.SilhouetteOptions())
+        asked = {} if silhouette is None else silhouette.as_dict()
+        options = _native_vision.SilhouetteOptions(**{**asked, "max_hands": max_hands})
+        finder = _native_vision.SilhouetteExtractor(options)
     return [finder.extract(frame) for frame in _counted(frames, progress)]
 
 
-def find_landmarks(clip: Sequence[Frame], progress: Progress | None = None) -> list[NDArray[np.float32] | None]:
+def find_landmarks(
+    clip: Sequence[Frame], progress: Progress | None = None, *, each_alone: bool = False
+) -> list[NDArray[np.float32] | None]:
     """The joints of the hand in every frame, by MediaPipe's tracker (extra `mediapipe`).
 
     Parameters
@@ -60,6 +124,8 @@ def find_landmarks(clip: Sequence[Frame], progress: Progress | None = None) -> l
     clip : sequence of uint8 arrays, shape (height, width, 3), BGR
     progress : callable, optional
         Called with (done, total) frames.
+    each_alone : bool
+        Look for the hand anew in every frame, for pictures that do not follow on one another.
 
     Returns
     -------
@@ -74,7 +140,11 @@ def find_landmarks(clip: Sequence[Frame], progress: Progress | None = None) -> l
     mediapipe = import_optional("mediapipe", "mediapipe", "to find the landmarks of hands")
     found: list[NDArray[np.float32] | None] = []
     with mediapipe.solutions.hands.Hands(
-        max_num_hands=1, model_complexity=1, min_detection_confidence=0.3, min_tracking_confidence=0.3
+        static_image_mode=each_alone,
+        max_num_hands=1,
+        model_complexity=1,
+        min_detection_confidence=0.3,
+        min_tracking_confidence=0.3,
     ) as tracker:
         for frame in _counted(clip, progress):
             hands = tracker.process(np.ascontiguousarray(frame[:, :, ::-1])).multi_hand_landmarks

@@ -25,6 +25,8 @@ struct HandColourOptions {
   double max_area = 0.6;     ///< largest, averaged over the frames learned from, 0..1
   double min_quality = 0.3;  ///< a discriminant that separates the pixels on both sides of the
                              ///< hand's outline worse than this is no hand, 0..1
+  int max_hands = 1;         ///< regions that masks hold, the largest, 1..2; HandPairTracker tells
+                             ///< which is which
 };
 
 /// One score a pixel, the sum of a function of each channel; above a threshold the pixel is hand.
@@ -39,8 +41,8 @@ class HandColours {
   static std::optional<HandColours> learn(const std::vector<ImageView>& frames,
                                           const HandColourOptions& options);
 
-  /// The largest region of hand colours; `quality` is that of the model where there is one. Throws
-  /// InvalidArgument for another layout or an empty picture.
+  /// The largest regions of hand colours. Throws InvalidArgument for another layout or an empty
+  /// picture.
   [[nodiscard]] Silhouette extract(ImageView bgr) const;
 
   /// The same into a silhouette whose memory is used again: pictures of one size allocate nothing

@@ -8,26 +8,33 @@
 
 #include "hri/core/image_view.hpp"
 
-namespace hri::detail {
+namespace hri {
 
 /// A connected region: pixels left .. right - 1 of rows top .. bottom - 1.
 struct Region {
   int area = 0;
   int left = 0, top = 0, right = 0, bottom = 0;
-  int first_run = 0;  // by which the finder knows it
+  int first_run = 0;  ///< by which the finder knows it
 };
 
+/// Finds regions of masks of 0 and 255; memory is kept, so that a stream of masks allocates
+/// nothing.
 class RegionFinder {
  public:
   /// All regions, in the order of their first pixels. Pixels that touch at a corner belong
   /// together.
   const std::vector<Region>& find(const GreyImage& mask);
+  /// The largest regions, the largest first (of equals the first), at most `max_regions`, that
+  /// cover at least `min_area` of the mask.
+  const std::vector<Region>& find_largest(const GreyImage& mask, double min_area, int max_regions);
+
   /// Leaves only a region that was found in the mask.
   void keep(const Region& region, GreyImage* mask);
+  /// Sets its pixels, and leaves the others as they are.
+  void fill(const Region& region, GreyImage* mask);
 
-  /// Leaves only the largest region (of several the first); nothing and false where it covers less
-  /// than `min_area` of the mask.
-  bool keep_largest(GreyImage* mask, double min_area);
+  /// Leaves only the regions that find_largest gives; false where there is none.
+  bool keep_largest(GreyImage* mask, double min_area, int max_regions = 1);
 
  private:
   struct Run {
@@ -40,7 +47,7 @@ class RegionFinder {
 
   std::vector<Run> runs_;
   std::vector<int> numbers_;  // of the region that a run begins
-  std::vector<Region> regions_;
+  std::vector<Region> regions_, largest_;
 };
 
-}  // namespace hri::detail
+}  // namespace hri

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "regions.hpp"
+#include "hri/features/regions.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 
-namespace hri::detail {
+namespace hri {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -82,28 +82,41 @@ const std::vector<Region>& RegionFinder::find(const GreyImage& mask) {
   return regions_;
 }
 
-void RegionFinder::keep(const Region& region, GreyImage* mask) {
-  std::fill(mask->pixels.begin(), mask->pixels.end(), std::uint8_t{0});
+void RegionFinder::fill(const Region& region, GreyImage* mask) {
   for (int i = region.first_run; i < static_cast<int>(runs_.size()); ++i) {
     if (root(i) != region.first_run) continue;
     const Run& run = runs_[at(i)];
+    if (run.y >= region.bottom) return;
     std::uint8_t* row = mask->pixels.data() + at(run.y) * at(mask->width_px);
     std::fill(row + run.first, row + run.end, std::uint8_t{255});
   }
 }
 
-bool RegionFinder::keep_largest(GreyImage* mask, double min_area) {
-  find(*mask);
-  const auto largest =
-      std::max_element(regions_.begin(), regions_.end(),
-                       [](const Region& a, const Region& b) { return a.area < b.area; });
-  if (largest == regions_.end() ||
-      largest->area < min_area * static_cast<double>(mask->pixels.size())) {
-    std::fill(mask->pixels.begin(), mask->pixels.end(), std::uint8_t{0});
-    return false;
-  }
-  keep(*largest, mask);
-  return true;
+void RegionFinder::keep(const Region& region, GreyImage* mask) {
+  std::fill(mask->pixels.begin(), mask->pixels.end(), std::uint8_t{0});
+  fill(region, mask);
 }
 
-}  // namespace hri::detail
+const std::vector<Region>& RegionFinder::find_largest(const GreyImage& mask, double min_area,
+                                                      int max_regions) {
+  find(mask);
+  const double least = min_area * static_cast<double>(mask.pixels.size());
+  largest_.clear();
+  for (const Region& r : regions_) {
+    if (r.area < least) continue;
+    const auto before = std::find_if(largest_.begin(), largest_.end(),
+                                     [&](const Region& other) { return other.area < r.area; });
+    largest_.insert(before, r);
+    if (static_cast<int>(largest_.size()) > max_regions) largest_.pop_back();
+  }
+  return largest_;
+}
+
+bool RegionFinder::keep_largest(GreyImage* mask, double min_area, int max_regions) {
+  find_largest(*mask, min_area, max_regions);
+  std::fill(mask->pixels.begin(), mask->pixels.end(), std::uint8_t{0});
+  for (const Region& r : largest_) fill(r, mask);
+  return !largest_.empty();
+}
+
+}  // namespace hri

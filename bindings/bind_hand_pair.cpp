@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Both hands of a stream of masks.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+
+#include "arrays.hpp"
+#include "hri/features/hand_pair.hpp"
+#include "options.hpp"
+
+namespace py = pybind11;
+
+void bind_hand_pair(py::module_& m) {
+  py::class_<hri::HandPairOptions> options(m, "HandPairOptions", "How two hands are kept apart.");
+  hri_bind::options(options)
+      .field("min_area", &hri::HandPairOptions::min_area)
+      .field("min_share", &hri::HandPairOptions::min_share)
+      .field("num_kept_frames", &hri::HandPairOptions::num_kept_frames);
+  py::class_<hri::PairedHand>(m, "PairedHand", "One of two hands in a frame.")
+      .def_property_readonly("mask",
+                             [](const hri::PairedHand& h) { return hri_bind::to_array(h.mask); })
+      .def_readonly("seen", &hri::PairedHand::seen)
+      .def_readonly("touching", &hri::PairedHand::touching,
+                    "One region holds both hands: the border between them is a guess.")
+      .def_readonly("x_px", &hri::PairedHand::x_px)
+      .def_readonly("y_px", &hri::PairedHand::y_px);
+  py::class_<hri::HandPairTracker>(m, "HandPairTracker",
+                                   "Tells both hands of a stream of masks apart, also while they "
+                                   "touch and where they cross.")
+      .def(py::init<const hri::HandPairOptions&>(), py::arg("options") = hri::HandPairOptions{})
+      .def(
+          "push",
+          [](hri::HandPairTracker& self, const hri_bind::ByteArray& mask) {
+            const auto shape = hri_bind::as_image(mask, 1, "mask");
+            const py::gil_scoped_release release;
+            return std::array<hri::PairedHand, 2>(self.push(shape));
+          },
+          py::arg("mask"),
+          "The left hand of the picture, then the right one. mask: uint8, shape (height, width).")
+      .def("reset", &hri::HandPairTracker::reset, "Forgets both hands.");
+}

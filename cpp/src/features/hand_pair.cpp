@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/features/hand_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+constexpr double kSlowing = 0.7;     // of the way of a hand that is not seen, each frame
+constexpr double kSteering = 0.2;    // weight of the newest step in a way
+constexpr double kHeld = 0.5;        // share of a shape that a region must cover to hold the hand
+constexpr double kStiffness = 0.02;  // of the ways of hands that touch, against what they cover
+constexpr double kHidden = 1.15;     // a region smaller than so many hands holds a hidden one
+// What a shape is worth that covers a pixel: one that nothing else covers, or one that the other
+// hand covers too, against one beside the region.
+constexpr std::uint8_t kFree = 3;
+constexpr std::uint8_t kTaken = 1;
+constexpr int kNumRounds = 2;  // of moving one shape, then the other
+constexpr int kCoarse_px = 4;
+constexpr int kMostUnseen = 2;  // frames after which hands are not thought to touch
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double squared(double v) { return v * v; }
+
+}  // namespace
+
+HandPairTracker::HandPairTracker(const HandPairOptions& options) : options_(options) {
+  require(options.min_area >= 0 && options.min_area <= 1, "min_area must lie in 0..1");
+  require(options.min_share >= 0 && options.min_share <= 1, "min_share must lie in 0..1");
+  require(options.num_kept_frames >= 0 && options.num_kept_frames <= 1000,
+          "num_kept_frames must lie in 0..1000");
+}
+
+void HandPairTracker::reset() {
+  for (Track& t : tracks_) t.known = false;
+}
+
+const std::array<PairedHand, 2>& HandPairTracker::push(ImageView mask) {
+  require(!mask.empty() && mask.channels == 1, "mask must have one channel and at least one pixel");
+  if (mask.width_px != mask_.width_px || mask.height_px != mask_.height_px) {
+    reset();
+    for (GreyImage* image : {&mask_, &region_, &rest_, &hands_[0].mask, &hands_[1].mask})
+      *image = GreyImage(mask.width_px, mask.height_px);
+  }
+  for (int y = 0; y < mask.height_px; ++y) {
+    const std::uint8_t* row = mask.row(y);
+    std::transform(row, row + mask.width_px, mask_.pixels.data() + at(y) * at(mask.width_px),
+                   [](std::uint8_t v) { return v != 0 ? std::uint8_t{255} : std::uint8_t{0}; });
+  }
+  for (PairedHand& hand : hands_) {
+    hand.seen = hand.touching = false;
+    std::fill(hand.mask.pixels.begin(), hand.mask.pixels.end(), std::uint8_t{0});
+  }
+  find_hands();
+  const bool both_known = tracks_[0].known && tracks_[1].known;
+  if (!regions_.empty() && both_known && holds_both(regions_[0])) {
+    split_region();
+    forget_hidden();
+  } else if (regions_.size() == 2) {
+    assign_two();
+  } else if (regions_.size() == 1) {
+    assign_one();
+  } else {
+    miss(0);
+    miss(1);
+  }
+  for (int side = 0; side < 2; ++side) {
+    hands_[at(side)].x_px = tracks_[at(side)].x;
+    hands_[at(side)].y_px = tracks_[at(side)].y;
+  }
+  return hands_;
+}
+
+// The two largest regions that may be hands.
+void HandPairTracker::find_hands() {
+  regions_ = finder_.find_largest(mask_, options_.min_area, 2);
+  if (regions_.size() == 2 && regions_[1].area < options_.min_share * regions_[0].area)
+    regions_.pop_back();
+}
+
+namespace {
+
+struct Middle {
+  double x = 0, y = 0;
+};
+
+Middle middle(const GreyImage& mask) {
+  double count = 0;
+  Middle sum;
+  const std::uint8_t* pixel = mask.pixels.data();
+  for (int y = 0; y < mask.height_px; ++y) {
+    double in_row = 0;
+    double columns = 0;
+    for (int x = 0; x < mask.width_px; ++x, ++pixel) {
+      const int set = *pixel != 0 ? 1 : 0;
+      in_row += set;
+      columns += set * x;
+    }
+    count += in_row;
+    sum.x += columns;
+    sum.y += in_row * y;
+  }
+  return count > 0 ? Middle{sum.x / count, sum.y / count} : sum;
+}
+
+}  // namespace
+
+void HandPairTracker::assign_two() {
+  std::array<Middle, 2> places;
+  for (int i = 0; i < 2; ++i) {
+    finder_.keep(regions_[at(i)], &region_);
+    places[at(i)] = middle(region_);
+  }
+  // How much better the first region is the left hand's than the right one's.
+  double straight = 0;
+  double crossed = 0;
+  for (int side = 0; side < 2; ++side) {
+    const Track& t = tracks_[at(side)];
+    if (!t.known) continue;
+    const auto cost = [&](const Middle& m) {
+      return squared(t.x + t.dx - m.x) + squared(t.y + t.dy - m.y);
+    };
+    straight += cost(places[at(side)]);
+    crossed += cost(places[at(1 - side)]);
+  }
+  if (!tracks_[0].known && !tracks_[1].known) {
+    straight = places[0].x;
+    crossed = places[1].x;
+  }
+  const int first = straight <= crossed ? 0 : 1;
+  see(first, regions_[0]);
+  see(1 - first, regions_[1]);
+}
+
+void HandPairTracker::assign_one() {
+  finder_.keep(regions_[0], &region_);
+  const Middle place = middle(region_);
+  const auto far = [&](const Track& t) {
+    return squared(t.x + t.dx - place.x) + squared(t.y + t.dy - place.y);
+  };
+  int side = place.x + 0.5 < 0.5 * mask_.width_px ? 0 : 1;
+  if (tracks_[0].known && tracks_[1].known) {
+    side = far(tracks_[0]) <= far(tracks_[1]) ? 0 : 1;
+  } else if (tracks_[0].known || tracks_[1].known) {
+    side = tracks_[0].known ? 0 : 1;
+  }
+  see(side, regions_[0]);
+  miss(1 - side);
+}
+
+void HandPairTracker::see(int side, const Region& region) {
+  Track& t = tracks_[at(side)];
+  PairedHand& hand = hands_[at(side)];
+  finder_.keep(region, &hand.mask);
+  hand.seen = true;
+  const Middle m = middle(hand.mask);
+  if (t.known && t.num_unseen == 0) {
+    t.dx += 0.5 * (m.x - t.x - t.dx);
+    t.dy += 0.5 * (m.y - t.y - t.dy);
+  } else {
+    t.dx = t.dy = 0;
+  }
+  t.x = m.x;
+  t.y = m.y;
+  t.area = region.area;
+  t.known = true;
+  t.num_unseen = 0;
+  remember_shape(&t, hand.mask);
+}
+
+void HandPairTracker::miss(int side) {
+  Track& t = tracks_[at(side)];
+  if (!t.known) return;
+  if (++t.num_unseen > options_.num_kept_frames) {
+    t.known = false;
+    return;
+  }
+  t.x = std::clamp(t.x + t.dx, 0.0, mask_.width_px - 1.0);
+  t.y = std::clamp(t.y + t.dy, 0.0, mask_.height_px - 1.0);
+  t.dx *= kSlowing;
+  t.dy *= kSlowing;
+}
+
+void HandPairTracker::remember_shape(Track* hand, const GreyImage& mask) {
+  hand->shape.clear();
+  const auto x0 = static_cast<int>(std::lround(hand->x));
+  const auto y0 = static_cast<int>(std::lround(hand->y));
+  for (int y = 0; y < mask.height_px; ++y) {
+    const std::uint8_t* const row = mask.view().row(y);
+    const std::uint8_t* const end = row + mask.width_px;
+    const std::uint8_t* first = std::find(row, end, std::uint8_t{255});
+    while (first != end) {
+      const std::uint8_t* after = std::find(first, end, std::uint8_t{0});
+      hand->shape.push_back(
+          {y - y0, static_cast<int>(first - row) - x0, static_cast<int>(after - row) - x0});
+      first = std::find(after, end, std::uint8_t{255});
+    }
+  }
+}
+
+// Fills sums_: at (x, y), of the pixels of row y left of x.
+void HandPairTracker::sum_rows(const GreyImage& image) {
+  sums_.resize(at(image.width_px + 1) * at(image.height_px));
+  int* out = sums_.data();
+  const std::uint8_t* pixel = image.pixels.data();
+  for (int y = 0; y < image.height_px; ++y) {
+    int sum = 0;
+    *out++ = 0;
+    for (int x = 0; x < image.width_px; ++x) *out++ = sum += *pixel++;
+  }
+}
+
+// Sum of the pixels under the hand's shape, moved to (x, y).
+int HandPairTracker::covered(const Track& hand, int x, int y) const {
+  int sum = 0;
+  for (const Run& run : hand.shape) {
+    const int row = y + run.dy;
+    if (row < 0 || row >= mask_.height_px) continue;
+    const int* sums = sums_.data() + at(row) * at(mask_.width_px + 1);
+    const int first = std::clamp(x + run.first, 0, mask_.width_px);
+    const int end = std::clamp(x + run.end, 0, mask_.width_px);
+    sum += sums[end] - sums[first];
+  }
+  return sum;
+}
+
+// Whether a region covers both hands where they were or would be; with a second region beside it,
+// only where that one is too small for a hand.
+bool HandPairTracker::holds_both(const Region& region) {
+  const double smaller = std::min(tracks_[0].area, tracks_[1].area);
+  if (regions_.size() == 2 && regions_[1].area > 0.5 * smaller) return false;
+  finder_.keep(region, &region_);
+  sum_rows(region_);
+  return std::all_of(tracks_.begin(), tracks_.end(), [&](const Track& t) {
+    if (t.num_unseen > kMostUnseen) return false;
+    const auto share = [&](double x, double y) {
+      return covered(t, static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))) /
+             (255 * t.area);
+    };
+    return std::max(share(t.x, t.y), share(t.x + t.dx, t.y + t.dy)) > kHeld;
+  });
+}
+
+// Sets rest_ to what the region's pixels are worth beside a hand.
+void HandPairTracker::weigh_beside(const Track& hand) {
+  std::transform(region_.pixels.begin(), region_.pixels.end(), rest_.pixels.begin(),
+                 [](std::uint8_t v) { return v != 0 ? kFree : std::uint8_t{0}; });
+  const auto x0 = static_cast<int>(std::lround(hand.x));
+  const auto y0 = static_cast<int>(std::lround(hand.y));
+  for (const Run& run : hand.shape) {
+    const int row = y0 + run.dy;
+    if (row < 0 || row >= mask_.height_px) continue;
+    std::uint8_t* pixels = rest_.pixels.data() + at(row) * at(mask_.width_px);
+    const int first = std::clamp(x0 + run.first, 0, mask_.width_px);
+    const int end = std::clamp(x0 + run.end, 0, mask_.width_px);
+    for (int x = first; x < end; ++x) pixels[x] = std::min(pixels[x], kTaken);
+  }
+}
+
+// Moves a hand to where its shape is worth most, near (x, y), by the sums of rest_.
+void HandPairTracker::settle(Track* hand, double x, double y) {
+  const double stiffness = kStiffness * std::sqrt(hand->area);
+  const auto worth = [&](int px, int py) {
+    return 0.5 * covered(*hand, px, py) - stiffness * (squared(px - x) + squared(py - y));
+  };
+  int best_x = static_cast<int>(std::lround(hand->x));
+  int best_y = static_cast<int>(std::lround(hand->y));
+  double best = worth(best_x, best_y);
+  for (int step = kCoarse_px; step >= 1; step /= 2) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      const int from_x = best_x;
+      const int from_y = best_y;
+      for (int i = 0; i < 9; ++i) {
+        const int px = from_x + step * (i % 3 - 1);
+        const int py = from_y + step * (i / 3 - 1);
+        const double value = worth(px, py);
+        if (value <= best) continue;
+        best = value;
+        best_x = px;
+        best_y = py;
+        moved = true;
+      }
+    }
+  }
+  hand->x = best_x;
+  hand->y = best_y;
+}
+
+void HandPairTracker::split_region() {
+  finder_.keep(regions_[0], &region_);
+  std::array<Middle, 2> before;
+  std::array<Middle, 2> expected;
+  for (int side = 0; side < 2; ++side) {
+    Track& t = tracks_[at(side)];
+    before[at(side)] = {t.x, t.y};
+    expected[at(side)] = {t.x + t.dx, t.y + t.dy};
+    t.x += t.dx;
+    t.y += t.dy;
+  }
+  for (int round = 0; round < kNumRounds; ++round) {
+    for (int side = 0; side < 2; ++side) {
+      weigh_beside(tracks_[at(1 - side)]);
+      sum_rows(rest_);
+      settle(&tracks_[at(side)], expected[at(side)].x, expected[at(side)].y);
+    }
+  }
+  for (int side = 0; side < 2; ++side) {
+    Track& t = tracks_[at(side)];
+    t.dx += kSteering * (t.x - before[at(side)].x - t.dx);
+    t.dy += kSteering * (t.y - before[at(side)].y - t.dy);
+    t.num_unseen = 0;
+  }
+  share_out();
+}
+
+// A hand that was hidden for as long as places are kept has left.
+void HandPairTracker::forget_hidden() {
+  const bool hidden = regions_[0].area < kHidden * std::max(tracks_[0].area, tracks_[1].area);
+  num_hidden_ = hidden ? num_hidden_ + 1 : 0;
+  if (num_hidden_ <= options_.num_kept_frames) return;
+  num_hidden_ = 0;
+  const auto area = [&](int side) {
+    const std::vector<std::uint8_t>& pixels = hands_[at(side)].mask.pixels;
+    return std::count(pixels.begin(), pixels.end(), std::uint8_t{255});
+  };
+  tracks_[area(0) < area(1) ? 0 : 1].known = false;
+}
+
+// Every pixel of the region to the hand that covers it, or whose middle is nearer.
+void HandPairTracker::share_out() {
+  for (int side = 0; side < 2; ++side) {
+    weigh_beside(tracks_[at(side)]);
+    std::transform(
+        rest_.pixels.begin(), rest_.pixels.end(), hands_[at(side)].mask.pixels.begin(),
+        [](std::uint8_t v) { return v == kTaken ? std::uint8_t{255} : std::uint8_t{0}; });
+  }
+  std::uint8_t* left = hands_[0].mask.pixels.data();
+  std::uint8_t* right = hands_[1].mask.pixels.data();
+  const std::uint8_t* pixel = region_.pixels.data();
+  for (int y = 0; y < mask_.height_px; ++y) {
+    for (int x = 0; x < mask_.width_px; ++x, ++left, ++right, ++pixel) {
+      if (*pixel == 0 || *left != *right) continue;
+      const auto far = [&](const Track& t) { return squared(t.x - x) + squared(t.y - y); };
+      const bool is_left = far(tracks_[0]) <= far(tracks_[1]);
+      *left = is_left ? 255 : 0;
+      *right = is_left ? 0 : 255;
+    }
+  }
+  for (PairedHand& hand : hands_) {
+    hand.touching = true;
+    hand.seen = std::any_of(hand.mask.pixels.begin(), hand.mask.pixels.end(),
+                            [](std::uint8_t v) { return v != 0; });
+  }
+}
+
+}  // namespace hri
