@@ -11,6 +11,7 @@
 #include "arrays.hpp"
 #include "hri/vision/hand_colours.hpp"
 #include "hri/vision/silhouette.hpp"
+#include "hri/vision/steady.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
@@ -38,7 +39,25 @@ void bind_vision(py::module_& m) {
                              [](const hri::Silhouette& s) { return hri_bind::to_array(s.grey); })
       .def_property_readonly("mask",
                              [](const hri::Silhouette& s) { return hri_bind::to_array(s.mask); })
-      .def_readonly("quality", &hri::Silhouette::quality);
+      .def_readonly("quality", &hri::Silhouette::quality)
+      .def_readonly("mended", &hri::Silhouette::mended,
+                    "The frames around it made the mask, because it jumped: see steady.");
+  py::class_<hri::SteadyOptions> steady_options(m, "SteadyOptions",
+                                                "Which masks of a clip are mended.");
+  hri_bind::options(steady_options)
+      .field("max_gap", &hri::SteadyOptions::max_gap)
+      .field("min_agreement", &hri::SteadyOptions::min_agreement)
+      .field("max_overlap", &hri::SteadyOptions::max_overlap);
+  m.def(
+      "steady",
+      [](std::vector<hri::Silhouette> clip, const hri::SteadyOptions& chosen) {
+        const py::gil_scoped_release release;
+        hri::steady(chosen, &clip);
+        return clip;
+      },
+      py::arg("silhouettes"), py::arg("options") = hri::SteadyOptions{},
+      "Silhouettes of a clip, with masks mended that jump for a frame or two between frames that "
+      "agree, and have less quality than these.");
   py::class_<hri::SilhouetteExtractor>(m, "SilhouetteExtractor",
                                        "Finds the hand in colour pictures.")
       .def(py::init<const hri::SilhouetteOptions&>(), py::arg("options") = hri::SilhouetteOptions{})

@@ -18,6 +18,8 @@ __all__: list[str] = [
     "SilhouetteExtractor",
     "SilhouetteMethod",
     "SilhouetteOptions",
+    "SteadyOptions",
+    "steady",
 ]
 
 class SilhouetteMethod:
@@ -110,7 +112,35 @@ class Silhouette:
     @property
     def mask(self) -> numpy.typing.NDArray[numpy.uint8]: ...
     @property
+    def mended(self) -> bool:
+        """
+        The frames around it made the mask, because it jumped: see steady.
+        """
+    @property
     def quality(self) -> float: ...
+
+class SteadyOptions:
+    """
+    Which masks of a clip are mended.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_gap(self) -> int: ...
+    @max_gap.setter
+    def max_gap(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_overlap(self) -> float: ...
+    @max_overlap.setter
+    def max_overlap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_agreement(self) -> float: ...
+    @min_agreement.setter
+    def min_agreement(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class SilhouetteExtractor:
     """
@@ -183,3 +213,8 @@ class HandColours:
         """
     @property
     def quality(self) -> float: ...
+
+def steady(silhouettes: collections.abc.Sequence[Silhouette], options: SteadyOptions = ...) -> list[Silhouette]:
+    """
+    Silhouettes of a clip, with masks mended that jump for a frame or two between frames that agree, and have less quality than these.
+    """

@@ -93,7 +93,8 @@ class HandFilm:
     def _lines(self, side: str, hand: FrameHand) -> list[str]:
         if hand.features is None or hand.x is None or hand.y is None or hand.area is None:
             return [f"no {side}" if side == "hand" else f"no {side} hand"]
-        lines = [f"{side}: quality {hand.quality:.2f}  at {hand.x:.3f} {hand.y:.3f}  area {hand.area:.3f}"]
+        place = f"at {hand.x:.3f} {hand.y:.3f}  area {hand.area:.3f}"
+        lines = [f"{side}: quality {hand.quality:.2f}  {place}{'  mended' if hand.mended else ''}"]
         if len(self._report.names) <= _MOST_VALUES and side == "hand":
             lines += [f"{name} {value:.3g}" for name, value in zip(self._report.names, hand.features, strict=True)]
         return lines

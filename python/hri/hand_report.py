@@ -20,7 +20,7 @@ Source = Literal["silhouettes", "landmarks"]
 Progress = Callable[[int, int], None]
 SOURCES: tuple[Source, ...] = ("silhouettes", "landmarks")
 
-_PLACE = ("quality", "centre_x", "centre_y", "area")
+_PLACE = ("quality", "mended", "centre_x", "centre_y", "area")
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,8 @@ class FrameHand:
     ----------
     quality : float
         0 (no hand) .. 1.
+    mended : bool
+        The frames around it made the mask, because it jumped (`hri._native_vision.steady`).
     x, y, area : float or None
         Its middle and what it covers, in shares of the picture; None without a hand.
     features : ndarray of float32, or None
@@ -41,6 +43,7 @@ class FrameHand:
     """
 
     quality: float
+    mended: bool = False
     x: float | None = None
     y: float | None = None
     area: float | None = None
@@ -88,7 +91,7 @@ class HandReport:
             for side, frames in self.hands.items():
                 hand = frames[number]
                 features = [None] * len(self.names) if hand.features is None else hand.features.tolist()
-                place = [hand.quality, hand.x, hand.y, hand.area]
+                place = [hand.quality, int(hand.mended), hand.x, hand.y, hand.area]
                 yield [number, time_s, *([side] if len(self.hands) > 1 else []), *place, *features]
 
     def table(self, separator: str = ",") -> str:
@@ -119,6 +122,7 @@ def inspect_hands(
     silhouette: Any = None,
     progress: Progress | None = None,
     max_hands: int = 1,
+    steady: bool = True,
     **options: Any,
 ) -> HandReport:
     """Find the hand, or both, in every frame of a clip, and their features.
@@ -138,6 +142,8 @@ def inspect_hands(
         Called with (done, total) frames.
     max_hands : int
         1, or 2 for the left and the right hand of the picture, of silhouettes: see `hri.recognition.hands.find_hands`.
+    steady : bool
+        Mend masks that jump for a frame or two.
     **options
         Fields of the kind's options; tracks are told the rate of the clip.
 
@@ -160,7 +166,7 @@ def inspect_hands(
         options.setdefault("frames_per_second", clip.fps)
     names = hand_column_names(kind, **options)
     hands = {}
-    for side, found in find_hands(clip.frames, max_hands, silhouette, progress).items():
+    for side, found in find_hands(clip.frames, max_hands, silhouette, progress, steady=steady).items():
         rows = iter(hand_features([s.grey for s in found], [s.mask for s in found], kind, **options))
         hands[side] = [_outlined(shape, rows) for shape in found]
     return HandReport(clip, source, kind, names, hands)
@@ -169,10 +175,10 @@ def inspect_hands(
 def _outlined(shape: Any, rows: Any) -> FrameHand:
     grey, mask = np.asarray(shape.grey), np.asarray(shape.mask)
     if not mask.any():
-        return FrameHand(0.0, grey=grey, mask=mask)
+        return FrameHand(0.0, bool(shape.mended), grey=grey, mask=mask)
     down, across = np.nonzero(mask)
     x, y = (float(across.mean()) + 0.5) / mask.shape[1], (float(down.mean()) + 0.5) / mask.shape[0]
-    return FrameHand(float(shape.quality), x, y, len(down) / mask.size, next(rows), grey, mask)
+    return FrameHand(float(shape.quality), bool(shape.mended), x, y, len(down) / mask.size, next(rows), grey, mask)
 
 
 def _joints(clip: Clip, progress: Progress | None) -> list[FrameHand]:
@@ -187,5 +193,6 @@ def _joints(clip: Clip, progress: Progress | None) -> list[FrameHand]:
         shares = joints / np.array([width, height], np.float32)
         inside = float(np.mean(np.all((shares >= 0) & (shares <= 1), axis=1)))
         x, y = shares.mean(axis=0).tolist()
-        hands.append(FrameHand(inside, x, y, float(np.ptp(shares, axis=0).prod()), next(rows), joints=joints))
+        area = float(np.ptp(shares, axis=0).prod())
+        hands.append(FrameHand(inside, x=x, y=y, area=area, features=next(rows), joints=joints))
     return hands

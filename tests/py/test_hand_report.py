@@ -37,16 +37,16 @@ def test_every_frame_has_a_row_and_rows_hold_what_the_frame_has(clip: Clip) -> N
     assert [hand.found for hand in report.hands["hand"]] == [bool(s.mask.any()) for s in found]
     assert 10 < sum(hand.found for hand in report.hands["hand"]) < len(clip.frames)
     expected = iter(hand_features([s.grey for s in found], [s.mask for s in found], "fourier", num_harmonics=4))
-    place = ["frame", "time_s", "quality", "centre_x", "centre_y", "area"]
+    place = ["frame", "time_s", "quality", "mended", "centre_x", "centre_y", "area"]
     assert report.columns == [*place, *hand_column_names("fourier", num_harmonics=4)]
     for number, (row, shape) in enumerate(zip(report.rows(), found, strict=True)):
         assert row[:3] == [number, clip.times_s[number], shape.quality if shape.mask.any() else 0.0]
         if not shape.mask.any():
-            assert row[3:] == [None] * (len(report.columns) - 3)
+            assert row[3:] == [0] + [None] * (len(report.columns) - 4)
             continue
         down, across = np.nonzero(shape.mask)
-        assert row[3:6] == pytest.approx([(across.mean() + 0.5) / 160, (down.mean() + 0.5) / 160, len(down) / 160**2])
-        np.testing.assert_array_equal(np.float32(row[6:]), next(expected))
+        assert row[4:7] == pytest.approx([(across.mean() + 0.5) / 160, (down.mean() + 0.5) / 160, len(down) / 160**2])
+        np.testing.assert_array_equal(np.float32(row[7:]), next(expected))
 
 
 def test_tracks_are_told_the_rate_of_the_clip(clip: Clip) -> None:

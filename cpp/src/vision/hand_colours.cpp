@@ -84,6 +84,7 @@ void HandColours::extract(ImageView bgr, Silhouette* out) const {
   thread_local Workspace w;
   w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
   detail::to_grey(w.small, &out->grey);
+  out->mended = false;
   detail::resize(&w.raw, w.small.width_px, w.small.height_px);
   const auto score_of = [&](const std::uint8_t* pixel) {
     return scores_[0][pixel[0]] + scores_[1][pixel[1]] + scores_[2][pixel[2]];

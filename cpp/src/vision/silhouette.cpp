@@ -229,6 +229,7 @@ void SilhouetteExtractor::extract(ImageView bgr, Silhouette* out) const {
   thread_local Workspace w;
   w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
   detail::to_grey(w.small, &out->grey);
+  out->mended = false;
   w.smoother.smooth(w.small, options_.blur_px, &w.smooth);
   out->quality = 0;
   detail::resize(&out->mask, w.small.width_px, w.small.height_px);

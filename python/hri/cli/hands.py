@@ -46,6 +46,7 @@ from hri.media import DEFAULT_FPS, VIDEO_SUFFIXES, Clip, read_frames, read_pictu
     show_default=True,
     help="2 looks for the left and the right hand of the picture.",
 )
+@click.option("--as-found", is_flag=True, help="Leave masks that jump for a frame or two as they are.")
 @click.option(
     "--fps",
     type=click.FloatRange(min=0, min_open=True),
@@ -71,14 +72,16 @@ def hands(
     kind: Any,
     options: tuple[str, ...],
     max_hands: int,
+    as_found: bool,
     fps: float | None,
     video_path: str | None,
     out: str | None,
 ) -> None:
     """Show what is found of the hand in CLIP: a video, a picture, or a folder of pictures in the order of their names.
 
-    No trained model is needed. The table has a row for every frame: time, quality (0 no hand .. 1), the hand's middle
-    and area in shares of the picture, and features; cells are empty where there is no hand.
+    No trained model is needed. The table has a row for every frame: time, quality (0 no hand .. 1), whether the mask
+    was mended by those around it, the hand's middle and area in shares of the picture, and features; cells are empty
+    where there is no hand.
 
     \b
     Examples:
@@ -105,6 +108,7 @@ def hands(
             chosen,
             progress=lambda done, total: progress("finding hands", done, total),
             max_hands=max_hands,
+            steady=not as_found,
             **fields,
         )
         if video_path is not None:

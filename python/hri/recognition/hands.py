@@ -25,7 +25,9 @@ _WRIST = 0
 _FINGER_JOINTS = tuple(tuple(range(first, first + 4)) for first in (1, 5, 9, 13, 17))
 
 
-def find_silhouettes(clip: Sequence[Frame], silhouette: Any = None, progress: Progress | None = None) -> list[Any]:
+def find_silhouettes(
+    clip: Sequence[Frame], silhouette: Any = None, progress: Progress | None = None, *, steady: bool = True
+) -> list[Any]:
     """The silhouette of the hand in every frame.
 
     Parameters
@@ -37,12 +39,14 @@ def find_silhouettes(clip: Sequence[Frame], silhouette: Any = None, progress: Pr
         segmented picture by picture with default options.
     progress : callable, optional
         Called with (done, total) frames.
+    steady : bool
+        Mend masks that jump for a frame or two (`hri._native_vision.steady`).
 
     Returns
     -------
     list of hri._native_vision.Silhouette
     """
-    return _silhouettes(clip, silhouette, progress, 1)
+    return _silhouettes(clip, silhouette, progress, 1, steady)
 
 
 @dataclass(frozen=True)
@@ -55,6 +59,8 @@ class PairedHand:
         The picture and the hand in it, at the working size; without a hand the mask is all 0.
     quality : float
         0 (no hand) .. 1, of both hands of the frame.
+    mended : bool
+        The frames around it made the mask, because it jumped.
     touching : bool
         One region holds both hands: the border between them is a guess.
     """
@@ -62,17 +68,23 @@ class PairedHand:
     grey: NDArray[np.uint8]
     mask: NDArray[np.uint8]
     quality: float
+    mended: bool = False
     touching: bool = False
 
 
 def find_hands(
-    clip: Sequence[Frame], max_hands: int = 2, silhouette: Any = None, progress: Progress | None = None
+    clip: Sequence[Frame],
+    max_hands: int = 2,
+    silhouette: Any = None,
+    progress: Progress | None = None,
+    *,
+    steady: bool = True,
 ) -> dict[str, list[Any]]:
     """The silhouettes of one hand, or of both, in every frame.
 
     Parameters
     ----------
-    clip, silhouette, progress
+    clip, silhouette, progress, steady
         As for `find_silhouettes`.
     max_hands : int
         1 or 2.
@@ -88,19 +100,22 @@ def find_hands(
 
     if max_hands not in (1, 2):
         raise _native.InvalidArgument(f"max_hands is {max_hands}, must be 1 or 2")
-    found = _silhouettes(clip, silhouette, progress, max_hands)
+    found = _silhouettes(clip, silhouette, progress, max_hands, steady)
     if max_hands == 1:
         return {"hand": found}
     tracker = _native.HandPairTracker()
     sides: dict[str, list[Any]] = {"left": [], "right": []}
     for shape in found:
         for hands, hand in zip(sides.values(), tracker.push(shape.mask), strict=True):
+            grey, mask = np.asarray(shape.grey), np.asarray(hand.mask)
             quality = shape.quality if hand.seen else 0.0
-            hands.append(PairedHand(np.asarray(shape.grey), np.asarray(hand.mask), quality, hand.touching))
+            hands.append(PairedHand(grey, mask, quality, shape.mended, hand.touching))
     return sides
 
 
-def _silhouettes(clip: Sequence[Frame], silhouette: Any, progress: Progress | None, max_hands: int) -> list[Any]:
+def _silhouettes(
+    clip: Sequence[Frame], silhouette: Any, progress: Progress | None, max_hands: int, steady: bool
+) -> list[Any]:
     from hri import _native_vision
 
     frames = [np.ascontiguousarray(frame) for frame in clip]
@@ -111,7 +126,8 @@ def _silhouettes(clip: Sequence[Frame], silhouette: Any, progress: Progress | No
         asked = {} if silhouette is None else silhouette.as_dict()
         options = _native_vision.SilhouetteOptions(**{**asked, "max_hands": max_hands})
         finder = _native_vision.SilhouetteExtractor(options)
-    return [finder.extract(frame) for frame in _counted(frames, progress)]
+    found = [finder.extract(frame) for frame in _counted(frames, progress)]
+    return list(_native_vision.steady(found)) if steady else found
 
 
 def find_landmarks(
