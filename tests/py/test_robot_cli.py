@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The commands of ``hri robot``."""
 
+import signal
+
 import pytest
 
 from hri.errors import InvalidArgument, IoError
-from hri.robot import HOAP2, gesture_trajectory, load_gestures, read_pulse_csv
+from hri.robot import HOAP2, TrajectoryError, gesture_trajectory, load_gestures, read_pulse_csv
 
 testing = pytest.importorskip("click.testing")
 
@@ -54,6 +56,33 @@ def test_play_and_render(run, tmp_path):
     assert result.exit_code == 0 and path.stat().st_size > 500
     assert isinstance(run("play", "salute").exception, InvalidArgument)
     assert isinstance(run("play", "none.csv").exception, IoError)
+
+
+def test_ctrl_c_stops_the_robot_within_its_limits_and_ends_the_program_after(run, monkeypatch):
+    from hri.robot.kinematic_backend import KinematicRobot
+
+    command, sent = KinematicRobot._command, []
+
+    def interrupted(robot, positions):
+        sent.append(positions["larm_joint_1"])
+        if len(sent) == 50:
+            signal.raise_signal(signal.SIGINT)
+        command(robot, positions)
+
+    monkeypatch.setattr(KinematicRobot, "_command", interrupted)
+    before = signal.getsignal(signal.SIGINT)
+    result = run("play", "9", "--backend", "kinematic")
+    assert result.exit_code == 130 and "stop: stopped when told" in result.output
+    assert 51 < len(sent) < 100 and abs(sent[-1] - sent[-2]) < abs(sent[49] - sent[48]), "it slowed down"
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_motion_that_is_not_safe_is_named_by_its_file(run, tmp_path):
+    path = tmp_path / "far.csv"
+    path.write_text("time_s,larm_joint_4\n0,0\n1,90\n")
+    for command in (("play", path), ("render", path, tmp_path / "v.mp4")):
+        error = run(*command, "--backend", "kinematic").exception
+        assert isinstance(error, TrajectoryError) and str(error).startswith(f"{path}: row 2")
 
 
 def test_lists(run):

@@ -146,6 +146,21 @@ def test_stop_slows_down_and_holds(robot):
     assert robot.perform(gesture_trajectory("rest")), "it moves again when told"
 
 
+def test_a_stop_while_a_motion_is_checked_is_not_lost(monkeypatch):
+    from hri.robot import backend
+
+    with open_robot("kinematic") as robot:
+        begin, check = robot.joint_positions_rad(), backend.require_safe
+
+        def stopped_meanwhile(*arguments):
+            robot.stop()
+            return check(*arguments)
+
+        monkeypatch.setattr(backend, "require_safe", stopped_meanwhile)
+        assert robot.perform(gesture_trajectory("9")) is False
+        assert [event.kind for event in robot.events] == ["stop"] and robot.joint_positions_rad() == begin
+
+
 @pytest.mark.parametrize("part", [0.2, 0.5])
 def test_stop_from_any_gesture_keeps_the_limits(part):
     for name in load_gestures():

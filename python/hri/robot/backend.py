@@ -100,8 +100,8 @@ class Robot(ABC):
         """
         if not 0.0 < fps < np.inf:
             raise InvalidArgument(f"fps is {fps}, must be above 0 and finite")
+        self._stop.clear()  # before the check, which takes a while: whoever stops the robot during it means this motion
         require_safe(trajectory, self.table)
-        self._stop.clear()
         names = trajectory.joint_names
         begin = self._positions_sent(names)
         approach = self._approach(trajectory, begin)

@@ -57,12 +57,12 @@ def check_pulse_csv(path: str | PathLike[str], table: JointTable = HOAP2) -> lis
     return check_trajectory(trajectory_from_counts(period_s, counts, table), table)
 
 
-def require_safe(trajectory: Trajectory, table: JointTable = HOAP2) -> list[Finding]:
-    """Raise TrajectoryError when a motion has errors; return its warnings."""
+def require_safe(trajectory: Trajectory, table: JointTable = HOAP2, source: str = "") -> list[Finding]:
+    """Raise TrajectoryError, which names the source, when a motion has errors; return its warnings."""
     findings = check_trajectory(trajectory, table)
     errors = [finding for finding in findings if finding.severity == "error"]
     if errors:
-        raise TrajectoryError(errors)
+        raise TrajectoryError(errors, source)
     return findings
 
 

@@ -4,13 +4,17 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import click
 import numpy as np
 
 from hri.errors import InvalidArgument
+from hri.robot.backend import Robot
 from hri.robot.checks import check_pulse_csv, check_trajectory, require_safe
 from hri.robot.gallery import write_gallery
 from hri.robot.gestures import gesture_trajectory, load_gestures
@@ -28,6 +32,8 @@ from hri.robot.state import MotionLog
 from hri.robot.trajectory import Trajectory
 
 EXIT_BAD_DATA = 3
+EXIT_FELL = 1
+EXIT_INTERRUPTED = 130
 
 _backend = click.option(
     "--backend",
@@ -124,7 +130,7 @@ def play(
     """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
 
     A robot on its feet begins with the motion's first row, standing or lying, and tells where it got to, and whether it
-    fell, on stderr.
+    fell, on stderr: exit code 1. Ctrl-C stops the robot, within its limits of speed and acceleration: exit code 130.
 
     \b
     Example:
@@ -132,15 +138,16 @@ def play(
       hri robot play walk.csv --stand --log walk.json
     """
     trajectory = _motion(motion, table)
+    require_safe(trajectory, table, motion)
     stand = stand or posture != "standing"
     idle = [name for name in table.names if name not in trajectory.joint_names] if stand and table is HOAP2 else []
     log = MotionLog()
     with open_robot(backend, gui=gui, fixed_base=not stand, locked=idle, table=table) as opened:
         if stand:
-            require_safe(trajectory, table)
             first = trajectory.positions_rad[0].tolist()
             opened.reset(dict(zip(trajectory.joint_names, first, strict=True)), posture)
-        opened.perform(trajectory, log=log)
+        with _stopped_by_interrupt(opened):
+            opened.perform(trajectory, log=log)
         for name, position in opened.joint_positions_rad().items():
             click.echo(f"{name}\t{position:.4f}")
         for event in opened.events:
@@ -153,6 +160,8 @@ def play(
     if log_path is not None:
         log.write(log_path)
         click.echo(f"log: {log_path}", err=True)
+    if opened.events:
+        sys.exit(EXIT_FELL if opened.events[-1].kind == "fall" else EXIT_INTERRUPTED)
 
 
 @robot.command(short_help="Film a motion.")
@@ -175,6 +184,7 @@ def render(
       hri robot render namaste namaste.png --still 1.5
     """
     trajectory = _motion(motion, table)
+    require_safe(trajectory, table, motion)
     if still is not None:
         render_still(trajectory, out, still, backend, size, table)
     elif sys.stderr.isatty():
@@ -272,6 +282,21 @@ def gestures() -> None:
     """
     for gesture in load_gestures().values():
         click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
+
+
+@contextmanager
+def _stopped_by_interrupt(moving: Robot) -> Iterator[None]:
+    """Ctrl-C stops the robot, which takes a moment; a second one ends the program at once."""
+
+    def stop(number: int, frame: object) -> None:
+        signal.signal(signal.SIGINT, before)
+        moving.stop()
+
+    before = signal.signal(signal.SIGINT, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _motion(motion: str, table: JointTable) -> Trajectory:
