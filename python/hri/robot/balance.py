@@ -4,10 +4,13 @@
 
 A motion recorded on one robot, played on another whose joints are a degree off, ends in a fall. What is missing is what
 the robot's gyroscope tells: how the base leans and turns beyond what the joints make it. The ankles of loaded feet lean
-the robot back, in proportion to lean and its rate. The hips of loaded legs go on turning as long as the robot is off
-its course, and turn back while their foot is in the air: two feet on the floor turn alike, as feet that twist against
-one another slip. None of that begins before the feet alone carry the robot: while it sits and pushes itself up with
-its hands, an ankle that moves only tilts its foot onto an edge; `getting_up` tells what helps then.
+the robot back, in proportion to lean and its rate. What a leg's joints are off by shows whenever it stands alone with
+its sole flat: its ankle learns that and keeps it in the air too, so that the foot lands as flat as the motion means it
+to. An ankle does not tilt a sole that stands on an edge any further: that moves the foot, not the robot, and holds it
+on the edge until it falls over it. The hips of loaded legs go on turning as long as the robot is off its course, and
+turn back while their foot is in the air: two feet on the floor turn alike, as feet that twist against one another slip.
+None of that begins before the feet alone carry the robot: while it sits and pushes itself up with its hands, an ankle
+that moves only tilts its foot onto an edge; `getting_up` tells what helps then.
 """
 
 from __future__ import annotations
@@ -19,6 +22,7 @@ from numpy.typing import NDArray
 
 from hri.robot.getting_up import GettingUp
 from hri.robot.joints import Joint, JointTable
+from hri.robot.soles import Soles
 
 Floats = NDArray[np.float64]
 
@@ -30,9 +34,13 @@ _MOST_ANKLE_RAD = 0.12
 _MOST_HIP_RAD = 0.4
 _MOST_ANKLE_SPEED = 2.0  # rad/s
 _MOST_HIP_SPEED = 1.0
-_LOAD_S = 0.02  # the force on a sole chatters: what counts is its mean over about this time
+_LEARN_PER_S = 1.0  # an ankle comes nearer to what its leg is off by at this many times the distance
+_MOST_LEARNED_RAD = 0.07
+_ALONE = (0.5, 0.9)  # share of the load from which a leg tells something of itself, and all
+_FLAT = (1.0, 0.7)  # centre of pressure, 1 at the sole's edge: the same
+_EDGE = (0.6, 0.95)  # from which an ankle does not tilt the sole further about this edge, or not at all
 _LOADED = 0.3  # share of the load with which a leg counts in full
-_CARRY_S = 0.1  # likewise for whether feet carry the robot
+_CARRY_S = 0.1  # the mean over about this time tells whether feet carry the robot
 _CARRIED = (0.7, 0.9)  # share of the weight on the feet: below the first it lies or sits, above the second it stands
 _LEAST_UP = 0.2  # cosine of the lean beyond which soles do not hold a robot
 _LEAST_UP_FOR_HEADING = 0.9
@@ -57,6 +65,7 @@ class Balance:
         self._low, self._high = limits.T
         self._weight_n = 9.81 * sum(link.mass_kg for link in table.links.values())
         self._legs = _Legs(legs, self._place)
+        self._soles = Soles(table)
         self._getting_up = GettingUp(legs)
         # Of every leg the lowest joint that rolls, pitches and turns: places in what is corrected.
         self._hands_on = [[_lowest(leg, axis, self._place) for axis in np.eye(3)] for leg in legs]
@@ -72,7 +81,8 @@ class Balance:
         self._getting_up.start()
         self._positions = np.array([positions_rad.get(name, 0.0) for name in self._place])
         self._given = np.zeros_like(self._most)
-        self._loads = np.zeros(len(self._most))
+        self._learned = np.zeros((len(self._most), 2))
+        self._soles.start()
         self._carried_n = 0.0
         self._course: float | None = None
 
@@ -81,7 +91,7 @@ class Balance:
         sent_rad: Mapping[str, float],
         turn: Floats,
         rate_rad_s: Floats,
-        loads_n: Sequence[float],
+        pressures: Floats,
         elapsed_s: float,
     ) -> dict[str, float]:
         """What to add to positions that are sent to joints.
@@ -94,8 +104,8 @@ class Balance:
             From the base's frame to the world.
         rate_rad_s : ndarray, shape (3,)
             Angular velocity of the base, in the world.
-        loads_n : sequence of float
-            Force on each foot.
+        pressures : ndarray, shape (feet, 3)
+            Force on each foot, and x and y of its centre in the frame of the foot's link.
         elapsed_s : float
             Since the last call.
         """
@@ -103,22 +113,22 @@ class Balance:
         followed = 1.0 - (1.0 - self._follow_per_s * 0.001) ** (1000.0 * elapsed_s)
         speeds = self._follow_per_s * (goal - self._positions) * (1.0 - 0.5 * followed)
         self._positions = self._positions + followed * (goal - self._positions)
-        self._loads += (1.0 - np.exp(-elapsed_s / _LOAD_S)) * (np.array(loads_n) - self._loads)
-        load = max(float(self._loads.sum()), 1e-9)
-        self._carried_n += (1.0 - np.exp(-elapsed_s / _CARRY_S)) * (sum(loads_n) - self._carried_n)
+        self._soles.feel(pressures, elapsed_s)
+        load = max(float(self._soles.loads_n.sum()), 1e-9)
+        self._carried_n += (1.0 - np.exp(-elapsed_s / _CARRY_S)) * (float(pressures[:, 0].sum()) - self._carried_n)
         share_carried = self._carried_n / self._weight_n
-        carried = _ramp(share_carried, _CARRIED)
+        carried = float(_ramp(share_carried, _CARRIED))
         up = turn[2]
         wanted = (1.0 - elapsed_s * _BACK_PER_S) * self._given
         if carried == 0.0 or up[2] < _LEAST_UP_FOR_HEADING:
             self._course = None
         if carried > 0.0 and up[2] >= _LEAST_UP:
-            shares = self._loads / load
+            shares = self._soles.loads_n / load
             soles, rates = self._legs.base_over(self._positions, speeds)
-            (x, y, z), (a, b, c) = shares @ soles, up
-            lean = np.array([z * b - y * c, x * c - z * a])  # up x sole
+            (x, y, z), (a, b, c) = soles.T, up
+            leans = np.stack((z * b - y * c, x * c - z * a), axis=1)  # up x sole
             lean_rate = (rate_rad_s @ turn - shares @ rates)[:2]
-            wanted[:, :2] = carried * shares[:, np.newaxis] * (_LEAN * lean + _LEAN_RATE_S * lean_rate)
+            wanted[:, :2] = carried * self._ankles(leans, lean_rate, shares, elapsed_s * carried)
             off = self._off_course(turn, -float(shares @ np.where(self._hips >= 0, speeds[self._hips], 0.0)), elapsed_s)
             loaded = carried * np.minimum(1.0, shares / _LOADED)
             wanted[:, 2] += elapsed_s * loaded * (_HEADING_PER_S * off + _BACK_PER_S * self._given[:, 2])
@@ -127,6 +137,19 @@ class Balance:
         self._given = self._given + elapsed_s * speed
         found = self._by_name(goal, self._given + speed / self._follow_per_s)  # joints follow late: lead by that
         return found | self._getting_up.corrections(sent_rad, turn, share_carried, elapsed_s)
+
+    def _ankles(self, leans: Floats, lean_rate: Floats, shares: Floats, learning_s: float) -> Floats:
+        """Where ankles should be turned: legs by roll and pitch; `leans` is how the base leans as each leg sees it."""
+        share = shares[:, np.newaxis]
+        given = self._given[:, :2]
+        off_middle = self._soles.off_middle[:, ::-1] * (1.0, -1.0)  # as turns that would lay the sole flat
+        sure = _ramp(share, _ALONE) * _ramp(np.abs(off_middle), _FLAT)
+        # A flat sole that leans the base although its ankle gives something is off by both.
+        self._learned += learning_s * _LEARN_PER_S * sure * (leans + given - self._learned)
+        self._learned = np.clip(self._learned, -_MOST_LEARNED_RAD, _MOST_LEARNED_RAD)
+        turning = self._learned + share * (_LEAN * (shares @ leans) + _LEAN_RATE_S * lean_rate) - given
+        on_edge = np.minimum(1.0, share / _LOADED) * _ramp(np.abs(off_middle), _EDGE)
+        return given + np.where(turning * off_middle < 0.0, 1.0 - on_edge, 1.0) * turning
 
     def _off_course(self, turn: Floats, own_turn: float, elapsed_s: float) -> float:
         """Angle from where the motion would have turned the base to where it points.
@@ -182,9 +205,9 @@ class _Legs:
         return turn[:, :, 2], rate
 
 
-def _ramp(value: float, ends: tuple[float, float]) -> float:
+def _ramp(values: Floats | float, ends: tuple[float, float]) -> Floats:
     """0 at the first end, 1 at the second, linear between them."""
-    return min(max((value - ends[0]) / (ends[1] - ends[0]), 0.0), 1.0)
+    return np.clip((np.asarray(values) - ends[0]) / (ends[1] - ends[0]), 0.0, 1.0)
 
 
 def _chain(table: JointTable, link: str) -> list[Joint]:

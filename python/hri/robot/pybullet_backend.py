@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hri.errors import Error, InvalidArgument
 from hri.optional import import_optional
@@ -288,11 +289,22 @@ class PyBulletRobot(Robot):
         bullet, client = self._bullet, self._client
         turn = np.array(bullet.getMatrixFromQuaternion(self._base()[1])).reshape(3, 3)
         rate = np.array(bullet.getBaseVelocity(self._body, physicsClientId=client)[1])
-        loads = dict.fromkeys(self._feet, 0.0)
+        self._corrections = balance.corrections(self._commanded, turn, rate, self._pressures(), elapsed_s)
+
+    def _pressures(self) -> NDArray[np.float64]:
+        """Of every foot the force of the floor, and x and y of its centre in the foot's frame."""
+        bullet, client = self._bullet, self._client
+        sums = {foot: np.zeros(4) for foot in self._feet}
         for point in bullet.getContactPoints(self._body, self._floor, physicsClientId=client):
-            if point[3] in loads:
-                loads[point[3]] += point[9]
-        self._corrections = balance.corrections(self._commanded, turn, rate, list(loads.values()), elapsed_s)
+            if point[3] in sums:
+                sums[point[3]] += point[9] * np.array((1.0, *point[5]))
+        found = np.zeros((len(self._feet), 3))
+        states = bullet.getLinkStates(self._body, self._feet, computeForwardKinematics=1, physicsClientId=client)
+        for row, state, (force, *moment) in zip(found, states, sums.values(), strict=True):
+            if force > 0.0:
+                turn = np.array(bullet.getMatrixFromQuaternion(state[5])).reshape(3, 3)
+                row[:] = force, *((np.array(moment) / force - state[4]) @ turn)[:2]
+        return found
 
     def _refuse_locked(self, positions_rad: Mapping[str, float]) -> None:
         for name in self._locked.intersection(positions_rad):

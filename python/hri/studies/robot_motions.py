@@ -31,7 +31,7 @@ CONDITIONS: dict[str, Physics] = {
     "mass -5 %": Physics(mass_scale=0.95),
     "mass +5 %": Physics(mass_scale=1.05),
 }
-SEEDS = tuple(range(500, 508))
+SEEDS = tuple(range(600, 608))
 _OFFSET_DEG = 1.0
 _NEEDED = 7
 
