@@ -96,6 +96,9 @@ def test_the_study_compares_quality_with_joints(tmp_path: Path, monkeypatch: pyt
     result = hri.studies.run_study(study, tmp_path, lambda *_: None, {"way": ("learned", "hsv")})
     learned, hsv, every = result["rows"]
     assert [row["way"] for row in result["rows"]] == ["learned", "hsv", "all"]
-    assert learned["masks"] == 10 and learned["shared_mean"] > 0.5 and learned["quality_mean"] > 0.8
-    assert hsv["shared_mean"] < learned["shared_mean"] and every["masks"] == learned["masks"] + hsv["masks"]
+    assert learned["counts"]["masks"] == 10 and learned["shared_mean"] > 0.5 and learned["quality_mean"] > 0.8
+    assert (
+        hsv["shared_mean"] < learned["shared_mean"]
+        and every["counts"]["masks"] == learned["counts"]["masks"] + hsv["counts"]["masks"]
+    )
     assert every["told_apart_mean"] > 0.85 and result["passed"]

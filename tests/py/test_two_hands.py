@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+import hri.studies
 from hri import _native, _native_vision
 from hri.errors import InvalidArgument
 from hri.evaluation import expose, gamma, tint
@@ -141,3 +142,21 @@ def test_the_command_reports_both_hands(hri, tmp_path: Path) -> None:
     drawn = HandFilm(report).draw(0)[: 2 * 240]
     tinted = [drawn[280, x].astype(int) - np.array(SKIN) for x in (120, 520)]
     assert tinted[0][1] > 10 and tinted[1][0] > 10  # green, and blue
+
+
+def test_the_study_follows_hands_along_the_ways_of_sentences(tmp_path: Path) -> None:
+    folder = tmp_path / "asl_sentences"
+    folder.mkdir()
+    rows = []
+    for t in range(31):  # in sentence 1 the hands cross, in sentence 2 they touch and part again
+        near = 15 - abs(t - 15)
+        rows.append(f"1,{t},{230 - 5 * t},150,{80 + 5 * t},154,160,60")
+        rows.append(f"2,{t},{220 - 3 * near},150,{100 + 3 * near},154,160,60")
+    (folder / "hands.csv").write_text("video,frame,left-x,left-y,right-x,right-y,nose-x,nose-y\n" + "\n".join(rows))
+    (folder / "words.csv").write_text("video,speaker,word,startframe,endframe\n1,a,GO,0,1\n2,a,GO,0,1\n")
+    (folder / "signers.csv").write_text("video,speaker\n1,a\n2,a\n")
+    result = hri.studies.run_study(hri.studies.get_study("hand-pairs"), tmp_path, lambda *_: None, {})
+    tracker, by_place = result["rows"]
+    assert tracker["whole_mean"] == tracker["kept_mean"] == 1.0 and tracker["counts"]["swaps"] == 0 and result["passed"]
+    assert tracker["counts"]["times parted"] == 2
+    assert by_place["whole_mean"] == 0.5 and by_place["counts"]["swaps"] == 1 and by_place["kept_mean"] < 0.9

@@ -39,6 +39,8 @@ HandPairTracker::HandPairTracker(const HandPairOptions& options) : options_(opti
 
 void HandPairTracker::reset() {
   for (Track& t : tracks_) t.known = false;
+  paired_ = false;
+  num_hidden_ = 0;
 }
 
 const std::array<PairedHand, 2>& HandPairTracker::push(ImageView mask) {
@@ -70,6 +72,7 @@ const std::array<PairedHand, 2>& HandPairTracker::push(ImageView mask) {
     miss(0);
     miss(1);
   }
+  if (!tracks_[0].known && !tracks_[1].known) paired_ = false;
   for (int side = 0; side < 2; ++side) {
     hands_[at(side)].x_px = tracks_[at(side)].x;
     hands_[at(side)].y_px = tracks_[at(side)].y;
@@ -129,13 +132,14 @@ void HandPairTracker::assign_two() {
     straight += cost(places[at(side)]);
     crossed += cost(places[at(1 - side)]);
   }
-  if (!tracks_[0].known && !tracks_[1].known) {
+  if (!paired_) {
     straight = places[0].x;
     crossed = places[1].x;
   }
   const int first = straight <= crossed ? 0 : 1;
   see(first, regions_[0]);
   see(1 - first, regions_[1]);
+  paired_ = true;
 }
 
 void HandPairTracker::assign_one() {

@@ -93,7 +93,7 @@ def find_hands(
     -------
     dict of str to list
         "hand": what `find_silhouettes` gives; or "left" and "right": a `PairedHand` for every frame, of the hand that
-        came into sight on that side of the picture. Labels stay with the hands when these touch or cross
+        was on that side of the picture when both were first seen. Labels stay with the hands when these touch or cross
         (`hri._native.HandPairTracker`). A face in view may be taken for a hand.
     """
     from hri import _native

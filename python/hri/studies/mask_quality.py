@@ -64,7 +64,7 @@ def _row(way: str, pairs: Sequence[tuple[float, float]]) -> dict[str, Any]:
     varied = len(pairs) > 1 and shared.std() > 0 and quality.std() > 0
     return {
         "way": way,
-        "masks": len(pairs),
+        "counts": {"masks": len(pairs)},
         "shared_mean": float(shared.mean()) if len(pairs) else None,
         "quality_mean": float(quality.mean()) if len(pairs) else None,
         "correlation_mean": float(np.corrcoef(shared, quality)[0, 1]) if varied else None,

@@ -140,6 +140,20 @@ TEST(HandPair, OneHandIsThatOfItsHalfAndTheOtherJoins) {
   EXPECT_EQ(overlap(found[1].mask, s.right), 1.0);
 }
 
+TEST(HandPair, LabelsAreGivenWhenBothAreFirstSeen) {
+  HandPairTracker tracker({});
+  EXPECT_TRUE(tracker.push(hand(4, 120, 120, 0.45).view())[1].seen);
+  const Scene s = scene({120, 120}, {170, 120});
+  const auto& found = tracker.push(s.both.view());
+  EXPECT_EQ(overlap(found[0].mask, s.left), 1.0);
+  EXPECT_EQ(overlap(found[1].mask, s.right), 1.0);
+  // Hands that touch from the beginning are one until they part.
+  tracker.reset();
+  EXPECT_FALSE(tracker.push(scene({95, 120}, {105, 120}).both.view())[0].touching);
+  const Scene apart = scene({70, 120}, {130, 120});
+  EXPECT_EQ(overlap(tracker.push(apart.both.view())[0].mask, apart.left), 1.0);
+}
+
 TEST(HandPair, AHandThatIsMissedForAWhileIsTheSameAgain) {
   HandPairTracker tracker({});
   for (int t = 0; t < 4; ++t) tracker.push(scene({60, 110}, {140, 110}).both.view());

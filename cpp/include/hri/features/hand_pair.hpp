@@ -29,8 +29,9 @@ struct PairedHand {
   double y_px = 0;
 };
 
-/// The left hand of the picture, then the right one, as they came into sight: labels go with the
-/// hands when these cross. A single hand is the left one in the left half of the picture.
+/// The left hand of the picture, then the right one, as they were when both were first seen: labels
+/// go with the hands when these cross. Until then, a single hand is the left one in the left half
+/// of the picture.
 ///
 /// Two regions are given to the hands whose way goes on there. Where one region holds both hands,
 /// the shapes that they had before are moved over it so that they cover it together, each close to
@@ -82,6 +83,7 @@ class HandPairTracker {
   std::vector<Region> regions_;  // that may be hands, at most two, the larger first
   GreyImage mask_, region_, rest_;
   std::vector<int> sums_;  // of the pixels left of every place, row by row
+  bool paired_ = false;    // both were seen apart
   int num_hidden_ = 0;     // frames in which one hand hides the other
   std::array<Track, 2> tracks_;
   std::array<PairedHand, 2> hands_;
