@@ -26,6 +26,7 @@ std::vector<hri::ContourPoint> as_contour(const IntArray& points) {
   hri_bind::require_dimensions(points, 2, "contour");
   hri::require(points.shape(1) == 2, "contour must have two columns, x and y");
   std::vector<hri::ContourPoint> contour;
+  contour.reserve(static_cast<std::size_t>(points.shape(0)));
   const std::int32_t* data = points.data();
   for (py::ssize_t i = 0; i < points.shape(0); ++i)
     contour.push_back({data[2 * i], data[2 * i + 1]});

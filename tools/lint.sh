@@ -32,9 +32,8 @@ step "stubs are up to date" "$python" tools/generate_stubs.py --check
 step shellcheck shellcheck run tools/*.sh .ci/run
 # Only findings; the commands and counts of suppressed warnings are noise.
 tidy() {
-  run-clang-tidy -quiet -p build/dev -extra-arg=-Wno-ignored-optimization-argument -j "$(nproc)" \
-    "$PWD/(cpp/src|bindings)/.*\.cpp$" 2>/dev/null |
-    { grep -vE '^clang-tidy[-0-9]* ' || true; }
+  "$python" .venv/bin/run-clang-tidy.py -clang-tidy-binary .venv/bin/clang-tidy -quiet -hide-progress -p build/dev \
+    -extra-arg=-Wno-ignored-optimization-argument -j "$(nproc)" "$PWD/(cpp/src|bindings)/.*\.cpp$" 2>/dev/null
 }
 step clang-tidy tidy
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDecibelsPerNeper = 4.342944819032518;  // of power: 10 / ln 10
 
-const CepstraOptions& checked(const CepstraOptions& options) {
+CepstraOptions checked(const CepstraOptions& options) {
   validate(options);
   return options;
 }

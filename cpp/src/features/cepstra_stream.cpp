@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostWindow = 10;
 
-const CepstraOptions& checked(const CepstraOptions& o) {
+CepstraOptions checked(const CepstraOptions& o) {
   require(o.normalisation == Normalisation::none || is_running(o.normalisation),
           "normalisation of a stream must be none or a running one");
   require(o.top_db == 0, "top_db needs the whole utterance, and must be 0 for a stream");

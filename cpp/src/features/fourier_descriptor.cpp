@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-const FourierDescriptorOptions& checked(const FourierDescriptorOptions& o) {
+FourierDescriptorOptions checked(const FourierDescriptorOptions& o) {
   require(o.num_points >= 16 && o.num_points <= 4096 && o.num_points % 2 == 0,
           "num_points must be even and lie in 16..4096");
   require(o.num_harmonics >= 1 && o.num_harmonics < o.num_points / 2,

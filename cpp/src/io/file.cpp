@@ -67,7 +67,7 @@ std::vector<std::uint8_t> read_file(const std::string& path, std::uint64_t max_b
     fail(ErrorKind::format, path + ": has " + std::to_string(size) +
                                 " bytes, more than the limit of " + std::to_string(max_bytes));
   }
-  std::rewind(file.get());
+  if (std::fseek(file.get(), 0, SEEK_SET) != 0) fail_io(path, "cannot read", errno);
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
   if (!bytes.empty() && std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
     fail_io(path, "cannot read", errno != 0 ? errno : EIO);

@@ -100,6 +100,7 @@ MultiStreamCodebook MultiStreamCodebook::read(const ModelFile& file, const std::
   if (file.has(beyond))
     fail(ErrorKind::format, file.name() + ": field '" + beyond + "' lies beyond num_streams");
   std::vector<Codebook> streams;
+  streams.reserve(static_cast<std::size_t>(num_streams));
   for (std::int64_t s = 0; s < num_streams; ++s)
     streams.push_back(Codebook::read(file, stream_prefix(prefix, s)));
   return MultiStreamCodebook(std::move(streams));

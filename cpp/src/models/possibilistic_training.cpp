@@ -115,6 +115,7 @@ PossibilisticHmmSet PossibilisticHmmSet::train(
     validate_symbols(per_class[c], options.num_symbols, "class " + std::to_string(c) + ", ");
   }
   std::vector<DiscreteHmm> models;
+  models.reserve(per_class.size());
   std::vector<TrainingReport> local(per_class.size());
   for (std::size_t c = 0; c < per_class.size(); ++c)
     models.push_back(train_class(per_class[c], options, &local[c]));

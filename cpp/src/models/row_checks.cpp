@@ -33,7 +33,8 @@ void validate_row(Span<const float> row, int dim) {
   }
 }
 
-void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classes) {
+void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
+                   int lowest_class) {
   require(rows.rows() > 0 && rows.cols() > 0, "training needs at least one row and column");
   if (static_cast<std::size_t>(rows.rows()) != classes.size()) {
     fail(ErrorKind::invalid_argument, "there are " + std::to_string(rows.rows()) + " rows and " +
@@ -43,12 +44,12 @@ void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classe
   validate_finite(rows, "rows");
   std::vector<int> counts(static_cast<std::size_t>(num_classes), 0);
   for (std::size_t r = 0; r < classes.size(); ++r) {
-    if (classes[r] < 0 || classes[r] >= num_classes) {
-      fail(ErrorKind::invalid_argument, "row " + std::to_string(r) + ": class " +
-                                            std::to_string(classes[r]) + " lies outside 0.." +
-                                            std::to_string(num_classes - 1));
+    if (classes[r] < lowest_class || classes[r] >= num_classes) {
+      fail(ErrorKind::invalid_argument,
+           "row " + std::to_string(r) + ": class " + std::to_string(classes[r]) + " lies outside " +
+               std::to_string(lowest_class) + ".." + std::to_string(num_classes - 1));
     }
-    ++counts[static_cast<std::size_t>(classes[r])];
+    if (classes[r] != kNoClass) ++counts[static_cast<std::size_t>(classes[r])];
   }
   for (int c = 0; c < num_classes; ++c) {
     if (counts[static_cast<std::size_t>(c)] == 0) {

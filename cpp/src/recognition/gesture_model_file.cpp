@@ -3,6 +3,7 @@
 //
 // GestureRecognizer to and from a model file.
 #include "gesture_scorer.hpp"
+#include "gesture_verifier.hpp"
 #include "hri/core/error.hpp"
 #include "hri/recognition/gesture_recognizer.hpp"
 #include "option_fields.hpp"
@@ -21,6 +22,7 @@ ModelFile GestureRecognizer::to_model_file() const {
   file.set_text_list("labels", labels_);
   detail::visit_gesture(detail::FieldWriter{file}, options_);
   calibration_.write(file);
+  write_gesture_verifier(verifier_, file);
   scorer_->write(file);
   return file;
 }
@@ -47,6 +49,7 @@ GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
   result.calibration_ = Calibration::read(file);
   result.scorer_ =
       read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
+  result.verifier_ = read_gesture_verifier(file, result.scorer_->num_marks());
   return result;
 }
 

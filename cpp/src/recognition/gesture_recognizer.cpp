@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "gesture_scorer.hpp"
+#include "gesture_verifier.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/simd.hpp"
 
 namespace hri {
 namespace {
-
-constexpr int kMaxFolds = 5;
 
 struct RowSums {
   int count = 0;
@@ -49,57 +48,6 @@ bool track_point(ImageView mask, float* out) {
   return true;
 }
 
-void require_finite(const MatrixF& rows, std::size_t sample) {
-  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    for (Eigen::Index c = 0; c < rows.cols(); ++c) {
-      if (std::isfinite(rows(r, c))) continue;
-      fail(ErrorKind::invalid_argument, "sample " + std::to_string(sample) +
-                                            ": feature is not finite at row " + std::to_string(r) +
-                                            ", column " + std::to_string(c));
-    }
-  }
-}
-
-std::vector<std::string> labels_of(const std::vector<GestureSample>& samples) {
-  std::vector<std::string> names;
-  names.reserve(samples.size());
-  for (const GestureSample& s : samples) names.push_back(s.label);
-  return sorted_labels(names);
-}
-
-// The rows of every class outside fold `left_out`; -1 leaves nothing out.
-std::vector<std::vector<MatrixF>> by_class(const std::vector<GestureSample>& samples,
-                                           const std::vector<int>& classes,
-                                           const std::vector<int>& folds, std::size_t num_classes,
-                                           int left_out) {
-  std::vector<std::vector<MatrixF>> result(num_classes);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (folds[i] == left_out || samples[i].features.rows() == 0) continue;
-    result[static_cast<std::size_t>(classes[i])].push_back(samples[i].features);
-  }
-  return result;
-}
-
-// What GestureModel::automatic becomes.
-GestureModel model_for(const std::vector<GestureSample>& samples) {
-  constexpr Eigen::Index kShortestMovement = 8;
-  const auto movements = std::count_if(samples.begin(), samples.end(), [](const GestureSample& s) {
-    return s.features.rows() >= kShortestMovement;
-  });
-  const bool most = 2 * movements > static_cast<std::ptrdiff_t>(samples.size());
-  if (most) return GestureModel::path;
-  // The time of rbf grows with the cube of the frames.
-  constexpr Eigen::Index kMostFrames = 3000;
-  Eigen::Index num_frames = 0;
-  for (const GestureSample& s : samples) num_frames += s.features.rows();
-  return num_frames > kMostFrames ? GestureModel::svm : GestureModel::rbf;
-}
-
-bool any_empty(const std::vector<std::vector<MatrixF>>& per_class) {
-  return std::any_of(per_class.begin(), per_class.end(),
-                     [](const auto& list) { return list.empty(); });
-}
-
 }  // namespace
 
 MatrixF GestureRecognizer::features(const std::vector<HandImage>& frames,
@@ -119,48 +67,6 @@ MatrixF GestureRecognizer::features(const std::vector<HandImage>& frames,
   return rows.topRows(used);
 }
 
-GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& samples,
-                                           const GestureRecognizerOptions& options,
-                                           const TrainingProgress& progress,
-                                           const StopCheck& should_stop) {
-  GestureRecognizer result;
-  result.options_ = options;
-  if (options.model == GestureModel::automatic) result.options_.model = model_for(samples);
-  result.labels_ = labels_of(samples);
-  std::vector<int> classes;
-  std::vector<std::string> groups;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    require_finite(samples[i].features, i);
-    classes.push_back(label_index(result.labels_, samples[i].label));
-    groups.push_back(samples[i].group);
-  }
-  const std::vector<int> folds = held_out_folds(classes, groups, kMaxFolds);
-  const auto all = by_class(samples, classes, folds, result.labels_.size(), -1);
-  for (std::size_t c = 0; c < all.size(); ++c) {
-    if (all[c].empty()) {
-      fail(ErrorKind::invalid_argument, "label '" + result.labels_[c] + "': no frame shows a hand");
-    }
-  }
-  const int num_folds = *std::max_element(folds.begin(), folds.end()) + 1;
-  std::vector<HeldOut> held_out;
-  for (int fold = 0; fold < num_folds; ++fold) {
-    if (progress) progress(fold, num_folds + 1);
-    const auto rest = by_class(samples, classes, folds, result.labels_.size(), fold);
-    if (any_empty(rest)) continue;  // without every class there is nothing to calibrate on
-    const auto scorer = train_gesture_scorer(rest, result.options_, should_stop);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      if (folds[i] != fold || samples[i].features.rows() == 0) continue;
-      const VectorF scores = scorer->scores(samples[i].features);
-      held_out.push_back({scores, classes[i], scorer->evidence(samples[i].features, scores)});
-    }
-  }
-  if (progress) progress(num_folds, num_folds + 1);
-  result.scorer_ = train_gesture_scorer(all, result.options_, should_stop);
-  result.calibration_ = Calibration::fit(held_out, options.false_reject_rate);
-  if (progress) progress(num_folds + 1, num_folds + 1);
-  return result;
-}
-
 bool GestureRecognizer::starts_at_rest() const { return scorer_->starts_at_rest(); }
 bool GestureRecognizer::pauses() const { return scorer_->pauses(); }
 
@@ -172,7 +78,9 @@ VectorF GestureRecognizer::scores(ConstMatrixRefF features) const {
 Decision GestureRecognizer::recognise_features(ConstMatrixRefF features) const {
   if (features.rows() == 0) return {};
   const VectorF s = scores(features);
-  return calibration_.decide(s, scorer_->evidence(features, s), labels_);
+  const float evidence = verifier_.dim() == 0 ? scorer_->evidence(features, s)
+                                              : log_odds(verifier_, scorer_->marks(features, s));
+  return calibration_.decide(s, evidence, labels_);
 }
 
 Decision GestureRecognizer::recognise(const std::vector<HandImage>& frames) const {

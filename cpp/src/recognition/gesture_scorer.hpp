@@ -24,8 +24,14 @@ class GestureScorer {
 
   /// Score of every class for the rows of one gesture (at least one row).
   [[nodiscard]] virtual VectorF scores(ConstMatrixRefF rows) const = 0;
-  /// What the rejection threshold is compared with; larger is surer.
+  /// What the rejection threshold is compared with where no verifier was learned; larger is surer.
   [[nodiscard]] virtual float evidence(ConstMatrixRefF rows, const VectorF& scores) const = 0;
+  /// How many values marks() gives; 0 where evidence says it all.
+  [[nodiscard]] virtual Eigen::Index num_marks() const { return 0; }
+  /// What a verifier weighs; larger values are surer.
+  [[nodiscard]] virtual VectorD marks(ConstMatrixRefF /*rows*/, const VectorF& /*scores*/) const {
+    return {};
+  }
   virtual void write(ModelFile& file) const = 0;
   /// Whether most training gestures began with a hand that rested in view.
   [[nodiscard]] virtual bool starts_at_rest() const { return false; }

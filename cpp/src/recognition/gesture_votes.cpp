@@ -4,7 +4,9 @@
 // Still signs: every frame in which the sign is held is classified by itself, and the scores are
 // averaged. The last columns (the hand's track in the picture) are left out, so that it does not
 // matter where a sign is shown.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "gesture_scorer.hpp"
@@ -20,6 +22,15 @@ namespace hri {
 namespace {
 
 constexpr float kLeastDistance = 1e-3F;  // of a frame that was trained on
+
+// What a verifier weighs of the radial kernel's best class.
+enum Mark : Eigen::Index {
+  kScore,
+  kLead,     // over the second class
+  kNearest,  // -log of the distance to the frames nearest to it
+  kCentre,   // and to the mean of them all
+  kNumMarks,
+};
 
 bool needs_components(GestureModel model) {
   return model == GestureModel::bayes || model == GestureModel::knn;
@@ -47,15 +58,42 @@ class VoteScorer : public GestureScorer {
   }
 
   [[nodiscard]] float evidence(ConstMatrixRefF rows, const VectorF& scores) const override {
-    // Of what no gesture resembles, rbf says too little: its scores fade towards the average.
-    constexpr int kNumNearest = 3;
-    if (!knn && !rbf) return scores.maxCoeff();
+    if (rbf) {
+      // Of what no gesture resembles, scores alone say too little: they fade towards the average.
+      const VectorD all = marks(rows, scores);
+      return static_cast<float>(all[kScore] + all[kNearest]);
+    }
+    if (!knn) return scores.maxCoeff();
     const MatrixF shapes = shape_rows(rows);
     float sum = 0;
     for (Eigen::Index t = 0; t < shapes.rows(); ++t)
-      sum -= knn ? knn->nearest_distance(row_span(shapes, t))
-                 : std::log(rbf->nearness(row_span(shapes, t), kNumNearest) + kLeastDistance);
-    return sum / static_cast<float>(shapes.rows()) + (rbf ? scores.maxCoeff() : 0.0F);
+      sum -= knn->nearest_distance(row_span(shapes, t));
+    return sum / static_cast<float>(shapes.rows());
+  }
+
+  [[nodiscard]] Eigen::Index num_marks() const override {
+    return rbf ? Eigen::Index{kNumMarks} : 0;
+  }
+
+  [[nodiscard]] VectorD marks(ConstMatrixRefF rows, const VectorF& scores) const override {
+    if (!rbf) return {};
+    Eigen::Index best = 0;
+    const float top = scores.maxCoeff(&best);
+    float second = -std::numeric_limits<float>::infinity();
+    for (Eigen::Index c = 0; c < scores.size(); ++c) {
+      if (c != best) second = std::max(second, scores[c]);
+    }
+    VectorD result = VectorD::Zero(kNumMarks);
+    result[kScore] = static_cast<double>(top);
+    result[kLead] = static_cast<double>(top - second);
+    const MatrixF shapes = shape_rows(rows);
+    const auto count = static_cast<double>(shapes.rows());
+    for (Eigen::Index t = 0; t < shapes.rows(); ++t) {
+      const RbfPlace place = rbf->place(row_span(shapes, t), static_cast<int>(best));
+      result[kNearest] -= static_cast<double>(std::log(place.nearest + kLeastDistance)) / count;
+      result[kCentre] -= static_cast<double>(std::log(place.centre + kLeastDistance)) / count;
+    }
+    return result;
   }
 
   void write(ModelFile& file) const override {

@@ -70,6 +70,7 @@ std::vector<float> WordFrames::locate(const WordSample& sample, const std::strin
 std::vector<std::vector<MatrixF>> WordFrames::of(Span<const float> word, std::size_t index) const {
   const WordRecognizerOptions& o = fronts_.front().options_;
   std::vector<std::vector<MatrixF>> variants;
+  variants.reserve(fronts_.size());
   for (const WordRecognizer& front : fronts_) variants.push_back(front.frames(word));
   Random random(o.models.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
   for (int copy = 0; copy < o.noise_copies; ++copy) {

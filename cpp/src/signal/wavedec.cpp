@@ -119,6 +119,7 @@ template <class T>
 std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavelet& wavelet,
                        Border border) {
   std::vector<Span<const T>> bands;
+  bands.reserve(decomposition.coefficients.size());
   for (const std::vector<T>& band : decomposition.coefficients) bands.emplace_back(band);
   const std::size_t full =
       bands.empty() ? 0 : idwt_length(bands.back().size(), wavelet.rec_lo.size(), border);

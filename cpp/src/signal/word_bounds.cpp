@@ -132,7 +132,8 @@ WordFrames WordFinder::find(Span<const ActivityFrame> frames) {
   word.first = first_voiced;
   word.last = last_voiced + 1;
   float sum = 0;
-  for (std::size_t t = word.first; t-- > 0 && word.first - t <= max_gap;) {
+  for (std::size_t next = word.first; next > 0 && word.first - next < max_gap; --next) {
+    const std::size_t t = next - 1;
     sum += gain(t);
     if (sum > 0) word.first = t;
     sum = std::min(sum, 0.0F);

@@ -26,6 +26,20 @@ TEST(LinearSvm, FindsTheKnownSolutionOfTwoPoints) {
   EXPECT_NEAR(model.biases()[1], 0.0, 1e-5);
 }
 
+TEST(LinearSvm, CountsRowsOfNoClassAgainstAll) {
+  // The rows of two classes differ in their second feature only; the first tells both from rows of
+  // no class.
+  MatrixF rows(4, 2);
+  rows << 1, 1, 1, -1, -1, 1, -1, -1;
+  const LinearSvm model = LinearSvm::train(rows, std::vector<int>{0, 1, -1, -1}, 2, {});
+  for (const Eigen::Index none : {2, 3})
+    EXPECT_LT(model.decision_values({rows.row(none).data(), 2}).maxCoeff(), -0.5F);
+  EXPECT_GT(model.decision_values({rows.row(0).data(), 2})[0], 0.3F);
+  EXPECT_GT(model.decision_values({rows.row(1).data(), 2})[1], 0.3F);
+  EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 1, -2, -1}, 2, {}), InvalidArgument);
+  EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 0, -1, -1}, 2, {}), InvalidArgument);
+}
+
 TEST(LinearSvm, RepeatsForOneSeed) {
   const LabelledRows data = blobs(3, 20, 2.0, 1);
   const LinearSvm a = LinearSvm::train(data.rows, data.classes, 3, {});

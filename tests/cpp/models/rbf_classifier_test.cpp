@@ -29,8 +29,29 @@ TEST(RbfClassifier, FindsTheKnownSolutionOfTwoPoints) {
   const std::vector<float> row{2.0F};
   EXPECT_NEAR(model.decision_values(row)[1], a * apart, 1e-6);
   EXPECT_NEAR(model.decision_values(row)[0], -a * apart, 1e-6);
-  EXPECT_NEAR(model.nearness(row, 1), 0.0, 1e-6);
-  EXPECT_NEAR(model.nearness(row, 5), 1.0, 1e-6);
+  // One row a class: what is usual is the mean squared distance of all rows.
+  EXPECT_NEAR(model.place(row, 1).nearest, 0.0, 1e-6);
+  EXPECT_NEAR(model.place(row, 0).nearest, 2.0, 1e-6);
+  EXPECT_NEAR(model.place(row, 0).centre, 2.0, 1e-6);
+}
+
+TEST(RbfClassifier, PlacesARowAmongThoseOfAClass) {
+  // Class 0: 0, 1, 3, 7. Mean squares of the three nearest of each: (1 + 9 + 49) / 3,
+  // (1 + 4 + 36) / 3, (4 + 9 + 16) / 3, (16 + 36 + 49) / 3; the upper median is 59 / 3.
+  MatrixF rows(6, 1);
+  rows << 0, 20, 1, 3, 21, 7;
+  const RbfClassifier model = RbfClassifier::train(rows, std::vector<int>{0, 1, 0, 0, 1, 0}, 2, {});
+  const std::vector<float> row{2.0F};
+  EXPECT_NEAR(model.place(row, 0).nearest, (1 + 1 + 4) / 59.0, 1e-5);
+  const float centre = 11.0F / 4;
+  double spread = 0;
+  for (Eigen::Index a = 0; a < 6; ++a) {
+    for (Eigen::Index b = 0; b < 6; ++b)
+      spread += static_cast<double>((rows(a, 0) - rows(b, 0)) * (rows(a, 0) - rows(b, 0))) / 36;
+  }
+  EXPECT_NEAR(model.place(row, 0).centre, (2 - centre) * (2 - centre) / spread, 1e-5);
+  EXPECT_NEAR(model.place(row, 1).centre, 18.5 * 18.5 / spread, 1e-4);
+  EXPECT_THROW(static_cast<void>(model.place(row, 2)), InvalidArgument);
 }
 
 TEST(RbfClassifier, SeparatesWhatNoPlaneDoes) {
@@ -54,7 +75,8 @@ TEST(RbfClassifier, SaysWhatIsFarFromAllItHasSeen) {
   const LabelledRows data = blobs(3, 20, 5.0, 1);
   const RbfClassifier model = RbfClassifier::train(data.rows, data.classes, 3, {});
   const std::vector<float> far{40, 40, 40};
-  EXPECT_GT(model.nearness(far, 3), 10 * model.nearness({data.rows.row(0).data(), 3}, 3));
+  const Span<const float> near{data.rows.row(0).data(), 3};
+  EXPECT_GT(model.place(far, 0).nearest, 10 * model.place(near, data.classes[0]).nearest);
 }
 
 TEST(RbfClassifier, LoadsWhatItSavedToTheBit) {
@@ -65,6 +87,13 @@ TEST(RbfClassifier, LoadsWhatItSavedToTheBit) {
   const RbfClassifier again = RbfClassifier::read(file, "m.");
   const Span<const float> row{data.rows.row(4).data(), 3};
   EXPECT_EQ(again.decision_values(row), model.decision_values(row));
+  EXPECT_EQ(again.place(row, 1).nearest, model.place(row, 1).nearest);
+  EXPECT_EQ(again.place(row, 1).centre, model.place(row, 1).centre);
+  for (const char* field : {"m.classes", "m.usual", "m.variances"}) {
+    ModelFile broken = file;
+    broken.set_vector(field, VectorF(VectorF::Constant(2, 7)));
+    EXPECT_THROW(RbfClassifier::read(broken, "m."), FormatError) << field;
+  }
   file.set_matrix("m.weights", MatrixF::Ones(3, 2));
   EXPECT_THROW(RbfClassifier::read(file, "m."), FormatError);
 }

@@ -6,6 +6,7 @@
 
 #include "features/hand_testing.hpp"
 #include "hri/core/error.hpp"
+#include "hri/core/random.hpp"
 
 namespace hri {
 namespace {
@@ -182,6 +183,81 @@ TEST(GestureRecognizer, TurnsDownAHandThatOnlyRests) {
   }
   ModelFile broken = file;
   broken.set_vector("path.movement.weights", VectorD(VectorD::Ones(2)));
+  EXPECT_THROW(GestureRecognizer::from_model_file(broken), FormatError);
+}
+
+// Rows around one centre a class, and track columns; what is unlike all of them lies apart.
+std::vector<GestureSample> around(int num_classes, int takes) {
+  Random random(3);
+  std::vector<GestureSample> result;
+  for (int take = 0; take < takes; ++take) {
+    for (int c = 0; c < num_classes; ++c) {
+      MatrixF row = MatrixF::Zero(1, 9);
+      for (Eigen::Index i = 0; i < 6; ++i) row(0, i) = static_cast<float>(random.uniform());
+      row(0, c) += 2;
+      result.push_back({row, "sign" + std::to_string(c), "signer" + std::to_string(take % 10)});
+    }
+  }
+  return result;
+}
+
+// With enough signers it is learned how signs outside the vocabulary look to the classifier.
+TEST(GestureRecognizer, LearnsToTurnDownSignsThatItWasNotTaught) {
+  std::vector<GestureSample> known = around(6, 60);
+  std::vector<GestureSample> unknown;
+  for (auto it = known.begin(); it != known.end();) {
+    if (it->label != "sign5") {
+      ++it;
+      continue;
+    }
+    unknown.push_back(*it);
+    it = known.erase(it);
+  }
+  const GestureRecognizer recognizer = GestureRecognizer::train(known, {});
+  ModelFile file = recognizer.to_model_file();
+  ASSERT_EQ(file.vector_d("verifier.weights").size(), 4);
+  const GestureRecognizer again = GestureRecognizer::from_model_file(file);
+  int accepted = 0;
+  for (const GestureSample& s : unknown) {
+    const Decision d = recognizer.recognise_features(s.features);
+    EXPECT_EQ(d.evidence, again.recognise_features(s.features).evidence);
+    accepted += d.status == DecisionStatus::recognised ? 1 : 0;
+  }
+  EXPECT_LE(accepted, static_cast<int>(unknown.size()) / 10);
+  int rejected = 0;
+  for (const GestureSample& s : known)
+    rejected += recognizer.recognise_features(s.features).status == DecisionStatus::unknown ? 1 : 0;
+  EXPECT_LE(rejected, static_cast<int>(known.size()) / 20);
+
+  file.set_vector("verifier.weights", VectorD(VectorD::Ones(3)));
+  EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
+  // Weights from a few gestures would be chance.
+  EXPECT_FALSE(GestureRecognizer::train(around(6, 5), {}).to_model_file().has("verifier.weights"));
+}
+
+// A movement on the right side of every plane, but far from all that was taught.
+TEST(GestureRecognizer, DoubtsMovementsFarFromTheMeanOfTheirClass) {
+  GestureRecognizerOptions options;
+  options.model = GestureModel::path;
+  std::vector<GestureSample> samples;
+  for (int take = 0; take < 6; ++take) {
+    samples.push_back(movement(true, take));
+    samples.push_back(movement(false, take));
+  }
+  const GestureRecognizer recognizer = GestureRecognizer::train(samples, options);
+  MatrixF far = samples.front().features;
+  const float usual = recognizer.recognise_features(far).evidence;
+  const Eigen::Index x = far.cols() - 3;
+  const float start = far(0, x);
+  far.col(x) = (start + 6 * (far.col(x).array() - start)).matrix();
+  const Decision decision = recognizer.recognise_features(far);
+  EXPECT_EQ(decision.nbest.front().label, "right");
+  EXPECT_LT(decision.evidence, usual);
+  ModelFile broken = recognizer.to_model_file();
+  broken.set_number("path.usual_distance", 0);
+  EXPECT_THROW(GestureRecognizer::from_model_file(broken), FormatError);
+  broken = recognizer.to_model_file();
+  broken.set_matrix("path.centres", MatrixF(MatrixF::Ones(3, 2)));
   EXPECT_THROW(GestureRecognizer::from_model_file(broken), FormatError);
 }
 

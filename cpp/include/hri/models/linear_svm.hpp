@@ -27,7 +27,8 @@ struct LinearSvmOptions {
 /// Immutable; const calls are safe from several threads.
 class LinearSvm {
  public:
-  /// `classes[r]` in 0..num_classes - 1 is the class of row r. Throws InvalidArgument for rows not
+  /// `classes[r]` in 0..num_classes - 1 is the class of row r; -1 is a row that belongs to none and
+  /// counts against every class. Throws InvalidArgument for rows not
   /// finite, a class without a row (names it), or fewer than two classes.
   static LinearSvm train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                          const LinearSvmOptions& options);

@@ -21,6 +21,14 @@ struct RbfClassifierOptions {
   StopCheck should_stop;
 };
 
+/// Where a row lies by the training rows of one class.
+struct RbfPlace {
+  float nearest = 0;  ///< mean squared distance to the three nearest rows of the class, against the
+                      ///< median of what its own rows have to their three nearest
+  float centre = 0;   ///< squared distance to the mean of the class, against the mean squared
+                      ///< distance of all training rows
+};
+
 /// Immutable; const calls are safe from several threads. It keeps its training rows.
 class RbfClassifier {
  public:
@@ -35,9 +43,8 @@ class RbfClassifier {
   /// others.
   [[nodiscard]] VectorF decision_values(Span<const float> row) const;
 
-  /// Mean squared distance of a row to the `count` training rows that are nearest (at least 1;
-  /// fewer where there are fewer), in units of the mean squared distance of the training rows.
-  [[nodiscard]] float nearness(Span<const float> row, int count) const;
+  /// Where a row lies by the training rows of class `klass`.
+  [[nodiscard]] RbfPlace place(Span<const float> row, int klass) const;
 
   [[nodiscard]] int num_classes() const { return static_cast<int>(weights_.rows()); }
   [[nodiscard]] int dim() const { return static_cast<int>(rows_.cols()); }
@@ -52,7 +59,10 @@ class RbfClassifier {
 
   MatrixF rows_;
   VectorF squares_;    // of the rows' lengths
+  VectorF classes_;    // of the rows
   MatrixF weights_;    // (num_classes, num_rows)
+  VectorF usual_;      // of every class: median of the mean of three nearest squared distances
+  VectorF variances_;  // of every class: mean squared distance of its rows to their mean
   double spread_ = 1;  // mean squared distance of the training rows
   double sharpness_ = 1;
 };

@@ -8,6 +8,9 @@
 
 namespace hri {
 
+/// Of a row that belongs to no class.
+constexpr int kNoClass = -1;
+
 /// Throws InvalidArgument unless every value is finite; the message names `what`, row and column.
 void validate_finite(ConstMatrixRefF rows, const char* what);
 
@@ -15,8 +18,9 @@ void validate_finite(ConstMatrixRefF rows, const char* what);
 void validate_row(Span<const float> row, int dim);
 
 /// What every classifier of rows demands: throws InvalidArgument for shapes that differ, rows not
-/// finite (names row and column), fewer than two classes, classes outside 0..num_classes - 1 or
-/// without a row (names them).
-void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classes);
+/// finite (names row and column), fewer than two classes, classes outside
+/// lowest_class..num_classes - 1 or without a row (names them); kNoClass needs no row.
+void validate_rows(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
+                   int lowest_class = 0);
 
 }  // namespace hri

@@ -16,6 +16,7 @@
 #include "hri/core/types.hpp"
 #include "hri/features/hand_features.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/logistic_regression.hpp"
 #include "hri/recognition/calibration.hpp"
 #include "hri/recognition/decision.hpp"
 #include "hri/recognition/training.hpp"
@@ -121,6 +122,7 @@ class GestureRecognizer {
   GestureRecognizerOptions options_;
   std::vector<std::string> labels_;
   std::shared_ptr<const GestureScorer> scorer_;
+  LogisticRegression verifier_;  // of the scorer's marks; empty where nothing was learned
   Calibration calibration_;
 };
 
