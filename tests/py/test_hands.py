@@ -146,3 +146,14 @@ def test_every_clip_is_in_one_condition() -> None:
     assert webcam.read_conditions(["pinch/t1", "zoom/t2"]) == ["violet on black", "white wall"]
     with pytest.raises(InvalidArgument, match="wave/t1"):
         webcam.read_conditions(["wave/t1"])
+
+
+def test_clips_of_ones_own_get_conditions_of_ones_own(tmp_path: Path) -> None:
+    table = tmp_path / "conditions.toml"
+    table.write_text('[[condition]]\nname = "garden"\nclips = ["wave/t1"]\n')
+    assert webcam.read_conditions(["wave/t1"], table) == ["garden"]
+    with pytest.raises(InvalidArgument, match=r"wave/t2.*webcam_gestures/conditions\.toml"):
+        webcam.read_conditions(["wave/t2"], table)
+    table.write_text("[condition]\nname = 3\n")
+    with pytest.raises(InvalidArgument, match="no table of conditions"):
+        webcam.read_conditions(["wave/t1"], table)

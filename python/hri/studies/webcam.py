@@ -25,6 +25,8 @@ from hri.studies.tables import statistics
 
 FOLDER = "webcam_gestures"
 PATTERN = "{label}/{take}.m4v"
+CONDITIONS = "conditions.toml"
+"""In the folder of the clips, takes the place of the table that comes with the study."""
 SOURCES = ("silhouettes", "landmarks")
 TARGETS = {"silhouettes": 0.85, "landmarks": 0.95}
 NUM_FOLDS = 5
@@ -43,19 +45,32 @@ LIGHTS: dict[str, Callable[[Frames], Frames]] = {
 }
 
 
-def read_conditions(clips: Sequence[str]) -> list[str]:
+def read_conditions(clips: Sequence[str], table: Path | None = None) -> list[str]:
     """The condition of every clip, each named "label/take".
+
+    Parameters
+    ----------
+    clips : sequence of str
+    table : Path, optional
+        A file like webcam_conditions.toml, for other clips than those it was written for.
 
     Raises
     ------
     InvalidArgument
-        For a clip that nobody has looked at yet.
+        For a clip that nobody has looked at yet (names it and the file), or a file that is no such table.
     """
-    text = files("hri.studies").joinpath("webcam_conditions.toml").read_text(encoding="utf-8")
-    known = {clip: entry["name"] for entry in tomllib.loads(text)["condition"] for clip in entry["clips"]}
+    source = files("hri.studies").joinpath("webcam_conditions.toml") if table is None else table
+    try:
+        entries = tomllib.loads(source.read_text(encoding="utf-8"))["condition"]
+        known = {clip: entry["name"] for entry in entries for clip in entry["clips"]}
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InvalidArgument(f"{source}: no table of conditions: {error}") from error
     unknown = [clip for clip in clips if clip not in known]
     if unknown:
-        raise InvalidArgument(f"webcam_conditions.toml has no condition for {', '.join(unknown)}")
+        raise InvalidArgument(
+            f"{source.name} has no condition for {', '.join(unknown)}; look at the clips and name the condition of "
+            f"each in {FOLDER}/{CONDITIONS}"
+        )
     return [known[clip] for clip in clips]
 
 
@@ -90,7 +105,7 @@ def _right(dataset: Dataset, recognizer: GestureRecognizer, rows: Sequence[Rows]
     ]
 
 
-def _measurable(source: Sequence[str]) -> list[str]:
+def measurable(source: Sequence[str]) -> list[str]:
     """Landmarks need MediaPipe; without it, they are measured only where they were asked for by name."""
     if len(source) == 1 or find_spec("mediapipe") is not None:
         return list(source)
@@ -100,7 +115,7 @@ def _measurable(source: Sequence[str]) -> list[str]:
 def _stratified(data_dir: Path, progress: Progress, *, source: Sequence[str] = SOURCES) -> dict[str, Any]:
     dataset = _load(data_dir)
     rows = []
-    for name in _measurable(source):
+    for name in measurable(source):
         features = _features(dataset, name, ["as recorded"], progress)["as recorded"]
         per_fold = {}
         for seed in SEEDS:
@@ -118,9 +133,12 @@ def _passed(rows: Sequence[dict[str, Any]]) -> bool:
 
 def _conditions(data_dir: Path, progress: Progress, *, source: Sequence[str] = SOURCES) -> dict[str, Any]:
     dataset = _load(data_dir)
-    conditions = read_conditions([f"{sample.label}/{sample.take}" for sample in dataset.samples])
+    own = data_dir / FOLDER / CONDITIONS
+    conditions = read_conditions(
+        [f"{sample.label}/{sample.take}" for sample in dataset.samples], own if own.exists() else None
+    )
     rows, means = [], []
-    for name in _measurable(source):
+    for name in measurable(source):
         features = _features(dataset, name, ["as recorded"], progress)["as recorded"]
         right: dict[str, list[bool]] = {}
         names = list(dict.fromkeys(conditions))
