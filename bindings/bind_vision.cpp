@@ -80,6 +80,7 @@ void bind_vision(py::module_& m) {
       .field("min_area", &hri::HandColourOptions::min_area)
       .field("max_area", &hri::HandColourOptions::max_area)
       .field("min_quality", &hri::HandColourOptions::min_quality)
+      .field("remove_still", &hri::HandColourOptions::remove_still)
       .field("max_hands", &hri::HandColourOptions::max_hands);
   py::class_<hri::HandColours>(m, "HandColours",
                                "Finds the hand by the colours it has in its own clip.")

@@ -21,6 +21,7 @@ TRACK: Colour = (60, 160, 255)
 TEXT: Colour = (255, 255, 255)
 LINE_PX = 18
 
+_EDGE: Colour = (0, 0, 0)
 _SHADE = 0.35
 _CELLS = 8
 _GLYPH_PX = 15
@@ -73,12 +74,18 @@ def paint_edges(picture: Frame, grey: Frame, mask: Frame) -> None:
 
 def paint_lines(picture: Frame, lines: Iterable[str]) -> None:
     """Lines of text from the upper left corner on; letters that OpenCV's font has not become question marks."""
-    cv2 = import_opencv("to draw hands")
     for number, line in enumerate(lines):
-        place = (6, LINE_PX * (number + 1))
-        text = line.encode("ascii", "replace").decode()
-        for colour, thickness in (((0, 0, 0), 3), (TEXT, 1)):
-            cv2.putText(picture, text, place, cv2.FONT_HERSHEY_SIMPLEX, 0.5, colour, thickness, cv2.LINE_AA)
+        paint_text(picture, line, (6, LINE_PX * (number + 1)), 0.5)
+
+
+def paint_text(picture: Frame, text: str, place: tuple[int, int], size: float) -> None:
+    """White letters with a dark edge, from the lower left corner of the first one on."""
+    cv2 = import_opencv("to draw hands")
+    told = text.encode("ascii", "replace").decode()
+    # Thicker letters would be wider in some versions of OpenCV: the edge is the same letters, moved.
+    for across, down, colour in ((-1, 0, _EDGE), (1, 0, _EDGE), (0, -1, _EDGE), (0, 1, _EDGE), (0, 0, TEXT)):
+        corner = (place[0] + across, place[1] + down)
+        cv2.putText(picture, told, corner, cv2.FONT_HERSHEY_SIMPLEX, size, colour, 1, cv2.LINE_AA)
 
 
 def _glyphs(square: NDArray[np.float32], cv2: Any) -> Frame:

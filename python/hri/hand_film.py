@@ -20,6 +20,7 @@ from hri.hand_drawing import (
     paint_joints,
     paint_lines,
     paint_mask,
+    paint_text,
     paint_track,
 )
 from hri.hand_report import FrameHand, HandReport
@@ -30,6 +31,7 @@ _NARROWEST_PX = 480
 _QUALITY_PX = 56
 _FEATURES_PX = 72
 _TRACK_S = 2.0
+_CORNER = (6, 12)
 _COLOURS: dict[str, Colour] = {"hand": HAND, "left": HAND, "right": (230, 170, 60)}
 _MOST_VALUES = 16
 """Features that are also written as numbers; more would hide the picture."""
@@ -108,8 +110,9 @@ class HandFilm:
             quality[levels <= np.array([hand.quality for hand in hands])[columns]] = _COLOURS[side]
             quality[_QUALITY_PX // 2] = TRACK  # a half
             features = np.ascontiguousarray(self._draw_features(hands)[:, columns])
-            _write(quality, f"{side}: quality")
-            _write(features, f"{side}: {self._report.kind}, {len(self._report.names)} features")
+            paint_text(quality, f"{side}: quality", _CORNER, 0.4)
+            what = f"{side}: {self._report.kind}, {len(self._report.names)} features"
+            paint_text(features, what, _CORNER, 0.4)
             strips += [quality, features]
         return np.vstack(strips)
 
@@ -121,12 +124,6 @@ class HandFilm:
         if picture.shape[0] > _FEATURES_PX:
             return cv2.resize(picture, (picture.shape[1], _FEATURES_PX), interpolation=cv2.INTER_AREA)
         return picture[np.arange(_FEATURES_PX) * picture.shape[0] // _FEATURES_PX]
-
-
-def _write(strip: Frame, text: str) -> None:
-    cv2 = import_opencv("to draw hands")
-    for colour, thickness in (((0, 0, 0), 3), (TEXT, 1)):
-        cv2.putText(strip, text, (6, 12), cv2.FONT_HERSHEY_SIMPLEX, 0.4, colour, thickness, cv2.LINE_AA)
 
 
 def _scaled(hands: list[FrameHand], num_features: int) -> NDArray[np.uint8]:

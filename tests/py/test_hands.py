@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 import hri
 import hri.studies
 from hri import _native, _native_vision
+from hri.datasets.synthetic_signer import draw_clip, make_signer
 from hri.errors import InvalidArgument
 from hri.evaluation import expose, gamma, tint
 from hri.media import write_video
@@ -56,6 +57,15 @@ def test_a_wall_has_no_hand_colours() -> None:
     assert all((s.mask == 0).all() for s in hands.find_silhouettes(wall))
     with pytest.raises(InvalidArgument, match="frame 1"):
         _native_vision.HandColours.learn([wall[0], wall[0][:, :, :1]])
+
+
+def test_the_hand_of_a_person_is_found_and_not_the_face() -> None:
+    clip = draw_clip(make_signer(2), "2")
+    raised = [np.asarray(s.mask) > 0 for s in hands.find_silhouettes(clip)[12:24]]
+    assert all(mask.any() and mask[:, :65].sum() > 0.9 * mask.sum() for mask in raised)
+    anything = _native_vision.HandColours.learn(clip, _native_vision.HandColourOptions(remove_still=False))
+    face = np.asarray(anything.extract(clip[18]).mask) > 0
+    assert face[:, :65].sum() < 0.1 * face.sum()
 
 
 def test_movements_are_told_apart_and_the_model_chosen(tmp_path: Path) -> None:

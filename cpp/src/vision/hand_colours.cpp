@@ -10,6 +10,7 @@
 #include "hri/features/regions.hpp"
 #include "mask_quality.hpp"
 #include "pixels.hpp"
+#include "still_skin.hpp"
 
 namespace hri {
 namespace {
@@ -27,17 +28,14 @@ void validate(const HandColourOptions& o) {
   require(o.max_hands >= 1 && o.max_hands <= 2, "max_hands must lie in 1..2");
 }
 
-// Frames spread evenly over the clip, scaled down.
-std::vector<detail::ColourImage> frames_to_fit(const std::vector<ImageView>& frames,
-                                               const HandColourOptions& options) {
+// Frames spread evenly over the clip.
+std::vector<ImageView> frames_to_fit(const std::vector<ImageView>& frames,
+                                     const HandColourOptions& options) {
   const std::size_t count =
       std::min(frames.size(), static_cast<std::size_t>(options.num_fit_frames));
-  std::vector<detail::ColourImage> chosen(count);
-  detail::Shrinker shrinker;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t at = count == 1 ? frames.size() / 2 : i * (frames.size() - 1) / (count - 1);
-    shrinker.shrink(frames[at], options.fit_side_px, &chosen[i]);
-  }
+  std::vector<ImageView> chosen(count);
+  for (std::size_t i = 0; i < count; ++i)
+    chosen[i] = frames[count == 1 ? frames.size() / 2 : i * (frames.size() - 1) / (count - 1)];
   return chosen;
 }
 
@@ -49,6 +47,11 @@ struct Workspace {
   std::vector<std::uint16_t> counts;
   RegionFinder regions;
 };
+
+Workspace& workspace() {
+  thread_local Workspace w;
+  return w;
+}
 
 }  // namespace
 
@@ -62,13 +65,27 @@ std::optional<HandColours> HandColours::learn(const std::vector<ImageView>& fram
            "frame " + std::to_string(i) + " must have three channels and at least one pixel");
     }
   }
-  const auto fit = detail::fit_colours(frames_to_fit(frames, options), options);
+  const std::vector<ImageView> chosen = frames_to_fit(frames, options);
+  std::vector<detail::ColourImage> small(chosen.size());
+  detail::Shrinker shrinker;
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    shrinker.shrink(chosen[i], options.fit_side_px, &small[i]);
+  const auto fit = detail::fit_colours(small, options);
   if (!fit) return std::nullopt;
   HandColours result;
   result.options_ = options;
   result.threshold_ = fit->threshold;
   result.quality_ = fit->quality;
   result.scores_ = detail::score_tables(fit->weights);
+  if (options.remove_still) {
+    std::vector<GreyImage> masks(chosen.size());
+    Silhouette found;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      result.find_skin(chosen[i], &found);
+      masks[i] = found.mask;
+    }
+    result.still_ = detail::find_still_skin(masks, options.min_area);
+  }
   return result;
 }
 
@@ -78,23 +95,32 @@ Silhouette HandColours::extract(ImageView bgr) const {
   return result;
 }
 
-void HandColours::extract(ImageView bgr, Silhouette* out) const {
-  require(!bgr.empty() && bgr.channels == 3,
-          "picture must have three channels and at least one pixel");
-  thread_local Workspace w;
+// Fills the workspace's small picture, and the mask with all that has the hand's colours.
+void HandColours::find_skin(ImageView bgr, Silhouette* out) const {
+  Workspace& w = workspace();
   w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
   detail::to_grey(w.small, &out->grey);
-  out->mended = false;
   detail::resize(&w.raw, w.small.width_px, w.small.height_px);
-  const auto score_of = [&](const std::uint8_t* pixel) {
-    return scores_[0][pixel[0]] + scores_[1][pixel[1]] + scores_[2][pixel[2]];
-  };
   const std::uint8_t* pixel = w.small.pixels.data();
   for (std::uint8_t& in : w.raw.pixels) {
     in = score_of(pixel) > threshold_ ? 255 : 0;
     pixel += 3;
   }
   detail::majority(w.raw, kRadius_px, &w.counts, &out->mask);
+}
+
+void HandColours::extract(ImageView bgr, Silhouette* out) const {
+  require(!bgr.empty() && bgr.channels == 3,
+          "picture must have three channels and at least one pixel");
+  find_skin(bgr, out);
+  out->mended = false;
+  Workspace& w = workspace();
+  if (still_.width_px == out->mask.width_px && still_.height_px == out->mask.height_px) {
+    std::transform(out->mask.pixels.begin(), out->mask.pixels.end(), still_.pixels.begin(),
+                   out->mask.pixels.begin(), [](std::uint8_t skin, std::uint8_t still) {
+                     return still != 0 ? std::uint8_t{0} : skin;
+                   });
+  }
   w.regions.keep_largest(&out->mask, options_.min_area, options_.max_hands);
   const std::uint8_t* const pixels = w.small.pixels.data();
   out->quality = detail::mask_quality(out->mask, options_.max_hands,

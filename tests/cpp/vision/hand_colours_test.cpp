@@ -94,6 +94,61 @@ TEST(HandColours, AreFoundInAnyLight) {
   EXPECT_GT(worst_overlap({{165, 160, 150}, {110, 135, 195}, 2.0}), 0.9) << "gamma 2";
 }
 
+// A face of the hand's colour, larger than the hand; where the hand hides it, they are one.
+GreyImage with_face(int t, double x) {
+  GreyImage both = hand(4, x, 130, 0.5);
+  for (int y = 0; y < kSide_px; ++y) {
+    for (int col = 0; col < kSide_px; ++col) {
+      const double u = (col - 140) / 34.0;
+      const double v = (y - 60 - t % 2) / 44.0;  // it is never quite still
+      if (u * u + v * v < 1) both.pixels[static_cast<std::size_t>(y * kSide_px + col)] = 255;
+    }
+  }
+  return both;
+}
+
+TEST(HandColours, LeaveOutAFaceThatStaysWhileTheHandMoves) {
+  std::vector<std::vector<std::uint8_t>> frames;
+  std::vector<GreyImage> hands;
+  for (int t = 0; t < kNumFrames; ++t) {
+    hands.push_back(hand(4, 40 + 4 * t, 130, 0.5));
+    const GreyImage mask = with_face(t, 40 + 4 * t);
+    Random random(static_cast<std::uint64_t>(t) + 1);
+    std::vector<std::uint8_t> bgr;
+    for (const std::uint8_t inside : mask.pixels) {
+      for (const double v :
+           {inside ? 110.0 : 165.0, inside ? 135.0 : 160.0, inside ? 195.0 : 150.0})
+        bgr.push_back(static_cast<std::uint8_t>(v + 2 * random.normal()));
+    }
+    frames.push_back(bgr);
+  }
+  const auto shared = [&](const HandColourOptions& options, int t) {
+    const auto colours = HandColours::learn(views(frames), options);
+    const GreyImage found = colours->extract(views(frames)[static_cast<std::size_t>(t)]).mask;
+    const GreyImage& wanted = hands[static_cast<std::size_t>(t)];
+    double both = 0;
+    double any = 0;
+    for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
+      both += found.pixels[i] != 0 && wanted.pixels[i] != 0 ? 1 : 0;
+      any += found.pixels[i] != 0 || wanted.pixels[i] != 0 ? 1 : 0;
+    }
+    return both / any;
+  };
+  HandColourOptions options = full_size();
+  for (const int t : {0, 4, 7}) EXPECT_GT(shared(options, t), 0.85) << t;
+  options.remove_still = false;
+  EXPECT_LT(shared(options, 4), 0.1);
+}
+
+TEST(HandColours, KeepAHandThatStays) {
+  // What stays in place alone is the hand, also where its fingers move.
+  const Scene scene{{165, 160, 150}, {110, 135, 195}};
+  std::vector<std::vector<std::uint8_t>> frames(kNumFrames, frame(scene, 0));
+  const auto colours = HandColours::learn(views(frames), full_size());
+  ASSERT_TRUE(colours.has_value());
+  EXPECT_GT(colours->extract(views(frames)[3]).quality, 0.5);
+}
+
 TEST(HandColours, AreNotFoundOnABareWall) {
   for (const double noise : {1.0, 2.0, 4.0}) {
     const auto frames = film({{165, 160, 150}, {0, 0, 0}, 1, noise}, false);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct HandColourOptions {
   double max_area = 0.6;     ///< largest, averaged over the frames learned from, 0..1
   double min_quality = 0.3;  ///< a discriminant that separates the pixels on both sides of the
                              ///< hand's outline worse than this is no hand, 0..1
+  bool remove_still = true;  ///< what has the hand's colours but stays in place while something
+                             ///< else of them moves, such as a face, is no hand
   int max_hands = 1;         ///< regions that masks hold, the largest, 1..2; HandPairTracker tells
                              ///< which is which
 };
@@ -55,7 +58,13 @@ class HandColours {
  private:
   HandColours() = default;
 
+  void find_skin(ImageView bgr, Silhouette* out) const;
+  [[nodiscard]] float score_of(const std::uint8_t* bgr) const {
+    return scores_[0][bgr[0]] + scores_[1][bgr[1]] + scores_[2][bgr[2]];
+  }
+
   HandColourOptions options_;
+  GreyImage still_;                                 // what is no hand; empty if nothing
   std::array<std::array<float, 256>, 3> scores_{};  // of the values of blue, green and red
   float threshold_ = 0;
   double quality_ = 0;
