@@ -79,7 +79,6 @@ class PyBulletRobot(Robot):
         self._fixed_base = fixed_base
         self._locked = frozenset(locked)
         self._balance = Balance(table, _GAIN_FREE_PER_S) if self._physics.balance and not fixed_base else None
-        self._corrections: dict[str, float] = {}
         self._since_balance = 0
         try:
             self._build()
@@ -204,6 +203,7 @@ class PyBulletRobot(Robot):
         self._names = tuple(name for name in self.table.names if name not in self._locked)
         self._moving = [self._indices[name] for name in self._names]
         self._offsets = [self._physics.joint_offsets_rad.get(name, 0.0) for name in self._names]
+        self._corrections = [0.0] * len(self._names)  # of the balance, to what is sent
         gain = _GAIN_FIXED_PER_S if self._fixed_base else _GAIN_FREE_PER_S
         count = len(self._names)
         self._motors = {
@@ -251,7 +251,7 @@ class PyBulletRobot(Robot):
         position, turn = bullet.multiplyTransforms(base[:3, 3].tolist(), _quaternion(base), *self._base_to_inertia)
         bullet.resetBasePositionAndOrientation(self._body, position, turn, physicsClientId=client)
         bullet.resetBaseVelocity(self._body, (0, 0, 0), (0, 0, 0), physicsClientId=client)
-        self._corrections = {}
+        self._corrections = [0.0] * len(self._names)
         balance, self._balance = self._balance, None
         for _ in range(round(_SETTLE_S / self.step_s)):
             self._command({})
@@ -265,13 +265,14 @@ class PyBulletRobot(Robot):
         if self._balance is not None:
             self._keep_balance(self._balance)
         sent = self._commanded
-        if self._corrections:
-            sent = {name: position + self._corrections.get(name, 0.0) for name, position in sent.items()}
         bullet.setJointMotorControlArray(
             self._body,
             self._moving,
             bullet.POSITION_CONTROL,
-            targetPositions=[sent[name] + offset for name, offset in zip(self._names, self._offsets, strict=True)],
+            targetPositions=[
+                sent[name] + more + offset
+                for name, more, offset in zip(self._names, self._corrections, self._offsets, strict=True)
+            ],
             physicsClientId=self._client,
             **self._motors,
         )
@@ -289,15 +290,19 @@ class PyBulletRobot(Robot):
         bullet, client = self._bullet, self._client
         turn = np.array(bullet.getMatrixFromQuaternion(self._base()[1])).reshape(3, 3)
         rate = np.array(bullet.getBaseVelocity(self._body, physicsClientId=client)[1])
-        self._corrections = balance.corrections(self._commanded, turn, rate, self._pressures(), elapsed_s)
+        found = balance.corrections(self._commanded, turn, rate, self._pressures(), elapsed_s)
+        self._corrections = [found.get(name, 0.0) for name in self._names]
 
     def _pressures(self) -> NDArray[np.float64]:
         """Of every foot the force of the floor, and x and y of its centre in the foot's frame."""
         bullet, client = self._bullet, self._client
-        sums = {foot: np.zeros(4) for foot in self._feet}
+        sums = {foot: [0.0, 0.0, 0.0, 0.0] for foot in self._feet}
         for point in bullet.getContactPoints(self._body, self._floor, physicsClientId=client):
             if point[3] in sums:
-                sums[point[3]] += point[9] * np.array((1.0, *point[5]))
+                total, force = sums[point[3]], point[9]
+                total[0] += force
+                for axis, value in enumerate(point[5], start=1):
+                    total[axis] += force * value
         found = np.zeros((len(self._feet), 3))
         states = bullet.getLinkStates(self._body, self._feet, computeForwardKinematics=1, physicsClientId=client)
         for row, state, (force, *moment) in zip(found, states, sums.values(), strict=True):
