@@ -117,7 +117,7 @@ class Balance:
         load = max(float(self._soles.loads_n.sum()), 1e-9)
         self._carried_n += (1.0 - np.exp(-elapsed_s / _CARRY_S)) * (float(pressures[:, 0].sum()) - self._carried_n)
         share_carried = self._carried_n / self._weight_n
-        carried = float(_ramp(share_carried, _CARRIED))
+        carried = _ramp(share_carried, _CARRIED)
         up = turn[2]
         wanted = (1.0 - elapsed_s * _BACK_PER_S) * self._given
         if carried == 0.0 or up[2] < _LEAST_UP_FOR_HEADING:
@@ -125,31 +125,38 @@ class Balance:
         if carried > 0.0 and up[2] >= _LEAST_UP:
             shares = self._soles.loads_n / load
             soles, rates = self._legs.base_over(self._positions, speeds)
-            (x, y, z), (a, b, c) = soles.T, up
-            leans = np.stack((z * b - y * c, x * c - z * a), axis=1)  # up x sole
+            a, b, c = up.tolist()
+            leans = np.array([(z * b - y * c, x * c - z * a) for x, y, z in soles.tolist()])  # up x sole
             lean_rate = (rate_rad_s @ turn - shares @ rates)[:2]
             wanted[:, :2] = carried * self._ankles(leans, lean_rate, shares, elapsed_s * carried)
             off = self._off_course(turn, -float(shares @ np.where(self._hips >= 0, speeds[self._hips], 0.0)), elapsed_s)
             loaded = carried * np.minimum(1.0, shares / _LOADED)
             wanted[:, 2] += elapsed_s * loaded * (_HEADING_PER_S * off + _BACK_PER_S * self._given[:, 2])
-        wanted = np.clip(wanted, -self._most, self._most)
-        speed = np.clip((wanted - self._given) / elapsed_s, -self._most_speed, self._most_speed)
+        wanted = np.minimum(np.maximum(wanted, -self._most), self._most)
+        speed = np.minimum(np.maximum((wanted - self._given) / elapsed_s, -self._most_speed), self._most_speed)
         self._given = self._given + elapsed_s * speed
         found = self._by_name(goal, self._given + speed / self._follow_per_s)  # joints follow late: lead by that
         return found | self._getting_up.corrections(sent_rad, turn, share_carried, elapsed_s)
 
     def _ankles(self, leans: Floats, lean_rate: Floats, shares: Floats, learning_s: float) -> Floats:
         """Where ankles should be turned: legs by roll and pitch; `leans` is how the base leans as each leg sees it."""
-        share = shares[:, np.newaxis]
-        given = self._given[:, :2]
-        off_middle = self._soles.off_middle[:, ::-1] * (1.0, -1.0)  # as turns that would lay the sole flat
-        sure = _ramp(share, _ALONE) * _ramp(np.abs(off_middle), _FLAT)
-        # A flat sole that leans the base although its ankle gives something is off by both.
-        self._learned += learning_s * _LEARN_PER_S * sure * (leans + given - self._learned)
-        self._learned = np.clip(self._learned, -_MOST_LEARNED_RAD, _MOST_LEARNED_RAD)
-        turning = self._learned + share * (_LEAN * (shares @ leans) + _LEAN_RATE_S * lean_rate) - given
-        on_edge = np.minimum(1.0, share / _LOADED) * _ramp(np.abs(off_middle), _EDGE)
-        return given + np.where(turning * off_middle < 0.0, 1.0 - on_edge, 1.0) * turning
+        answers = (_LEAN * (shares @ leans) + _LEAN_RATE_S * lean_rate).tolist()
+        ankles, given = np.empty_like(leans), self._given[:, :2]
+        for leg, (share, off_middle) in enumerate(zip(shares.tolist(), self._soles.off_middle, strict=True)):
+            alone, loaded = _ramp(share, _ALONE), min(1.0, share / _LOADED)
+            flattening = (off_middle[1], -off_middle[0])  # sign of the turn that would lay the sole flat
+            rows = zip(leans[leg].tolist(), given[leg].tolist(), self._learned[leg].tolist(), flattening, strict=True)
+            for axis, (lean, at, learned, flat) in enumerate(rows):
+                sure = alone * _ramp(abs(flat), _FLAT)
+                # A flat sole that leans the base although its ankle gives something is off by both.
+                learned += learning_s * _LEARN_PER_S * sure * (lean + at - learned)
+                learned = min(max(learned, -_MOST_LEARNED_RAD), _MOST_LEARNED_RAD)
+                self._learned[leg, axis] = learned
+                turning = learned + share * answers[axis] - at
+                if turning * flat < 0.0:
+                    turning *= 1.0 - loaded * _ramp(abs(flat), _EDGE)
+                ankles[leg, axis] = at + turning
+        return ankles
 
     def _off_course(self, turn: Floats, own_turn: float, elapsed_s: float) -> float:
         """Angle from where the motion would have turned the base to where it points.
@@ -205,9 +212,9 @@ class _Legs:
         return turn[:, :, 2], rate
 
 
-def _ramp(values: Floats | float, ends: tuple[float, float]) -> Floats:
+def _ramp(value: float, ends: tuple[float, float]) -> float:
     """0 at the first end, 1 at the second, linear between them."""
-    return np.clip((np.asarray(values) - ends[0]) / (ends[1] - ends[0]), 0.0, 1.0)
+    return min(max((value - ends[0]) / (ends[1] - ends[0]), 0.0), 1.0)
 
 
 def _chain(table: JointTable, link: str) -> list[Joint]:

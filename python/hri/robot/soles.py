@@ -26,7 +26,7 @@ class Soles:
     Attributes
     ----------
     loads_n : ndarray, shape (feet,)
-    off_middle : ndarray, shape (feet, 2)
+    off_middle : list of two floats for each foot
         Of the centre of pressure, along x and y: 0 in the sole's middle, 1 and -1 at its edges.
     """
 
@@ -35,15 +35,15 @@ class Soles:
         soles = [
             min(table.links[foot].solid, key=lambda shape: shape.start[2] - shape.size[2] / 2.0) for foot in table.feet
         ]
-        self._middles = np.array([sole.start[:2] for sole in soles])
-        self._halves = np.array([sole.size[:2] for sole in soles]) / 2.0
+        self._middles = [sole.start[:2] for sole in soles]
+        self._halves = [(sole.size[0] / 2.0, sole.size[1] / 2.0) for sole in soles]
         self.start()
 
     def start(self) -> None:
         """Forget everything."""
         self.loads_n = np.zeros(len(self._middles))
-        self._moments = np.zeros_like(self._middles)
-        self.off_middle = np.zeros_like(self._middles)
+        self._moments = [[0.0, 0.0] for _ in self._middles]
+        self.off_middle = [[0.0, 0.0] for _ in self._middles]
 
     def feel(self, pressures: Floats, elapsed_s: float) -> None:
         """Take what the sensors tell.
@@ -55,11 +55,13 @@ class Soles:
         elapsed_s : float
             Since the last call.
         """
-        part = 1.0 - np.exp(-elapsed_s / _SMOOTH_S)
-        forces = pressures[:, :1]
-        self.loads_n += part * (forces[:, 0] - self.loads_n)
-        self._moments += part * (forces * (pressures[:, 1:] - self._middles) / self._halves - self._moments)
-        loads = self.loads_n[:, np.newaxis]
-        self.off_middle = np.where(
-            loads > self._touching_n, np.clip(self._moments / np.maximum(loads, self._touching_n), -1.0, 1.0), 0.0
-        )
+        part = 1.0 - float(np.exp(-elapsed_s / _SMOOTH_S))
+        for foot, (force, *centre) in enumerate(pressures.tolist()):
+            load = float(self.loads_n[foot])
+            load += part * (force - load)
+            self.loads_n[foot] = load
+            moments, shape = self._moments[foot], zip(centre, self._middles[foot], self._halves[foot], strict=True)
+            for axis, (at, middle, half) in enumerate(shape):
+                moments[axis] += part * (force * (at - middle) / half - moments[axis])
+            told = load > self._touching_n
+            self.off_middle[foot] = [min(max(moment / load, -1.0), 1.0) if told else 0.0 for moment in moments]
