@@ -11,7 +11,11 @@ import pytest
 
 import hri
 import hri.studies
+from hri import _native_vision
+from hri.datasets import Dataset
 from hri.datasets.synthetic_signer import make_gesture_corpus
+from hri.media import read_frames
+from hri.recognition.hands import find_silhouettes
 from hri.studies import unknown_gestures
 from hri.studies.unknown_gestures import empty_clips, rest_before
 
@@ -43,3 +47,18 @@ def test_empty_clips_are_walls_in_noise() -> None:
     assert all(len(clip) == 12 and clip[0].shape == (120, 160, 3) for clip in clips)
     assert all(2 < float((clip[0].astype(float) - clip[1]).std()) < 6 for clip in clips)
     assert np.array_equal(clips[0][0], empty_clips(1, seed=1)[0][0])
+
+
+def test_a_wall_is_no_hand(tmp_path: Path) -> None:
+    """Most walls that are taken for a hand have borders too weak to be trusted; drawn hands never are."""
+    make_gesture_corpus(tmp_path / "g", labels=["1", "5"], num_persons=3)
+    dataset = Dataset.load(tmp_path / "g", "gesture")
+    recognizer = hri.train(dataset)
+    for sample in dataset.samples:
+        assert recognizer.recognise(read_frames(sample.path).frames).status != "no_input"
+    walls = [recognizer.recognise(clip).status for clip in empty_clips(20)]
+    assert walls.count("no_input") >= 16 and walls.count("recognised") == 0
+    found = [s for clip in empty_clips(20) for s in find_silhouettes(clip) if s.mask.any()]
+    assert found and recognizer.silhouette_features(found).shape[0] < len(found) / 2
+    asked = hri.GestureRecognizer(silhouette=_native_vision.SilhouetteOptions())
+    assert asked.silhouette_features(found).shape[0] == len(found)

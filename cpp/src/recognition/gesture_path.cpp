@@ -26,7 +26,6 @@ namespace hri {
 namespace {
 
 using detail::farthest;
-using detail::find_rests;
 using detail::KnownPath;
 using detail::kNumPoints;
 using detail::path_vector;

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from hri import _native
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
-from hri.recognition.hands import find_landmarks, find_silhouettes, landmark_features
+from hri.recognition.hands import LEAST_QUALITY, find_landmarks, find_silhouettes, landmark_features
 
 Frame = NDArray[np.uint8]
 Clip = Sequence[Frame]
@@ -61,10 +61,16 @@ class GestureRecognizer(Recognizer):
         return self.silhouette_features(find_silhouettes(frames, self._silhouette))
 
     def silhouette_features(self, silhouettes: Sequence[Any]) -> NDArray[np.float32]:
-        """Features as `features` gives them, of hands that are found already (`hri._native_vision.Silhouette`)."""
+        """Features as `features` gives them, of hands that are found already (`hri._native_vision.Silhouette`).
+
+        Unless they were found in a way that was asked for (`silhouette`), those of a quality below
+        `hri.recognition.hands.LEAST_QUALITY` are left out.
+        """
+        least = LEAST_QUALITY if self._silhouette is None else 0.0
+        trusted = [s for s in silhouettes if s.quality >= least]
         return np.asarray(
             _native.GestureRecognizer.features(
-                [s.grey for s in silhouettes], [s.mask for s in silhouettes], self.options.features
+                [s.grey for s in trusted], [s.mask for s in trusted], self.options.features
             )
         )
 

@@ -20,6 +20,8 @@ NUM_LANDMARKS = 21
 NUM_TRACK_COLUMNS = 3
 SHORTEST_CLIP = 8
 """Frames from which on the colours of hand and background are learned from the clip."""
+LEAST_QUALITY = 0.25
+"""Of a silhouette that a recogniser takes for a hand. Hands have more in any light; walls without one mostly less."""
 
 _WRIST = 0
 _FINGER_JOINTS = tuple(tuple(range(first, first + 4)) for first in (1, 5, 9, 13, 17))
