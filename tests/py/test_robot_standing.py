@@ -111,6 +111,22 @@ def test_balance_is_kept_when_joints_are_off():
 
 
 @needs_pybullet
+def test_the_simulation_is_built_in_one_order_whatever_the_hashes_are(monkeypatch):
+    import pybullet
+
+    pairs, filter_pair = [], pybullet.setCollisionFilterPair
+
+    def spy(body, other, first, second, *arguments, **more):
+        pairs.append((first, second))
+        return filter_pair(body, other, first, second, *arguments, **more)
+
+    monkeypatch.setattr(pybullet, "setCollisionFilterPair", spy)
+    with open_robot("pybullet") as robot:
+        built = [tuple(robot._links[index] for index in pair) for pair in pairs]
+    assert built == sorted(built) and {frozenset(pair) for pair in built} == HOAP2.adjoining
+
+
+@needs_pybullet
 def test_physics_counts():
     with open_robot("pybullet", fixed_base=False, physics=Physics(mass_scale=1.5)) as robot:
         weight = sum(contact.force_n for contact in robot.state().contacts)

@@ -234,7 +234,7 @@ class PyBulletRobot(Robot):
                 **heavier,
             )
         by_link = {link: index for index, link in self._links.items()}
-        for first, second in (sorted(pair) for pair in self.table.adjoining):
+        for first, second in sorted(sorted(pair) for pair in self.table.adjoining):  # its order changes the last bits
             bullet.setCollisionFilterPair(
                 self._body, self._body, by_link[first], by_link[second], 0, physicsClientId=client
             )
