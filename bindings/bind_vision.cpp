@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,14 @@ void bind_vision(py::module_& m) {
       "agree, and have less quality than these.");
   py::class_<hri::SilhouetteExtractor>(m, "SilhouetteExtractor",
                                        "Finds the hand in colour pictures.")
-      .def(py::init<const hri::SilhouetteOptions&>(), py::arg("options") = hri::SilhouetteOptions{})
+      .def(py::init([](const hri::SilhouetteOptions& chosen,
+                       const std::optional<hri_bind::ByteArray>& background) {
+             return background ? hri::SilhouetteExtractor(
+                                     chosen, hri_bind::as_image(*background, 3, "background"))
+                               : hri::SilhouetteExtractor(chosen);
+           }),
+           py::arg("options") = hri::SilhouetteOptions{}, py::arg("background") = py::none(),
+           "background: uint8, shape (height, width, 3), the place without a person.")
       .def(
           "extract",
           [](const hri::SilhouetteExtractor& self, const hri_bind::ByteArray& bgr) {

@@ -146,7 +146,14 @@ class SilhouetteExtractor:
     """
     Finds the hand in colour pictures.
     """
-    def __init__(self, options: SilhouetteOptions = ...) -> None: ...
+    def __init__(
+        self,
+        options: SilhouetteOptions = ...,
+        background: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8] | None = None,
+    ) -> None:
+        """
+        background: uint8, shape (height, width, 3), the place without a person.
+        """
     def extract(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> Silhouette:
         """
         bgr: uint8, shape (height, width, 3).

@@ -123,6 +123,7 @@ def inspect_hands(
     progress: Progress | None = None,
     max_hands: int = 1,
     steady: bool = True,
+    background: Any = None,
     **options: Any,
 ) -> HandReport:
     """Find the hand, or both, in every frame of a clip, and their features.
@@ -144,6 +145,8 @@ def inspect_hands(
         1, or 2 for the left and the right hand of the picture, of silhouettes: see `hri.recognition.hands.find_hands`.
     steady : bool
         Mend masks that jump for a frame or two.
+    background : uint8 array of the frames' shape, optional
+        The place without a person, of silhouettes: see `hri.recognition.hands.find_silhouettes`.
     **options
         Fields of the kind's options; tracks are told the rate of the clip.
 
@@ -161,12 +164,15 @@ def inspect_hands(
             raise TypeError(f"landmarks have no options, got {', '.join(options)}")
         if max_hands != 1:
             raise InvalidArgument(f"max_hands is {max_hands}, must be 1 for landmarks")
+        if background is not None:
+            raise InvalidArgument("background is for silhouettes, not for landmarks")
         return HandReport(clip, source, source, landmark_column_names(), {"hand": _joints(clip, progress)})
     if kind == "track":
         options.setdefault("frames_per_second", clip.fps)
     names = hand_column_names(kind, **options)
     hands = {}
-    for side, found in find_hands(clip.frames, max_hands, silhouette, progress, steady=steady).items():
+    sides = find_hands(clip.frames, max_hands, silhouette, progress, steady=steady, background=background)
+    for side, found in sides.items():
         rows = iter(hand_features([s.grey for s in found], [s.mask for s in found], kind, **options))
         hands[side] = [_outlined(shape, rows) for shape in found]
     return HandReport(clip, source, kind, names, hands)

@@ -171,11 +171,47 @@ def test_folders_of_pictures_are_clips_in_the_order_of_their_numbers(hri, clip: 
         read_pictures(tmp_path)
 
 
+def _before_a_board() -> list[np.ndarray]:
+    """Something of the colour of skin that moves, before a board of that colour."""
+    room = np.full((240, 320, 3), (165, 160, 150), np.uint8)
+    room[20:220, 200:290] = (110, 135, 195)
+    frames = [room.copy() for _ in range(12)]
+    for t, frame in enumerate(frames):
+        frame[60:120, 10 + 12 * t : 50 + 12 * t] = (110, 135, 195)
+    return frames
+
+
+def test_a_known_background_is_left_out(hri, tmp_path: Path) -> None:
+    frames = _before_a_board()
+    place = hands.background_of(frames)
+    assert (place[20:220, 200:290] == (110, 135, 195)).all() and (place[60:120, 20:190] == (165, 160, 150)).all()
+    clip = Clip(frames, [i / 12 for i in range(12)], Path("board.avi"))
+    for number, hand in enumerate(inspect_hands(clip, background=place).hands["hand"]):
+        assert hand.found and hand.x == pytest.approx((30 + 12 * number) / 320, abs=0.02)
+    with pytest.raises(InvalidArgument, match="320 x 240 pixels, the background 320 x 100"):
+        find_silhouettes(frames, background=place[:100])
+    with pytest.raises(InvalidArgument, match="one size"):
+        hands.background_of([frames[0], frames[0][:100]])
+    with pytest.raises(InvalidArgument, match="one size"):
+        hands.background_of([])
+
+    write_video(tmp_path / "board.mp4", frames, 12)
+    write_image(tmp_path / "room.png", place)
+    for arguments in (["--background", "clip"], ["--background", str(tmp_path / "room.png"), "--method", "hsv"]):
+        ran = hri("hands", tmp_path / "board.mp4", *arguments, "-o", tmp_path / "seen.json")
+        assert ran.code == 0, ran.err
+        seen = json.loads((tmp_path / "seen.json").read_text())["frames"]
+        middles = [row["centre_x"] for row in seen]
+        assert middles == pytest.approx([(30 + 12 * t) / 320 for t in range(12)], abs=0.03)
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
         (["--kind", "fourier", "--source", "landmarks"], 2, "--kind"),
         (["--fps", "10"], 2, "--fps"),
+        (["--method", "hsv", "--source", "landmarks"], 2, "--method"),
+        (["--background", "missing.png"], 3, "missing.png"),
         (["--option", "delta_order=1"], 3, "delta_order"),
         (["--option", "delta_orders=9"], 3, "delta_orders"),
         (["--video", "seen.gif"], 2, ".mp4"),

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "hri/core/error.hpp"
@@ -124,6 +126,15 @@ Split split(const detail::ColourImage& bgr, SilhouetteMethod method, GreyImage* 
   return found;
 }
 
+// Splits another picture where one was split.
+void split_as(const detail::ColourImage& bgr, SilhouetteMethod method, int threshold,
+              GreyImage* channel, GreyImage* mask) {
+  if (method == SilhouetteMethod::hsv) return split_by_hsv(bgr, mask);
+  const bool by_grey = method == SilhouetteMethod::grey_otsu;
+  by_grey ? detail::to_grey(bgr, channel) : detail::to_redness(bgr, channel);
+  detail::set_where(*channel, threshold, !by_grey, mask);
+}
+
 // How well a region fills the ellipse that has its moments: 1 for an ellipse, less for a hand with
 // fingers.
 double ellipticity(const GreyImage& mask, const Region& found) {
@@ -160,7 +171,7 @@ struct Workspace {
   detail::Shrinker shrinker;
   detail::Smoother smoother;
   detail::ColourImage small, smooth;
-  GreyImage channel, raw, cleaned, other;
+  GreyImage channel, raw, cleaned, other, other_channel;
   std::vector<std::uint16_t> counts;
   RegionFinder finder;
   std::vector<Region> candidates;
@@ -201,7 +212,32 @@ void remove_face(Workspace* w, int max_hands) {
   w->candidates.erase(w->candidates.begin() + static_cast<std::ptrdiff_t>(face));
 }
 
+Workspace& workspace() {
+  thread_local Workspace w;
+  return w;
+}
+
 }  // namespace
+
+// The background at the working size, blurred as pictures are.
+struct SilhouetteExtractor::Background {
+  int width_px = 0;  // of the picture that was given
+  int height_px = 0;
+  detail::ColourImage smooth;
+};
+
+SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options, ImageView background)
+    : SilhouetteExtractor(options) {
+  require(!background.empty() && background.channels == 3,
+          "background must have three channels and at least one pixel");
+  auto kept = std::make_shared<Background>();
+  kept->width_px = background.width_px;
+  kept->height_px = background.height_px;
+  Workspace& w = workspace();
+  w.shrinker.shrink(background, options_.max_side_px, &w.small);
+  w.smoother.smooth(w.small, options_.blur_px, &kept->smooth);
+  background_ = std::move(kept);
+}
 
 SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options) : options_(options) {
   require(options.max_side_px >= 32 && options.max_side_px <= 4096,
@@ -226,7 +262,14 @@ Silhouette SilhouetteExtractor::extract(ImageView bgr) const {
 void SilhouetteExtractor::extract(ImageView bgr, Silhouette* out) const {
   require(!bgr.empty() && bgr.channels == 3,
           "picture must have three channels and at least one pixel");
-  thread_local Workspace w;
+  if (background_ &&
+      (bgr.width_px != background_->width_px || bgr.height_px != background_->height_px)) {
+    fail(ErrorKind::invalid_argument,
+         "picture is " + std::to_string(bgr.width_px) + " x " + std::to_string(bgr.height_px) +
+             " pixels, the background " + std::to_string(background_->width_px) + " x " +
+             std::to_string(background_->height_px));
+  }
+  Workspace& w = workspace();
   w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
   detail::to_grey(w.small, &out->grey);
   out->mended = false;
@@ -239,6 +282,10 @@ void SilhouetteExtractor::extract(ImageView bgr, Silhouette* out) const {
       (found.contrast >= options_.sure_contrast || found.quality >= options_.min_quality);
   w.candidates.clear();
   if (clear) {
+    if (background_) {
+      split_as(background_->smooth, options_.method, found.threshold, &w.other_channel, &w.other);
+      for (std::size_t i = 0; i < w.raw.pixels.size(); ++i) w.raw.pixels[i] ^= w.other.pixels[i];
+    }
     detail::majority(w.raw, options_.blur_px / 2, &w.counts, &w.cleaned);
     find_candidates(options_, &w);
     if (options_.remove_face) remove_face(&w, options_.max_hands);

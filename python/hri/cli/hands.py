@@ -15,7 +15,10 @@ from hri.cli.recognizers import naming_options, parse_options
 from hri.hand_features import HAND_KINDS, hand_column_names
 from hri.hand_film import film_hands
 from hri.hand_report import SOURCES, HandReport, inspect_hands
-from hri.media import DEFAULT_FPS, VIDEO_SUFFIXES, Clip, read_frames, read_pictures
+from hri.media import DEFAULT_FPS, VIDEO_SUFFIXES, Clip, read_frames, read_image, read_pictures
+from hri.recognition.hands import background_of
+
+METHODS = ("chroma_otsu", "hsv", "grey_otsu")
 
 
 @click.command()
@@ -46,6 +49,18 @@ from hri.media import DEFAULT_FPS, VIDEO_SUFFIXES, Clip, read_frames, read_pictu
     show_default=True,
     help="2 looks for the left and the right hand of the picture.",
 )
+@click.option(
+    "--method",
+    type=click.Choice(METHODS),
+    help="Find the hand in every picture by itself: Otsu's threshold on chroma or grey, or fixed HSV bounds.  "
+    "[default: by colours learned from the clip]",
+)
+@click.option(
+    "--background",
+    metavar="FILE",
+    help="A picture of the place without a person; what looks like skin there as well is no hand.  'clip': what most "
+    "frames of the clip show.",
+)
 @click.option("--as-found", is_flag=True, help="Leave masks that jump for a frame or two as they are.")
 @click.option(
     "--fps",
@@ -72,6 +87,8 @@ def hands(
     kind: Any,
     options: tuple[str, ...],
     max_hands: int,
+    method: str | None,
+    background: str | None,
     as_found: bool,
     fps: float | None,
     video_path: str | None,
@@ -89,11 +106,14 @@ def hands(
       hri hands pictures/ --fps 15 --kind fourier --video seen.webm
       hri hands swipe.mp4 --source landmarks -o joints.json
       hri hands clap.mp4 --max-hands 2 --video seen.mp4
+      hri hands swipe.mp4 --method hsv --background empty_room.jpg --video seen.mp4
     """
     if (kind is not None or options) and source != "silhouettes":
         raise click.UsageError("--kind and --option are for silhouettes: landmarks have but one kind of features")
     if max_hands > 1 and source != "silhouettes":
         raise click.UsageError("--max-hands 2 is for silhouettes")
+    if (method is not None or background is not None) and source != "silhouettes":
+        raise click.UsageError("--method and --background are for silhouettes")
     if fps is not None and not Path(clip).is_dir():
         raise click.UsageError(f"--fps is for folders of pictures: {clip} is a file")
     chosen: Any = kind or "track"
@@ -109,6 +129,8 @@ def hands(
             progress=lambda done, total: progress("finding hands", done, total),
             max_hands=max_hands,
             steady=not as_found,
+            silhouette=_options(method),
+            background=_background(background, read),
             **fields,
         )
         if video_path is not None:
@@ -119,6 +141,18 @@ def hands(
         which = "a hand" if side == "hand" else f"a {side} hand"
         num_found = sum(hand.found for hand in found)
         click.echo(f"{written or clip}: {which} in {num_found} of {len(found)} frames", err=True)
+
+
+def _options(method: str | None) -> Any:
+    from hri import _native_vision
+
+    return None if method is None else _native_vision.SilhouetteOptions(method=method)
+
+
+def _background(background: str | None, clip: Clip) -> Any:
+    if background is None:
+        return None
+    return background_of(clip.frames) if background == "clip" else read_image(background)
 
 
 def _read(clip: str, fps: float | None) -> Clip:

@@ -28,7 +28,12 @@ _FINGER_JOINTS = tuple(tuple(range(first, first + 4)) for first in (1, 5, 9, 13,
 
 
 def find_silhouettes(
-    clip: Sequence[Frame], silhouette: Any = None, progress: Progress | None = None, *, steady: bool = True
+    clip: Sequence[Frame],
+    silhouette: Any = None,
+    progress: Progress | None = None,
+    *,
+    steady: bool = True,
+    background: Frame | None = None,
 ) -> list[Any]:
     """The silhouette of the hand in every frame.
 
@@ -43,12 +48,33 @@ def find_silhouettes(
         Called with (done, total) frames.
     steady : bool
         Mend masks that jump for a frame or two (`hri._native_vision.steady`).
+    background : uint8 array of the frames' shape, optional
+        The place without a person, by the same camera: every frame is then segmented by itself, and what looks like
+        skin in frame or background, but not in both, is the hand. `background_of` finds it in the clip itself.
 
     Returns
     -------
     list of hri._native_vision.Silhouette
     """
-    return _silhouettes(clip, silhouette, progress, 1, steady)
+    return _silhouettes(clip, silhouette, progress, 1, steady, background)
+
+
+def background_of(clip: Sequence[Frame]) -> Frame:
+    """What a clip shows behind whoever moves in it: every pixel's median over up to 25 frames spread over the clip.
+
+    Where a person stands still for half of the clip, the person is part of it.
+
+    Raises
+    ------
+    InvalidArgument
+        For a clip without frames, or of frames that differ in size.
+    """
+    from hri._native import InvalidArgument
+
+    if len({frame.shape for frame in clip}) != 1:
+        raise InvalidArgument("a background needs frames, all of one size")
+    at = np.unique(np.linspace(0, len(clip) - 1, 25).round().astype(int))
+    return np.median([clip[i] for i in at], axis=0).astype(np.uint8)
 
 
 @dataclass(frozen=True)
@@ -81,12 +107,13 @@ def find_hands(
     progress: Progress | None = None,
     *,
     steady: bool = True,
+    background: Frame | None = None,
 ) -> dict[str, list[Any]]:
     """The silhouettes of one hand, or of both, in every frame.
 
     Parameters
     ----------
-    clip, silhouette, progress, steady
+    clip, silhouette, progress, steady, background
         As for `find_silhouettes`.
     max_hands : int
         1 or 2.
@@ -102,7 +129,7 @@ def find_hands(
 
     if max_hands not in (1, 2):
         raise _native.InvalidArgument(f"max_hands is {max_hands}, must be 1 or 2")
-    found = _silhouettes(clip, silhouette, progress, max_hands, steady)
+    found = _silhouettes(clip, silhouette, progress, max_hands, steady, background)
     if max_hands == 1:
         return {"hand": found}
     tracker = _native.HandPairTracker()
@@ -116,18 +143,23 @@ def find_hands(
 
 
 def _silhouettes(
-    clip: Sequence[Frame], silhouette: Any, progress: Progress | None, max_hands: int, steady: bool
+    clip: Sequence[Frame],
+    silhouette: Any,
+    progress: Progress | None,
+    max_hands: int,
+    steady: bool,
+    background: Frame | None,
 ) -> list[Any]:
     from hri import _native_vision
 
     frames = [np.ascontiguousarray(frame) for frame in clip]
     finder: Any = None
-    if silhouette is None and len(frames) >= SHORTEST_CLIP:
+    if silhouette is None and background is None and len(frames) >= SHORTEST_CLIP:
         finder = _native_vision.HandColours.learn(frames, _native_vision.HandColourOptions(max_hands=max_hands))
     if finder is None:
         asked = {} if silhouette is None else silhouette.as_dict()
         options = _native_vision.SilhouetteOptions(**{**asked, "max_hands": max_hands})
-        finder = _native_vision.SilhouetteExtractor(options)
+        finder = _native_vision.SilhouetteExtractor(options, background)
     found = [finder.extract(frame) for frame in _counted(frames, progress)]
     return list(_native_vision.steady(found)) if steady else found
 

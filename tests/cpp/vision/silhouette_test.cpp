@@ -164,5 +164,40 @@ TEST(Silhouette, NamesTheOptionThatDoesNotFit) {
   EXPECT_THROW((void)SilhouetteExtractor({}).extract({}), InvalidArgument);
 }
 
+// A wooden board that is larger than the hand and looks like skin: only a picture of the place
+// without the hand tells them apart.
+TEST(SilhouetteExtractor, LeavesOutWhatTheBackgroundHasAlready) {
+  const GreyImage mask = hand(5, 70, 115, 0.8);
+  const auto board = [](int x, int y) { return x >= 140 && x < 190 && y >= 10 && y < 190; };
+  const Picture place = photograph([&](int x, int y) { return board(x, y) ? kSkin : kWall; });
+  const Picture picture = photograph(
+      [&](int x, int y) { return board(x, y) ? kSkin : hand_on_wall(mask, x, y); }, 1, 3);
+  for (const auto method : {SilhouetteMethod::chroma_otsu, SilhouetteMethod::hsv}) {
+    SilhouetteOptions options;
+    options.method = method;
+    options.remove_face = false;
+    EXPECT_LT(overlap(SilhouetteExtractor(options).extract(picture.view()).mask, mask), 0.1);
+    const SilhouetteExtractor extractor(options, place.view());
+    EXPECT_GT(overlap(extractor.extract(picture.view()).mask, mask), 0.9);
+    const Silhouette empty = extractor.extract(place.view());
+    EXPECT_TRUE(std::all_of(empty.mask.pixels.begin(), empty.mask.pixels.end(),
+                            [](std::uint8_t v) { return v == 0; }));
+    EXPECT_EQ(empty.quality, 0);
+  }
+}
+
+TEST(SilhouetteExtractor, RefusesABackgroundThatDoesNotFit) {
+  const Picture picture = photograph([](int, int) { return kWall; });
+  EXPECT_THROW(SilhouetteExtractor({}, ImageView{}), InvalidArgument);
+  const ImageView half{picture.bgr.data(), 200, 100, 3, 600};
+  const SilhouetteExtractor extractor({}, half);
+  try {
+    static_cast<void>(extractor.extract(picture.view()));
+    FAIL();
+  } catch (const InvalidArgument& error) {
+    EXPECT_STREQ(error.what(), "picture is 200 x 200 pixels, the background 200 x 100");
+  }
+}
+
 }  // namespace
 }  // namespace hri

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "hri/core/image_view.hpp"
 
@@ -56,6 +57,12 @@ class SilhouetteExtractor {
   /// Throws InvalidArgument naming the field that is out of range.
   explicit SilhouetteExtractor(const SilhouetteOptions& options);
 
+  /// With a picture of the background alone, by the same camera in the same place: what looks like
+  /// skin in one of the two pictures but not in the other is the person (thesis section 5.1.1,
+  /// exclusive or of the two masks). Throws InvalidArgument for a background that has not three
+  /// channels and at least one pixel; extract() for a picture of another size.
+  SilhouetteExtractor(const SilhouetteOptions& options, ImageView background);
+
   /// `bgr` has 3 channels (blue, green, red). Throws InvalidArgument for another layout or an empty
   /// picture.
   [[nodiscard]] Silhouette extract(ImageView bgr) const;
@@ -66,7 +73,9 @@ class SilhouetteExtractor {
   void extract(ImageView bgr, Silhouette* out) const;
 
  private:
+  struct Background;
   SilhouetteOptions options_;
+  std::shared_ptr<const Background> background_;  // empty without one
 };
 
 }  // namespace hri
