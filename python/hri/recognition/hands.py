@@ -62,7 +62,7 @@ def find_silhouettes(
 def background_of(clip: Sequence[Frame]) -> Frame:
     """What a clip shows behind whoever moves in it: every pixel's median over up to 25 frames spread over the clip.
 
-    Where a person stands still for half of the clip, the person is part of it.
+    Where somebody stays in place for half of the clip, as a palm does that rests before it moves, this is part of it.
 
     Raises
     ------
