@@ -180,7 +180,7 @@ RbfClassifier RbfClassifier::read(const ModelFile& file, const std::string& pref
   if (model.classes_.size() != model.rows_.rows()) refuse("classes");
   std::vector<bool> met(static_cast<std::size_t>(num_classes), false);
   for (const float c : model.classes_) {
-    if (!(c >= 0 && c < static_cast<float>(num_classes))) refuse("classes");
+    if (!(c >= 0 && c < static_cast<float>(num_classes)) || c != std::floor(c)) refuse("classes");
     met[static_cast<std::size_t>(c)] = true;
   }
   if (std::find(met.begin(), met.end(), false) != met.end()) refuse("classes");

@@ -94,6 +94,9 @@ TEST(RbfClassifier, LoadsWhatItSavedToTheBit) {
     broken.set_vector(field, VectorF(VectorF::Constant(2, 7)));
     EXPECT_THROW(RbfClassifier::read(broken, "m."), FormatError) << field;
   }
+  ModelFile between = file;
+  between.set_vector("m.classes", VectorF(VectorF::Constant(model.num_rows(), 0.5F)));
+  EXPECT_THROW(RbfClassifier::read(between, "m."), FormatError);
   file.set_matrix("m.weights", MatrixF::Ones(3, 2));
   EXPECT_THROW(RbfClassifier::read(file, "m."), FormatError);
 }
