@@ -12,9 +12,9 @@ import numpy as np
 
 import hand_pictures
 from hri import GestureRecognizer, read_audio
-from hri.datasets.synthetic_speech import make_speaker, make_speech_corpus, speak
 from hri.live import ArraySource, ClipSource, Listener, Watcher
 from hri.recognition import WordRecognizer
+from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 from timing import Bench, Timed
 
 WORDS = [

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hri import wavelets
+from hri.signal import wavelets
 from timing import Bench, Timed, medians
 
 NUM_SAMPLES = 16000

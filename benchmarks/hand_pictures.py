@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.datasets.synthetic_signer import draw_still, make_signer
+from hri.synthetic.signer import draw_still, make_signer
 
 WIDTH, HEIGHT = 640, 480
 FPS = 30.0

@@ -6,7 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "hri/recognition/speaker_adapter.hpp"
+#include "hri/recognition/word/speaker_adapter.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;

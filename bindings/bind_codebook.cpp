@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "hri/models/codebook.hpp"
-#include "hri/models/multi_stream_codebook.hpp"
+#include "hri/models/codebook/codebook.hpp"
+#include "hri/models/codebook/multi_stream_codebook.hpp"
 #include "model_inputs.hpp"
 #include "options.hpp"
 

@@ -6,9 +6,9 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "hri/features/cepstra_stream.hpp"
-#include "hri/features/spectral_envelope.hpp"
-#include "hri/features/time_normalisation.hpp"
+#include "hri/features/speech/cepstra_stream.hpp"
+#include "hri/features/speech/spectral_envelope.hpp"
+#include "hri/features/speech/time_normalisation.hpp"
 #include "hri/signal/linear_prediction.hpp"
 #include "options.hpp"
 

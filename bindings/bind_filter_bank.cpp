@@ -6,7 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "hri/features/filter_bank.hpp"
+#include "hri/features/speech/filter_bank.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;

@@ -6,8 +6,8 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "hri/features/hand_crop.hpp"
-#include "hri/features/hand_features.hpp"
+#include "hri/features/hand/hand_crop.hpp"
+#include "hri/features/hand/hand_features.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;

@@ -8,7 +8,7 @@
 #include <array>
 
 #include "arrays.hpp"
-#include "hri/features/hand_pair.hpp"
+#include "hri/features/hand/hand_pair.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;

@@ -6,12 +6,12 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "hri/features/chain_code.hpp"
-#include "hri/features/contour.hpp"
-#include "hri/features/fourier_descriptor.hpp"
-#include "hri/features/hand_track.hpp"
-#include "hri/features/shape_moments.hpp"
-#include "hri/features/wavelet_descriptor.hpp"
+#include "hri/features/hand/chain_code.hpp"
+#include "hri/features/hand/contour.hpp"
+#include "hri/features/hand/fourier_descriptor.hpp"
+#include "hri/features/hand/hand_track.hpp"
+#include "hri/features/hand/shape_moments.hpp"
+#include "hri/features/hand/wavelet_descriptor.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;

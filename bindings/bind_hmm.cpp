@@ -7,11 +7,11 @@
 
 #include <optional>
 
-#include "hri/models/discrete_hmm.hpp"
-#include "hri/models/gaussian_mixture.hpp"
-#include "hri/models/gaussian_mixture_hmm.hpp"
-#include "hri/models/markov_chain.hpp"
-#include "hri/models/topology.hpp"
+#include "hri/models/hmm/discrete_hmm.hpp"
+#include "hri/models/hmm/gaussian_mixture.hpp"
+#include "hri/models/hmm/gaussian_mixture_hmm.hpp"
+#include "hri/models/hmm/markov_chain.hpp"
+#include "hri/models/hmm/topology.hpp"
 #include "model_inputs.hpp"
 #include "options.hpp"
 

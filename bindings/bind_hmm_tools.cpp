@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "hri/models/hmm_stream.hpp"
-#include "hri/models/model_selection.hpp"
+#include "hri/models/hmm/hmm_stream.hpp"
+#include "hri/models/hmm/model_selection.hpp"
 #include "model_inputs.hpp"
 #include "options.hpp"
 

@@ -7,16 +7,16 @@
 
 #include <functional>
 
-#include "hri/models/distance_classifier.hpp"
-#include "hri/models/distances.hpp"
-#include "hri/models/gaussian_bayes.hpp"
-#include "hri/models/knn.hpp"
-#include "hri/models/lda.hpp"
-#include "hri/models/linear_svm.hpp"
-#include "hri/models/pca.hpp"
-#include "hri/models/possibility.hpp"
-#include "hri/models/possibility_classifier.hpp"
-#include "hri/models/rbf_classifier.hpp"
+#include "hri/models/classifiers/distance_classifier.hpp"
+#include "hri/models/classifiers/distances.hpp"
+#include "hri/models/classifiers/gaussian_bayes.hpp"
+#include "hri/models/classifiers/knn.hpp"
+#include "hri/models/classifiers/lda.hpp"
+#include "hri/models/classifiers/linear_svm.hpp"
+#include "hri/models/classifiers/pca.hpp"
+#include "hri/models/classifiers/possibility_classifier.hpp"
+#include "hri/models/classifiers/rbf_classifier.hpp"
+#include "hri/models/possibility/possibility.hpp"
 #include "model_inputs.hpp"
 #include "options.hpp"
 
@@ -123,7 +123,8 @@ void bind_lda(py::module_& m) {
       },
       py::arg("rows"), py::arg("classes"), py::arg("num_classes"),
       py::arg_v("options", hri::LdaOptions(), "..."),
-      "Directions along which classes (num_rows,) in 0..num_classes - 1 lie farthest apart.");
+      "Directions along which classes (num_rows,) in 0..num_classes - 1 lie max_displacement "
+      "apart.");
   cls.def(
       "transform",
       [](const hri::Lda& self, const FloatArray& rows) {

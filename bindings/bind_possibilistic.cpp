@@ -7,10 +7,10 @@
 
 #include <limits>
 
-#include "hri/models/fixed_point_hmm.hpp"
-#include "hri/models/possibilistic_gaussian_hmm.hpp"
-#include "hri/models/possibilistic_hmm.hpp"
-#include "hri/models/possibilistic_stream.hpp"
+#include "hri/models/possibility/fixed_point_hmm.hpp"
+#include "hri/models/possibility/possibilistic_gaussian_hmm.hpp"
+#include "hri/models/possibility/possibilistic_hmm.hpp"
+#include "hri/models/possibility/possibilistic_stream.hpp"
 #include "model_inputs.hpp"
 #include "options.hpp"
 

@@ -8,8 +8,8 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "hri/recognition/gesture_recognizer.hpp"
-#include "hri/recognition/word_recognizer.hpp"
+#include "hri/recognition/gesture/gesture_recognizer.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
@@ -63,7 +63,7 @@ void bind_decision(py::module_& m) {
       .def_readonly("status", &hri::Decision::status)
       .def_readonly("label", &hri::Decision::label)
       .def_readonly("confidence", &hri::Decision::confidence)
-      .def_readonly("evidence", &hri::Decision::evidence)
+      .def_readonly("score", &hri::Decision::score)
       .def_readonly("nbest", &hri::Decision::nbest)
       .def_readonly("notes", &hri::Decision::notes);
 }
@@ -179,7 +179,7 @@ void bind_words(py::module_& m) {
       .def_property_readonly(
           "threshold",
           [](const hri::WordRecognizer& self) { return self.calibration().threshold(); },
-          "Evidence from which a word is recognised.")
+          "Score from which a word is recognised.")
       .def_property_readonly("options", &hri::WordRecognizer::options);
 }
 

@@ -11,8 +11,8 @@
 
 #include "arrays.hpp"
 #include "hri/vision/hand_colours.hpp"
+#include "hri/vision/mask_smoothing.hpp"
 #include "hri/vision/silhouette.hpp"
-#include "hri/vision/steady.hpp"
 #include "options.hpp"
 
 namespace py = pybind11;
@@ -41,23 +41,23 @@ void bind_vision(py::module_& m) {
       .def_property_readonly("mask",
                              [](const hri::Silhouette& s) { return hri_bind::to_array(s.mask); })
       .def_readonly("quality", &hri::Silhouette::quality)
-      .def_readonly("mended", &hri::Silhouette::mended,
-                    "The frames around it made the mask, because it jumped: see steady.");
-  py::class_<hri::SteadyOptions> steady_options(m, "SteadyOptions",
-                                                "Which masks of a clip are mended.");
-  hri_bind::options(steady_options)
-      .field("max_gap", &hri::SteadyOptions::max_gap)
-      .field("min_agreement", &hri::SteadyOptions::min_agreement)
-      .field("max_overlap", &hri::SteadyOptions::max_overlap);
+      .def_readonly("repaired", &hri::Silhouette::repaired,
+                    "The frames around it made the mask, because it jumped: see smooth_masks.");
+  py::class_<hri::MaskSmoothingOptions> smoothing_options(m, "MaskSmoothingOptions",
+                                                          "Which masks of a clip are repaired.");
+  hri_bind::options(smoothing_options)
+      .field("max_gap", &hri::MaskSmoothingOptions::max_gap)
+      .field("min_agreement", &hri::MaskSmoothingOptions::min_agreement)
+      .field("max_overlap", &hri::MaskSmoothingOptions::max_overlap);
   m.def(
-      "steady",
-      [](std::vector<hri::Silhouette> clip, const hri::SteadyOptions& chosen) {
+      "smooth_masks",
+      [](std::vector<hri::Silhouette> clip, const hri::MaskSmoothingOptions& chosen) {
         const py::gil_scoped_release release;
-        hri::steady(chosen, &clip);
+        hri::smooth_masks(chosen, &clip);
         return clip;
       },
-      py::arg("silhouettes"), py::arg("options") = hri::SteadyOptions{},
-      "Silhouettes of a clip, with masks mended that jump for a frame or two between frames that "
+      py::arg("silhouettes"), py::arg("options") = hri::MaskSmoothingOptions{},
+      "Silhouettes of a clip, with masks repaired that jump for a frame or two between frames that "
       "agree, and have less quality than these.");
   py::class_<hri::SilhouetteExtractor>(m, "SilhouetteExtractor",
                                        "Finds the hand in colour pictures.")

@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from hri import _native
-from hri.datasets.synthetic_speech import make_speaker, speak
-from hri.recognition.background import RATE_HZ, compress
+from hri.recognition.word.background import RATE_HZ, compress
+from hri.synthetic.speech import make_speaker, speak
 
-OUTPUT = Path(__file__).parents[1] / "python" / "hri" / "recognition" / "background_words.npz"
+OUTPUT = Path(__file__).parents[1] / "python" / "hri" / "recognition" / "word" / "background_words.npz"
 NUM_VOICES = 4
 NUM_SPEAKERS = 48
 ENGLISH = (

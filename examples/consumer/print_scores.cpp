@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <hri/core/error.hpp>
 #include <hri/io/wav.hpp>
-#include <hri/recognition/word_recognizer.hpp>
+#include <hri/recognition/word/word_recognizer.hpp>
 
 int main(int argc, char** argv) {
   if (argc != 3) {

@@ -1,6 +1,6 @@
 // Usage: recognise_word MODEL FILE.wav
 #include <hri/io/wav.hpp>
-#include <hri/recognition/word_recognizer.hpp>
+#include <hri/recognition/word/word_recognizer.hpp>
 #include <iostream>
 
 int main(int argc, char** argv) {

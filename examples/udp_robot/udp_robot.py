@@ -14,9 +14,9 @@ import socket
 import time
 from collections.abc import Mapping
 
-from hri.errors import Error, IoError
+from hri.core.errors import Error, IoError
 from hri.robot import HOAP2, Robot, RobotState
-from hri.robot.backend import Image
+from hri.robot.control.backend import Image
 
 
 class UdpRobot(Robot):

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     )
     from hri.datasets import Dataset
     from hri.evaluation import cross_validate
+    from hri.evaluation.training import train
     from hri.fusion import FusedDecision, fuse
     from hri.media import read_audio, read_frames
-    from hri.noise_reduction import denoise
     from hri.recognition import Decision, GestureRecognizer, NBest, SpeakerAdapter, WordRecognizer
     from hri.robot import gesture_trajectory, open_robot, render_video
-    from hri.training import train
+    from hri.signal.noise_reduction import denoise
 
 _HOMES = {
     "CepstraOptions": "hri._native",
@@ -41,14 +41,14 @@ _HOMES = {
     "WordRecognizer": "hri.recognition",
     "WordRecognizerOptions": "hri._native",
     "cross_validate": "hri.evaluation",
-    "denoise": "hri.noise_reduction",
+    "denoise": "hri.signal.noise_reduction",
     "fuse": "hri.fusion",
     "gesture_trajectory": "hri.robot",
     "open_robot": "hri.robot",
     "read_audio": "hri.media",
     "read_frames": "hri.media",
     "render_video": "hri.robot",
-    "train": "hri.training",
+    "train": "hri.evaluation.training",
 }
 
 __all__ = [

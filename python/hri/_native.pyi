@@ -1873,7 +1873,7 @@ class Lda:
         options: LdaOptions = ...,
     ) -> Lda:
         """
-        Directions along which classes (num_rows,) in 0..num_classes - 1 lie farthest apart.
+        Directions along which classes (num_rows,) in 0..num_classes - 1 lie max_displacement apart.
         """
     def transform(
         self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
@@ -3268,13 +3268,13 @@ class Decision:
     @property
     def confidence(self) -> float: ...
     @property
-    def evidence(self) -> float: ...
-    @property
     def label(self) -> str: ...
     @property
     def nbest(self) -> list[NBest]: ...
     @property
     def notes(self) -> list[str]: ...
+    @property
+    def score(self) -> float: ...
     @property
     def status(self) -> DecisionStatus: ...
 
@@ -3434,7 +3434,7 @@ class WordRecognizer:
     @property
     def threshold(self) -> float:
         """
-        Evidence from which a word is recognised.
+        Score from which a word is recognised.
         """
 
 class GestureSource:

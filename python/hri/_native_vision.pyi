@@ -14,12 +14,12 @@ import typing
 __all__: list[str] = [
     "HandColourOptions",
     "HandColours",
+    "MaskSmoothingOptions",
     "Silhouette",
     "SilhouetteExtractor",
     "SilhouetteMethod",
     "SilhouetteOptions",
-    "SteadyOptions",
-    "steady",
+    "smooth_masks",
 ]
 
 class SilhouetteMethod:
@@ -112,16 +112,16 @@ class Silhouette:
     @property
     def mask(self) -> numpy.typing.NDArray[numpy.uint8]: ...
     @property
-    def mended(self) -> bool:
-        """
-        The frames around it made the mask, because it jumped: see steady.
-        """
-    @property
     def quality(self) -> float: ...
+    @property
+    def repaired(self) -> bool:
+        """
+        The frames around it made the mask, because it jumped: see smooth_masks.
+        """
 
-class SteadyOptions:
+class MaskSmoothingOptions:
     """
-    Which masks of a clip are mended.
+    Which masks of a clip are repaired.
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -222,7 +222,9 @@ class HandColours:
     @property
     def quality(self) -> float: ...
 
-def steady(silhouettes: collections.abc.Sequence[Silhouette], options: SteadyOptions = ...) -> list[Silhouette]:
+def smooth_masks(
+    silhouettes: collections.abc.Sequence[Silhouette], options: MaskSmoothingOptions = ...
+) -> list[Silhouette]:
     """
-    Silhouettes of a clip, with masks mended that jump for a frame or two between frames that agree, and have less quality than these.
+    Silhouettes of a clip, with masks repaired that jump for a frame or two between frames that agree, and have less quality than these.
     """

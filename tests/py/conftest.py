@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.datasets.synthetic_signer import make_gesture_corpus
+from hri.synthetic.signer import make_gesture_corpus
 
 RATE_HZ = 16000
 PERSONS = {"low": 500.0, "middle": 550.0, "high": 600.0}

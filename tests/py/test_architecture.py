@@ -24,71 +24,33 @@ CPP = {
     "vision": {"core", "signal", "features"},
 }
 PYTHON = {
-    "errors": set(),
-    "optional": set(),
-    "features": {"errors"},
-    "hand_features": {"errors"},
-    "hand_drawing": {"optional"},
-    "hand_report": {"errors", "hand_features", "media", "recognition"},
-    "hand_film": {"optional", "media", "hand_drawing", "hand_report"},
-    "media": {"errors", "optional"},
-    "wavelets": {"errors"},
-    "noise_reduction": {"errors"},
-    "datasets": {"errors", "optional", "media"},
-    "recognition": {"errors", "optional"},
-    "live": {"errors", "optional", "media", "datasets", "recognition", "hand_drawing"},
-    "training": {"errors", "media", "datasets", "recognition"},
-    "evaluation": {"errors", "optional", "media", "datasets", "recognition"},
-    "fusion": {"errors", "recognition.decision"},
-    "robot": {"errors", "optional", "media"},
-    "studies": {
-        "errors",
-        "optional",
-        "media",
-        "datasets",
-        "evaluation",
-        "fusion",
-        "recognition",
-        "live",
-        "wavelets",
-        "noise_reduction",
-        "hand_features",
-        "robot",
-    },
-    "cli": {
-        "errors",
-        "optional",
-        "features",
-        "hand_features",
-        "hand_report",
-        "hand_film",
-        "media",
-        "datasets",
-        "recognition",
-        "training",
-        "evaluation",
-        "fusion",
-        "noise_reduction",
-        "robot",
-        "studies",
-        "live",
-        "demo",
-    },
-    "demo": {
-        "errors",
-        "optional",
-        "media",
-        "datasets",
-        "recognition",
-        "training",
-        "evaluation",
-        "fusion",
-        "robot",
-        "cli",
-    },
+    "core": set(),
+    "signal": {"core"},
+    "features": {"core"},
+    "media": {"core"},
+    "vision": {"core", "features", "media"},
+    "datasets": {"core", "media"},
+    "synthetic": {"core", "media", "datasets"},
+    "recognition": {"core", "vision"},
+    "live": {"core", "media", "datasets", "vision", "recognition"},
+    "evaluation": {"core", "media", "datasets", "recognition"},
+    "fusion": {"core", "recognition.decision"},
+    "robot": {"core", "media"},
 }
+PYTHON["studies"] = {*PYTHON}
+PYTHON["demo"] = {*PYTHON, "cli"} - {"studies"}
+PYTHON["cli"] = {*PYTHON}
 PYTHON["__main__"] = {"cli"}
-ONLY_IN = {"pybullet": {"robot/pybullet_backend.py"}}
+# Within a package, too: what a robot is, how it moves, what controls it, who simulates it.
+WITHIN = {
+    "robot/model": set(),
+    "robot/motion": {"model"},
+    "robot/control": {"model", "motion"},
+    "robot/simulation": {"model", "motion", "control"},
+    "robot/imitation": {"model", "motion", "control", "simulation"},
+}
+ONLY_IN = {"pybullet": {"robot/simulation/pybullet_backend.py"}}
+AT_THE_ROOT = {"__init__.py", "__main__.py"}
 MAX_LINES = 450
 
 
@@ -112,6 +74,11 @@ def python_violations(module: str, text: str) -> Iterator[str]:
             allowed = {package, *PYTHON[package]}
             if not any(used == name or used.startswith(f"{name}.") for name in allowed):
                 yield f"{module} imports {imported}"
+            room = "/".join(Path(module).parts[:2])
+            if room in WITHIN and parts[1] == package and len(parts) > 2:
+                own = room.split("/")[1]
+                if parts[2] != own and parts[2] not in WITHIN[room]:
+                    yield f"{module} imports {imported}"
         if parts[0] in ONLY_IN and module not in ONLY_IN[parts[0]]:
             yield f"{module} imports {imported}"
 
@@ -154,9 +121,10 @@ def test_a_wrong_include_is_seen(folder: str, text: str) -> None:
 @pytest.mark.parametrize(
     ("module", "text"),
     [
-        ("fusion/fuse.py", "from hri.recognition.word import WordRecognizer\n"),
-        ("robot/joints.py", "    import hri.fusion\n"),
-        ("robot/joints.py", "import pybullet\n"),
+        ("fusion/fuse.py", "from hri.recognition.word.recognizer import WordRecognizer\n"),
+        ("robot/model/joints.py", "    import hri.fusion\n"),
+        ("robot/model/joints.py", "import pybullet\n"),
+        ("robot/model/joints.py", "from hri.robot.motion.trajectory import Trajectory\n"),
         ("media/audio.py", "from hri.datasets import Dataset\n"),
     ],
 )
@@ -173,6 +141,10 @@ def test_public_headers_hold_no_fixed_size_eigen_types() -> None:
 
 def test_every_source_mirrors_a_folder_of_headers() -> None:
     assert {p.name for p in SOURCE_ROOT.iterdir()} == {p.name for p in INCLUDE_ROOT.iterdir()} == set(CPP)
+
+
+def test_nothing_is_loose_at_the_root_of_the_package() -> None:
+    assert {p.name for p in PYTHON_ROOT.glob("*.py")} == AT_THE_ROOT
 
 
 def source_files() -> list[Path]:

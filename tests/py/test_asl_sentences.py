@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hri.core.errors import FormatError, IoError
 from hri.datasets.asl_sentences import MAX_BYTES, SignedWord, read_asl_sentences
-from hri.errors import FormatError, IoError
 
 HANDS = "video,frame,left-x,left-y,right-x,right-y,nose-x,nose-y"
 GOOD = {

@@ -14,7 +14,7 @@ import pytest
 
 from conftest import PERSONS, RATE_HZ, tone_word
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.live import ArraySource, Attention, Listener
 from hri.live.attention import COMMAND, IGNORED, WAKE, AttentionTracker, with_threshold
 from hri.recognition import WordRecognizer
@@ -22,10 +22,10 @@ from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision, NB
 from hri.studies.false_alarms import Utterance, compose_words, longest_word, pair_evidence
 
 
-def heard(label: str, evidence: float, threshold: float = 0.0) -> Decision:
-    taken = evidence >= threshold
+def heard(label: str, score: float, threshold: float = 0.0) -> Decision:
+    taken = score >= threshold
     status = RECOGNISED if taken else UNKNOWN
-    return Decision("speech", label if taken else UNKNOWN, status, 0.9, evidence, (NBest(label, 0.9, -1.0),))
+    return Decision("speech", label if taken else UNKNOWN, status, 0.9, score, (NBest(label, 0.9, -1.0),))
 
 
 NOTHING = Decision("speech", NO_INPUT, NO_INPUT, 0.0)
@@ -66,14 +66,14 @@ def test_the_threshold_may_be_another_than_the_models() -> None:
     assert with_threshold(heard("a", -1.0), -2.0).label == "a"
     assert with_threshold(heard("a", -1.0), None).status == UNKNOWN
     assert with_threshold(NOTHING, -100.0).status == NO_INPUT
-    assert judged(Attention("a", min_evidence=2.0), (0, heard("a", 1)), (1, heard("b", 3))) == [IGNORED, IGNORED]
+    assert judged(Attention("a", min_score=2.0), (0, heard("a", 1)), (1, heard("b", 3))) == [IGNORED, IGNORED]
 
 
 def test_what_makes_no_sense_is_refused_by_name(words: WordRecognizer) -> None:
     with pytest.raises(InvalidArgument, match="within_s"):
         Attention("a", within_s=0)
-    with pytest.raises(InvalidArgument, match="min_evidence"):
-        Attention(min_evidence=math.nan)
+    with pytest.raises(InvalidArgument, match="min_score"):
+        Attention(min_score=math.nan)
     with pytest.raises(InvalidArgument, match=r"'robot'.*fall, rise"):
         Listener(words, attention=Attention("robot"))
 
@@ -86,10 +86,10 @@ def test_the_study_counts_as_the_listener_does() -> None:
         said.append(Utterance(at, at + 0.4, str(rng.choice(["robot", "left", "right"])), float(rng.normal())))
         at += 0.4
     for threshold in (-10.0, 0.0, 0.7):
-        tracker = AttentionTracker(Attention("robot", 2.0, min_evidence=threshold))
-        told = [tracker.judge(u.first_s, u.last_s, heard(u.label, u.evidence)) for u in said]
+        tracker = AttentionTracker(Attention("robot", 2.0, min_score=threshold))
+        told = [tracker.judge(u.first_s, u.last_s, heard(u.label, u.score)) for u in said]
         commands = sum(meant == COMMAND and d.status == RECOGNISED for meant, d in told)
-        counted = sum(evidence >= threshold for _, _, evidence in pair_evidence(said, "robot", 2.0))
+        counted = sum(score >= threshold for _, _, score in pair_evidence(said, "robot", 2.0))
         assert commands == counted > 0
 
 
@@ -120,7 +120,7 @@ def session(labels: list[str]) -> np.ndarray:
 
 def test_a_stream_is_listened_to_after_the_wake_word(words: WordRecognizer) -> None:
     stream = session(["fall", "rise", "fall", "fall"])
-    everything = Attention("rise", min_evidence=-100.0)
+    everything = Attention("rise", min_score=-100.0)
     events = [
         e for e in Listener(words, attention=everything).listen(ArraySource(stream, RATE_HZ)) if "nbest" in e.fields
     ]
@@ -133,7 +133,7 @@ def test_the_command_line_takes_a_wake_word(words: WordRecognizer, hri: Any, tmp
     words.save(tmp_path / "words.hri")
     _native.write_wav_pcm16(str(tmp_path / "session.wav"), session(["rise", "fall", "fall"]), RATE_HZ)
     common = ("listen", "--model", tmp_path / "words.hri", "--json", tmp_path / "session.wav")
-    lines = [json.loads(line) for line in hri(*common, "--wake", "rise", "--min-evidence", -20).out.splitlines()]
+    lines = [json.loads(line) for line in hri(*common, "--wake", "rise", "--min-score", -20).out.splitlines()]
     assert [row["event"] for row in lines if "nbest" in row] == ["wake", "decision", "ignored"]
     refused = hri(*common, "--wake", "robot")
     assert refused.code == 3 and "robot" in refused.err and "fall, rise" in refused.err

@@ -9,9 +9,9 @@ import pytest
 
 from conftest import tone_word
 from hri import _native
-from hri.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition import WordRecognizer, background
-from hri.recognition.background import BackgroundWord, background_words, compress, expand
+from hri.recognition.word.background import BackgroundWord, background_words, compress, expand
 
 
 def test_words_of_the_package_are_speech():
@@ -64,8 +64,8 @@ def test_users_bring_their_own_or_none():
 
     own = [BackgroundWord(tone_word(700.0, 0.0, take), 16000, "flat") for take in range(3)]
     none, shipped, mine = train(()), train(None), train(own)
-    evidence = [words.recognise(clips[0], 16000).evidence for words in (none, shipped, mine)]
-    assert len(set(evidence)) == 3
+    score = [words.recognise(clips[0], 16000).score for words in (none, shipped, mine)]
+    assert len(set(score)) == 3
     for words in (shipped, mine):
         np.testing.assert_array_equal(words.scores(clips[0], 16000), none.scores(clips[0], 16000))
     with pytest.raises(InvalidArgument, match=r"background\[0\].samples"):
@@ -78,7 +78,7 @@ def test_the_command_takes_a_folder_of_other_words(hri, spoken, tmp_path):
     for take in range(3):
         for label, slope in (("flat", 0.0), ("steep", 1800.0)):
             _native.write_wav_pcm16(str(folder / f"{label}_low_{take}.wav"), tone_word(700.0, slope, take), 16000)
-    evidence = {}
+    score = {}
     for name, options in {
         "package": (),
         "own": ("--background", str(folder)),
@@ -86,8 +86,8 @@ def test_the_command_takes_a_folder_of_other_words(hri, spoken, tmp_path):
     }.items():
         model = tmp_path / f"{name}.hri"
         assert hri("train", "speech", "--data", str(spoken), "--out", str(model), *options).code == 0
-        evidence[name] = WordRecognizer.load(model).recognise(tone_word(540.0, 800.0, 5), 16000).evidence
-    assert len(set(evidence.values())) == 3
+        score[name] = WordRecognizer.load(model).recognise(tone_word(540.0, 800.0, 5), 16000).score
+    assert len(set(score.values())) == 3
     both = hri("train", "speech", "--data", str(spoken), "--background", str(folder), "--no-background")
     assert both.code == 2 and "exclude" in both.err
     signs = hri("train", "gesture", "--data", str(spoken), "--no-background")

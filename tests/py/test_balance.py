@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hri.robot import HOAP2, NAO
-from hri.robot.balance import Balance
-from hri.robot.soles import Soles
+from hri.robot.control.balance import Balance
+from hri.robot.control.soles import Soles
 
 STEP_S = 0.005
 FOLLOW_PER_S = 10.0

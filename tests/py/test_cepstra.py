@@ -13,7 +13,7 @@ from scipy.signal import lfilter
 
 from hri import _native
 from hri._native import CepstraComputer, CepstraOptions, CepstraStream
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 
 def audio(count: int = 8000, seed: int = 0) -> np.ndarray:

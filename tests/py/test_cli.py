@@ -18,8 +18,8 @@ from conftest import RATE_HZ, tone_word
 from hri import _native
 from hri.cli.main import COMMANDS
 from hri.cli.recognizers import parse_options
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
-from hri.errors import InvalidArgument
 from hri.studies import STUDIES
 
 

@@ -14,13 +14,13 @@ import pytest
 import drawn_hands
 from conftest import RATE_HZ, tone_word
 from hri import _native
-from hri.datasets.drawing.signer import make_signer
-from hri.datasets.synthetic_signer import draw_still
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.features import cepstra, cepstra_options, column_names
-from hri.hand_features import hand_column_names, hand_features
+from hri.features.hand import hand_column_names, hand_features
 from hri.media import read_image, write_image, write_video
-from hri.recognition.hands import find_silhouettes
+from hri.synthetic.drawing.signer import make_signer
+from hri.synthetic.signer import draw_still
+from hri.vision.hands import find_silhouettes
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from hri import _native
-from hri.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 
 WIDTHS = [13, 13, 13]
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.evaluation.noise import active_power
 from hri.evaluation.room import InRoom, Response, Room, convolve, responses_at, simulate_response
 from hri.evaluation.tempo import ChangeTempo

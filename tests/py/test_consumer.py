@@ -13,7 +13,7 @@ import pytest
 
 import hri
 from hri import _native
-from hri.datasets.synthetic_speech import make_speech_corpus
+from hri.synthetic.speech import make_speech_corpus
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("HRI_BUILD_DIR")

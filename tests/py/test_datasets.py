@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.datasets import Dataset, Pattern
 from hri.datasets.manifest import Manifest, SampleRow, read_manifest, write_manifest
-from hri.errors import FormatError, InvalidArgument, IoError
 
 
 def touch(root: Path, *names: str) -> Path:

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from hri.cli.demo import MADE, MARKER, _prepare
 from hri.cli.main import main
 from hri.datasets import Dataset
-from hri.demo.cli import MADE, MARKER, _prepare
 from hri.demo.scenes import SCRIPTS
 from hri.media import read_frames
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 import hri
-from hri.datasets.synthetic_signer import draw_still, make_gesture_corpus, make_signer
-from hri.datasets.synthetic_speech import make_speaker, make_speech_corpus, speak
+from hri.synthetic.signer import draw_still, make_gesture_corpus, make_signer
+from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

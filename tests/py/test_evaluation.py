@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import hri
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.evaluation import (
     AddNoise,
     EvaluationResult,
@@ -25,7 +25,7 @@ from hri.evaluation import (
     make_noise,
     mix_noise,
 )
-from hri.evaluation.result import FoldResult, Trial
+from hri.evaluation.result import EvaluationItem, FoldResult
 from hri.recognition import Decision, GestureRecognizer, NBest, WordRecognizer
 
 
@@ -47,9 +47,9 @@ def test_people_are_either_trained_or_tested_on(spoken: Path) -> None:
     result = cross_validate(dataset, Spy)
     assert [fold.name for fold in result.folds] == dataset.persons
     for fold, trained_on in zip(result.folds, Spy.trained_on, strict=True):
-        tested = {dataset.samples[trial.index].person for trial in fold.trials}
+        tested = {dataset.samples[item.index].person for item in fold.items}
         assert tested == {fold.name} and tested.isdisjoint(trained_on)
-    assert sorted(trial.index for trial in result.trials) == list(range(len(dataset)))
+    assert sorted(item.index for item in result.items) == list(range(len(dataset)))
 
 
 def test_fewer_people_can_be_trained_on(spoken: Path) -> None:
@@ -66,13 +66,13 @@ def test_results_repeat_and_add_up(spoken: Path, tmp_path: Path) -> None:
     dataset = hri.Dataset.load(spoken)
     results = [cross_validate(dataset, WordRecognizer, noise="white", snr_db=20.0, seed=5) for _ in range(2)]
     assert results[0] == results[1]
-    assert any(trial.decision.nbest for trial in results[0].trials)
+    assert any(item.decision.nbest for item in results[0].items)
     result = results[0]
     assert result.mean == pytest.approx(np.mean([fold.accuracy for fold in result.folds]))
     assert result.std == pytest.approx(np.std([fold.accuracy for fold in result.folds]))
     confusion = result.confusion()
     assert confusion.shape == (2, 3) and confusion.sum() == len(dataset)
-    right = sum(trial.best == trial.truth for trial in result.trials)
+    right = sum(item.best == item.truth for item in result.items)
     assert np.trace(confusion) == right
     told = json.loads(json.dumps(result.to_dict()))
     assert told["conditions"] | {"noise": "white", "snr_db": 20.0, "seed": 5} == told["conditions"]
@@ -83,7 +83,7 @@ def test_results_repeat_and_add_up(spoken: Path, tmp_path: Path) -> None:
 def test_another_seed_is_another_noise(spoken: Path) -> None:
     dataset = hri.Dataset.load(spoken)
     first, second = (cross_validate(dataset, WordRecognizer, noise="white", snr_db=20.0, seed=seed) for seed in (1, 2))
-    scores = [[t.decision.nbest[0].log_score for t in result.trials] for result in (first, second)]
+    scores = [[t.decision.nbest[0].log_score for t in result.items] for result in (first, second)]
     assert all(one != other for one, other in zip(*scores, strict=True))
 
 
@@ -94,7 +94,7 @@ def test_noise_is_in_the_test_clips_and_in_training_only_when_asked(spoken: Path
     plain = cross_validate(dataset, Spy)
     noisy = cross_validate(dataset, Spy, noise="pink", snr_db=5.0)
     cross_validate(dataset, Spy, noise="pink", snr_db=5.0, train_noise=True)
-    assert [t.decision for t in plain.trials] != [t.decision for t in noisy.trials]
+    assert [t.decision for t in plain.items] != [t.decision for t in noisy.items]
     for fold, (without, tested_only, both) in enumerate(zip(*(Spy.clips[i : i + 3] for i in (0, 3, 6)), strict=True)):
         persons = {s.person for s in dataset.samples} - {plain.folds[fold].name}
         expected = [c for c, s in zip(clean, dataset.samples, strict=True) if s.person in persons]
@@ -109,7 +109,7 @@ def test_noise_is_in_the_test_clips_and_in_training_only_when_asked(spoken: Path
 def test_training_on_one_folder_and_testing_on_another(spoken: Path) -> None:
     dataset = hri.Dataset.load(spoken)
     result = evaluate_split(dataset, dataset, WordRecognizer)
-    assert len(result.folds) == 1 and len(result.trials) == len(dataset) and result.mean == 1.0
+    assert len(result.folds) == 1 and len(result.items) == len(dataset) and result.mean == 1.0
     only_one = hri.Dataset(dataset.root, "speech", [s for s in dataset.samples if s.label == "1"])
     with pytest.raises(InvalidArgument, match="labels that train has not: 2"):
         evaluate_split(only_one, dataset, WordRecognizer)
@@ -128,8 +128,8 @@ def test_gestures_get_darker_in_the_test_only(signed: Path) -> None:
     )
     for result, factor in ((bright, 1.0), (dark, 0.5)):
         expected = [by_hand.recognise(expose(frames[i], factor)) for i in fold.test]
-        assert [trial.decision for trial in result.folds[0].trials] == expected
-    assert bright.trials != dark.trials
+        assert [item.decision for item in result.folds[0].items] == expected
+    assert bright.items != dark.items
 
 
 def test_modes_are_not_mixed(signed: Path) -> None:
@@ -141,12 +141,12 @@ def test_modes_are_not_mixed(signed: Path) -> None:
 
 
 def test_confusion_counts_every_trial_at_its_place(tmp_path: Path) -> None:
-    def trial(index: int, truth: str, best: str | None, status: str = "recognised") -> Trial:
+    def item(index: int, truth: str, best: str | None, status: str = "recognised") -> EvaluationItem:
         nbest = () if best is None else (NBest(best, 0.9, -1.0),)
-        return Trial(index, truth, Decision("speech", best or status, status, 0.9, nbest=nbest))
+        return EvaluationItem(index, truth, Decision("speech", best or status, status, 0.9, nbest=nbest))
 
-    trials = [trial(0, "a", "a"), trial(1, "a", "b"), trial(2, "b", "b", "unknown"), trial(3, "b", None, "no_input")]
-    result = EvaluationResult(["a", "b"], [FoldResult("x", tuple(trials[:3])), FoldResult("y", tuple(trials[3:]))])
+    items = [item(0, "a", "a"), item(1, "a", "b"), item(2, "b", "b", "unknown"), item(3, "b", None, "no_input")]
+    result = EvaluationResult(["a", "b"], [FoldResult("x", tuple(items[:3])), FoldResult("y", tuple(items[3:]))])
     assert result.confusion().tolist() == [[1, 1, 0], [0, 1, 1]]
     assert (result.mean, result.std) == (pytest.approx(1 / 3), pytest.approx(1 / 3))
     assert [fold.rejected for fold in result.folds] == [pytest.approx(1 / 3), 1.0]
@@ -217,7 +217,7 @@ def test_one_training_is_tested_under_every_condition(spoken: Path) -> None:
     assert list(results) == ["clean", "noisy"] and len(Spy.trained_on) == 3, "trained once a fold"
     assert [len(clips) for clips in Spy.clips] == [24, 24, 24], "a noisy copy of each of 12 clips"
     assert len(halved) == 3 * (24 + 2 * 6) and set(map(len, Spy.clips[0])) == {n // 2 for n in set(halved)}
-    assert results["clean"].mean > results["noisy"].mean or results["clean"].trials != results["noisy"].trials
+    assert results["clean"].mean > results["noisy"].mean or results["clean"].items != results["noisy"].items
     assert results["noisy"].conditions["condition"] == "noisy"
     again = evaluate_conditions(dataset, WordRecognizer, {"noisy": noisy}, train=[noisy], front_end=front_end)
     assert again["noisy"].folds == results["noisy"].folds, "what a condition draws does not depend on the others"

@@ -23,7 +23,7 @@ import pytest
 
 from conftest import RATE_HZ, CommandResult, tone_word
 from hri import _native, read_audio
-from hri.errors import FormatError
+from hri.core.errors import FormatError
 from hri.media import write_video
 
 Run = Callable[..., CommandResult]
@@ -122,7 +122,7 @@ def test_sizes_without_sense_take_no_memory(tmp_path: Path) -> None:
 import resource, sys
 from pathlib import Path
 from hri import _native, read_audio
-from hri.errors import FormatError
+from hri.core.errors import FormatError
 from hri.robot import read_pulse_csv
 readers = {".wav": read_audio, ".hri": lambda path: _native.ModelFile.read(str(path)), ".csv": read_pulse_csv}
 pages = int(Path("/proc/self/statm").read_text().split()[0])

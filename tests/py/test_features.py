@@ -10,7 +10,7 @@ import pytest
 from scipy.fft import dct
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 RATE_HZ = 16000
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 import hri as hri_package
 from conftest import RATE_HZ, tone_word
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.studies import get_study, run_study
 
 

@@ -9,7 +9,7 @@ import math
 
 import pytest
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.fusion import RULES, FusionOptions, fuse
 from hri.recognition import Decision, NBest
 

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import hri as package
+from hri.core.errors import InvalidArgument, IoError
 from hri.datasets import Dataset
-from hri.errors import InvalidArgument, IoError
 from hri.live import ClipSource, GestureRecorder, Watcher
 from hri.media import read_frames, write_video
 from test_watching_movements import FAR, FPS, Frame, picture

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.media import read_frames, read_image
 from hri.robot import (
     GESTURE_JOINTS,
@@ -20,10 +20,10 @@ from hri.robot import (
     write_gallery,
     write_pulse_csv,
 )
-from hri.robot.arm import HAND_M
-from hri.robot.gallery import gallery_page, shown_poses
-from hri.robot.gestures import parse_gestures
-from hri.robot.kinematics import link_poses
+from hri.robot.model.arm import HAND_M
+from hri.robot.model.kinematics import link_poses
+from hri.robot.motion.gestures import parse_gestures
+from hri.robot.simulation.gallery import gallery_page, shown_poses
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 # Section 3.1.1 of the thesis: the words that HOAP-2 shows.
@@ -213,7 +213,7 @@ def test_the_gallery_in_the_docs_shows_the_gestures_as_they_are():
 def test_a_gallery_is_drawn(tmp_path, monkeypatch):
     pytest.importorskip("cv2")
     few = {name: load_gestures()[name] for name in ("8", "come")}
-    monkeypatch.setattr("hri.robot.gallery.load_gestures", lambda: few)
+    monkeypatch.setattr("hri.robot.simulation.gallery.load_gestures", lambda: few)
     done = []
     page = write_gallery(tmp_path / "new", videos=True, progress=lambda *counts: done.append(counts))
     assert page.read_text(encoding="utf-8") == gallery_page(few) and done == [(1, 2), (2, 2)]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hri.robot import HOAP2, NAO, JointTable
-from hri.robot.getting_up import GettingUp
+from hri.robot.control.getting_up import GettingUp
 
 STEP_S = 0.01
 

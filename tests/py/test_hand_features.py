@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from hri import _native, _native_vision
-from hri.datasets.drawing.signer import make_signer
-from hri.datasets.synthetic_signer import draw_still
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
+from hri.synthetic.drawing.signer import make_signer
+from hri.synthetic.signer import draw_still
 
 
 def picture(rows: int, columns: int, seed: int = 0) -> np.ndarray:

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 import drawn_hands
-from hri.errors import FormatError, InvalidArgument
-from hri.hand_features import hand_column_names, hand_features
-from hri.hand_film import HandFilm, film_hands
-from hri.hand_report import inspect_hands
+from hri.core.errors import FormatError, InvalidArgument
+from hri.features.hand import hand_column_names, hand_features
 from hri.media import Clip, read_frames, read_pictures, write_image, write_video
 from hri.recognition import hands
-from hri.recognition.hands import find_silhouettes
+from hri.vision.film import HandFilm, film_hands
+from hri.vision.hands import find_silhouettes
+from hri.vision.report import inspect_hands
 
 FPS = drawn_hands.FPS
 
@@ -37,7 +37,7 @@ def test_every_frame_has_a_row_and_rows_hold_what_the_frame_has(clip: Clip) -> N
     assert [hand.found for hand in report.hands["hand"]] == [bool(s.mask.any()) for s in found]
     assert 10 < sum(hand.found for hand in report.hands["hand"]) < len(clip.frames)
     expected = iter(hand_features([s.grey for s in found], [s.mask for s in found], "fourier", num_harmonics=4))
-    place = ["frame", "time_s", "quality", "mended", "centre_x", "centre_y", "area"]
+    place = ["frame", "time_s", "quality", "repaired", "centre_x", "centre_y", "area"]
     assert report.columns == [*place, *hand_column_names("fourier", num_harmonics=4)]
     for number, (row, shape) in enumerate(zip(report.rows(), found, strict=True)):
         assert row[:3] == [number, clip.times_s[number], shape.quality if shape.mask.any() else 0.0]

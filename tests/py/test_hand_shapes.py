@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 from hri import _native
-from hri.datasets.drawing.signer import make_signer
-from hri.datasets.synthetic_signer import draw_still
-from hri.errors import InvalidArgument
-from hri.hand_features import HAND_KINDS, hand_column_names, hand_features
+from hri.core.errors import InvalidArgument
+from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
 from hri.media import read_image
-from hri.recognition.hands import find_silhouettes
+from hri.synthetic.drawing.signer import make_signer
+from hri.synthetic.signer import draw_still
+from hri.vision.hands import find_silhouettes
 
 Mask = np.ndarray
 

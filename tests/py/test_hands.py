@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 import hri
 import hri.studies
 from hri import _native, _native_vision
-from hri.datasets.synthetic_signer import draw_clip, make_signer
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.evaluation import expose, gamma, tint
 from hri.media import write_video
 from hri.recognition import hands
 from hri.studies import webcam
+from hri.synthetic.signer import draw_clip, make_signer
 
 Frame = NDArray[np.uint8]
 DARK_CLOTH, DIM_SKIN = (14, 20, 15), (70, 45, 80)

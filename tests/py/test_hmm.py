@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 hmmlearn = pytest.importorskip("hmmlearn.hmm")
 logging.getLogger("hmmlearn").setLevel(logging.ERROR)  # it warns of too little data

@@ -8,13 +8,13 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
-from hri.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.media import read_frames
 from hri.robot import HOAP2, check_pulse_csv, check_trajectory, link_poses, open_robot, read_pulse_csv, rest_positions
-from hri.robot.arm import HAND_M, MIRROR, arm_angles, arm_of, arm_points
 from hri.robot.imitation import HandTrack, ImitationOptions, film_imitation, imitate, read_hand_tracks
 from hri.robot.imitation.body import REACH, SHOULDER_WIDTH
 from hri.robot.imitation.pacing import pace, spline
+from hri.robot.model.arm import HAND_M, MIRROR, arm_angles, arm_of, arm_points
 
 FPS = 30.0
 HEIGHT_PX = 320.0

@@ -12,7 +12,7 @@ from scipy.linalg import eigh
 from sklearn.discriminant_analysis import LinearDiscriminantAnalysis
 
 from hri._native import Lda, LdaOptions, ModelFile
-from hri.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 
 
 def rows_and_classes(seed: int = 0, count: int = 300, dim: int = 6) -> tuple[np.ndarray, np.ndarray]:

@@ -19,7 +19,7 @@ import pytest
 import hri
 from conftest import PERSONS, RATE_HZ, tone_word
 from hri import _native
-from hri.errors import InvalidArgument, IoError
+from hri.core.errors import InvalidArgument, IoError
 from hri.live import ArraySource, FileSource, Listener, MicrophoneSource, SampleRing, Stalled, list_microphones
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hri.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.media import iterate_frames, read_audio, read_frames, read_image, write_image, write_video
 
 cv2 = pytest.importorskip("cv2")

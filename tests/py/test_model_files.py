@@ -17,7 +17,7 @@ from safetensors import safe_open
 
 import hri
 from hri import _native
-from hri.errors import FormatError, IoError
+from hri.core.errors import FormatError, IoError
 
 
 def sample_file(path: Path) -> _native.ModelFile:

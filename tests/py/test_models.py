@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hri import _native
-from hri.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 
 sklearn = pytest.importorskip("sklearn")
 

@@ -13,7 +13,7 @@ import pywt
 from hri import _native, denoise
 from hri import noise_reduction as reduction
 from hri.cli.main import main
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.media import read_audio
 
 RULES, SHAPES, NOISES = list(reduction.RULES), list(reduction.SHAPES), list(reduction.NOISES)

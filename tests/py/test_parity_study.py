@@ -13,8 +13,8 @@ import pytest
 
 from conftest import RATE_HZ, tone_word
 from hri import _native, studies
+from hri.core.errors import InvalidArgument
 from hri.datasets.asl_sentences import SignedSentence
-from hri.errors import InvalidArgument
 from hri.studies import parity
 from hri.studies.sequences import DELTA_WEIGHT, Example, hand_features, splits_by_person
 

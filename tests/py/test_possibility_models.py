@@ -17,7 +17,7 @@ import pytest
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 NUM_SYMBOLS = 6
 DIM = 2

@@ -16,7 +16,7 @@ import pytest
 
 import hri
 from conftest import PERSONS, RATE_HZ, tone_word
-from hri.errors import Interrupted, InvalidArgument
+from hri.core.errors import Interrupted, InvalidArgument
 
 Clips = tuple[list[np.ndarray], list[str], list[str]]
 

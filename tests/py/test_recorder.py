@@ -14,8 +14,8 @@ import hri as package
 from conftest import RATE_HZ, tone_word
 from hri import _native
 from hri.cli.record import describe
+from hri.core.errors import InvalidArgument, IoError
 from hri.datasets import Dataset
-from hri.errors import InvalidArgument, IoError
 from hri.live import ArraySource, WordRecorder
 
 LABELS = ["चलो", "turn left"]

@@ -18,8 +18,8 @@ from hri.robot import (
     read_pulse_csv,
     write_pulse_csv,
 )
-from hri.robot.pulse_csv import column_letter
-from hri.robot.self_collision import self_collisions
+from hri.robot.motion.pulse_csv import column_letter
+from hri.robot.motion.self_collision import self_collisions
 
 BAD_COUNTS = [
     "",

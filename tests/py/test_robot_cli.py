@@ -6,7 +6,7 @@ import signal
 
 import pytest
 
-from hri.errors import InvalidArgument, IoError
+from hri.core.errors import InvalidArgument, IoError
 from hri.robot import HOAP2, TrajectoryError, gesture_trajectory, load_gestures, read_pulse_csv
 
 testing = pytest.importorskip("click.testing")
@@ -14,7 +14,7 @@ testing = pytest.importorskip("click.testing")
 
 @pytest.fixture
 def run():
-    from hri.robot.cli import robot
+    from hri.cli.robot import robot
 
     def invoke(*arguments):
         return testing.CliRunner().invoke(robot, [str(argument) for argument in arguments])
@@ -59,7 +59,7 @@ def test_play_and_render(run, tmp_path):
 
 
 def test_ctrl_c_stops_the_robot_within_its_limits_and_ends_the_program_after(run, monkeypatch):
-    from hri.robot.kinematic_backend import KinematicRobot
+    from hri.robot.simulation.kinematic_backend import KinematicRobot
 
     command, sent = KinematicRobot._command, []
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hri.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.robot import (
     HOAP2,
     Trajectory,

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.robot import (
     HOAP2,
     NAO,
@@ -112,7 +112,7 @@ def test_lying_is_no_fall():
 
 def test_commands_know_nao(tmp_path):
     testing = pytest.importorskip("click.testing")
-    from hri.robot.cli import robot
+    from hri.cli.robot import robot
 
     def run(*arguments):
         return testing.CliRunner().invoke(robot, [str(argument) for argument in arguments])

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from hri.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.robot import (
     Trajectory,
     TrajectoryError,

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.media import read_frames
 from hri.robot import (
     BACKENDS,
@@ -147,7 +147,7 @@ def test_stop_slows_down_and_holds(robot):
 
 
 def test_a_stop_while_a_motion_is_checked_is_not_lost(monkeypatch):
-    from hri.robot import backend
+    from hri.robot.control import backend
 
     with open_robot("kinematic") as robot:
         begin, check = robot.joint_positions_rad(), backend.require_safe

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hri.errors import InvalidArgument, IoError
+from hri.core.errors import InvalidArgument, IoError
 from hri.robot import HOAP2, MotionLog, Physics, Trajectory, gesture_trajectory, open_robot
-from hri.robot.braking import brake
-from hri.robot.postures import base_pose
+from hri.robot.control.braking import brake
+from hri.robot.model.postures import base_pose
 
 needs_pybullet = pytest.mark.skipif(find_spec("pybullet") is None, reason="no pybullet")
 FEET = set(HOAP2.feet)

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from hri import studies
-from hri.datasets.synthetic_signer import make_gesture_corpus
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.studies import sign_features
 from hri.studies.sign_shapes import CLASSIFIERS, scaled
+from hri.synthetic.signer import make_gesture_corpus
 
 
 @pytest.fixture(scope="module")

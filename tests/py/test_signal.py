@@ -9,7 +9,7 @@ import pytest
 from scipy.signal import resample_poly
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 
 def signal(count: int, dtype: str = "f8", seed: int = 0) -> np.ndarray:

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
-from hri.datasets.drawing.options import BACKGROUNDS, LIGHTS, SKINS, SLEEVES
-from hri.datasets.synthetic_signer import SignerOptions, draw_clip, draw_still, make_gesture_corpus, make_signer
-from hri.errors import InvalidArgument
 from hri.media import read_frames
+from hri.synthetic.drawing.options import BACKGROUNDS, LIGHTS, SKINS, SLEEVES
+from hri.synthetic.signer import SignerOptions, draw_clip, draw_still, make_gesture_corpus, make_signer
 
 WALL = (210.0, 200.0, 190.0)
 CLEAN = {"noise": 0.0, "exposure": 1.0, "cast": (1.0, 1.0, 1.0), "vignette": 0.0, "wall": WALL}

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
+from hri.core.errors import FormatError, InvalidArgument
 from hri.datasets import Dataset, load_skig
-from hri.errors import FormatError, InvalidArgument
 from hri.media import write_video
 
 

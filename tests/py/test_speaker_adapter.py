@@ -13,8 +13,8 @@ import pytest
 import hri as package
 from conftest import PERSONS, RATE_HZ, tone_word
 from hri import _native
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
-from hri.errors import InvalidArgument
 from hri.evaluation import adapting, evaluate_conditions
 from hri.studies import get_study, run_study
 
@@ -75,7 +75,7 @@ def test_evaluation_adapts_to_one_person_a_fold(spoken: Path) -> None:
     found = evaluate_conditions(dataset, package.WordRecognizer, {"": None}, adapt=True)
     assert set(found) == {"", adapting("")}
     alone, adapted = found[""], found[adapting("")]
-    assert sorted(t.index for t in adapted.trials) == sorted(t.index for t in alone.trials)
+    assert sorted(t.index for t in adapted.items) == sorted(t.index for t in alone.items)
     assert adapted.mean >= alone.mean
     with pytest.raises(InvalidArgument, match="one person"):
         evaluate_conditions(dataset, package.WordRecognizer, {"": None}, adapt=True, num_folds=2)

@@ -15,7 +15,7 @@ import pytest
 
 from conftest import RATE_HZ
 from hri import _native, studies
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.studies import distance, noise, tables, tempo, training_size
 from hri.studies.registry import Layout
 from hri.studies.word_classifiers import CLASSIFIERS

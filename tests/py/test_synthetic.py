@@ -11,19 +11,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hri.core.errors import InvalidArgument, IoError
 from hri.datasets import Dataset, synthetic_speech
-from hri.datasets.drawing.hand_pose import DIGIT_POSES, HandShape, make_skeleton, rotation
-from hri.datasets.drawing.height_field import HeightField
-from hri.datasets.synthetic_signer import (
+from hri.media import read_audio, read_frames
+from hri.synthetic.drawing.hand_pose import DIGIT_POSES, HandShape, make_skeleton, rotation
+from hri.synthetic.drawing.height_field import HeightField
+from hri.synthetic.signer import (
     SIGNS,
     draw_clip,
     draw_still,
     make_gesture_corpus,
     make_signer,
 )
-from hri.datasets.synthetic_speech import DIGIT_WORDS, make_speaker, make_speech_corpus, speak
-from hri.errors import InvalidArgument, IoError
-from hri.media import read_audio, read_frames
+from hri.synthetic.speech import DIGIT_WORDS, make_speaker, make_speech_corpus, speak
 
 cv2 = pytest.importorskip("cv2")
 needs_espeak = pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="no espeak-ng")

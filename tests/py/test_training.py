@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import hri
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 
 def test_train_makes_a_recogniser_of_the_kind_of_the_folder(spoken: Path) -> None:

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 import hri.studies
 from hri import _native, _native_vision
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.evaluation import expose, gamma, tint
-from hri.hand_film import HandFilm
-from hri.hand_report import inspect_hands
 from hri.media import Clip, read_frames, write_video
-from hri.recognition.hands import find_hands, find_silhouettes
+from hri.vision.film import HandFilm
+from hri.vision.hands import find_hands, find_silhouettes
+from hri.vision.report import inspect_hands
 
 Frame = NDArray[np.uint8]
 Place = tuple[float, float]

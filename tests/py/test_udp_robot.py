@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hri.errors import Error, IoError
+from hri.core.errors import Error, IoError
 from hri.robot import HOAP2, MotionLog, Trajectory, TrajectoryError
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "udp_robot" / "udp_robot.py"

@@ -13,11 +13,11 @@ import hri
 import hri.studies
 from hri import _native_vision
 from hri.datasets import Dataset
-from hri.datasets.synthetic_signer import make_gesture_corpus
 from hri.media import read_frames
-from hri.recognition.hands import find_silhouettes
 from hri.studies import unknown_gestures
 from hri.studies.unknown_gestures import empty_clips, rest_before
+from hri.synthetic.signer import make_gesture_corpus
+from hri.vision.hands import find_silhouettes
 
 
 def test_the_rest_before_a_movement_is_found() -> None:

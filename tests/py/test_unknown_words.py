@@ -12,7 +12,7 @@ import pytest
 
 from conftest import PERSONS, RATE_HZ, tone_word
 from hri import _native, studies
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.evaluation.rejection import equal_error_rate, error_rates, false_rejects_at
 from hri.studies import noise, unknown_words
 
@@ -36,7 +36,7 @@ def test_what_nobody_heard_is_never_accepted() -> None:
     accepted, rejected = error_rates([1.0, -np.inf], [0.0])
     assert rejected.min() == 0.5 and accepted.max() == 1.0
     for known, unknown in (([], [1.0]), ([1.0], []), ([np.nan], [1.0])):
-        with pytest.raises(InvalidArgument, match="evidence"):
+        with pytest.raises(InvalidArgument, match="score"):
             equal_error_rate(known, unknown)
 
 

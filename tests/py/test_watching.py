@@ -15,7 +15,7 @@ import pytest
 
 import hri
 from drawn_hands import FPS, picture, shown, stills
-from hri.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.live import (
     CameraSource,
     ClipSource,

@@ -61,7 +61,7 @@ def test_a_file_gives_the_same_label_whether_watched_or_recognised(
         dropped = [event.fields["reason"] for event in events if event.event == "movement_dropped"]
         assert dropped == ["arrived"]  # the hand was there, and rested
         again = movements.recognise(read_frames(path).frames)
-        assert again.evidence == recognised.evidence
+        assert again.score == recognised.score
 
 
 def test_what_begins_at_rest_is_kept_in_the_model_file(movements: hri.GestureRecognizer, tmp_path: Path) -> None:
@@ -107,8 +107,8 @@ def test_a_gesture_that_pauses_is_known_by_its_last_movement_too() -> None:
             for one in (known, Forgetful._wrap(known._native))
         )
         assert len(both) == len(alone) == 2 and both[1].nbest[0].label == label
-        assert both[0].evidence == alone[0].evidence
-        gained.append(both[1].evidence - alone[1].evidence)
+        assert both[0].score == alone[0].score
+        gained.append(both[1].score - alone[1].score)
     assert min(gained) >= 0 and max(gained) > 0
 
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import pywt
 
-from hri import wavelets
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
+from hri.signal import wavelets
 
 
 def signal(count: int, dtype: str = "f8") -> np.ndarray:

@@ -9,7 +9,7 @@ import pytest
 import pywt
 
 from hri import _native, wavelets
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 BORDERS = list(_native.Border.__members__)
 WAVELETS = wavelets.wavelet_names()

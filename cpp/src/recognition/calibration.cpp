@@ -67,7 +67,7 @@ Calibration Calibration::fit(const std::vector<HeldOut>& held_out, double false_
   Calibration result;
   std::vector<float> right;
   for (const HeldOut& h : held_out) {
-    if (argmax(h.scores) == h.truth) right.push_back(h.evidence);
+    if (argmax(h.scores) == h.truth) right.push_back(h.score);
   }
   if (right.empty()) return result;
   result.scale_ = best_scale(held_out);
@@ -83,7 +83,7 @@ VectorF Calibration::posterior(const VectorF& scores) const {
   return p / p.sum();
 }
 
-Decision Calibration::decide(const VectorF& scores, float evidence,
+Decision Calibration::decide(const VectorF& scores, float score,
                              const std::vector<std::string>& labels) const {
   const VectorF p = posterior(scores);
   std::vector<Eigen::Index> order(labels.size());
@@ -93,11 +93,11 @@ Decision Calibration::decide(const VectorF& scores, float evidence,
   Decision d;
   for (const Eigen::Index c : order)
     d.nbest.push_back({labels[static_cast<std::size_t>(c)], p[c], scores[c]});
-  const bool accepted = evidence >= static_cast<float>(threshold_);
+  const bool accepted = score >= static_cast<float>(threshold_);
   d.status = accepted ? DecisionStatus::recognised : DecisionStatus::unknown;
   d.label = accepted ? d.nbest.front().label : status_name(d.status);
   d.confidence = d.nbest.front().probability;
-  d.evidence = evidence;
+  d.score = score;
   return d;
 }
 

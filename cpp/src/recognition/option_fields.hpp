@@ -11,10 +11,10 @@
 #include <type_traits>
 
 #include "hri/core/error.hpp"
-#include "hri/features/cepstra.hpp"
+#include "hri/features/speech/cepstra.hpp"
 #include "hri/io/model_file.hpp"
-#include "hri/recognition/gesture_recognizer.hpp"
-#include "hri/recognition/word_recognizer.hpp"
+#include "hri/recognition/gesture/gesture_recognizer.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
 
 namespace hri::detail {
 

@@ -13,7 +13,7 @@
 namespace hri::detail {
 
 template <class Read>
-auto blaming(const ModelFile& file, Read&& read) {
+auto with_context(const ModelFile& file, Read&& read) {
 #if defined(__cpp_exceptions)
   try {
     return std::forward<Read>(read)();

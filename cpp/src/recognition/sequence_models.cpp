@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
-#include "hri/models/few_samples.hpp"
+#include "hri/models/hmm/few_samples.hpp"
 
 namespace hri {
 namespace {

@@ -8,7 +8,7 @@
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 #include "hri/signal/activity_meter.hpp"
-#include "word_bounds.hpp"
+#include "signal/word_bounds.hpp"
 
 namespace hri {
 

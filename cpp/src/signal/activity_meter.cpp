@@ -7,7 +7,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
-#include "word_bounds.hpp"
+#include "signal/word_bounds.hpp"
 
 namespace hri {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "border_extension.hpp"
-#include "dwt_lines.hpp"
 #include "hri/core/error.hpp"
+#include "signal/border_extension.hpp"
+#include "signal/dwt_lines.hpp"
 
 namespace hri {
 namespace detail {

@@ -7,8 +7,8 @@
 
 #include <cstddef>
 
-#include "filter_pair.hpp"
 #include "hri/signal/dwt.hpp"
+#include "signal/filter_pair.hpp"
 
 namespace hri::detail {
 

@@ -6,7 +6,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/signal/lanes.hpp"
-#include "lane_kernels.hpp"
+#include "signal/lane_kernels.hpp"
 
 namespace hri {
 namespace {

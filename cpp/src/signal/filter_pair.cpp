@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "filter_pair.hpp"
+#include "signal/filter_pair.hpp"
 
 #include "hri/core/error.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 namespace baseline {
 constexpr int kBytes = 16;
 constexpr int kGroup = 4;
-#include "filter_pair_kernel.inc"
+#include "signal/filter_pair_kernel.inc"
 }  // namespace baseline
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -26,7 +26,7 @@ constexpr int kGroup = 4;
 namespace avx2 {
 constexpr int kBytes = 32;
 constexpr int kGroup = 4;
-#include "filter_pair_kernel.inc"
+#include "signal/filter_pair_kernel.inc"
 }  // namespace avx2
 #pragma GCC pop_options
 #pragma GCC push_options
@@ -34,7 +34,7 @@ constexpr int kGroup = 4;
 namespace avx512 {
 constexpr int kBytes = 64;
 constexpr int kGroup = 8;
-#include "filter_pair_kernel.inc"
+#include "signal/filter_pair_kernel.inc"
 }  // namespace avx512
 #pragma GCC pop_options
 #endif

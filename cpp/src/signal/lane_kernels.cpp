@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "lane_kernels.hpp"
+#include "signal/lane_kernels.hpp"
 
 #include <cmath>
 #include <utility>
@@ -21,7 +21,7 @@ namespace {
 namespace baseline {
 constexpr const char* kName = "baseline";
 constexpr int kLanes = 4;
-#include "lane_kernels.inc"
+#include "signal/lane_kernels.inc"
 }  // namespace baseline
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -30,7 +30,7 @@ constexpr int kLanes = 4;
 namespace avx2 {
 constexpr const char* kName = "avx2";
 constexpr int kLanes = 8;
-#include "lane_kernels.inc"
+#include "signal/lane_kernels.inc"
 }  // namespace avx2
 #pragma GCC pop_options
 #pragma GCC push_options
@@ -38,7 +38,7 @@ constexpr int kLanes = 8;
 namespace avx512 {
 constexpr const char* kName = "avx512";
 constexpr int kLanes = 16;
-#include "lane_kernels.inc"
+#include "signal/lane_kernels.inc"
 }  // namespace avx512
 #pragma GCC pop_options
 #endif

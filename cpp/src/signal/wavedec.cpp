@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "dwt_lines.hpp"
 #include "hri/core/error.hpp"
 #include "hri/signal/dwt.hpp"
+#include "signal/dwt_lines.hpp"
 
 namespace hri {
 namespace {

@@ -39,10 +39,10 @@ std::vector<double> reversed(const std::vector<double>& taps) {
 std::vector<Wavelet> make_wavelets() {
   // clang-format off
   const std::vector<LowPass> table = {
-#include "wavelet_daubechies.inc"
-#include "wavelet_symlets.inc"
-#include "wavelet_coiflets.inc"
-#include "wavelet_biorthogonal.inc"
+#include "signal/wavelet_daubechies.inc"
+#include "signal/wavelet_symlets.inc"
+#include "signal/wavelet_coiflets.inc"
+#include "signal/wavelet_biorthogonal.inc"
   };
   // clang-format on
   std::vector<Wavelet> result;

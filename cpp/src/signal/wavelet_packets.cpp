@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "dwt_lines.hpp"
 #include "hri/core/error.hpp"
+#include "signal/dwt_lines.hpp"
 
 namespace hri {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "word_bounds.hpp"
+#include "signal/word_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>

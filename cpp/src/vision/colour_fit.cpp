@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "colour_fit.hpp"
+#include "vision/colour_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 
-#include "hri/features/regions.hpp"
+#include "hri/features/hand/regions.hpp"
 
 namespace hri::detail {
 namespace {

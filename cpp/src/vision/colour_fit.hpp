@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hri/vision/hand_colours.hpp"
-#include "pixels.hpp"
+#include "vision/pixels.hpp"
 
 namespace hri::detail {
 

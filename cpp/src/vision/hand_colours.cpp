@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <string>
 
-#include "colour_fit.hpp"
 #include "hri/core/error.hpp"
-#include "hri/features/regions.hpp"
-#include "mask_quality.hpp"
-#include "pixels.hpp"
-#include "still_skin.hpp"
+#include "hri/features/hand/regions.hpp"
+#include "vision/colour_fit.hpp"
+#include "vision/mask_quality.hpp"
+#include "vision/pixels.hpp"
+#include "vision/still_skin.hpp"
 
 namespace hri {
 namespace {
@@ -113,7 +113,7 @@ void HandColours::extract(ImageView bgr, Silhouette* out) const {
   require(!bgr.empty() && bgr.channels == 3,
           "picture must have three channels and at least one pixel");
   find_skin(bgr, out);
-  out->mended = false;
+  out->repaired = false;
   Workspace& w = workspace();
   if (still_.width_px == out->mask.width_px && still_.height_px == out->mask.height_px) {
     std::transform(out->mask.pixels.begin(), out->mask.pixels.end(), still_.pixels.begin(),

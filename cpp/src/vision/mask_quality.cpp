@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "mask_quality.hpp"
+#include "vision/mask_quality.hpp"
 
 #include <cmath>
 
@@ -26,13 +26,13 @@ double plausible_area(double area) {
 
 }  // namespace
 
-double mask_quality(const MaskEvidence& evidence, const GreyImage& mask, int max_hands) {
-  if (evidence.area == 0) return 0;
-  const double area = evidence.area;
-  const double runs = evidence.num_runs / std::sqrt(area * max_hands);
+double mask_quality(const MaskStatistics& statistics, const GreyImage& mask, int max_hands) {
+  if (statistics.area == 0) return 0;
+  const double area = statistics.area;
+  const double runs = statistics.num_runs / std::sqrt(area * max_hands);
   const double border =
-      evidence.at_border / static_cast<double>(mask.width_px + 2 * mask.height_px);
-  return evidence.sides.apart() * plausible_area(area / static_cast<double>(mask.pixels.size())) *
+      statistics.at_border / static_cast<double>(mask.width_px + 2 * mask.height_px);
+  return statistics.sides.apart() * plausible_area(area / static_cast<double>(mask.pixels.size())) *
          falling(border, kBorders[0], kBorders[1]) * std::min(1.0, kMostRuns / runs);
 }
 

@@ -40,23 +40,23 @@ class Sides {
 };
 
 /// What speaks for a mask and against it.
-struct MaskEvidence {
+struct MaskStatistics {
   Sides sides;
   int area = 0;
   int at_border = 0;  // of its pixels, on the upper and side borders
   int num_runs = 0;   // of set pixels in rows
 };
 
-/// The quality by the evidence (`Silhouette::quality`) of a mask of at most `max_hands` regions; 0
-/// for an empty one.
-double mask_quality(const MaskEvidence& evidence, const GreyImage& mask, int max_hands);
+/// The quality by the statistics (`Silhouette::quality`) of a mask of at most `max_hands` regions;
+/// 0 for an empty one.
+double mask_quality(const MaskStatistics& statistics, const GreyImage& mask, int max_hands);
 
 /// The quality of a mask in a picture of the values by which it was found: `value_at(i)` is that of
 /// pixel i, counted row by row. Looks at values one pixel away from the outline, as those at it are
 /// mixed of hand and background.
 template <class ValueAt>
 double mask_quality(const GreyImage& mask, int max_hands, ValueAt value_at) {
-  MaskEvidence evidence;
+  MaskStatistics statistics;
   const int width = mask.width_px;
   for (int y = 0; y < mask.height_px; ++y) {
     const auto row_start = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
@@ -75,15 +75,15 @@ double mask_quality(const GreyImage& mask, int max_hands, ValueAt value_at) {
       pixel = clear == nullptr ? row_end : clear;
       const auto first = static_cast<int>(set - row);
       const auto end = static_cast<int>(pixel - row);
-      ++evidence.num_runs;
-      evidence.area += end - first;
-      if (y == 0) evidence.at_border += end - first;
-      evidence.at_border += (first == 0 ? 1 : 0) + (end == width ? 1 : 0);
-      if (first >= 2) evidence.sides.add(at(std::min(first + 1, end - 1)), at(first - 2));
-      if (end + 1 < width) evidence.sides.add(at(std::max(end - 2, first)), at(end + 1));
+      ++statistics.num_runs;
+      statistics.area += end - first;
+      if (y == 0) statistics.at_border += end - first;
+      statistics.at_border += (first == 0 ? 1 : 0) + (end == width ? 1 : 0);
+      if (first >= 2) statistics.sides.add(at(std::min(first + 1, end - 1)), at(first - 2));
+      if (end + 1 < width) statistics.sides.add(at(std::max(end - 2, first)), at(end + 1));
     }
   }
-  return mask_quality(evidence, mask, max_hands);
+  return mask_quality(statistics, mask, max_hands);
 }
 
 }  // namespace hri::detail

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pictures.hpp"
+#include "vision/pictures.hpp"
 
 #include <algorithm>
 

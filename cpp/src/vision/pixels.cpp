@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixels.hpp"
+#include "vision/pixels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "hri/core/simd.hpp"
-#include "pictures.hpp"
+#include "vision/pictures.hpp"
 
 namespace hri::detail {
 namespace {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "hri/core/error.hpp"
-#include "hri/features/regions.hpp"
-#include "mask_quality.hpp"
-#include "pictures.hpp"
-#include "pixels.hpp"
+#include "hri/features/hand/regions.hpp"
+#include "vision/mask_quality.hpp"
+#include "vision/pictures.hpp"
+#include "vision/pixels.hpp"
 
 namespace hri {
 namespace {
@@ -272,7 +272,7 @@ void SilhouetteExtractor::extract(ImageView bgr, Silhouette* out) const {
   Workspace& w = workspace();
   w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
   detail::to_grey(w.small, &out->grey);
-  out->mended = false;
+  out->repaired = false;
   w.smoother.smooth(w.small, options_.blur_px, &w.smooth);
   out->quality = 0;
   detail::resize(&out->mask, w.small.width_px, w.small.height_px);

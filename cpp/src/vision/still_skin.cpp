@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "still_skin.hpp"
+#include "vision/still_skin.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
 
-#include "hri/features/regions.hpp"
+#include "hri/features/hand/regions.hpp"
 
 namespace hri::detail {
 namespace {

@@ -10,9 +10,9 @@ from typing import Any
 import click
 
 from hri.cli.progress import progress_bars
-from hri.datasets.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
-from hri.datasets.synthetic_signer import SIGNS, make_gesture_corpus
-from hri.datasets.synthetic_speech import DIGIT_WORDS, make_speech_corpus
+from hri.synthetic.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
+from hri.synthetic.signer import SIGNS, make_gesture_corpus
+from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
 
 
 @click.group()

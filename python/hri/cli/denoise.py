@@ -9,10 +9,10 @@ import numpy as np
 
 from hri import _native
 from hri.cli.output import OutputFile
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.media import read_audio
-from hri.noise_reduction import NOISES, RULES, SHAPES, approximation
-from hri.noise_reduction import denoise as denoised
+from hri.signal.noise_reduction import NOISES, RULES, SHAPES, approximation
+from hri.signal.noise_reduction import denoise as denoised
 
 
 @click.command()

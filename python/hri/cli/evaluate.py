@@ -12,9 +12,9 @@ import click
 from hri.cli.output import OutputFile, json_option, say_table, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import load_dataset, mode_argument, options_option, pattern_option, recognizer_factory
+from hri.core.optional import import_optional
 from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, cross_validate, evaluate_split
-from hri.optional import import_optional
 
 _folder = click.Path(exists=True, file_okay=False)
 
@@ -126,7 +126,7 @@ def _table(result: EvaluationResult) -> list[tuple[str, ...]]:
     """A row a fold, then mean and spread."""
     rows = [("held out", "recordings", "accuracy", "rejected")]
     for fold in result.folds:
-        rows.append((fold.name, str(len(fold.trials)), f"{100 * fold.accuracy:.1f} %", f"{100 * fold.rejected:.1f} %"))
-    rejected = sum(fold.rejected * len(fold.trials) for fold in result.folds) / len(result.trials)
+        rows.append((fold.name, str(len(fold.items)), f"{100 * fold.accuracy:.1f} %", f"{100 * fold.rejected:.1f} %"))
+    rejected = sum(fold.rejected * len(fold.items) for fold in result.folds) / len(result.items)
     accuracy = f"{100 * result.mean:.1f} % ± {100 * result.std:.1f}"
-    return [*rows, ("all", str(len(result.trials)), accuracy, f"{100 * rejected:.1f} %")]
+    return [*rows, ("all", str(len(result.items)), accuracy, f"{100 * rejected:.1f} %")]

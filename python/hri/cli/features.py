@@ -15,12 +15,12 @@ import numpy as np
 from hri._native import CepstraComputer
 from hri.cli.output import OutputFile, write_bytes, write_text
 from hri.cli.recognizers import naming_options, parse_options
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
+from hri.core.optional import import_optional
 from hri.features import KINDS, PRESETS, cepstra_options, column_names
-from hri.hand_features import HAND_KINDS, hand_column_names, hand_features
+from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, Audio, frame_rate, read_audio, read_frames
-from hri.optional import import_optional
-from hri.recognition.hands import find_silhouettes
+from hri.vision.hands import find_silhouettes
 
 
 @click.command()

@@ -12,11 +12,11 @@ import click
 from hri.cli.output import OutputFile, write_json, write_text
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import naming_options, parse_options
-from hri.hand_features import HAND_KINDS, hand_column_names
-from hri.hand_film import film_hands
-from hri.hand_report import SOURCES, HandReport, inspect_hands
+from hri.features.hand import HAND_KINDS, hand_column_names
 from hri.media import DEFAULT_FPS, VIDEO_SUFFIXES, Clip, read_frames, read_image, read_pictures
-from hri.recognition.hands import background_of
+from hri.vision.film import film_hands
+from hri.vision.hands import background_of
+from hri.vision.report import SOURCES, HandReport, inspect_hands
 
 METHODS = ("chroma_otsu", "hsv", "grey_otsu")
 
@@ -97,7 +97,7 @@ def hands(
     """Show what is found of the hand in CLIP: a video, a picture, or a folder of pictures in the order of their names.
 
     No trained model is needed. The table has a row for every frame: time, quality (0 no hand .. 1), whether the mask
-    was mended by those around it, the hand's middle and area in shares of the picture, and features; cells are empty
+    was repaired by those around it, the hand's middle and area in shares of the picture, and features; cells are empty
     where there is no hand.
 
     \b
@@ -128,7 +128,7 @@ def hands(
             chosen,
             progress=lambda done, total: progress("finding hands", done, total),
             max_hands=max_hands,
-            steady=not as_found,
+            smooth=not as_found,
             silhouette=_options(method),
             background=_background(background, read),
             **fields,

@@ -15,7 +15,7 @@ import click
 from hri import __version__, _native
 from hri.cli.output import json_option, say, write_json
 from hri.cli.recognizers import CLASSES, default_model
-from hri.errors import FormatError
+from hri.core.errors import FormatError
 from hri.media import natural_key
 
 EXTRAS = {

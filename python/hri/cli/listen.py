@@ -45,7 +45,7 @@ from hri.recognition import WordRecognizer
     help="A word that is a command at any moment, without the wake word.",
 )
 @click.option(
-    "--min-evidence", type=float, metavar="E", help="Evidence a command needs; by default the model's own threshold."
+    "--min-score", type=float, metavar="E", help="Score a command needs; by default the model's own threshold."
 )
 @click.option("--locale", default="", help="Language of the words, passed on with decisions.")
 @click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to show.")
@@ -60,7 +60,7 @@ def listen(
     wake: str,
     within_s: float,
     always: tuple[str, ...],
-    min_evidence: float | None,
+    min_score: float | None,
     locale: str,
     top: int,
 ) -> None:
@@ -73,7 +73,7 @@ def listen(
     Examples:
       hri listen
       hri listen --model words.hri --json session.wav
-      hri listen --wake robot --min-evidence 0.5
+      hri listen --wake robot --min-score 0.5
       hri listen --list-devices
     """
     if list_devices:
@@ -82,7 +82,7 @@ def listen(
     path = Path(model_path) if model_path else kept_model("speech")
     words = WordRecognizer.load(path)
     model_id = f"{path.name}:{hashlib.sha256(path.read_bytes()).hexdigest()[:12]}"
-    attention = Attention(wake, within_s, always, min_evidence)
+    attention = Attention(wake, within_s, always, min_score)
     listener = Listener(words, attention=attention, locale=locale, model_id=model_id)
     if files:
         sources: Iterable[AudioSource] = (FileSource(file, paced) for file in files)

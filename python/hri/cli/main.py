@@ -16,7 +16,7 @@ except ImportError:  # the base install has no command line
     sys.exit("hri: error: the command line needs click: pip install libhri[cli]")
 
 from hri import __version__
-from hri.errors import Error
+from hri.core.errors import Error
 
 EXIT_USAGE = 2
 EXIT_BAD_DATA = 3
@@ -24,7 +24,7 @@ EXIT_UNEXPECTED = 70
 EXIT_INTERRUPTED = 130
 
 COMMANDS = {
-    "demo": ("hri.demo.cli:demo", "Make a corpus, train, recognise a word and a sign, move the robot."),
+    "demo": ("hri.cli.demo:demo", "Make a corpus, train, recognise a word and a sign, move the robot."),
     "train": ("hri.cli.train:train", "Train a recogniser on a folder of recordings."),
     "add-word": ("hri.cli.vocabulary:add_word", "Teach a recogniser one word more, from few recordings."),
     "remove-word": ("hri.cli.vocabulary:remove_word", "Let a recogniser forget a word."),
@@ -39,7 +39,7 @@ COMMANDS = {
     "features": ("hri.cli.features:features", "Features of sound or of hands, as a table or a plot."),
     "denoise": ("hri.cli.denoise:denoise", "Take noise out of a recording by wavelets."),
     "study": ("hri.cli.study:study", "Repeat a measured claim of the project."),
-    "robot": ("hri.robot.cli:robot", "Check motions of HOAP-2, carry them out in simulation, film them."),
+    "robot": ("hri.cli.robot:robot", "Check motions of HOAP-2, carry them out in simulation, film them."),
     "info": ("hri.cli.info:info", "Tell what is installed, or what a model file holds."),
 }
 
@@ -96,7 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return error.exit_code
     except SystemExit as error:
         return error.code if isinstance(error.code, int) else EXIT_BAD_DATA
-    except (click.Abort, KeyboardInterrupt):  # which hri.errors.Interrupted is too
+    except (click.Abort, KeyboardInterrupt):  # which hri.core.errors.Interrupted is too
         click.echo("hri: interrupted", err=True)
         return EXIT_INTERRUPTED
     except click.ClickException as error:

@@ -12,7 +12,7 @@ import click
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import kept_model
-from hri.errors import Error, InvalidArgument
+from hri.core.errors import Error, InvalidArgument
 from hri.fusion import RULES, FusedDecision, fuse
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, read_audio, read_frames, write_image
 from hri.recognition import Decision, GestureRecognizer, WordRecognizer

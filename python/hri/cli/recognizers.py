@@ -12,8 +12,8 @@ from typing import Any
 
 import click
 
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
-from hri.errors import InvalidArgument
 from hri.recognition import GestureRecognizer, WordRecognizer
 
 CLASSES: dict[str, type[WordRecognizer] | type[GestureRecognizer]] = {

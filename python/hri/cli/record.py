@@ -21,7 +21,7 @@ from hri.cli.live_screen import (
     tell,
 )
 from hri.cli.sight_screen import SightScreen
-from hri.errors import FormatError
+from hri.core.errors import FormatError
 from hri.live import AudioSource, Event, FileSource, FrameSource, GestureRecorder, VideoSource, WordRecorder
 
 

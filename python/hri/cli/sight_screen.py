@@ -9,10 +9,10 @@ import sys
 
 import click
 
+from hri.core.optional import import_opencv
 from hri.live import draw_sight
 from hri.live.sights import Sight
 from hri.media import VideoWriter
-from hri.optional import import_opencv
 from hri.recognition import Decision
 
 _WINDOW = "hri watch"

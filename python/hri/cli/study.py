@@ -10,7 +10,7 @@ import click
 
 from hri.cli.output import json_option, say, write_json, write_text
 from hri.cli.progress import progress_bars
-from hri.optional import import_optional
+from hri.core.optional import import_optional
 from hri.studies import STUDIES, draw, get_study, run_study
 from hri.studies.tables import csv_text, markdown, table
 

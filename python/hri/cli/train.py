@@ -18,9 +18,9 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
+from hri.evaluation.training import background_of
+from hri.evaluation.training import train as train_recognizer
 from hri.recognition import BackgroundWord
-from hri.training import background_of
-from hri.training import train as train_recognizer
 
 
 @click.command()

@@ -15,7 +15,7 @@ from hri.cli.live_screen import camera, camera_option, describe_stream, events_j
 from hri.cli.output import OutputFile
 from hri.cli.recognizers import kept_model
 from hri.cli.sight_screen import SightScreen
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.live import Event, FrameSource, VideoSource, Watcher
 from hri.media import VIDEO_SUFFIXES
 from hri.recognition import GestureRecognizer

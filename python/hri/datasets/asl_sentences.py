@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import FormatError, IoError
+from hri.core.errors import FormatError, IoError
 
 HANDS_COLUMNS = ("video", "frame", "left-x", "left-y", "right-x", "right-y", "nose-x", "nose-y")
 WORDS_COLUMNS = ("video", "speaker", "word", "startframe", "endframe")

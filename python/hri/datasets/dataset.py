@@ -9,12 +9,12 @@ from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
 
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.datasets.detection import detect_kind, detect_pattern, media_files
 from hri.datasets.folds import Fold, split_by_person, split_by_value, split_stratified
 from hri.datasets.manifest import KINDS, MANIFEST_NAME, Manifest, read_manifest
 from hri.datasets.pattern import Pattern
 from hri.datasets.skig import is_skig, skig_clips
-from hri.errors import FormatError, InvalidArgument, IoError
 from hri.media import natural_key
 
 

@@ -9,8 +9,8 @@ from collections import defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 
+from hri.core.errors import FormatError
 from hri.datasets.pattern import Pattern
-from hri.errors import FormatError
 from hri.media import AUDIO_SUFFIXES, IMAGE_SUFFIXES, VIDEO_SUFFIXES, natural_key
 
 SUFFIXES = {"speech": AUDIO_SUFFIXES, "gesture": IMAGE_SUFFIXES + VIDEO_SUFFIXES}

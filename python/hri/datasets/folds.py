@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 
 @dataclass(frozen=True)

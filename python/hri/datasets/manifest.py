@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.datasets.pattern import Pattern
-from hri.errors import FormatError, InvalidArgument, IoError
 
 MANIFEST_NAME = "dataset.toml"
 FORMAT_VERSION = 1

@@ -7,7 +7,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 PLACEHOLDERS = ("label", "person", "take", "_")
 _PLACEHOLDER = re.compile(r"\{([^{}]*)\}")

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from hri.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 from hri.media import VIDEO_SUFFIXES
 
 GESTURES = ("circle", "triangle", "up-down", "right-left", "wave", "z", "cross", "come-here", "turn-around", "pat")

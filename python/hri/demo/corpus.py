@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hri.datasets import Dataset
-from hri.datasets.synthetic_signer import make_gesture_corpus
-from hri.datasets.synthetic_speech import DIGIT_WORDS, make_speech_corpus
+from hri.synthetic.signer import make_gesture_corpus
+from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
 
 Progress = Callable[[str, int, int], None]
 

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.optional import import_opencv
 from hri.demo.scenes import Scene
 from hri.fusion import FusedDecision
 from hri.media import write_video
-from hri.optional import import_opencv
 from hri.recognition import Decision
 from hri.recognition.decision import RECOGNISED
 from hri.robot import Robot, gesture_trajectory, open_robot

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from hri import _native
+from hri.core.optional import import_optional
 from hri.demo.scenes import Scene
 from hri.evaluation import EvaluationResult
-from hri.optional import import_optional
 
 _BLUE, _ORANGE, _GREEN = "#3b6fb6", "#d9822b", "#3f8f5f"
 

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.datasets.drawing.signer import make_signer
-from hri.datasets.synthetic_signer import CLIP_FPS, draw_clip
-from hri.datasets.synthetic_speech import make_speaker, speak
 from hri.demo.corpus import WORDS
 from hri.evaluation import make_noise, mix_noise
 from hri.fusion import RULES, FusedDecision, fuse
 from hri.media import Audio
 from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.synthetic.drawing.signer import make_signer
+from hri.synthetic.signer import CLIP_FPS, draw_clip
+from hri.synthetic.speech import make_speaker, speak
 
 UNSEEN = 40
 """Number of the first voice and signer that the scenes take: far beyond those trained on."""

@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 
 from hri.datasets import Dataset
 from hri.demo.corpus import Corpus, Progress
-from hri.evaluation import EvaluationResult, FoldResult, Trial
+from hri.evaluation import EvaluationItem, EvaluationResult, FoldResult
+from hri.evaluation.training import train
 from hri.media import read_audio, read_frames
 from hri.recognition import Decision, GestureRecognizer, WordRecognizer
-from hri.training import train
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,6 @@ def _test(dataset: Dataset, recognizer: WordRecognizer | GestureRecognizer) -> E
             return recognizer.recognise(audio.samples, audio.sample_rate_hz)
         return recognizer.recognise(read_frames(path).frames)
 
-    trials = tuple(Trial(i, s.label, decide(str(s.path))) for i, s in enumerate(dataset.samples))
-    fold = FoldResult(", ".join(dataset.persons), trials)
+    items = tuple(EvaluationItem(i, s.label, decide(str(s.path))) for i, s in enumerate(dataset.samples))
+    fold = FoldResult(", ".join(dataset.persons), items)
     return EvaluationResult(dataset.labels, [fold], {"synthetic": True})

@@ -5,16 +5,16 @@
 from hri.evaluation.conditions import Condition, FrontEnd, expose, gamma, tint
 from hri.evaluation.evaluate import cross_validate, evaluate_split
 from hri.evaluation.noise import AddNoise, active_power, make_noise, mix_noise
-from hri.evaluation.result import EvaluationResult, FoldResult, Trial
+from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.evaluation.speech import adapting, evaluate_conditions
 
 __all__ = [
     "AddNoise",
     "Condition",
+    "EvaluationItem",
     "EvaluationResult",
     "FoldResult",
     "FrontEnd",
-    "Trial",
     "active_power",
     "adapting",
     "cross_validate",

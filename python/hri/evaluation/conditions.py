@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import InvalidArgument
-from hri.optional import import_opencv
+from hri.core.errors import InvalidArgument
+from hri.core.optional import import_opencv
 
 Samples = NDArray[np.float32]
 

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
-from hri.errors import InvalidArgument
 from hri.evaluation.conditions import expose
 from hri.evaluation.noise import AddNoise
-from hri.evaluation.result import EvaluationResult, FoldResult, Trial
+from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.evaluation.speech import SpeechRunner
 from hri.media import read_frames
 from hri.recognition import GestureRecognizer, WordRecognizer
@@ -191,5 +191,7 @@ class _GestureRunner:
             progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
         )
         tested = self._exposed or self._plain
-        trials = tuple(Trial(i, self._samples[i].label, recognizer.recognise_features(tested[i])) for i in fold.test)
-        return FoldResult(fold.name, trials)
+        items = tuple(
+            EvaluationItem(i, self._samples[i].label, recognizer.recognise_features(tested[i])) for i in fold.test
+        )
+        return FoldResult(fold.name, items)

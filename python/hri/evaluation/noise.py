@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.media import read_audio
 
 Samples = NDArray[np.float32]

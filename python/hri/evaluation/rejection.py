@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""How well evidence tells what belongs to a vocabulary from what does not."""
+"""How well score tells what belongs to a vocabulary from what does not."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 Shares = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ def error_rates(known: ArrayLike, unknown: ArrayLike) -> tuple[Shares, Shares]:
     Parameters
     ----------
     known, unknown : array-like of float
-        Evidence of what belongs to the vocabulary, and of what does not; -inf for what is never accepted.
+        Score of what belongs to the vocabulary, and of what does not; -inf for what is never accepted.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def error_rates(known: ArrayLike, unknown: ArrayLike) -> tuple[Shares, Shares]:
     """
     ours, others = np.sort(np.asarray(known, float)), np.sort(np.asarray(unknown, float))
     if not ours.size or not others.size or np.isnan(ours).any() or np.isnan(others).any():
-        raise InvalidArgument("known and unknown both need evidence, and none of it may be NaN")
+        raise InvalidArgument("known and unknown both need score, and none of it may be NaN")
     both = np.concatenate([ours, others])
     thresholds = np.append(np.unique(both[np.isfinite(both)]), np.inf)
     rejected = np.searchsorted(ours, thresholds, side="left") / ours.size

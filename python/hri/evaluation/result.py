@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.optional import import_optional
+from hri.core.optional import import_optional
 from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
 
 
 @dataclass(frozen=True)
-class Trial:
+class EvaluationItem:
     """One test item: its index in the data set, its true label, and what was decided."""
 
     index: int
@@ -34,17 +34,17 @@ class FoldResult:
     """The test items of one fold."""
 
     name: str
-    trials: tuple[Trial, ...]
+    items: tuple[EvaluationItem, ...]
 
     @property
     def accuracy(self) -> float:
         """Share of items whose best label is right, rejected or not, 0..1."""
-        return float(np.mean([t.best == t.truth for t in self.trials]))
+        return float(np.mean([t.best == t.truth for t in self.items]))
 
     @property
     def rejected(self) -> float:
         """Share of items that were rejected or had no input, 0..1."""
-        return float(np.mean([t.decision.status != RECOGNISED for t in self.trials]))
+        return float(np.mean([t.decision.status != RECOGNISED for t in self.items]))
 
 
 @dataclass(frozen=True)
@@ -64,9 +64,9 @@ class EvaluationResult:
     conditions: dict[str, Any] = field(default_factory=dict)
 
     @property
-    def trials(self) -> list[Trial]:
+    def items(self) -> list[EvaluationItem]:
         """The test items of all folds."""
-        return [t for fold in self.folds for t in fold.trials]
+        return [t for fold in self.folds for t in fold.items]
 
     @property
     def mean(self) -> float:
@@ -82,7 +82,7 @@ class EvaluationResult:
         """Counts, shape (num_labels, num_labels + 1): row truth, column best label, last column no input."""
         index = {label: i for i, label in enumerate(self.labels)}
         counts = np.zeros((len(self.labels), len(self.labels) + 1), dtype=np.int64)
-        for t in self.trials:
+        for t in self.items:
             counts[index[t.truth], index.get(t.best, len(self.labels))] += 1
         return counts
 
@@ -91,13 +91,13 @@ class EvaluationResult:
         return {
             "accuracy_mean": self.mean,
             "accuracy_std": self.std,
-            "num_samples": len(self.trials),
+            "num_samples": len(self.items),
             "folds": [
                 {
                     "name": fold.name,
                     "accuracy": fold.accuracy,
                     "rejected": fold.rejected,
-                    "num_samples": len(fold.trials),
+                    "num_samples": len(fold.items),
                 }
                 for fold in self.folds
             ],

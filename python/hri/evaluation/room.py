@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
+from hri.core.optional import import_optional
 from hri.evaluation.conditions import Samples
 from hri.evaluation.noise import active_power, make_noise, noise_at
 from hri.media import read_audio
-from hri.optional import import_optional
 
 REFERENCE_M = 0.5
 """Simulated responses have a direct sound of gain 1 at this distance."""

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
-from hri.errors import InvalidArgument
 from hri.evaluation.conditions import Condition, FrontEnd, Samples
-from hri.evaluation.result import EvaluationResult, FoldResult, Trial
+from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.media import read_audio
 from hri.recognition import SpeakerAdapter
 
@@ -106,12 +106,12 @@ class SpeechRunner:
     def _test(
         self, fold: Fold, name: str, listener: Any, order: Sequence[int], condition: Condition | None, key: int
     ) -> FoldResult:
-        trials = []
+        items = []
         for done, i in enumerate(order):
             decision = listener.recognise(*self._heard(i, condition, _TEST, key))
-            trials.append(Trial(i, self._samples[i].label, decision))
+            items.append(EvaluationItem(i, self._samples[i].label, decision))
             self._progress(f"testing {fold.name} {name}".rstrip(), done + 1, len(order))
-        return FoldResult(fold.name, tuple(trials))
+        return FoldResult(fold.name, tuple(items))
 
 
 def evaluate_conditions(

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
+from hri.core.optional import import_optional
 from hri.evaluation.conditions import Samples
-from hri.optional import import_optional
 
 _FRAME_S = 0.03
 _MARGIN_S = 0.1

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.fusion import vectors
 from hri.fusion.options import RULES, FusedDecision, FusionOptions
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision

@@ -8,7 +8,7 @@ import math
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.recognition.decision import Decision, NBest, plain
 
 RULES = ("table_6_9", "weighted_sum", "product", "dempster_shafer")

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision
 
 COMMAND = "command"
@@ -28,20 +28,20 @@ class Attention:
         else that is said in between ends the listener's attention, or conversations would be full of commands.
     always : tuple of str
         Words that are commands at any moment, without the wake word: whoever shouts "stop" is heard.
-    min_evidence : float, optional
-        What wake word and command need (``Decision.evidence``) in place of the model's own threshold.
+    min_score : float, optional
+        What wake word and command need (``Decision.score``) in place of the model's own threshold.
     """
 
     wake: str = ""
     within_s: float = 3.0
     always: tuple[str, ...] = ("stop",)
-    min_evidence: float | None = None
+    min_score: float | None = None
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.within_s) and self.within_s > 0):
             raise InvalidArgument(f"within_s must be above 0, got {self.within_s}")
-        if self.min_evidence is not None and not math.isfinite(self.min_evidence):
-            raise InvalidArgument(f"min_evidence must be finite, got {self.min_evidence}")
+        if self.min_score is not None and not math.isfinite(self.min_score):
+            raise InvalidArgument(f"min_score must be finite, got {self.min_score}")
 
 
 class AttentionTracker:
@@ -52,11 +52,11 @@ class AttentionTracker:
         self._awake_until_s = -math.inf
 
     def judge(self, first_s: float, last_s: float, decision: Decision) -> tuple[str, Decision]:
-        """The utterance from `first_s` to `last_s`: "command", "wake" or "ignored", and the decision by `min_evidence`.
+        """The utterance from `first_s` to `last_s`: "command", "wake" or "ignored", and the decision by `min_score`.
 
         Commands may be rejected all the same: their decision says so. Utterances come in the order they were said.
         """
-        decision = with_threshold(decision, self._attention.min_evidence)
+        decision = with_threshold(decision, self._attention.min_score)
         wake = self._attention.wake
         if not wake:
             return COMMAND, decision
@@ -72,10 +72,10 @@ class AttentionTracker:
         return COMMAND if awake else IGNORED, decision
 
 
-def with_threshold(decision: Decision, min_evidence: float | None) -> Decision:
-    """`decision` as if the model's threshold had been `min_evidence`; None leaves it as it is."""
-    if min_evidence is None or not decision.nbest:
+def with_threshold(decision: Decision, min_score: float | None) -> Decision:
+    """`decision` as if the model's threshold had been `min_score`; None leaves it as it is."""
+    if min_score is None or not decision.nbest:
         return decision
-    if decision.evidence >= min_evidence:
+    if decision.score >= min_score:
         return replace(decision, status=RECOGNISED, label=decision.nbest[0].label)
     return replace(decision, status=UNKNOWN, label=UNKNOWN)

@@ -10,10 +10,10 @@ from collections import deque
 
 import numpy as np
 
-from hri.errors import InvalidArgument, IoError
+from hri.core.errors import InvalidArgument, IoError
+from hri.core.optional import import_opencv
 from hri.live.frames import Frame, TimedFrame
 from hri.live.sources import Stalled, require_positive
-from hri.optional import import_opencv
 
 _HELP = "connect a camera, name another with --device, or give a video instead"
 _RETRY_S = 0.02

@@ -79,7 +79,7 @@ def decision_fields(decision: Decision, locale: str, model: str) -> dict[str, An
         "locale": locale,
         "status": decision.status,
         "rejected": not recognised,
-        "evidence": decision.evidence,
+        "score": decision.score,
         "nbest": [
             {"label": entry.label, "probability": entry.probability, "log_score": entry.log_score}
             for entry in decision.nbest

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import closing
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.live import events
 from hri.live.attention import COMMAND, WAKE, Attention, AttentionTracker
 from hri.live.events import Event, decision_fields

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import IoError
+from hri.core.errors import IoError
+from hri.core.optional import import_optional
 from hri.live.ring import SampleRing
 from hri.live.sources import BLOCK_S, Stalled, require_positive
-from hri.optional import import_optional
 
 _HELP = "connect a microphone, see 'hri listen --list-devices', or give a recording instead"
 _CLOSE_S = 2.0

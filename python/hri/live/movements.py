@@ -11,7 +11,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.live.sources import require_positive
 
 Mask = NDArray[np.uint8]

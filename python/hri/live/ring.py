@@ -9,7 +9,7 @@ import threading
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 
 
 class SampleRing:

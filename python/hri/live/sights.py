@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from hri.errors import FormatError
+from hri.core.errors import FormatError
 from hri.live import events
 from hri.live.events import Event
 from hri.live.frames import Frame, FrameSource, TimedFrame

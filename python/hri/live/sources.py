@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import InvalidArgument, IoError
+from hri.core.errors import InvalidArgument, IoError
 from hri.media import read_audio
 
 BLOCK_S = 0.02

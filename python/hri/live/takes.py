@@ -8,8 +8,8 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from hri.core.errors import InvalidArgument, IoError
 from hri.datasets.manifest import MANIFEST_NAME, Manifest, read_manifest, write_manifest
-from hri.errors import InvalidArgument, IoError
 from hri.live import events
 from hri.live.events import Event
 from hri.recognition.decision import NO_INPUT, UNKNOWN

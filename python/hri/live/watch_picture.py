@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hri.hand_drawing import paint_edges, paint_lines, paint_mask, paint_track
 from hri.live.frames import Frame
 from hri.live.sights import Sight
 from hri.recognition import Decision
+from hri.vision.drawing import paint_edges, paint_lines, paint_mask, paint_track
 
 
 def draw_sight(sight: Sight, decision: Decision | None, top: int = 3) -> Frame | None:

@@ -171,7 +171,7 @@ class _Rows:
         if before is None or frames[0][1] - before[1] > _PAUSE_S:
             return alone
         both = self._recognise(before[0], frames[-1][1])
-        return both if both.evidence > alone.evidence else alone
+        return both if both.score > alone.score else alone
 
     def recognise(self, frames: list[TimedFrame]) -> Decision:
         """On a movement by itself."""

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.errors import FormatError, IoError
-from hri.optional import import_optional
+from hri.core.errors import FormatError, IoError
+from hri.core.optional import import_optional
 
 AUDIO_SUFFIXES = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aiff", ".aif")
 

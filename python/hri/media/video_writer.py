@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from hri.errors import InvalidArgument, IoError
+from hri.core.errors import InvalidArgument, IoError
+from hri.core.optional import import_opencv
 from hri.media.video import Frame, temporary_beside
-from hri.optional import import_opencv
 
 _CODECS = {
     ".mp4": "mp4v",

@@ -36,7 +36,7 @@ class Decision:
         "recognised", "unknown" or "no_input".
     confidence : float
         Calibrated probability of the best class, 0..1; 0 without input.
-    evidence : float
+    score : float
         What the rejection threshold was compared with; larger is surer.
     nbest : tuple of NBest
         Every class in falling order; empty without input.
@@ -48,7 +48,7 @@ class Decision:
     label: str
     status: str
     confidence: float
-    evidence: float = 0.0
+    score: float = 0.0
     nbest: tuple[NBest, ...] = ()
     notes: tuple[str, ...] = ()
 
@@ -60,7 +60,7 @@ class Decision:
             label=native.label,
             status=native.status.name,
             confidence=native.confidence,
-            evidence=native.evidence,
+            score=native.score,
             nbest=tuple(NBest(n.label, n.probability, n.log_score) for n in native.nbest),
             notes=tuple(native.notes),
         )

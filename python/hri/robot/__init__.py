@@ -2,31 +2,31 @@
 # SPDX-License-Identifier: Apache-2.0
 """The robots HOAP-2 and NAO: joints, trajectories, gestures and simulation."""
 
-from hri.robot.backend import Robot
-from hri.robot.checks import check_pulse_csv, check_trajectory, require_safe
-from hri.robot.gallery import write_gallery
-from hri.robot.gestures import (
+from hri.robot.control.backend import Robot
+from hri.robot.control.state import Contact, Event, MotionLog, RobotState
+from hri.robot.model.joints import HOAP2, NAO, ROBOTS, Camera, Joint, JointTable
+from hri.robot.model.kinematics import link_poses
+from hri.robot.model.physics import Physics
+from hri.robot.model.postures import POSTURES
+from hri.robot.model.urdf import urdf_text
+from hri.robot.motion.checks import check_pulse_csv, check_trajectory, require_safe
+from hri.robot.motion.gestures import (
     GESTURE_JOINTS,
     Gesture,
     gesture_trajectory,
     load_gestures,
     rest_positions,
 )
-from hri.robot.joints import HOAP2, NAO, ROBOTS, Camera, Joint, JointTable
-from hri.robot.kinematics import link_poses
-from hri.robot.nao_arms import with_nao_arms
-from hri.robot.physics import Physics
-from hri.robot.plots import plot_trajectory
-from hri.robot.postures import POSTURES
-from hri.robot.pulse_csv import read_pulse_csv, write_pulse_csv
-from hri.robot.repair import Change, repair_pulse_csv
-from hri.robot.self_collision import Touch, self_collisions
-from hri.robot.shaping import concatenate, resample, slow_to_limits, smooth, spline
-from hri.robot.short_csv import read_short_csv, write_short_csv
-from hri.robot.simulation import BACKENDS, open_robot, render_still, render_video
-from hri.robot.state import Contact, Event, MotionLog, RobotState
-from hri.robot.trajectory import Finding, Trajectory, TrajectoryError
-from hri.robot.urdf import urdf_text
+from hri.robot.motion.nao_arms import with_nao_arms
+from hri.robot.motion.plots import plot_trajectory
+from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
+from hri.robot.motion.repair import Change, repair_pulse_csv
+from hri.robot.motion.self_collision import Touch, self_collisions
+from hri.robot.motion.shaping import concatenate, resample, slow_to_limits, smooth, spline
+from hri.robot.motion.short_csv import read_short_csv, write_short_csv
+from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
+from hri.robot.simulation.gallery import write_gallery
+from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
 
 __all__ = [
     "BACKENDS",

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measured claims on real recordings: ``hri study list``, ``hri study NAME --data DIR``."""
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.studies import (
     adaptation,
     classifiers,

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.recognition import SpeakerAdapter, WordRecognizer
 from hri.studies.clips import Clip, fit_clips, read_clips
 from hri.studies.registry import Layout, Progress, Study, within

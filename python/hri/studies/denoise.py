@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import wavelets
 from hri.datasets import Dataset
 from hri.evaluation import AddNoise
 from hri.media import read_audio
-from hri.noise_reduction import NOISES, RULES, denoise
+from hri.signal import wavelets
+from hri.signal.noise_reduction import NOISES, RULES, denoise
 from hri.studies.noise import NOISES as RECORDED
 from hri.studies.noise import noise_paths
 from hri.studies.registry import Layout, Progress, Study

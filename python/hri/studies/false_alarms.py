@@ -64,12 +64,12 @@ class Utterance:
     first_s: float
     last_s: float
     label: str
-    evidence: float
+    score: float
 
 
 @dataclass(frozen=True)
 class Fold:
-    """Heard with one person held out, by mode: evidence from which the right words, and the others, are taken."""
+    """Heard with one person held out, by mode: score from which the right words, and the others, are taken."""
 
     threshold: float
     accuracy: float
@@ -148,7 +148,7 @@ def utterances(words: WordRecognizer, stream: Samples, rate: int) -> list[Uttera
     """Every utterance that the live path hears, with the word it is most like."""
     events = Listener(words, level_interval_s=60).listen(ArraySource(stream, rate))
     return [
-        Utterance(e.fields["first_s"], e.fields["last_s"], e.decision.nbest[0].label, e.decision.evidence)
+        Utterance(e.fields["first_s"], e.fields["last_s"], e.decision.nbest[0].label, e.decision.score)
         for e in events
         if e.decision is not None and e.decision.nbest
     ]
@@ -157,7 +157,7 @@ def utterances(words: WordRecognizer, stream: Samples, rate: int) -> list[Uttera
 def pair_evidence(heard: Sequence[Utterance], wake: str, within_s: float) -> list[tuple[Utterance, Utterance, float]]:
     """Of what was heard: a wake word, the command after it, and the largest threshold that takes both."""
     return [
-        (one, next_one, min(one.evidence, next_one.evidence))
+        (one, next_one, min(one.score, next_one.score))
         for one, next_one in pairwise(heard)
         if one.label == wake and next_one.label != wake and next_one.first_s <= one.last_s + within_s
     ]
@@ -166,14 +166,14 @@ def pair_evidence(heard: Sequence[Utterance], wake: str, within_s: float) -> lis
 def _own_words(
     words: WordRecognizer, clips: Sequence[Samples], labels: Sequence[str], rate: int, rng: np.random.Generator
 ) -> tuple[NDArray[np.float64], float]:
-    """The evidence of every word, -inf for one that was not heard; and the share of right labels."""
+    """The score of every word, -inf for one that was not heard; and the share of right labels."""
     found, right = [], 0
     for stream, spans in _streams(clips, rate, rng):
         heard = utterances(words, stream, rate)
         for number, first, last in spans:
             mine = [u for u in heard if u.first_s * rate < last and u.last_s * rate > first]
-            best = max(mine, key=lambda u: u.evidence, default=None)
-            found.append(-np.inf if best is None else best.evidence)
+            best = max(mine, key=lambda u: u.score, default=None)
+            found.append(-np.inf if best is None else best.score)
             right += best is not None and best.label == labels[number]
     return np.array(found), right / len(found)
 
@@ -207,7 +207,7 @@ def _others(
     for sound, several in streams.items():
         for done, stream in enumerate(several):
             heard = utterances(words, stream, rate)
-            found[PLAIN, sound] += [u.evidence for u in heard]
+            found[PLAIN, sound] += [u.score for u in heard]
             found[WAKE_WORD, sound] += [e for _, _, e in pair_evidence(heard, wake, Attention().within_s)]
             tell(f"listening to {sound}", done + 1, len(several))
     return {key: np.array(values) for key, values in found.items()}
@@ -239,7 +239,7 @@ def _fold(data_dir: Path, name: str, person: str, dataset: Dataset, half: Sequen
     wake = longest_word([s.label for s in train], [_clip(s, rate) for s in train], rate)
     own = [s for s in mine if s.label in half]
     clips = [_clip(s, rate) for s in own]
-    evidence, accuracy = _own_words(words, clips, [s.label for s in own], rate, rng)
+    score, accuracy = _own_words(words, clips, [s.label for s in own], rate, rng)
     wakes = [c for s, c in zip(own, clips, strict=True) if s.label == wake]
     commands = [c for s, c in zip(own, clips, strict=True) if s.label != wake]
     pairs = compose_pairs(wakes, [commands[i] for i in rng.permutation(len(commands))], rate, rng)
@@ -263,7 +263,7 @@ def _fold(data_dir: Path, name: str, person: str, dataset: Dataset, half: Sequen
         words.threshold,
         accuracy,
         SESSIONS * SESSION_S / 3600,
-        {PLAIN: evidence, WAKE_WORD: _own_pairs(words, pairs, wake, rate, rng)},
+        {PLAIN: score, WAKE_WORD: _own_pairs(words, pairs, wake, rate, rng)},
         _others(words, streams, wake, rate, tell),
     )
 
@@ -281,8 +281,8 @@ def _row(folds: dict[str, Fold], place: Row, mode: str, threshold: float | None)
 
 def _curve(folds: dict[str, Fold], mode: str, sound: str) -> dict[str, list[float]]:
     """Shares of false rejects and alarms an hour over thresholds, the same for all persons."""
-    evidence = np.concatenate([fold.own[mode] for fold in folds.values()])
-    heard = evidence[np.isfinite(evidence)]
+    score = np.concatenate([fold.own[mode] for fold in folds.values()])
+    heard = score[np.isfinite(score)]
     if not heard.size:
         return {"threshold": [], "x": [], "y": []}
     thresholds = np.arange(float(heard.min()), float(heard.max()) + CURVE_STEP, CURVE_STEP)

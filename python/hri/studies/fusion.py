@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hri.datasets import Dataset
-from hri.evaluation import EvaluationResult, Trial, cross_validate
+from hri.evaluation import EvaluationItem, EvaluationResult, cross_validate
 from hri.fusion import RULES, fuse
 from hri.recognition import GestureRecognizer, WordRecognizer
 from hri.studies.registry import Progress, Study
@@ -25,15 +25,14 @@ CEILING = 0.97
 """... wherever that one is below this."""
 
 
-def _pair(speech: EvaluationResult, signs: EvaluationResult) -> list[list[tuple[Trial, Trial]]]:
+def _pair(speech: EvaluationResult, signs: EvaluationResult) -> list[list[tuple[EvaluationItem, EvaluationItem]]]:
     """For every speaker, each utterance with a sign of the same digit by a random person."""
     rng = np.random.default_rng(SEED)
-    by_label: dict[str, list[Trial]] = {}
-    for trial in signs.trials:
-        by_label.setdefault(trial.truth, []).append(trial)
+    by_label: dict[str, list[EvaluationItem]] = {}
+    for item in signs.items:
+        by_label.setdefault(item.truth, []).append(item)
     return [
-        [(t, by_label[t.truth][int(rng.integers(len(by_label[t.truth])))]) for t in fold.trials]
-        for fold in speech.folds
+        [(t, by_label[t.truth][int(rng.integers(len(by_label[t.truth])))]) for t in fold.items] for fold in speech.folds
     ]
 
 

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.core.optional import import_opencv
 from hri.datasets.asl_sentences import SignedSentence, read_asl_sentences
-from hri.optional import import_opencv
 from hri.studies.registry import Layout, Progress, Study
 
 FOLDER = "asl_sentences"

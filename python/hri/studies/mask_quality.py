@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.optional import import_opencv
 from hri.datasets import Dataset
 from hri.media import read_frames
-from hri.optional import import_opencv
-from hri.recognition.hands import find_landmarks
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.webcam import FOLDER, PATTERN
+from hri.vision.hands import find_landmarks
 
 WAYS = ("learned", "chroma_otsu", "hsv", "grey_otsu")
 ALL = "all"

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.errors import InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.studies.registry import Progress, Study
 from hri.studies.sequences import Example, Split, signed_words, splits_by_person, spoken_words
 

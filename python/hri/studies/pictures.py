@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from hri.optional import import_optional
+from hri.core.optional import import_optional
 from hri.studies.registry import Layout
 from hri.studies.tables import Row, axes_of, result_rows
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hri.robot import HOAP2, MotionLog, Physics, Robot, open_robot, read_pulse_csv
-from hri.robot.state import FLOOR, RobotState
+from hri.robot.control.state import FLOOR, RobotState
 from hri.studies.registry import Layout, Progress, Study
 
 MOTIONS = {"walk.csv": "standing", "stand_up_back.csv": "back"}

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.datasets import Dataset, Fold
-from hri.hand_features import hand_features
+from hri.features.hand import hand_features
 from hri.media import read_image
-from hri.recognition.hands import find_silhouettes
 from hri.studies.registry import Progress
 from hri.studies.tables import Row, statistics
+from hri.vision.hands import find_silhouettes
 
 NUM_FOLDS = 5
 NUM_COMPONENTS = 40

@@ -27,7 +27,7 @@ Trainings = Mapping[str, Sequence[Condition]]
 
 def measured(result: EvaluationResult) -> Row:
     """Accuracy by person, and the share of clips in which nobody was heard."""
-    unheard = [np.mean([t.decision.status == NO_INPUT for t in fold.trials]) for fold in result.folds]
+    unheard = [np.mean([t.decision.status == NO_INPUT for t in fold.items]) for fold in result.folds]
     per_fold = {fold.name: fold.accuracy for fold in result.folds}
     return {**statistics(per_fold), "no_input_mean": float(np.mean(unheard)), "no_input_std": float(np.std(unheard))}
 

@@ -11,13 +11,13 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from hri.datasets import Dataset, Fold
-from hri.datasets.synthetic_speech import DIGIT_WORDS, make_speech_corpus
 from hri.evaluation import EvaluationResult
 from hri.evaluation.speech import SpeechRunner
 from hri.recognition import WordRecognizer
 from hri.studies.registry import Layout, Progress, Study, within
 from hri.studies.sweeps import SEED, measured, told
 from hri.studies.word_features import WORD_FOLDERS, load_words
+from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
 
 WORDS: dict[str, dict[str, dict[str, str]]] = {
     "fsdd": {"en": DIGIT_WORDS["en"]},

@@ -72,8 +72,8 @@ def empty_clips(number: int = NUM_EMPTY, seed: int = SEED) -> list[list[NDArray[
     return clips
 
 
-def _evidence(decisions: Sequence[Decision]) -> list[float]:
-    return [decision.evidence if decision.nbest else -np.inf for decision in decisions]
+def _score(decisions: Sequence[Decision]) -> list[float]:
+    return [decision.score if decision.nbest else -np.inf for decision in decisions]
 
 
 def _share(decisions: Sequence[Decision], status: str) -> float:
@@ -115,13 +115,13 @@ def _measure(dataset: Dataset, source: str, rows: Sequence[Rows], progress: Prog
                 absent += [signs.recognise(clip) for clip in clips]
             progress("training", number * len(folds) + part + 1, len(chosen) * len(folds))
         found = {
-            "eer": equal_error_rate(_evidence(known), _evidence(unknown)),
+            "eer": equal_error_rate(_score(known), _score(unknown)),
             "false_rejects": 1 - _share(known, RECOGNISED),
             "false_accepts": _share(unknown, RECOGNISED),
             "accuracy": float(np.mean(right)),
         }
         if resting:
-            found["rest_eer"] = equal_error_rate(_evidence(known), _evidence(resting))
+            found["rest_eer"] = equal_error_rate(_score(known), _score(resting))
             found["rest_accepts"] = _share(resting, RECOGNISED)
         if absent:
             found["absent_no_input"] = _share(absent, NO_INPUT)
@@ -161,7 +161,7 @@ STUDIES = (
     Study(
         "unknown-gestures",
         "gestures with half the vocabulary never trained, hands at rest, and pictures without a hand: equal error rate "
-        f"of rejection, shares at the default threshold; {NUM_HALVES} random halves, the evidence of {NUM_FOLDS} folds "
+        f"of rejection, shares at the default threshold; {NUM_HALVES} random halves, the score of {NUM_FOLDS} folds "
         "together",
         tuple(dict.fromkeys(material.folder for material in DATA.values())),
         f"equal error rate < {100 * TARGET:.0f} %, of other gestures and of hands at rest",

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
-from hri.errors import InvalidArgument
 from hri.evaluation import make_noise
 from hri.evaluation.rejection import equal_error_rate, false_rejects_at
 from hri.media import read_audio
@@ -38,7 +38,7 @@ Clip = tuple[NDArray[np.float32], int]
 
 @dataclass(frozen=True)
 class Turn:
-    """What was decided of one speaker's words: evidence, or -inf where nobody was heard; and whether accepted."""
+    """What was decided of one speaker's words: score, or -inf where nobody was heard; and whether accepted."""
 
     known: NDArray[np.float64]
     unknown: NDArray[np.float64]
@@ -74,16 +74,16 @@ def noises(paths: dict[str, str], seed: int = SEED) -> dict[str, list[Clip]]:
     return {"noise": steady, "burst": bursts}
 
 
-def _evidence(decision: Decision) -> float:
-    return decision.evidence if decision.nbest else -np.inf
+def _score(decision: Decision) -> float:
+    return decision.score if decision.nbest else -np.inf
 
 
 def _test(words: WordRecognizer, dataset: Dataset, clips: Sequence[Clip], fold: Fold, half: Sequence[str]) -> Turn:
     decisions = [words.recognise(*clips[i]) for i in fold.test]
     is_known = np.array([dataset.samples[i].label in half for i in fold.test])
-    evidence = np.array([_evidence(d) for d in decisions])
+    score = np.array([_score(d) for d in decisions])
     accepted = np.array([d.status == RECOGNISED for d in decisions])
-    return Turn(evidence[is_known], evidence[~is_known], accepted[is_known], accepted[~is_known])
+    return Turn(score[is_known], score[~is_known], accepted[is_known], accepted[~is_known])
 
 
 def _shares(words: WordRecognizer, clips: Sequence[Clip]) -> dict[str, float]:

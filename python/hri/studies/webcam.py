@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
 from hri.datasets.folds import Fold
-from hri.errors import InvalidArgument
 from hri.evaluation.conditions import expose, gamma, tint
 from hri.media import read_frames
 from hri.recognition import GestureRecognizer

@@ -6,7 +6,7 @@
 
 #include "allocations/allocation_counter.hpp"
 #include "hri/core/random.hpp"
-#include "hri/features/cepstra_stream.hpp"
+#include "hri/features/speech/cepstra_stream.hpp"
 
 namespace hri {
 namespace {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Descriptors of a hand's shape allocate nothing once the thread has computed some before.
-#include "hri/features/hand_features.hpp"
+#include "hri/features/hand/hand_features.hpp"
 
 #include <gtest/gtest.h>
 
 #include "allocations/allocation_counter.hpp"
 #include "features/hand_testing.hpp"
-#include "hri/features/hand_track.hpp"
+#include "hri/features/hand/hand_track.hpp"
 
 namespace hri {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A stream of masks of two hands allocates nothing once they touched.
-#include "hri/features/hand_pair.hpp"
+#include "hri/features/hand/hand_pair.hpp"
 
 #include <gtest/gtest.h>
 

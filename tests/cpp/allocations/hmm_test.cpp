@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "allocations/allocation_counter.hpp"
-#include "hri/models/hmm_stream.hpp"
+#include "hri/models/hmm/hmm_stream.hpp"
 #include "models/sequence_model_cases.hpp"
 
 namespace hri {

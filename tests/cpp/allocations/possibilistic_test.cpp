@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "allocations/allocation_counter.hpp"
-#include "hri/models/fixed_point_hmm.hpp"
-#include "hri/models/multi_stream_codebook.hpp"
-#include "hri/models/possibilistic_gaussian_hmm.hpp"
-#include "hri/models/possibilistic_stream.hpp"
+#include "hri/models/codebook/multi_stream_codebook.hpp"
+#include "hri/models/possibility/fixed_point_hmm.hpp"
+#include "hri/models/possibility/possibilistic_gaussian_hmm.hpp"
+#include "hri/models/possibility/possibilistic_stream.hpp"
 #include "models/sequence_model_cases.hpp"
 
 namespace hri {

@@ -15,8 +15,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "../../../cpp/src/models/possibility_chains.hpp"
 #include "hri/core/random.hpp"
+#include "models/possibility/possibility_chains.hpp"
 
 namespace hri::testing_data {
 

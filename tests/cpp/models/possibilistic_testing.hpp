@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hri/models/possibilistic_hmm.hpp"
+#include "hri/models/possibility/possibilistic_hmm.hpp"
 #include "models/model_testing.hpp"
 
 namespace hri::testing_data {

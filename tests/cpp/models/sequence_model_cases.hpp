@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "hri/models/discrete_hmm.hpp"
-#include "hri/models/gaussian_mixture_hmm.hpp"
-#include "hri/models/possibilistic_hmm.hpp"
+#include "hri/models/hmm/discrete_hmm.hpp"
+#include "hri/models/hmm/gaussian_mixture_hmm.hpp"
+#include "hri/models/possibility/possibilistic_hmm.hpp"
 #include "models/model_testing.hpp"
 
 namespace hri::testing_data {

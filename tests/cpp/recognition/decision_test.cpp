@@ -9,13 +9,13 @@
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 #include "hri/recognition/calibration.hpp"
-#include "hri/recognition/key_frames.hpp"
+#include "hri/recognition/gesture/key_frames.hpp"
 #include "hri/recognition/training.hpp"
 
 namespace hri {
 namespace {
 
-// Scores that are `sharpness` times too sure of themselves, and evidence that grows with them.
+// Scores that are `sharpness` times too sure of themselves, and score that grows with them.
 std::vector<HeldOut> held_out(double sharpness, int count) {
   Random random(3);
   std::vector<HeldOut> result;
@@ -50,7 +50,7 @@ TEST(Calibration, RejectsTheShareOfRightAnswersItWasAllowed) {
       s.scores.maxCoeff(&best);
       if (best != s.truth) continue;
       ++right;
-      if (c.decide(s.scores, s.evidence, {"a", "b", "c"}).status == DecisionStatus::unknown)
+      if (c.decide(s.scores, s.score, {"a", "b", "c"}).status == DecisionStatus::unknown)
         ++rejected;
     }
     EXPECT_NEAR(static_cast<double>(rejected) / right, rate, 0.01);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hri/core/random.hpp"
-#include "hri/recognition/word_recognizer.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
 
 namespace hri::testing_data {
 

@@ -3,7 +3,7 @@
 //
 // The loops below the transforms against plain ones: the same bits for every instruction set, any
 // number of rows and any length, and nothing written beyond it.
-#include "../../../cpp/src/signal/filter_pair.hpp"
+#include "signal/filter_pair.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // Signals side by side: against the library's transform of one signal, and all instruction sets
 // against each other.
-#include "../../../cpp/src/signal/lane_kernels.hpp"
+#include "signal/lane_kernels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // From raw scores to probabilities and to rejection, learned on held-out people.
 // Posterior by temperature scaling, P(c) = softmax(a s_c) (Guo et al., "On calibration of modern
-// neural networks", ICML 2017); rejection by a quantile of the evidence of correct held-out
+// neural networks", ICML 2017); rejection by a quantile of the score of correct held-out
 // decisions.
 #pragma once
 
@@ -16,11 +16,11 @@
 
 namespace hri {
 
-/// One held-out decision: its scores by class, its true class, and the evidence for its best class.
+/// One held-out decision: its scores by class, its true class, and the score for its best class.
 struct HeldOut {
   VectorF scores;
   int truth = 0;
-  float evidence = 0;
+  float score = 0;
 };
 
 class Calibration {
@@ -28,15 +28,15 @@ class Calibration {
   Calibration() = default;
 
   /// Fits the scale to the least negative log-likelihood of `held_out`, and the threshold to the
-  /// quantile `false_reject_rate` (0..1) of the evidence of its correct decisions. Falls back to
+  /// quantile `false_reject_rate` (0..1) of the score of its correct decisions. Falls back to
   /// scale 1 and no threshold where `held_out` is empty or never right.
   static Calibration fit(const std::vector<HeldOut>& held_out, double false_reject_rate);
 
   /// softmax(scale * scores), computed in float.
   [[nodiscard]] VectorF posterior(const VectorF& scores) const;
 
-  /// The decision for `scores` (one per label) and `evidence`.
-  [[nodiscard]] Decision decide(const VectorF& scores, float evidence,
+  /// The decision for `scores` (one per label) and `score`.
+  [[nodiscard]] Decision decide(const VectorF& scores, float score,
                                 const std::vector<std::string>& labels) const;
 
   [[nodiscard]] double scale() const { return scale_; }

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
-#include "hri/models/codebook.hpp"
-#include "hri/models/gaussian_mixture.hpp"
-#include "hri/models/gaussian_mixture_hmm.hpp"
-#include "hri/models/linear_adaptation.hpp"
-#include "hri/models/map_adaptation.hpp"
-#include "hri/models/possibilistic_hmm.hpp"
-#include "hri/models/stop_check.hpp"
+#include "hri/models/adaptation/linear_adaptation.hpp"
+#include "hri/models/adaptation/map_adaptation.hpp"
+#include "hri/models/codebook/codebook.hpp"
+#include "hri/models/hmm/gaussian_mixture.hpp"
+#include "hri/models/hmm/gaussian_mixture_hmm.hpp"
+#include "hri/models/possibility/possibilistic_hmm.hpp"
 
 namespace hri {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "hri/models/stop_check.hpp"
+#include "hri/core/stop_check.hpp"
 
 namespace hri {
 

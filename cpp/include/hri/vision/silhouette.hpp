@@ -47,8 +47,8 @@ struct SilhouetteOptions {
 struct Silhouette {
   GreyImage grey;
   GreyImage mask;
-  double quality = 0;   ///< 0 (no hand) .. 1: how far the mask can be trusted
-  bool mended = false;  ///< by the frames around it, see steady()
+  double quality = 0;     ///< 0 (no hand) .. 1: how far the mask can be trusted
+  bool repaired = false;  ///< by the frames around it, see smooth_masks()
 };
 
 /// Immutable; const calls are safe from several threads.

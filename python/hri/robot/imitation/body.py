@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import InvalidArgument
-from hri.robot.arm import SIDES, Arm
+from hri.core.errors import InvalidArgument
 from hri.robot.imitation.tracks import Gap, HandTrack, bridge
+from hri.robot.model.arm import SIDES, Arm
 
 Floats = NDArray[np.float64]
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.arm import Arm, arm_points
-from hri.robot.clearance import arms_clearance, body_clearance, body_of, forearm_balls, mirrored_to_other
 from hri.robot.imitation.pacing import spline
 from hri.robot.imitation.search import CLEARANCE_M, Path, find_path
-from hri.robot.joints import JointTable
+from hri.robot.model.arm import Arm, arm_points
+from hri.robot.model.clearance import arms_clearance, body_clearance, body_of, forearm_balls, mirrored_to_other
+from hri.robot.model.joints import JointTable
 
 Floats = NDArray[np.float64]
 Arms = tuple[Arm, Arm]

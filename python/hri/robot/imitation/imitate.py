@@ -10,18 +10,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import InvalidArgument
-from hri.robot.arm import MIRROR, arm_of, arm_points
-from hri.robot.checks import require_safe
-from hri.robot.gestures import minimum_jerk, rest_positions
+from hri.core.errors import InvalidArgument
 from hri.robot.imitation.body import Targets, scale_to_robot
 from hri.robot.imitation.both import Arms, find_both, least_clearance_m
 from hri.robot.imitation.pacing import pace
 from hri.robot.imitation.plain import plain_path
 from hri.robot.imitation.search import Path, find_path
 from hri.robot.imitation.tracks import Gap, HandTrack
-from hri.robot.joints import HOAP2, JointTable
-from hri.robot.trajectory import Trajectory
+from hri.robot.model.arm import MIRROR, arm_of, arm_points
+from hri.robot.model.joints import HOAP2, JointTable
+from hri.robot.motion.checks import require_safe
+from hri.robot.motion.gestures import minimum_jerk, rest_positions
+from hri.robot.motion.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
 FORMS = ("search", "atan2")

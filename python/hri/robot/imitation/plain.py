@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.arm import Arm, arm_points
 from hri.robot.imitation.search import DEPTH_M, Path
+from hri.robot.model.arm import Arm, arm_points
 
 Floats = NDArray[np.float64]
 

@@ -15,9 +15,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.arm import Arm, arm_angles, arm_of, arm_points
-from hri.robot.clearance import Body, arms_clearance, body_clearance, body_of, forearm_balls
-from hri.robot.joints import JointTable
+from hri.robot.model.arm import Arm, arm_angles, arm_of, arm_points
+from hri.robot.model.clearance import Body, arms_clearance, body_clearance, body_of, forearm_balls
+from hri.robot.model.joints import JointTable
 
 Floats = NDArray[np.float64]
 

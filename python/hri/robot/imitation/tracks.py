@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument, IoError
 
 Floats = NDArray[np.float64]
 

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.optional import import_opencv
 from hri.media import write_video
-from hri.optional import import_opencv
-from hri.robot import scene
-from hri.robot.arm import SIDES
 from hri.robot.imitation.body import NOSE_ABOVE_SHOULDERS, SHOULDER_WIDTH
 from hri.robot.imitation.imitate import Imitation
 from hri.robot.imitation.tracks import HandTrack, bridge
-from hri.robot.simulation import open_robot
+from hri.robot.model.arm import SIDES
+from hri.robot.simulation import scene
+from hri.robot.simulation.run import open_robot
 
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Maximum a posteriori adaptation of Gaussian mixtures (Gauvain and Lee, IEEE Trans. Speech and
+// Audio Processing 2(2), 1994): a trained model is the prior, the data of a new person or room
+// move it as far as there are data.
+#pragma once
+
+#include <vector>
+
+#include "hri/core/stop_check.hpp"
+#include "hri/core/types.hpp"
+#include "hri/models/hmm/gaussian_mixture.hpp"
+#include "hri/models/hmm/gaussian_mixture_hmm.hpp"
+
+namespace hri {
+
+struct MapAdaptationOptions {
+  /// Frames of new data that weigh as much as the prior, a state (shared by its Gaussians as their
+  /// weights say), > 0.
+  double prior_frames = 10;
+  int num_iterations = 3;  ///< of expectation and maximisation, 1..1000
+  StopCheck should_stop;   ///< polled before every sequence of every iteration
+};
+
+/// Means, variances and weights of `model` adapted to `sequences`; its chain stays. Variances do
+/// not fall below a tenth of the model's own. Without sequences the model itself. Throws
+/// InvalidArgument for frames that do not fit or are not finite (names sequence, row, column).
+GaussianMixtureHmm adapt_map(const GaussianMixtureHmm& model, const std::vector<MatrixF>& sequences,
+                             const MapAdaptationOptions& options);
+
+/// The same for a mixture over single frames, which counts as one state.
+GaussianMixture adapt_map(const GaussianMixture& model, const std::vector<MatrixF>& sequences,
+                          const MapAdaptationOptions& options);
+
+}  // namespace hri

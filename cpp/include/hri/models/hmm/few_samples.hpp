@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A sequence model of a new class from very few recordings. What they cannot tell, how far states
+// spread, comes from the models of the classes that are known: a prior for the variances (Gauvain
+// and Lee, IEEE Trans. Speech and Audio Processing 2(2), 1994), and smoothing by symbols that occur
+// together (Lee, "Automatic speech recognition", 1989).
+#pragma once
+
+#include <vector>
+
+#include "hri/core/stop_check.hpp"
+#include "hri/core/types.hpp"
+#include "hri/models/hmm/discrete_hmm.hpp"
+#include "hri/models/hmm/gaussian_mixture_hmm.hpp"
+
+namespace hri {
+
+struct FewSampleOptions {
+  /// Recordings that the sequences stand for, 1..1000000: copies of a recording are no more
+  /// score.
+  int num_recordings = 1;
+  int max_iterations = 12;  ///< of Baum-Welch, 1..100000
+  StopCheck should_stop;    ///< polled before every sequence of every iteration
+};
+
+/// One Gaussian a state, in the topology of `known`, left-right in all. Its mean is that of the
+/// recordings. Its variance is that of the recordings and the mean variance inside the known
+/// states, which weighs as much as two recordings. (A mean drawn to those of other states, and a
+/// variance wider by what it is uncertain by, would be the predictive density: that of a new word
+/// is then so wide, beside the others, that it takes their words.) Throws InvalidArgument for no
+/// model, no data, frames that do not fit or are not finite (names sequence, row, column).
+GaussianMixtureHmm train_few(const std::vector<GaussianMixtureHmm>& known,
+                             const std::vector<MatrixF>& sequences,
+                             const FewSampleOptions& options);
+
+/// The same over symbols: a state that emits a symbol also emits those that the known states emit
+/// along with it, the more the fewer recordings there are. Emissions are at least `emission_floor`,
+/// 0..1 / num_symbols.
+DiscreteHmm train_few(const std::vector<DiscreteHmm>& known,
+                      const std::vector<SymbolSequence>& sequences, double emission_floor,
+                      const FewSampleOptions& options);
+
+}  // namespace hri

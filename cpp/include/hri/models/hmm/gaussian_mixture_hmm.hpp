@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Hidden Markov model with Gaussian-mixture emissions of diagonal covariance (Rabiner, Proc. IEEE
+// 77(2), 1989). Trained by Baum-Welch over many sequences in double; emissions are scored in float.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hri/core/stop_check.hpp"
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/hmm/markov_chain.hpp"
+#include "hri/models/hmm/mixture_bank.hpp"
+#include "hri/models/hmm/training_report.hpp"
+
+namespace hri {
+
+namespace detail {
+class ForwardPass;
+}
+
+template <class Model>
+class HmmStream;
+
+struct GaussianMixtureHmmOptions {
+  Topology topology;
+  int num_mixtures = 1;          ///< Gaussians a state, 1..1024
+  int max_iterations = 20;       ///< Baum-Welch iterations, 1..100000
+  double tolerance = 1e-4;       ///< stop when the log-likelihood a frame gains less, >= 0
+  double variance_floor = 0.01;  ///< share of the global variance, > 0
+  double weight_floor = 1e-3;    ///< smallest mixture weight, 0..1 / num_mixtures
+  bool tied_variance = false;    ///< one vector of variances for all Gaussians of all states
+  /// Dirichlet priors: imagined counts of every transition (and start) that the topology has, and
+  /// of every Gaussian of a state's mixture, >= 0. Training then maximises the posterior.
+  double transition_prior = 0;
+  double weight_prior = 0;
+  bool train_transitions = true;  ///< false: start and transitions stay as they began
+  std::uint64_t seed = 0;         ///< of the k-means starts
+  StopCheck should_stop;          ///< polled before every sequence of every iteration
+};
+
+/// Immutable; const calls are safe from several threads. Invariant: the bank has one mixture a
+/// state.
+class GaussianMixtureHmm {
+ public:
+  /// Throws InvalidArgument for a bank that does not fit the chain.
+  GaussianMixtureHmm(MarkovChain chain, MixtureBank bank);
+
+  /// Trains on sequences of frames (rows), each with at least one frame. Starts from uniform
+  /// segmentation for left_right (sequences shorter than the number of states skip some), seeded
+  /// k-means otherwise. States never visited keep their parameters. Throws InvalidArgument for no
+  /// data or values not finite (names sequence, row, column).
+  static GaussianMixtureHmm train(const std::vector<MatrixF>& sequences,
+                                  const GaussianMixtureHmmOptions& options,
+                                  TrainingReport* report = nullptr);
+
+  /// Baum-Welch that goes on from this model. The topology, num_mixtures and seed of the options
+  /// are not read. Throws as train() does.
+  [[nodiscard]] GaussianMixtureHmm retrain(const std::vector<MatrixF>& sequences,
+                                           const GaussianMixtureHmmOptions& options,
+                                           TrainingReport* report = nullptr) const;
+
+  /// log P(frames | model) by the forward recursion, natural log; -inf for an impossible sequence.
+  /// Allocates nothing once the thread has scored a sequence as long and a model as large.
+  [[nodiscard]] double log_likelihood(ConstMatrixRefF frames) const;
+  /// The same with emissions in double, to compare with other implementations.
+  [[nodiscard]] double log_likelihood_exact(ConstMatrixRefF frames) const;
+  /// log P(frames, best path | model); the path (num_frames states) if wanted.
+  double viterbi(ConstMatrixRefF frames, std::vector<int>* path = nullptr) const;
+  /// P(state of frame t | all frames), shape (num_frames, num_states), emissions in double. Throws
+  /// InvalidArgument where the sequence is impossible.
+  [[nodiscard]] MatrixD posterior(ConstMatrixRefF frames) const;
+
+  [[nodiscard]] int num_states() const { return bank_.num_states(); }
+  [[nodiscard]] int dim() const { return bank_.dim(); }
+  [[nodiscard]] const MarkovChain& chain() const { return chain_; }
+  [[nodiscard]] const MixtureBank& bank() const { return bank_; }
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  static GaussianMixtureHmm read(const ModelFile& file, const std::string& prefix);
+
+ private:
+  friend class HmmStream<GaussianMixtureHmm>;
+
+  // The forward recursion, frame by frame.
+  void begin(detail::ForwardPass* pass) const;
+  void advance(detail::ForwardPass* pass, Span<const float> frame) const;
+
+  MarkovChain chain_;
+  MixtureBank bank_;
+};
+
+}  // namespace hri

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A bank of Gaussian mixtures with diagonal covariance, one mixture a state: emissions of an HMM,
+// or with one state a plain mixture. Trained in double, scored in float.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hri/core/stop_check.hpp"
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+
+namespace hri {
+
+/// Immutable; const calls are safe from several threads. Invariant: weights of a state sum to 1,
+/// variances > 0.
+class MixtureBank {
+ public:
+  MixtureBank() = default;
+  /// `weights` (num_states, num_mixtures); `means`, `variances` (num_states * num_mixtures, dim),
+  /// state by state. Throws InvalidArgument for shapes that do not fit, values not finite,
+  /// variances <= 0, weights that do not sum to 1.
+  MixtureBank(MatrixD weights, MatrixD means, MatrixD variances);
+
+  [[nodiscard]] int num_states() const { return static_cast<int>(weights_.rows()); }
+  [[nodiscard]] int num_mixtures() const { return static_cast<int>(weights_.cols()); }
+  [[nodiscard]] int dim() const { return static_cast<int>(means_.cols()); }
+  [[nodiscard]] const MatrixD& weights() const { return weights_; }
+  [[nodiscard]] const MatrixD& means() const { return means_; }
+  [[nodiscard]] const MatrixD& variances() const { return variances_; }
+
+  /// log b_j(x_t) for all frames (rows) and states (columns), natural log, in float; `out` is
+  /// (num_frames, num_states).
+  void log_densities(ConstMatrixRefF frames, MatrixRefF out) const;
+
+  /// The same in double, with the log density of every component, (num_frames, num_states *
+  /// num_mixtures), if wanted.
+  void log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* components) const;
+
+  /// The same for `out` of (num_frames, num_states) values, row by row; allocates nothing once the
+  /// thread has used a bank as large.
+  void log_densities(ConstMatrixRefF frames, double* out) const;
+
+  void write(ModelFile& file, const std::string& prefix) const;
+  static MixtureBank read(const ModelFile& file, const std::string& prefix);
+
+ private:
+  void log_densities_in_double(ConstMatrixRefF frames, double* out, double* components) const;
+
+  MatrixD weights_;
+  MatrixD means_;
+  MatrixD variances_;
+  // Float copies for scoring: log density of a component is constant - 0.5 * sum((x - mean)^2 *
+  // precision).
+  MatrixF means_f_;
+  MatrixF precisions_f_;
+  VectorF constants_f_;
+  VectorD constants_;
+  MatrixD precisions_;
+};
+
+/// How a bank is estimated from sums.
+struct BankEstimation {
+  VectorD variance_floor;      ///< (dim)
+  double weight_floor = 0;     ///< weights are rescaled after it
+  double weight_prior = 0;     ///< imagined frames of every component
+  bool tied_variance = false;  ///< one vector of variances for all components of all states
+};
+
+/// Weighted sums of one pass over the data, from which a bank is re-estimated (M step).
+class MixtureAccumulator {
+ public:
+  MixtureAccumulator(int num_states, int num_mixtures, int dim);
+
+  /// Adds one sequence: `gamma` (num_frames, num_states) are state posteriors; `components` and
+  /// `densities` as MixtureBank::log_densities gave them.
+  void add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& components,
+           const MatrixD& densities);
+
+  /// Adds imagined frames, as `prior` would have given them: `frames_per_state` of every state,
+  /// shared by its components as their weights say.
+  void add_prior(const MixtureBank& prior, double frames_per_state);
+
+  /// The re-estimated bank; states and components without data keep `previous`.
+  [[nodiscard]] MixtureBank estimate(const MixtureBank& previous,
+                                     const BankEstimation& options) const;
+
+  /// Of every component: weight of its frames (num_states * num_mixtures), their weighted sum and
+  /// sum of squares, (num_states * num_mixtures, dim).
+  [[nodiscard]] const VectorD& counts() const { return counts_; }
+  [[nodiscard]] const MatrixD& sums() const { return sums_; }
+  [[nodiscard]] const MatrixD& squares() const { return squares_; }
+
+ private:
+  VectorD counts_;
+  MatrixD sums_;
+  MatrixD squares_;
+};
+
+/// Mean and variance of all rows of all sequences, each (dim).
+struct GlobalStatistics {
+  VectorD mean;
+  VectorD variance;
+};
+GlobalStatistics global_statistics(const std::vector<MatrixF>& sequences);
+
+/// The state of every frame by k-means over all of them (standardised), seeded by rows far apart.
+std::vector<std::vector<int>> cluster_frames(const std::vector<MatrixF>& sequences, int num_states,
+                                             std::uint64_t seed, const StopCheck& should_stop);
+
+/// A first bank from frames already assigned to states: k-means within each state, seeded. States
+/// without frames get the global statistics.
+MixtureBank initial_bank(const std::vector<MatrixF>& sequences,
+                         const std::vector<std::vector<int>>& states, int num_states,
+                         int num_mixtures, const VectorD& variance_floor, std::uint64_t seed);
+
+}  // namespace hri

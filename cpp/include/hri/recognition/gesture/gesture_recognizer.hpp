@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Isolated signs and gestures: grey images with hand masks -> hand features -> classifier ->
+// Decision (thesis ch. 3). Still signs are classified frame by frame and the frames vote; movements
+// are scored whole by sequence models.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hri/core/image_view.hpp"
+#include "hri/core/types.hpp"
+#include "hri/features/hand/hand_features.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/classifiers/logistic_regression.hpp"
+#include "hri/recognition/calibration.hpp"
+#include "hri/recognition/decision.hpp"
+#include "hri/recognition/training.hpp"
+
+namespace hri {
+
+enum class GestureModel : std::uint8_t {
+  svm,        ///< linear one-vs-rest support vector machine; frames vote with their margins
+  bayes,      ///< Gaussian Bayes on principal components; frames vote with their log posteriors
+  knn,        ///< k nearest neighbours on principal components; frames vote
+  hmm,        ///< Gaussian HMM a gesture over principal components and the hand's track
+  ptbhmm,     ///< possibility-theory HMM over a codebook of the same
+  path,       ///< linear support vector machine over the whole movement, resampled at a few points;
+              ///< needs few examples
+  rbf,        ///< least-squares support vector machine with a radial kernel; frames vote
+  automatic,  ///< rbf; svm for more than 3000 frames; path where most training gestures have
+              ///< 8 frames or more; a trained recogniser's options say which it became
+};
+
+/// What the rows of features are made from. C++ makes them from silhouettes; landmarks come from
+/// outside and feed the same classifiers.
+enum class GestureSource : std::uint8_t {
+  silhouettes,  ///< hand features of masks and grey pictures
+  landmarks,    ///< joints of the hand as a tracker gives them
+};
+
+struct GestureRecognizerOptions {
+  GestureSource source = GestureSource::silhouettes;
+  HandFeatureOptions features;
+  GestureModel model = GestureModel::automatic;
+  double svm_cost = 1.0;       ///< C of the linear SVM (svm, path), > 0
+  double rbf_cost = 10;        ///< C of rbf, > 0
+  double rbf_sharpness = 1.5;  ///< of its kernel, see RbfClassifierOptions, > 0
+  int num_components = 40;     ///< principal components (bayes, knn, hmm, ptbhmm), 1..1000
+  int num_neighbours = 5;      ///< k of knn, 1..1000
+  int num_states = 6;          ///< left-right states a gesture (hmm, ptbhmm), 1..64
+  int num_codewords = 64;      ///< codebook size (ptbhmm), 2..4096
+  int max_iterations = 12;     ///< Baum-Welch iterations, 1..1000
+  double false_reject_rate =
+      0.02;  ///< share of correct held-out gestures that the threshold may reject, 0..0.5
+  std::uint64_t seed = 0;
+};
+
+/// A frame: the grey image and the hand's mask (255 = hand), of one size. An empty mask is a frame
+/// without a hand.
+struct HandImage {
+  ImageView grey;
+  ImageView mask;
+};
+
+/// One training gesture: a row of features a frame, as GestureRecognizer::features gives them.
+/// `group` is the signer.
+struct GestureSample {
+  MatrixF features;
+  std::string label;
+  std::string group;
+};
+
+/// Turns the features of one gesture into scores; one implementation a GestureModel.
+class GestureScorer;
+
+/// Immutable once made; const calls are safe from several threads.
+class GestureRecognizer {
+ public:
+  /// Trains on the features of labelled gestures. Throws InvalidArgument for NaN, a label without a
+  /// frame that shows a hand, fewer than two labels; Interrupted when `should_stop` says so.
+  static GestureRecognizer train(const std::vector<GestureSample>& samples,
+                                 const GestureRecognizerOptions& options,
+                                 const TrainingProgress& progress = {},
+                                 const StopCheck& should_stop = {});
+
+  static GestureRecognizer load(const std::string& path);
+  void save(const std::string& path) const;
+  [[nodiscard]] ModelFile to_model_file() const;
+  static GestureRecognizer from_model_file(const ModelFile& file);
+
+  /// The rows of `frames` that show a hand: hand features, then centre x, centre y and log area of
+  /// the mask in units of the frame (0..1). Frames without a hand give no row.
+  static MatrixF features(const std::vector<HandImage>& frames, const HandFeatureOptions& options);
+
+  /// Recognises one gesture (a still is one frame). No hand in any frame gives no_input.
+  [[nodiscard]] Decision recognise(const std::vector<HandImage>& frames) const;
+  [[nodiscard]] Decision recognise_features(ConstMatrixRefF features) const;
+
+  /// Raw score of every label for features with at least one row.
+  [[nodiscard]] VectorF scores(ConstMatrixRefF features) const;
+
+  [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
+  [[nodiscard]] const GestureRecognizerOptions& options() const { return options_; }
+  [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+
+  /// Whether most gestures trained on began with a hand that rested in view (model path): then a
+  /// hand that comes into view and rests has shown nothing yet.
+  [[nodiscard]] bool starts_at_rest() const;
+  /// Whether most were made of several movements with pauses between them (model path): then the
+  /// movement before a short pause may belong to a gesture.
+  [[nodiscard]] bool pauses() const;
+
+ private:
+  GestureRecognizer() = default;
+  static GestureRecognizer read(const ModelFile& file);
+
+  GestureRecognizerOptions options_;
+  std::vector<std::string> labels_;
+  std::shared_ptr<const GestureScorer> scorer_;
+  LogisticRegression verifier_;  // of the scorer's marks; empty where nothing was learned
+  Calibration calibration_;
+};
+
+}  // namespace hri

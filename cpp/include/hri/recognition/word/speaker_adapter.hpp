@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A word recogniser that gets used to who speaks, and where: it learns from the words it hears,
+// named or not, by linear and maximum a posteriori adaptation of its models (sequence_models.hpp).
+// Words nobody named are learned as what they were recognised as, if clearly so.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "hri/core/types.hpp"
+#include "hri/recognition/decision.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
+
+namespace hri {
+
+struct SpeakerAdapterOptions {
+  /// Words a label, on average, from which on each word's model is adapted too; before, only what
+  /// all have in common, 0..1000.
+  double words_per_label = 5;
+  double shared_frames = 400;  ///< imagined frames that hold back what changes all words, > 0
+  double prior_frames = 5;     ///< frames a state that weigh as much as the training, > 0
+  int num_iterations = 3;      ///< EM iterations of an update, 1..1000
+  double trusted_share = 1;  ///< share of the words not named, clearest first, to learn from, 0..1
+  int max_words = 300;       ///< words remembered; the oldest goes first, 1..100000
+};
+
+/// Not safe from several threads at once. Invariant: recognizer() is the recogniser it was made
+/// from, adapted to the words remembered at the last update.
+class SpeakerAdapter {
+ public:
+  /// Throws InvalidArgument for options out of range and for a recogniser whose models do not adapt
+  /// (kind ptbhmm).
+  explicit SpeakerAdapter(WordRecognizer recognizer, const SpeakerAdapterOptions& options = {});
+
+  /// Recognises as WordRecognizer does, by what was learned up to the last update, and remembers
+  /// the word.
+  Decision recognise(Span<const float> samples, int sample_rate_hz);
+
+  /// Remembers a word that somebody named. Throws InvalidArgument for a label that the recogniser
+  /// does not have and for audio in which nobody speaks.
+  void learn(Span<const float> samples, int sample_rate_hz, const std::string& label);
+
+  /// Whether words enough were remembered since the last update for another to be worth its time:
+  /// one in eight.
+  [[nodiscard]] bool update_due() const;
+  /// Adapts to the words remembered. Takes some milliseconds a word: call it when nobody speaks.
+  /// Throws Interrupted when `should_stop` says so, and is then as it was.
+  void update(const StopCheck& should_stop = {});
+  /// Forgets the speaker.
+  void reset();
+
+  [[nodiscard]] const WordRecognizer& recognizer() const { return adapted_; }
+  [[nodiscard]] int num_words() const { return static_cast<int>(words_.size()); }
+  /// Words that the last update learned from: those named, and those trusted.
+  [[nodiscard]] int num_learned() const { return num_learned_; }
+  [[nodiscard]] const SpeakerAdapterOptions& options() const { return options_; }
+
+ private:
+  struct Word {
+    std::vector<MatrixF> frames;  // of every stream
+    int label = -1;               // -1: nobody named it
+  };
+  void remember(Word word);
+  [[nodiscard]] std::vector<int> trusted_labels() const;
+
+  SpeakerAdapterOptions options_;
+  WordRecognizer base_;
+  WordRecognizer adapted_;
+  std::deque<Word> words_;
+  int num_new_ = 0;
+  int num_learned_ = 0;
+};
+
+}  // namespace hri

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/classifiers/rbf_classifier.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
+#include "hri/models/row_checks.hpp"
+
+namespace hri {
+namespace {
+
+constexpr Eigen::Index kMaxRows = 20000;
+constexpr double kConstant = 1;  // of the kernel, in place of a bias
+
+constexpr Eigen::Index kNearest = 3;
+
+VectorF squared_lengths(const MatrixF& rows) { return rows.rowwise().squaredNorm(); }
+
+// Mean of the kNearest lowest values; their order changes.
+float mean_of_lowest(std::vector<float>* values) {
+  const auto used = std::min<std::ptrdiff_t>(kNearest, static_cast<std::ptrdiff_t>(values->size()));
+  std::partial_sort(values->begin(), values->begin() + used, values->end());
+  return std::accumulate(values->begin(), values->begin() + used, 0.0F) / static_cast<float>(used);
+}
+
+// What is usual inside a class, by the squared distances of all rows.
+struct Usual {
+  float nearest = 0;
+  float variance = 0;
+};
+
+Usual usual_of(const Eigen::MatrixXd& squares, const std::vector<Eigen::Index>& members) {
+  Usual result;
+  double sum = 0;
+  std::vector<float> nearest;
+  nearest.reserve(members.size());
+  std::vector<float> others;
+  for (const Eigen::Index r : members) {
+    others.clear();
+    for (const Eigen::Index s : members) {
+      sum += squares(r, s);
+      if (s != r) others.push_back(static_cast<float>(squares(r, s)));
+    }
+    if (!others.empty()) nearest.push_back(mean_of_lowest(&others));
+  }
+  // The mean squared distance to the mean is half that between rows, each with itself counted too.
+  const auto count = static_cast<double>(members.size());
+  result.variance = static_cast<float>(sum / (2 * count * count));
+  if (!nearest.empty()) {
+    const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+    std::nth_element(nearest.begin(), middle, nearest.end());
+    result.nearest = *middle;
+  }
+  return result;
+}
+
+}  // namespace
+
+RbfClassifier RbfClassifier::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
+                                   const RbfClassifierOptions& options) {
+  validate_rows(rows, classes, num_classes);
+  require(options.cost > 0, "cost must be positive");
+  require(options.sharpness > 0, "sharpness must be positive");
+  const Eigen::Index count = rows.rows();
+  require(count <= kMaxRows, "rows must not be more than 20000");
+  RbfClassifier model;
+  model.rows_ = rows;
+  model.squares_ = squared_lengths(model.rows_);
+  model.sharpness_ = options.sharpness;
+  Eigen::MatrixXd kernel(count, count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    poll(options.should_stop);
+    for (Eigen::Index s = 0; s <= r; ++s) {
+      const float product = dot(model.rows_.row(r).data(), model.rows_.row(s).data(), model.dim());
+      const float square = model.squares_[r] + model.squares_[s] - 2 * product;
+      kernel(r, s) = kernel(s, r) = r == s ? 0.0 : static_cast<double>(std::max(square, 0.0F));
+    }
+  }
+  const double mean = kernel.sum() / static_cast<double>(count * count);
+  model.spread_ = mean > 0 ? mean : 1.0;
+  model.classes_.resize(count);
+  std::vector<std::vector<Eigen::Index>> members(static_cast<std::size_t>(num_classes));
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const int c = classes[static_cast<std::size_t>(r)];
+    model.classes_[r] = static_cast<float>(c);
+    members[static_cast<std::size_t>(c)].push_back(r);
+  }
+  model.usual_.resize(num_classes);
+  model.variances_.resize(num_classes);
+  for (int c = 0; c < num_classes; ++c) {
+    const Usual usual = usual_of(kernel, members[static_cast<std::size_t>(c)]);
+    // A single row, or rows that are all alike, say nothing of how far others may lie.
+    model.usual_[c] = usual.nearest > 0 ? usual.nearest : static_cast<float>(model.spread_);
+    model.variances_[c] = usual.variance;
+  }
+  kernel = (kernel.array() * (-model.sharpness_ / model.spread_)).exp() + kConstant;
+  kernel.diagonal().array() += 1.0 / options.cost;
+  Eigen::MatrixXd wanted = Eigen::MatrixXd::Constant(count, num_classes, -1.0);
+  for (Eigen::Index r = 0; r < count; ++r) wanted(r, classes[static_cast<std::size_t>(r)]) = 1.0;
+  poll(options.should_stop);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(kernel);
+  model.weights_ = factors.solve(wanted).transpose().cast<float>();
+  return model;
+}
+
+VectorF RbfClassifier::squared_distances(Span<const float> row) const {
+  validate_row(row, dim());
+  const float square = dot(row.data(), row.data(), dim());
+  VectorF result(rows_.rows());
+  for (Eigen::Index r = 0; r < rows_.rows(); ++r) {
+    const float product = dot(row.data(), rows_.row(r).data(), dim());
+    result[r] = std::max(square + squares_[r] - 2 * product, 0.0F);
+  }
+  return result;
+}
+
+VectorF RbfClassifier::decision_values(Span<const float> row) const {
+  const auto scale = static_cast<float>(-sharpness_ / spread_);
+  const VectorF kernel =
+      (squared_distances(row).array() * scale).exp() + static_cast<float>(kConstant);
+  return weights_ * kernel;
+}
+
+RbfPlace RbfClassifier::place(Span<const float> row, int klass) const {
+  require(klass >= 0 && klass < num_classes(), "klass must be one of the classes");
+  const VectorF squares = squared_distances(row);
+  std::vector<float> own;
+  own.reserve(static_cast<std::size_t>(squares.size()));
+  for (Eigen::Index r = 0; r < squares.size(); ++r) {
+    if (classes_[r] == static_cast<float>(klass)) own.push_back(squares[r]);
+  }
+  const float mean = std::accumulate(own.begin(), own.end(), 0.0F) / static_cast<float>(own.size());
+  RbfPlace place;
+  place.nearest = mean_of_lowest(&own) / usual_[klass];
+  // |x - m|^2 is the mean of |x - x_i|^2 less the variance.
+  place.centre = std::max(mean - variances_[klass], 0.0F) / static_cast<float>(spread_);
+  return place;
+}
+
+void RbfClassifier::write(ModelFile& file, const std::string& prefix) const {
+  file.set_matrix(prefix + "rows", rows_);
+  file.set_matrix(prefix + "weights", weights_);
+  file.set_vector(prefix + "classes", classes_);
+  file.set_vector(prefix + "usual", usual_);
+  file.set_vector(prefix + "variances", variances_);
+  file.set_number(prefix + "spread", spread_);
+  file.set_number(prefix + "sharpness", sharpness_);
+}
+
+RbfClassifier RbfClassifier::read(const ModelFile& file, const std::string& prefix) {
+  RbfClassifier model;
+  model.rows_ = file.matrix_f(prefix + "rows");
+  model.weights_ = file.matrix_f(prefix + "weights");
+  model.classes_ = file.vector_f(prefix + "classes");
+  model.usual_ = file.vector_f(prefix + "usual");
+  model.variances_ = file.vector_f(prefix + "variances");
+  model.spread_ = file.number(prefix + "spread");
+  model.sharpness_ = file.number(prefix + "sharpness");
+  if (model.rows_.size() == 0 || model.weights_.rows() < 2 ||
+      model.weights_.cols() != model.rows_.rows()) {
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' does not fit rows");
+  }
+  for (const auto& [name, value] :
+       {std::pair("spread", model.spread_), std::pair("sharpness", model.sharpness_)}) {
+    if (!(value > 0) || !std::isfinite(value))
+      fail(ErrorKind::format, file.name() + ": field '" + prefix + name + "' is out of range");
+  }
+  const auto refuse = [&](const char* field) {
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + field + "' does not fit weights");
+  };
+  const Eigen::Index num_classes = model.weights_.rows();
+  if (model.usual_.size() != num_classes || !(model.usual_.minCoeff() > 0)) refuse("usual");
+  if (model.variances_.size() != num_classes) refuse("variances");
+  if (model.classes_.size() != model.rows_.rows()) refuse("classes");
+  std::vector<bool> met(static_cast<std::size_t>(num_classes), false);
+  for (const float c : model.classes_) {
+    if (!(c >= 0 && c < static_cast<float>(num_classes)) || c != std::floor(c)) refuse("classes");
+    met[static_cast<std::size_t>(c)] = true;
+  }
+  if (std::find(met.begin(), met.end(), false) != met.end()) refuse("classes");
+  model.squares_ = squared_lengths(model.rows_);
+  return model;
+}
+
+}  // namespace hri

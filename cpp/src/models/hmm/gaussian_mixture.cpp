@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/hmm/gaussian_mixture.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+constexpr double kWideVariance = 25;  // times the variance of all rows
+
+MixtureBank with_wide_component(const MixtureBank& bank, const GlobalStatistics& all,
+                                double weight) {
+  const Eigen::Index count = bank.num_mixtures();
+  MatrixD weights(1, count + 1);
+  MatrixD means(count + 1, bank.dim());
+  MatrixD variances(count + 1, bank.dim());
+  weights << (1 - weight) * bank.weights(), weight;
+  means << bank.means(), all.mean.transpose();
+  variances << bank.variances(), kWideVariance * all.variance.cwiseMax(1e-10).transpose();
+  return {std::move(weights), std::move(means), std::move(variances)};
+}
+
+}  // namespace
+
+GaussianMixture::GaussianMixture(MixtureBank bank) : bank_(std::move(bank)) {
+  require(bank_.num_states() == 1, "a mixture over single frames has one state");
+}
+
+GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtureOptions& options,
+                                       TrainingReport* report) {
+  require(options.num_mixtures >= 1 && options.num_mixtures <= 4096,
+          "num_mixtures must lie in 1..4096");
+  require(options.max_iterations >= 1 && options.max_iterations <= 100000,
+          "max_iterations must lie in 1..100000");
+  require(options.tolerance >= 0, "tolerance must not be negative");
+  require(options.variance_floor > 0, "variance_floor must be positive");
+  require(options.wide_weight >= 0 && options.wide_weight <= 0.5, "wide_weight must lie in 0..0.5");
+  require(rows.rows() > 0, "training needs at least one row");
+  const std::vector<MatrixF> sequence{rows};
+  const GlobalStatistics all = global_statistics(sequence);
+  const VectorD floor = (all.variance * options.variance_floor).cwiseMax(1e-10);
+  MixtureBank bank =
+      initial_bank(sequence, {std::vector<int>(static_cast<std::size_t>(rows.rows()), 0)}, 1,
+                   options.num_mixtures, floor, options.seed);
+  const MatrixD gamma = MatrixD::Ones(rows.rows(), 1);
+  TrainingReport local;
+  MatrixD densities;
+  MatrixD components;
+  for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
+    poll(options.should_stop);
+    bank.log_densities(rows, &densities, &components);
+    const double total = densities.sum();
+    if (!local.log_likelihoods.empty()) {
+      local.converged = (total - local.log_likelihoods.back()) / static_cast<double>(rows.rows()) <
+                        options.tolerance;
+    }
+    local.log_likelihoods.push_back(total);
+    MixtureAccumulator accumulator(1, options.num_mixtures, bank.dim());
+    accumulator.add(rows, gamma, components, densities);
+    bank = accumulator.estimate(bank, {floor, 0.0, 0.0, false});
+  }
+  if (report != nullptr) *report = std::move(local);
+  if (options.wide_weight > 0) bank = with_wide_component(bank, all, options.wide_weight);
+  return GaussianMixture(std::move(bank));
+}
+
+double GaussianMixture::log_likelihood(ConstMatrixRefF frames) const {
+  MatrixF densities(frames.rows(), 1);
+  bank_.log_densities(frames, densities);
+  return densities.cast<double>().sum();
+}
+
+GaussianMixture GaussianMixture::read(const ModelFile& file, const std::string& prefix) {
+  MixtureBank bank = MixtureBank::read(file, prefix);
+  if (bank.num_states() != 1)
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' needs one row");
+  return GaussianMixture(std::move(bank));
+}
+
+}  // namespace hri

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// GestureRecognizer to and from a model file.
+#include "hri/core/error.hpp"
+#include "hri/recognition/gesture/gesture_recognizer.hpp"
+#include "recognition/gesture/gesture_scorer.hpp"
+#include "recognition/gesture/gesture_verifier.hpp"
+#include "recognition/option_fields.hpp"
+#include "recognition/reading.hpp"
+
+namespace hri {
+namespace {
+
+constexpr const char* kKind = "gesture_recognizer";
+
+}  // namespace
+
+ModelFile GestureRecognizer::to_model_file() const {
+  ModelFile file;
+  file.set_kind(kKind);
+  file.set_text_list("labels", labels_);
+  detail::visit_gesture(detail::FieldWriter{file}, options_);
+  calibration_.write(file);
+  write_gesture_verifier(verifier_, file);
+  scorer_->write(file);
+  return file;
+}
+
+GestureRecognizer GestureRecognizer::from_model_file(const ModelFile& file) {
+  if (file.kind() != kKind) {
+    fail(ErrorKind::format,
+         file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
+  }
+  return detail::with_context(file, [&] { return read(file); });
+}
+
+GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
+  GestureRecognizer result;
+  detail::visit_gesture(detail::FieldReader{file}, result.options_);
+  if (result.options_.source > GestureSource::landmarks)
+    fail(ErrorKind::format, file.name() + ": field 'source' is out of range");
+  if (result.options_.model > GestureModel::rbf)
+    fail(ErrorKind::format, file.name() + ": field 'model' is out of range");
+  static_cast<void>(HandFeatureComputer(result.options_.features));  // refuses options out of range
+  result.labels_ = sorted_labels(file.text_list("labels"));
+  if (result.labels_ != file.text_list("labels"))
+    fail(ErrorKind::format, file.name() + ": labels are not sorted");
+  result.calibration_ = Calibration::read(file);
+  result.scorer_ =
+      read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
+  result.verifier_ = read_gesture_verifier(file, result.scorer_->num_marks());
+  return result;
+}
+
+}  // namespace hri

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Movements: principal components of the hand's shape, its track from where it began, and their
+// changes, scored whole by one sequence model a gesture.
+#include "hri/core/error.hpp"
+#include "hri/features/speech/cepstra.hpp"
+#include "hri/models/classifiers/pca.hpp"
+#include "hri/recognition/sequence_models.hpp"
+#include "recognition/gesture/gesture_scorer.hpp"
+
+namespace hri {
+namespace {
+
+constexpr int kDeltaWindow = 2;
+constexpr float kTrackScale = 10.0F;  // a tenth of the picture counts as much as one unit of shape
+
+// Shape components and track, with their deltas behind them.
+MatrixF movement_rows(ConstMatrixRefF rows, const Pca& pca) {
+  const int track = detail::kNumTrackColumns;
+  const int width = pca.num_components() + track;
+  require(rows.cols() == pca.dim() + track,
+          "features do not have as many columns as the model was trained on");
+  MatrixF result(rows.rows(), 2 * width);
+  result.leftCols(pca.num_components()) = pca.transform(rows.leftCols(pca.dim()));
+  const MatrixF path = rows.rightCols(track);
+  result.middleCols(pca.num_components(), track) = kTrackScale * (path.rowwise() - path.row(0));
+  append_deltas(result, 0, width, kDeltaWindow);
+  return result;
+}
+
+SequenceModelOptions model_options(const GestureRecognizerOptions& options) {
+  SequenceModelOptions o;
+  o.model = options.model == GestureModel::hmm ? SequenceModelKind::hmm : SequenceModelKind::ptbhmm;
+  o.num_states = options.num_states;
+  o.num_codewords = options.num_codewords;
+  o.garbage_mixtures = 4;
+  o.max_iterations = options.max_iterations;
+  o.seed = options.seed;
+  return o;
+}
+
+class MovementScorer : public GestureScorer {
+ public:
+  MovementScorer(Pca pca, SequenceModels models)
+      : pca_(std::move(pca)), models_(std::move(models)) {}
+
+  [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
+    return models_.scores(movement_rows(rows, pca_));
+  }
+  [[nodiscard]] float verification_score(ConstMatrixRefF rows,
+                                         const VectorF& scores) const override {
+    return (scores.maxCoeff() - models_.garbage_score(movement_rows(rows, pca_))) /
+           static_cast<float>(rows.rows());
+  }
+  void write(ModelFile& file) const override {
+    pca_.write(file, "pca.");
+    models_.write(file, "movement.");
+  }
+
+ private:
+  Pca pca_;
+  SequenceModels models_;
+};
+
+}  // namespace
+
+namespace detail {
+
+std::shared_ptr<const GestureScorer> train_movement_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop) {
+  const StackedRows all = stack_rows(per_class);
+  require(all.rows.cols() > kNumTrackColumns, "features need columns besides the hand's track");
+  Pca pca =
+      Pca::train(all.rows.leftCols(all.rows.cols() - kNumTrackColumns), options.num_components);
+  std::vector<std::vector<MatrixF>> movements(per_class.size());
+  for (std::size_t c = 0; c < per_class.size(); ++c) {
+    for (const MatrixF& g : per_class[c]) movements[c].push_back(movement_rows(g, pca));
+  }
+  SequenceModels models(model_options(options));
+  models.train(movements, should_stop);
+  return std::make_shared<MovementScorer>(std::move(pca), std::move(models));
+}
+
+std::shared_ptr<const GestureScorer> read_movement_scorer(const ModelFile& file,
+                                                          const GestureRecognizerOptions& options,
+                                                          int num_classes) {
+  Pca pca = Pca::read(file, "pca.");
+  SequenceModels models(model_options(options));
+  models.read(file, "movement.", num_classes, 2 * (pca.num_components() + kNumTrackColumns));
+  return std::make_shared<MovementScorer>(std::move(pca), std::move(models));
+}
+
+}  // namespace detail
+}  // namespace hri

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "recognition/gesture/gesture_scorer.hpp"
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+bool has_states(GestureModel model) {
+  return model == GestureModel::hmm || model == GestureModel::ptbhmm;
+}
+
+}  // namespace
+
+namespace detail {
+
+StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class) {
+  Eigen::Index count = 0;
+  for (const auto& gestures : per_class) {
+    for (const MatrixF& g : gestures) count += g.rows();
+  }
+  StackedRows all;
+  all.rows.resize(count, per_class.front().front().cols());
+  Eigen::Index at = 0;
+  for (std::size_t c = 0; c < per_class.size(); ++c) {
+    for (const MatrixF& g : per_class[c]) {
+      require(g.cols() == all.rows.cols(), "all gestures need the same number of features");
+      all.rows.middleRows(at, g.rows()) = g;
+      all.classes.insert(all.classes.end(), static_cast<std::size_t>(g.rows()),
+                         static_cast<int>(c));
+      at += g.rows();
+    }
+  }
+  return all;
+}
+
+}  // namespace detail
+
+std::shared_ptr<const GestureScorer> train_gesture_scorer(
+    const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop) {
+  if (options.model == GestureModel::path)
+    return detail::train_path_scorer(per_class, options, should_stop);
+  return has_states(options.model) ? detail::train_movement_scorer(per_class, options, should_stop)
+                                   : detail::train_vote_scorer(per_class, options, should_stop);
+}
+
+std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
+                                                         const GestureRecognizerOptions& options,
+                                                         int num_classes) {
+  if (options.model == GestureModel::path) return detail::read_path_scorer(file, num_classes);
+  return has_states(options.model) ? detail::read_movement_scorer(file, options, num_classes)
+                                   : detail::read_vote_scorer(file, options, num_classes);
+}
+
+}  // namespace hri

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "recognition/gesture/gesture_verifier.hpp"
+
+#include <string>
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+constexpr const char* kPrefix = "verifier.";
+constexpr std::size_t kFewest = 20;  // trials of a kind; weights from fewer are chance
+
+}  // namespace
+
+LogisticRegression train_gesture_verifier(const std::vector<VectorD>& right,
+                                          const std::vector<VectorD>& unknown) {
+  if (right.size() < kFewest || unknown.size() < kFewest) return {};
+  const std::size_t count = right.size() + unknown.size();
+  MatrixD rows(static_cast<Eigen::Index>(count), right.front().size());
+  std::vector<int> yes;
+  std::vector<double> weights;  // both kinds count alike
+  yes.reserve(count);
+  weights.reserve(count);
+  for (const std::vector<VectorD>* kind : {&unknown, &right}) {
+    for (const VectorD& marks : *kind) {
+      rows.row(static_cast<Eigen::Index>(yes.size())) = marks.transpose();
+      yes.push_back(kind == &right ? 1 : 0);
+      weights.push_back(static_cast<double>(count) / 2 / static_cast<double>(kind->size()));
+    }
+  }
+  return LogisticRegression::train(rows, yes, weights, {});
+}
+
+float log_odds(const LogisticRegression& verifier, const VectorD& marks) {
+  return static_cast<float>(
+      verifier.log_odds({marks.data(), static_cast<std::size_t>(marks.size())}));
+}
+
+void write_gesture_verifier(const LogisticRegression& verifier, ModelFile& file) {
+  if (verifier.dim() > 0) verifier.write(file, kPrefix);
+}
+
+LogisticRegression read_gesture_verifier(const ModelFile& file, Eigen::Index num_marks) {
+  if (!file.has(std::string(kPrefix) + "weights")) return {};
+  LogisticRegression verifier = LogisticRegression::read(file, kPrefix);
+  if (verifier.dim() != num_marks) {
+    fail(ErrorKind::format, file.name() + ": field '" + kPrefix + "weights' has " +
+                                std::to_string(verifier.dim()) + " values, expected " +
+                                std::to_string(num_marks));
+  }
+  return verifier;
+}
+
+}  // namespace hri

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "recognition/gesture/path_centres.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hri/core/error.hpp"
+
+namespace hri::detail {
+namespace {
+
+constexpr const char* kCentres = "path.centres";
+constexpr const char* kUsual = "path.usual_distance";
+constexpr float kLeast = 1e-3F;  // of a path that lies on its centre
+
+Eigen::Index centre_of(const KnownPath& known) {
+  return 2 * Eigen::Index{known.klass} + (known.last_movement ? 1 : 0);
+}
+
+}  // namespace
+
+PathCentres PathCentres::train(const std::vector<KnownPath>& paths, int num_classes) {
+  PathCentres result;
+  result.centres_ = MatrixF::Zero(2 * Eigen::Index{num_classes}, paths.front().path.size());
+  VectorF counts = VectorF::Zero(result.centres_.rows());
+  for (const KnownPath& known : paths) {
+    result.centres_.row(centre_of(known)) += known.path.transpose();
+    counts[centre_of(known)] += 1;
+  }
+  for (Eigen::Index i = 0; i < counts.size(); ++i) {
+    if (counts[i] > 0)
+      result.centres_.row(i) /= counts[i];
+    else
+      result.centres_.row(i) = result.centres_.row(i - 1);
+  }
+  double sum = 0;
+  for (const KnownPath& known : paths) {
+    const auto centre = result.centres_.row(centre_of(known));
+    sum += static_cast<double>((known.path.transpose() - centre).squaredNorm());
+  }
+  // One example a class says nothing of how far others may lie.
+  if (sum > 0) result.usual_ = sum / static_cast<double>(paths.size());
+  return result;
+}
+
+float PathCentres::log_distance(const VectorF& path, Eigen::Index klass) const {
+  const float whole = (centres_.row(2 * klass) - path.transpose()).squaredNorm();
+  const float last = (centres_.row(2 * klass + 1) - path.transpose()).squaredNorm();
+  return std::log(std::min(whole, last) / static_cast<float>(usual_) + kLeast);
+}
+
+void PathCentres::write(ModelFile& file) const {
+  file.set_matrix(kCentres, centres_);
+  file.set_number(kUsual, usual_);
+}
+
+PathCentres PathCentres::read(const ModelFile& file, int dim, int num_classes) {
+  PathCentres result;
+  result.centres_ = file.matrix_f(kCentres);
+  result.usual_ = file.number(kUsual);
+  if (result.centres_.cols() != dim || result.centres_.rows() != 2 * Eigen::Index{num_classes})
+    fail(ErrorKind::format, file.name() + ": field '" + kCentres + "' does not fit the classifier");
+  if (!(result.usual_ > 0) || !std::isfinite(result.usual_))
+    fail(ErrorKind::format, file.name() + ": field '" + kUsual + "' is out of range");
+  return result;
+}
+
+}  // namespace hri::detail

@@ -1,0 +1,311 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The commands of ``hri robot``: data on stdout, messages on stderr, errors to the caller."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+import numpy as np
+
+from hri.cli.imitate import imitate
+from hri.core.errors import InvalidArgument
+from hri.robot.control.backend import Robot
+from hri.robot.control.state import MotionLog
+from hri.robot.model.joints import HOAP2, ROBOTS, JointTable
+from hri.robot.model.postures import POSTURES
+from hri.robot.motion.checks import check_pulse_csv, check_trajectory, require_safe
+from hri.robot.motion.gestures import gesture_trajectory, load_gestures
+from hri.robot.motion.nao_arms import with_nao_arms
+from hri.robot.motion.plots import plot_trajectory
+from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
+from hri.robot.motion.repair import repair_pulse_csv
+from hri.robot.motion.shaping import slow_to_limits
+from hri.robot.motion.short_csv import is_short_csv, read_short_csv, write_short_csv
+from hri.robot.motion.trajectory import Trajectory
+from hri.robot.simulation.gallery import write_gallery
+from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
+
+EXIT_BAD_DATA = 3
+EXIT_FELL = 1
+EXIT_INTERRUPTED = 130
+
+_backend = click.option(
+    "--backend",
+    type=click.Choice(BACKENDS),
+    default="pybullet",
+    show_default=True,
+    help="With physics, or without.",
+)
+_robot = click.option(
+    "--robot",
+    "table",
+    type=click.Choice(tuple(ROBOTS)),
+    default="hoap2",
+    show_default=True,
+    callback=lambda context, option, name: ROBOTS[name],
+    help="NAO makes gestures that its arms allow, and motions in the short form.",
+)
+
+
+@click.group()
+def robot() -> None:
+    """Check motions of the robot HOAP-2 or NAO, carry them out in simulation and film them.
+
+    \b
+    Examples:
+      hri robot gestures
+      hri robot render 7 seven.mp4
+    """
+
+
+robot.add_command(imitate)
+
+
+@robot.command(short_help="Look over a motion; exit code 3 for errors.")
+@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option(
+    "--repair", "repaired", type=click.Path(dir_okay=False, path_type=Path), help="Write a repaired pulse CSV file."
+)
+@_robot
+def check(file: Path, repaired: Path | None, table: JointTable) -> None:
+    """Look over FILE, pulses or the short form; tab-separated findings go to stdout, exit code 3 for errors.
+
+    With --repair, cells that hold no count are taken from their neighbours and counts beyond a limit become the limit
+    in a new file; every change is told on stderr, and the findings are those of the new file.
+
+    \b
+    Example:
+      hri robot check motion.csv
+      hri robot check motion.csv --repair repaired.csv
+    """
+    if table is not HOAP2 and not is_short_csv(file):
+        raise InvalidArgument(f"{file}: pulses are HOAP-2's, {table.name} has the short form")
+    if repaired is not None:
+        for change in repair_pulse_csv(file, repaired):
+            where = f"row {change.row}, column {change.column} ({change.joint})"
+            click.echo(f"{where}: {change.before!r} is now {change.after}: {change.reason}", err=True)
+        file = repaired
+    short = is_short_csv(file)
+    findings = check_trajectory(read_short_csv(file, table), table) if short else check_pulse_csv(file)
+    for finding in findings:
+        place = (finding.severity, str(finding.row), finding.column, finding.joint)
+        click.echo("\t".join((*place, finding.message)))
+    errors = sum(finding.severity == "error" for finding in findings)
+    click.echo(f"{file}: {errors} errors, {len(findings) - errors} warnings", err=True)
+    if errors:
+        sys.exit(EXIT_BAD_DATA)
+
+
+@robot.command(short_help="Draw every joint of a motion against its limits.")
+@click.argument("motion")
+@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+def plot(motion: str, out: Path) -> None:
+    """Draw every joint of MOTION over time, its limits dashed, as OUT (.png, .svg, .pdf).
+
+    \b
+    Example:
+      hri robot plot namaste namaste.png
+    """
+    plot_trajectory(_motion(motion, HOAP2), out)
+    click.echo(str(out))
+
+
+@robot.command(short_help="Carry out a motion; print where the joints end.")
+@click.argument("motion")
+@_backend
+@click.option("--gui", is_flag=True, help="Show a window and move in real time (pybullet).")
+@click.option("--stand", is_flag=True, help="Stand on the feet instead of holding the torso.")
+@click.option("--posture", type=click.Choice(POSTURES), default="standing", show_default=True, help="To begin in.")
+@click.option("--log", "log_path", type=click.Path(dir_okay=False, path_type=Path), help="Write states as JSON.")
+@_robot
+def play(
+    motion: str, backend: str, gui: bool, stand: bool, posture: str, log_path: Path | None, table: JointTable
+) -> None:
+    """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
+
+    A robot on its feet begins with the motion's first row, standing or lying, and tells where it got to, and whether it
+    fell, on stderr: exit code 1. Ctrl-C stops the robot, within its limits of speed and acceleration: exit code 130.
+
+    \b
+    Example:
+      hri robot play namaste --gui
+      hri robot play walk.csv --stand --log walk.json
+    """
+    trajectory = _motion(motion, table)
+    require_safe(trajectory, table, motion)
+    stand = stand or posture != "standing"
+    idle = [name for name in table.names if name not in trajectory.joint_names] if stand and table is HOAP2 else []
+    log = MotionLog()
+    with open_robot(backend, gui=gui, fixed_base=not stand, locked=idle, table=table) as opened:
+        if stand:
+            first = trajectory.positions_rad[0].tolist()
+            opened.reset(dict(zip(trajectory.joint_names, first, strict=True)), posture)
+        with _stopped_by_interrupt(opened):
+            opened.perform(trajectory, log=log)
+        for name, position in opened.joint_positions_rad().items():
+            click.echo(f"{name}\t{position:.4f}")
+        for event in opened.events:
+            click.echo(f"{event.time_s:.2f} s: {event.kind}: {event.message}", err=True)
+        if stand:
+            end = opened.state()
+            place = ", ".join(f"{value:.3f}" for value in end.base_position_m)
+            turned = ", ".join(f"{np.degrees(value):.1f}" for value in end.base_rpy_rad)
+            click.echo(f"base at {place} m; roll, pitch, yaw {turned} deg", err=True)
+    if log_path is not None:
+        log.write(log_path)
+        click.echo(f"log: {log_path}", err=True)
+    if opened.events:
+        sys.exit(EXIT_FELL if opened.events[-1].kind == "fall" else EXIT_INTERRUPTED)
+
+
+@robot.command(short_help="Film a motion.")
+@click.argument("motion")
+@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+@_backend
+@click.option("--fps", type=click.FloatRange(1, 120), default=12.0, show_default=True)
+@click.option("--size", type=(int, int), default=(480, 360), show_default=True, help="Pixels.")
+@click.option("--still", type=click.FloatRange(0), metavar="SECONDS", help="One picture (.png, .jpg) of this moment.")
+@_robot
+def render(
+    motion: str, out: Path, backend: str, fps: float, size: tuple[int, int], still: float | None, table: JointTable
+) -> None:
+    """Film MOTION, the name of a gesture or a pulse CSV file, as the video OUT, or take one picture of it.
+
+    \b
+    Example:
+      hri robot render 7 seven.mp4
+      hri robot render motion.csv motion.webm --backend kinematic --size 640 480
+      hri robot render namaste namaste.png --still 1.5
+    """
+    trajectory = _motion(motion, table)
+    require_safe(trajectory, table, motion)
+    if still is not None:
+        render_still(trajectory, out, still, backend, size, table)
+    elif sys.stderr.isatty():
+        with click.progressbar(length=1000, label="Filming", file=sys.stderr) as bar:
+
+            def show(made: int, total: int) -> None:
+                bar.update(1000 * made // total - bar.pos)
+
+            render_video(trajectory, out, backend, fps, size, show, table)
+    else:
+        render_video(trajectory, out, backend, fps, size, table=table)
+    click.echo(str(out))
+
+
+@robot.command(short_help="Write a motion as pulses or degrees.")
+@click.argument("motion")
+@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+@click.option("--short", is_flag=True, help="A .csv in degrees with named columns instead of pulses.")
+@click.option("--slow", is_flag=True, help="Slow the whole motion down to the limits of speed and acceleration.")
+def convert(motion: str, out: Path, short: bool, slow: bool) -> None:
+    """Write MOTION as OUT: pulses with .csv, else times and degrees, tab-separated (.tsv).
+
+    MOTION is the name of a gesture, a pulse CSV file or one in the short form.
+
+    \b
+    Example:
+      hri robot convert namaste namaste.csv
+      hri robot convert motion.csv motion.tsv
+      hri robot convert wave wave.csv --short
+    """
+    trajectory = _motion(motion, HOAP2)
+    if slow:
+        slower = slow_to_limits(trajectory)
+        if slower is not trajectory:
+            click.echo(f"slowed from {trajectory.duration_s:g} to {slower.duration_s:g} s", err=True)
+        trajectory = slower
+    if out.suffix.lower() == ".csv" and short:
+        write_short_csv(out, trajectory)
+    elif out.suffix.lower() == ".csv":
+        left_out = write_pulse_csv(out, trajectory)
+        if left_out:
+            click.echo(f"left out, as the format has no count: {', '.join(left_out)}", err=True)
+    elif out.suffix.lower() == ".tsv":
+        trajectory.write_tsv(out)
+    else:
+        raise InvalidArgument(f"{out}: suffix must be .csv or .tsv")
+    click.echo(str(out))
+
+
+@robot.command(short_help="List the joints with limits, CSV columns and pulses.")
+@click.option("--markdown", is_flag=True, help="As a table for a Markdown page.")
+@_robot
+def joints(markdown: bool, table: JointTable) -> None:
+    """List the joints with limits in degrees, CSV column and pulses per degree.
+
+    \b
+    Example:
+      hri robot joints --markdown
+    """
+    rows = [("joint", "meaning", "lower deg", "upper deg", "column", "pulses/deg")]
+    for joint, limits in zip(table.joints, np.degrees(table.limits_rad), strict=True):
+        pulses = "" if joint.pulses_per_degree is None else str(joint.pulses_per_degree)
+        degrees = (f"{limits[0]:.1f}", f"{limits[1]:.1f}")
+        rows.append((joint.name, joint.meaning, *degrees, joint.column, pulses))
+    if markdown:
+        rows.insert(1, ("---",) * 6)
+    for row in rows:
+        click.echo(f"| {' | '.join(row)} |" if markdown else "\t".join(row))
+
+
+@robot.command(short_help="Write a page with pictures of every gesture.")
+@click.argument("directory", type=click.Path(file_okay=False, path_type=Path))
+@click.option("--videos", is_flag=True, help="Also film every gesture (.webm).")
+@click.option("--backend", type=click.Choice(BACKENDS), default="kinematic", show_default=True)
+def gallery(directory: Path, videos: bool, backend: str) -> None:
+    """Write gallery.md, and a picture of every gesture in images/gallery, into DIRECTORY.
+
+    \b
+    Examples:
+      hri robot gallery docs
+      hri robot gallery all/ --videos
+    """
+    with click.progressbar(length=len(load_gestures()), label="Drawing", file=sys.stderr) as bar:
+        page = write_gallery(directory, videos, backend, lambda done, _: bar.update(done - bar.pos))
+    click.echo(str(page))
+
+
+@robot.command(short_help="List the gestures by name.")
+def gestures() -> None:
+    """List the gestures: name, seconds and what it looks like.
+
+    \b
+    Example:
+      hri robot gestures
+    """
+    for gesture in load_gestures().values():
+        click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
+
+
+@contextmanager
+def _stopped_by_interrupt(moving: Robot) -> Iterator[None]:
+    """Ctrl-C stops the robot, which takes a moment; a second one ends the program at once."""
+
+    def stop(number: int, frame: object) -> None:
+        signal.signal(signal.SIGINT, before)
+        moving.stop()
+
+    before = signal.signal(signal.SIGINT, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _motion(motion: str, table: JointTable) -> Trajectory:
+    named = motion in load_gestures()
+    if not named and (Path(motion).suffix.lower() == ".csv" or Path(motion).is_file()):
+        if is_short_csv(motion):
+            return read_short_csv(motion, table)
+        if table is not HOAP2:
+            raise InvalidArgument(f"{motion}: pulses are HOAP-2's, {table.name} has the short form")
+        return read_pulse_csv(motion)
+    found = gesture_trajectory(motion)  # its error names the gestures
+    return found if table is HOAP2 else with_nao_arms(found)

@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""From a folder of labelled recordings to a trained recogniser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from hri.core.errors import InvalidArgument
+from hri.datasets import Dataset
+from hri.media import read_audio, read_frames
+from hri.recognition import BackgroundWord, GestureRecognizer, WordRecognizer
+
+Progress = Callable[[str, int, int], None]
+
+
+def train(
+    dataset: Dataset,
+    recognizer: WordRecognizer | GestureRecognizer | None = None,
+    *,
+    background: Sequence[BackgroundWord] | None = None,
+    progress: Progress | None = None,
+) -> WordRecognizer | GestureRecognizer:
+    """Train on every recording of `dataset`.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        Its kind decides what is trained; its persons are held out in turn to calibrate confidences.
+    recognizer : WordRecognizer or GestureRecognizer, optional
+        One with options of its own, trained in place; default options otherwise.
+    background : sequence of BackgroundWord, optional
+        Of words: what else people say, as of `WordRecognizer.fit`.
+    progress : callable, optional
+        Called with (what is being done, steps done, steps in all).
+
+    Returns
+    -------
+    WordRecognizer or GestureRecognizer
+
+    Raises
+    ------
+    InvalidArgument
+        When `recognizer` is for the other mode, or training refuses the recordings.
+    FormatError, IoError
+        For a recording that cannot be read; the message names the file.
+    """
+    if recognizer is None:
+        recognizer = WordRecognizer() if dataset.kind == "speech" else GestureRecognizer()
+    if recognizer.mode != dataset.kind:
+        raise InvalidArgument(
+            f"the data set {dataset.root} is for {dataset.kind}, the recogniser is for {recognizer.mode}"
+        )
+    report = progress or (lambda what, done, total: None)
+    if isinstance(recognizer, WordRecognizer):
+        return _train_words(dataset, recognizer, background, report)
+    return _train_gestures(dataset, recognizer, report)
+
+
+def background_of(dataset: Dataset) -> list[BackgroundWord]:
+    """The recordings of a data set of speech as background words."""
+    words = []
+    for sample in dataset.samples:
+        audio = read_audio(sample.path)
+        words.append(BackgroundWord(audio.samples, audio.sample_rate_hz, sample.label))
+    return words
+
+
+def _train_words(
+    dataset: Dataset, recognizer: WordRecognizer, background: Sequence[BackgroundWord] | None, progress: Progress
+) -> WordRecognizer:
+    clips, rates = [], []
+    for done, sample in enumerate(dataset.samples):
+        audio = read_audio(sample.path)
+        clips.append(audio.samples)
+        rates.append(audio.sample_rate_hz)
+        progress("reading", done + 1, len(dataset))
+    return recognizer.fit(
+        clips,
+        [s.label for s in dataset.samples],
+        sample_rate_hz=rates,
+        groups=[s.person for s in dataset.samples],
+        background=background,
+        progress=lambda done, total: progress("training", done, total),
+    )
+
+
+def _train_gestures(dataset: Dataset, recognizer: GestureRecognizer, progress: Progress) -> GestureRecognizer:
+    # Only the features of a clip are kept, so that a folder of videos need not fit in memory.
+    rows = []
+    for done, sample in enumerate(dataset.samples):
+        rows.append(recognizer.features(read_frames(sample.path).frames))
+        progress("finding hands", done + 1, len(dataset))
+    return recognizer.fit_features(
+        rows,
+        [s.label for s in dataset.samples],
+        groups=[s.person for s in dataset.samples],
+        progress=lambda done, total: progress("training", done, total),
+    )

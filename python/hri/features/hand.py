@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Features of hands in one call, from grey pictures and masks: shapes, and the way of the hand through a clip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.core.errors import InvalidArgument
+
+Kind = Literal["hand", "orientation", "dwt-mfcc", "wavelet", "fourier", "chain-code", "moments", "track"]
+Picture = NDArray[np.uint8]
+Compute = Callable[[Picture, Picture], Any]
+
+
+def hand_features(
+    greys: Sequence[Picture], masks: Sequence[Picture], kind: Kind = "hand", **options: Any
+) -> NDArray[np.float32]:
+    """Features of every frame that shows a hand.
+
+    Parameters
+    ----------
+    greys, masks : sequence of uint8 arrays, shape (height, width)
+        Grey pictures, and 255 where the hand is; a still is a sequence of one.
+    kind : str
+        One of `HAND_KINDS`: ``hand``, the joined feature that `GestureRecognizer` uses; ``orientation`` histograms of
+        the grey picture; ``dwt-mfcc``, the silhouette cepstrum; ``wavelet``, moment-invariant wavelet descriptors;
+        ``fourier`` descriptors; ``chain-code`` histograms; ``moments``, Hu's; ``track``, place, size, axis and speed.
+    **options
+        Fields of the kind's options: `hri._native.HandFeatureOptions`, `OrientationHistogramOptions`,
+        `SilhouetteCepstrumOptions`, `WaveletDescriptorOptions`, `FourierDescriptorOptions`, `ChainCodeOptions`,
+        `HandTrackOptions`; moments have none.
+
+    Returns
+    -------
+    ndarray of float32, shape (num_frames_with_hand, num_features)
+        Columns as `hand_column_names` tells them.
+
+    Raises
+    ------
+    InvalidArgument
+        For a kind that there is not, pictures that do not fit together, or an option out of range (named).
+    TypeError
+        For an option that the kind has not.
+
+    Examples
+    --------
+    >>> mask = np.zeros((60, 80), np.uint8)
+    >>> mask[20:40, 10:70] = 255
+    >>> hand_features([mask], [mask], "fourier", num_harmonics=4).shape
+    (1, 8)
+    """
+    chosen, own = _chosen(kind, options)
+    if len(greys) != len(masks):
+        raise InvalidArgument(f"greys and masks differ in length: {len(greys)}, {len(masks)}")
+    if own.compute is None:
+        return np.asarray(_native.HandTrackComputer(chosen).compute(list(masks)))
+    compute = own.compute(chosen)
+    rows = [compute(grey, mask) for grey, mask in zip(greys, masks, strict=True) if np.any(mask)]
+    return np.asarray(rows, np.float32).reshape(len(rows), len(own.names(chosen)))
+
+
+def hand_column_names(kind: Kind = "hand", **options: Any) -> list[str]:
+    """Names of the columns that `hand_features` gives for the same kind and options.
+
+    Returns
+    -------
+    list of str
+    """
+    chosen, own = _chosen(kind, options)
+    return own.names(chosen)
+
+
+def _chosen(kind: str, options: dict[str, Any]) -> tuple[Any, _Kind]:
+    if kind not in HAND_KINDS:
+        raise InvalidArgument(f"kind must be one of {', '.join(HAND_KINDS)}, got {kind!r}")
+    own = HAND_KINDS[kind]
+    return own.options(**options), own
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """How one kind is made: its options, a function of grey and mask (None for tracks), the names of its columns."""
+
+    options: Callable[..., Any]
+    compute: Callable[[Any], Compute] | None
+    names: Callable[[Any], list[str]]
+
+
+def _of_mask(computer: Callable[[Any], Any]) -> Callable[[Any], Compute]:
+    def make(options: Any) -> Compute:
+        compute = computer(options).compute
+        return lambda grey, mask: compute(mask)
+
+    return make
+
+
+def _no_options() -> None:
+    """Of a kind that has none: a keyword is an error."""
+
+
+def _orientation_options(num_cells: int = 1, num_bins: int = 18) -> Any:
+    return _native.OrientationHistogramOptions(num_cells=num_cells, num_bins=num_bins)
+
+
+def _orientation(options: Any) -> Compute:
+    parts = _native.HandFeatureOptions(histogram=options, use_silhouette=False, use_cepstrum=False)
+    return _native.HandFeatureComputer(parts).compute
+
+
+def _orientation_names(options: Any) -> list[str]:
+    if options.num_cells == 1:
+        return [f"{180 * i / options.num_bins:g}_deg" for i in range(options.num_bins)]
+    blocks = range((options.num_cells - 1) ** 2)
+    return [f"block{b}_{cell}_bin{i}" for b in blocks for cell in range(4) for i in range(options.num_bins)]
+
+
+def _wavelet_names(options: Any) -> list[str]:
+    pairs = [(m, n) for m in range(options.num_scales) for n in range(2 ** (m + 1) + 1)]
+    return [f"b{b}_m{m}_n{n}" for b in range(options.num_frequencies) for m, n in pairs]
+
+
+def _fourier_names(options: Any) -> list[str]:
+    harmonics = [sign * k for k in range(1, options.num_harmonics + 1) for sign in (1, -1)]
+    return [f"{part}{k}" for k in harmonics for part in (("re", "im") if options.use_phase else ("z",))]
+
+
+def _chain_code_names(options: Any) -> list[str]:
+    what = "turn" if options.use_turns else "direction"
+    return [f"part{part}_{what}{d}" for part in range(options.num_parts) for d in range(8)]
+
+
+def _track_names(options: Any) -> list[str]:
+    orders = ("", "d_", "dd_")[: 1 + options.delta_orders]
+    return [order + name for order in orders for name in _native.HAND_TRACK_COLUMNS]
+
+
+HAND_KINDS: dict[str, _Kind] = {
+    "hand": _Kind(
+        _native.HandFeatureOptions,
+        lambda options: _native.HandFeatureComputer(options).compute,
+        lambda options: [f"f{i}" for i in range(_native.HandFeatureComputer(options).num_features)],
+    ),
+    "orientation": _Kind(_orientation_options, _orientation, _orientation_names),
+    "dwt-mfcc": _Kind(
+        _native.SilhouetteCepstrumOptions,
+        _of_mask(_native.SilhouetteCepstrumComputer),
+        lambda options: [f"c{i}" for i in range(options.num_cepstra + 1)],
+    ),
+    "wavelet": _Kind(_native.WaveletDescriptorOptions, _of_mask(_native.WaveletDescriptorComputer), _wavelet_names),
+    "fourier": _Kind(_native.FourierDescriptorOptions, _of_mask(_native.FourierDescriptorComputer), _fourier_names),
+    "chain-code": _Kind(_native.ChainCodeOptions, _of_mask(_native.ChainCodeComputer), _chain_code_names),
+    "moments": _Kind(
+        _no_options,
+        lambda options: lambda grey, mask: _native.hu_features(mask),
+        lambda options: [f"hu{i}" for i in range(1, 8)],
+    ),
+    "track": _Kind(_native.HandTrackOptions, None, _track_names),
+}
+"""What `hand_features` can give, by name."""

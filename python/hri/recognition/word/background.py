@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Words that are in nobody's vocabulary: what a recogniser compares with before it says that it knows a word."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import as_file, files
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.core.errors import FormatError
+
+RATE_HZ = 16000
+_FILE = "background_words.npz"
+_MU = 255.0
+
+
+@dataclass(frozen=True)
+class BackgroundWord:
+    """A recording of a word that is not to be recognised.
+
+    Attributes
+    ----------
+    samples : float32 array, shape (num_samples,)
+        Mono, -1..1.
+    sample_rate_hz : int
+    label : str
+        Which word; recordings of one word share a model.
+    """
+
+    samples: NDArray[np.float32]
+    sample_rate_hz: int
+    label: str
+
+
+def compress(samples: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """Eight bits a sample on the mu-law curve (ITU-T G.711's, unquantised): 38 dB for speech at any level."""
+    curve = np.sign(samples) * np.log1p(_MU * np.abs(samples)) / np.log1p(_MU)
+    return np.round(127.5 * (curve + 1.0)).astype(np.uint8)
+
+
+def expand(codes: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """What `compress` was given, to its precision."""
+    curve = codes.astype(np.float64) / 127.5 - 1.0
+    return (np.sign(curve) * np.expm1(np.abs(curve) * np.log1p(_MU)) / _MU).astype(np.float32)
+
+
+@cache
+def background_words() -> tuple[BackgroundWord, ...]:
+    """The words that come with the package: synthetic voices, English and Hindi, at 16 kHz.
+
+    Returns
+    -------
+    tuple of BackgroundWord
+
+    Raises
+    ------
+    FormatError
+        When the installed file is damaged.
+
+    Examples
+    --------
+    >>> words = background_words()
+    >>> len({word.label for word in words})
+    48
+    """
+    with as_file(files("hri.recognition.word") / _FILE) as path:
+        try:
+            with np.load(path, allow_pickle=False) as stored:
+                codes, ends, labels = stored["codes"], stored["ends"], stored["labels"]
+        except (OSError, ValueError, KeyError) as error:
+            raise FormatError(f"{_FILE}: {error}") from error
+    if ends.ndim != 1 or ends.shape != labels.shape or np.any(np.diff(ends, prepend=0) <= 0) or ends[-1] != codes.size:
+        raise FormatError(f"{_FILE}: the lengths do not fit the samples")
+    pieces = np.split(expand(codes), ends[:-1])
+    return tuple(BackgroundWord(p, RATE_HZ, str(label)) for p, label in zip(pieces, labels, strict=True))

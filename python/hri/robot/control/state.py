@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What a robot is doing: base, joints, torques, contacts and events, and a log of them as JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from hri.core.errors import InvalidArgument, IoError
+from hri.robot.model.joints import Vector
+
+FLOOR = "floor"
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A link that touches the floor (`other` is "floor") or another link, and how hard."""
+
+    link: str
+    other: str
+    force_n: float
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that ended a motion: `kind` is "stop" or "fall"."""
+
+    time_s: float
+    kind: str
+    message: str
+
+
+@dataclass(frozen=True)
+class RobotState:
+    """One moment.
+
+    Attributes
+    ----------
+    time_s : float
+        Since the robot was opened, in its own time.
+    base_position_m, base_rpy_rad : three floats
+        Origin of the base link's frame in the world; roll, pitch and yaw.
+    positions_rad, torques_n_m : dict of joint name to float
+        No torques without physics.
+    contacts : tuple of Contact
+        One for each pair that touches, the first link by name first; none without physics.
+    """
+
+    time_s: float
+    base_position_m: Vector
+    base_rpy_rad: Vector
+    positions_rad: dict[str, float]
+    torques_n_m: dict[str, float] = field(default_factory=dict)
+    contacts: tuple[Contact, ...] = ()
+
+
+class MotionLog:
+    """Collects states while a robot moves.
+
+    Parameters
+    ----------
+    period_s : float
+        Time between two states, above 0.
+    """
+
+    def __init__(self, period_s: float = 0.01) -> None:
+        if not 0.0 < period_s < float("inf"):
+            raise InvalidArgument(f"period_s is {period_s}, must be above 0 and finite")
+        self.period_s = period_s
+        self.states: list[RobotState] = []
+        self.events: list[Event] = []
+
+    def as_dict(self) -> dict[str, Any]:
+        """What `write` writes."""
+        return {
+            "period_s": self.period_s,
+            "events": [asdict(event) for event in self.events],
+            "states": [asdict(state) for state in self.states],
+        }
+
+    def write(self, path: str | PathLike[str]) -> None:
+        """Write everything as JSON; IoError if it fails."""
+        try:
+            Path(path).write_text(json.dumps(self.as_dict()) + "\n", encoding="ascii")
+        except OSError as error:
+            raise IoError(f"{path}: {error.strerror or error}") from error

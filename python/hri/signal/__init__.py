@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Wavelets and noise reduction."""

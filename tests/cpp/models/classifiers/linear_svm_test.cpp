@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/classifiers/linear_svm.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hri/core/error.hpp"
+#include "models/model_testing.hpp"
+
+namespace hri {
+namespace {
+
+using namespace testing_data;
+
+TEST(LinearSvm, FindsTheKnownSolutionOfTwoPoints) {
+  // One feature, rows -1 and +1, bias feature 1: by symmetry the bias is 0, and w minimises
+  // w^2 / 2 + 2 C (1 - w)^2, so w = 4 C / (1 + 4 C).
+  MatrixF rows(2, 1);
+  rows << -1, 1;
+  LinearSvmOptions options;
+  options.cost = 0.5;
+  options.tolerance = 1e-6;
+  const LinearSvm model = LinearSvm::train(rows, std::vector<int>{0, 1}, 2, options);
+  EXPECT_NEAR(model.weights()(1, 0), 2.0 / 3.0, 1e-5);
+  EXPECT_NEAR(model.weights()(0, 0), -2.0 / 3.0, 1e-5);
+  EXPECT_NEAR(model.biases()[1], 0.0, 1e-5);
+}
+
+TEST(LinearSvm, CountsRowsOfNoClassAgainstAll) {
+  // The rows of two classes differ in their second feature only; the first tells both from rows of
+  // no class.
+  MatrixF rows(4, 2);
+  rows << 1, 1, 1, -1, -1, 1, -1, -1;
+  const LinearSvm model = LinearSvm::train(rows, std::vector<int>{0, 1, -1, -1}, 2, {});
+  for (const Eigen::Index none : {2, 3})
+    EXPECT_LT(model.decision_values({rows.row(none).data(), 2}).maxCoeff(), -0.5F);
+  EXPECT_GT(model.decision_values({rows.row(0).data(), 2})[0], 0.3F);
+  EXPECT_GT(model.decision_values({rows.row(1).data(), 2})[1], 0.3F);
+  EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 1, -2, -1}, 2, {}), InvalidArgument);
+  EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 0, -1, -1}, 2, {}), InvalidArgument);
+}
+
+TEST(LinearSvm, RepeatsForOneSeed) {
+  const LabelledRows data = blobs(3, 20, 2.0, 1);
+  const LinearSvm a = LinearSvm::train(data.rows, data.classes, 3, {});
+  const LinearSvm b = LinearSvm::train(data.rows, data.classes, 3, {});
+  EXPECT_EQ(a.weights(), b.weights());
+}
+
+TEST(LinearSvm, StopsWhenAsked) {
+  const LabelledRows data = blobs(3, 20, 2.0, 1);
+  LinearSvmOptions options;
+  options.should_stop = [] { return true; };
+  EXPECT_THROW(LinearSvm::train(data.rows, data.classes, 3, options), Interrupted);
+}
+
+TEST(LinearSvm, RefusesOptionsOutOfRange) {
+  const LabelledRows data = blobs(2, 4, 2.0, 1);
+  for (double LinearSvmOptions::*field :
+       {&LinearSvmOptions::cost, &LinearSvmOptions::bias_feature, &LinearSvmOptions::tolerance}) {
+    LinearSvmOptions options;
+    options.*field = 0;
+    EXPECT_THROW(LinearSvm::train(data.rows, data.classes, 2, options), InvalidArgument);
+  }
+}
+
+TEST(LinearSvm, RefusesFilesThatDoNotFit) {
+  ModelFile file;
+  file.set_matrix("weights", MatrixF::Ones(3, 2));
+  file.set_vector("biases", VectorF(VectorF::Ones(2)));
+  EXPECT_THROW(LinearSvm::read(file, ""), FormatError);
+}
+
+}  // namespace
+}  // namespace hri

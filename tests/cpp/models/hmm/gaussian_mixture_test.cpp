@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/hmm/gaussian_mixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hri/core/error.hpp"
+#include "models/model_testing.hpp"
+
+namespace hri {
+namespace {
+
+using namespace testing_data;
+
+GaussianMixtureOptions with_mixtures(int num_mixtures) {
+  GaussianMixtureOptions options;
+  options.num_mixtures = num_mixtures;
+  return options;
+}
+
+TEST(GaussianMixture, MatchesOneGaussianByHand) {
+  MatrixF rows(4, 1);
+  rows << -1, 1, -1, 1;
+  const GaussianMixture model = GaussianMixture::train(rows, with_mixtures(1));
+  const double expected = -0.5 * (std::log(2 * 3.14159265358979323846) + 1.0);
+  EXPECT_NEAR(model.log_likelihood(rows), 4 * expected, 1e-5);
+}
+
+TEST(GaussianMixture, NeverLosesLikelihoodInTraining) {
+  TrainingReport report;
+  GaussianMixtureOptions options = with_mixtures(5);
+  options.tolerance = 0;
+  GaussianMixture::train(blobs(4, 50, 5.0, 1).rows, options, &report);
+  ASSERT_GE(report.log_likelihoods.size(), 3U);
+  for (std::size_t i = 1; i < report.log_likelihoods.size(); ++i) {
+    EXPECT_GE(report.log_likelihoods[i], report.log_likelihoods[i - 1] - 1e-6);
+  }
+}
+
+TEST(GaussianMixture, KnowsItsOwnDataFromOthers) {
+  const GaussianMixture model =
+      GaussianMixture::train(blobs(3, 60, 10.0, 1).rows, with_mixtures(3));
+  const MatrixF own = blobs(3, 20, 10.0, 2).rows;
+  EXPECT_GT(model.log_likelihood(own), model.log_likelihood(noise(60, 3, 3)));
+  EXPECT_EQ(model.log_likelihood(MatrixF(0, 3)), 0.0);
+}
+
+TEST(GaussianMixture, LivesOnConstantAndScarceRows) {
+  EXPECT_TRUE(std::isfinite(GaussianMixture::train(MatrixF::Constant(6, 2, 1.0F), with_mixtures(3))
+                                .log_likelihood(noise(4, 2, 1))));
+  EXPECT_TRUE(std::isfinite(
+      GaussianMixture::train(noise(1, 2, 1), with_mixtures(16)).log_likelihood(noise(4, 2, 1))));
+}
+
+TEST(GaussianMixture, RefusesBadInputByName) {
+  MatrixF rows = noise(5, 2, 1);
+  EXPECT_THROW(GaussianMixture::train(rows, with_mixtures(0)), InvalidArgument);
+  EXPECT_THROW(GaussianMixture::train(MatrixF(0, 2), with_mixtures(1)), InvalidArgument);
+  rows(4, 0) = kNan;
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "row 4, column 0", message_of<InvalidArgument>([&] {
+                        return GaussianMixture::train(rows, with_mixtures(1));
+                      }));
+}
+
+TEST(MixtureBank, RefusesWhatIsNoMixture) {
+  const MatrixD one = MatrixD::Ones(1, 1);
+  EXPECT_NO_THROW(MixtureBank(one, one, one));
+  EXPECT_THROW(MixtureBank(0.5 * one, one, one), InvalidArgument);
+  EXPECT_THROW(MixtureBank(one, one, 0.0 * one), InvalidArgument);
+  EXPECT_THROW(MixtureBank(one, one * std::nan(""), one), InvalidArgument);
+  EXPECT_THROW(MixtureBank(one, MatrixD::Ones(2, 1), MatrixD::Ones(2, 1)), InvalidArgument);
+}
+
+TEST(MixtureBank, ScoresEveryWidthInFloatAsInDouble) {
+  for (const int num_states : {1, 5, 16, 19}) {
+    for (const int num_mixtures : {1, 2, 7}) {
+      for (const int dim : {1, 15, 16, 39, 40}) {
+        const int rows = num_states * num_mixtures;
+        const MixtureBank bank(MatrixD::Constant(num_states, num_mixtures, 1.0 / num_mixtures),
+                               noise(rows, dim, 1).cast<double>(),
+                               noise(rows, dim, 2).cast<double>().cwiseAbs().array() + 0.5);
+        const MatrixF frames = noise(7, dim, 3);
+        MatrixF scores(7, num_states);
+        bank.log_densities(frames, scores);
+        MatrixD exact;
+        bank.log_densities(frames, &exact, nullptr);
+        const MatrixD error = (scores.cast<double>() - exact)
+                                  .cwiseQuotient(exact.cwiseAbs().array().max(1.0).matrix());
+        EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-5)
+            << num_states << " " << num_mixtures << " " << dim;
+      }
+    }
+  }
+}
+
+TEST(GaussianMixture, RefusesFilesOfSeveralStates) {
+  ModelFile file;
+  MixtureBank(MatrixD::Ones(2, 1), MatrixD::Zero(2, 1), MatrixD::Ones(2, 1)).write(file, "g.");
+  EXPECT_THROW(GaussianMixture::read(file, "g."), FormatError);
+  file.set_matrix("g.variances", MatrixD(MatrixD::Zero(2, 1)));
+  EXPECT_THROW(MixtureBank::read(file, "g."), FormatError);
+}
+
+}  // namespace
+}  // namespace hri

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "hri/core/error.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
+#include "recognition/tone_words.hpp"
+
+namespace hri {
+namespace {
+
+using testing_data::kRateHz;
+using testing_data::tone;
+
+// Three takes of a tone of the given slope.
+struct Takes {
+  Takes(const std::string& label, double slope_hz_per_s, double base_hz, std::uint64_t seed) {
+    for (std::uint64_t take = 0; take < 3; ++take)
+      audio.push_back(tone(base_hz, slope_hz_per_s, seed + take));
+    for (const auto& clip : audio) samples.push_back({clip, kRateHz, label, ""});
+  }
+  std::vector<std::vector<float>> audio;
+  std::vector<WordSample> samples;
+};
+
+std::string what_of(const WordRecognizer& recognizer, const std::vector<WordSample>& samples) {
+  try {
+    (void)recognizer.with_word(samples);
+  } catch (const InvalidArgument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class WordAddition : public ::testing::TestWithParam<SequenceModelKind> {
+ protected:
+  WordAddition()
+      : known_(testing_data::tone_clips()),
+        flat_("flat", 0, 600, 100),
+        recognizer_(trained(known_)) {}
+
+  static WordRecognizer trained(const testing_data::Clips& clips) {
+    WordRecognizerOptions options;
+    options.models.model = GetParam();
+    return WordRecognizer::train(clips.samples, options);
+  }
+
+  testing_data::Clips known_;
+  Takes flat_;
+  WordRecognizer recognizer_;
+};
+
+TEST_P(WordAddition, KnowsTheNewWordAndTheOthers) {
+  const WordRecognizer more = recognizer_.with_word(flat_.samples);
+  EXPECT_EQ(more.labels(), (std::vector<std::string>{"fall", "flat", "rise"}));
+  EXPECT_EQ(recognizer_.labels().size(), 2U);
+  for (const double base_hz : {570.0, 630.0})
+    EXPECT_EQ(more.recognise(tone(base_hz, 0, 200), kRateHz).nbest.front().label, "flat");
+  for (const WordSample& s : known_.samples)
+    EXPECT_EQ(more.recognise(s.samples, kRateHz).nbest.front().label, s.label);
+}
+
+TEST_P(WordAddition, LeavesTheModelsOfTheOthersToTheBit) {
+  const WordRecognizer more = recognizer_.with_word(flat_.samples);
+  // "flat" stands between "fall" (0) and "rise" (1), which becomes 2.
+  const ModelFile before = recognizer_.to_model_file();
+  const ModelFile after = more.to_model_file();
+  const bool hmm = GetParam() == SequenceModelKind::hmm;
+  for (const char* stream : {"stream.0.", "stream.1."}) {
+    for (const auto& [old_index, index] : {std::pair{0, 0}, std::pair{1, 2}}) {
+      const std::string kind = std::string(stream) + (hmm ? "hmm." : "ptbhmm.");
+      const char* emission = hmm ? ".means" : ".emission";
+      EXPECT_EQ(after.matrix_d(kind + std::to_string(index) + emission),
+                before.matrix_d(kind + std::to_string(old_index) + emission));
+      EXPECT_EQ(after.matrix_d(kind + std::to_string(index) + ".transition"),
+                before.matrix_d(kind + std::to_string(old_index) + ".transition"));
+    }
+  }
+  for (const WordSample& s : known_.samples) {
+    const VectorF old_scores = recognizer_.scores(s.samples, kRateHz);
+    const VectorF scores = more.scores(s.samples, kRateHz);
+    if (hmm) {
+      EXPECT_EQ(scores[0], old_scores[0]);
+      EXPECT_EQ(scores[2], old_scores[1]);
+    } else {  // possibilities are scaled over all classes: all of the others fall alike
+      EXPECT_NEAR(scores[0] - scores[2], old_scores[0] - old_scores[1], 1e-3);
+      EXPECT_LE(scores[0], old_scores[0] + 1e-3);
+    }
+  }
+}
+
+TEST_P(WordAddition, RemovedWordsLeaveNoTrace) {
+  const WordRecognizer more = recognizer_.with_word(flat_.samples);
+  EXPECT_EQ(more.without_word("flat").to_model_file().serialise(),
+            recognizer_.to_model_file().serialise());
+  EXPECT_EQ(more.without_word("fall").labels(), (std::vector<std::string>{"flat", "rise"}));
+  EXPECT_THROW((void)more.without_word("fly"), InvalidArgument);
+  EXPECT_THROW((void)recognizer_.without_word("fall"), InvalidArgument);
+}
+
+TEST_P(WordAddition, LoadsWhatItSavedToTheBit) {
+  const WordRecognizer more = recognizer_.with_word(flat_.samples);
+  const std::vector<std::uint8_t> bytes = more.to_model_file().serialise();
+  const WordRecognizer again = WordRecognizer::from_model_file(ModelFile::parse(bytes, "x"));
+  EXPECT_EQ(again.to_model_file().serialise(), bytes);
+  EXPECT_EQ(again.scores(flat_.audio[0], kRateHz), more.scores(flat_.audio[0], kRateHz));
+}
+
+TEST_P(WordAddition, OneRecordingIsEnough) {
+  const WordRecognizer more = recognizer_.with_word({flat_.samples.front()});
+  EXPECT_EQ(more.recognise(flat_.audio[1], kRateHz).nbest.front().label, "flat");
+}
+
+TEST_P(WordAddition, StopsWhenAsked) {
+  int polls = 0;
+  EXPECT_THROW((void)recognizer_.with_word(flat_.samples, [&] { return ++polls == 5; }),
+               Interrupted);
+  EXPECT_EQ(polls, 5);
+}
+
+std::string model_name(const ::testing::TestParamInfo<SequenceModelKind>& test) {
+  return test.param == SequenceModelKind::hmm ? "hmm" : "ptbhmm";
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, WordAddition,
+                         ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm),
+                         model_name);
+
+TEST(WordAdditionOf, BadRecordingsIsRefusedByName) {
+  const testing_data::Clips known = testing_data::tone_clips();
+  const WordRecognizer recognizer = WordRecognizer::train(known.samples, {});
+  const Takes flat("flat", 0, 600, 100);
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(what_of(recognizer, {}), "at least one recording"));
+
+  std::vector<WordSample> samples = flat.samples;
+  samples[1].label = "other";
+  EXPECT_TRUE(has(what_of(recognizer, samples), "sample 1: label 'other'"));
+  for (const char* label : {"rise", "unknown", ""}) {
+    for (WordSample& s : samples) s.label = label;
+    EXPECT_TRUE(has(what_of(recognizer, samples), "label")) << label;
+  }
+
+  samples = flat.samples;
+  const std::vector<float> silence(8000, 0.0F);
+  samples[2].samples = silence;
+  EXPECT_TRUE(has(what_of(recognizer, samples), "sample 2: nobody speaks"));
+  samples[2].samples = samples[2].samples.subspan(0, 20);
+  EXPECT_TRUE(has(what_of(recognizer, samples), "sample 2: audio is too short"));
+  std::vector<float> broken = flat.audio[0];
+  broken[123] = std::numeric_limits<float>::quiet_NaN();
+  samples[2].samples = broken;
+  EXPECT_TRUE(has(what_of(recognizer, samples), "sample 2: audio is not finite at index 123"));
+}
+
+TEST(WordAdditionOf, ModelFilesWithWildCopiesIsRefused) {
+  const testing_data::Clips known = testing_data::tone_clips();
+  const ModelFile sound = WordRecognizer::train(known.samples, {}).to_model_file();
+  const Takes flat("flat", 0, 600, 100);
+  for (const auto& [option, value] :
+       {std::pair{"num_warps", 2000000000}, std::pair{"noise_copies", 2000000000}}) {
+    ModelFile file = sound;
+    file.set_integer(option, value);
+    const std::string what = what_of(WordRecognizer::from_model_file(file), flat.samples);
+    EXPECT_NE(what.find(option), std::string::npos) << what;
+  }
+}
+
+}  // namespace
+}  // namespace hri

@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/word/word_verifier.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "hri/core/error.hpp"
+#include "hri/core/random.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
+
+namespace hri {
+namespace {
+
+constexpr int kRateHz = 16000;
+constexpr double kTwoPi = 6.283185307179586;
+
+// Words of two tones, one after the other, spoken by several persons at different pitch and pace.
+std::vector<float> two_tones(double first_hz, double second_hz, double pitch, Random* random) {
+  const double seconds = 0.4 * (0.9 + 0.2 * random->uniform());
+  std::vector<float> x(static_cast<std::size_t>((seconds + 0.4) * kRateHz));
+  double phase = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const double t = static_cast<double>(n) / kRateHz - 0.2;
+    const bool sounds = t >= 0 && t < seconds;
+    phase += kTwoPi * pitch * (t < seconds / 2 ? first_hz : second_hz) / kRateHz;
+    x[n] = static_cast<float>((sounds ? 0.3 * std::sin(phase) : 0.0) + 0.002 * random->normal());
+  }
+  return x;
+}
+
+const std::map<std::string, std::pair<double, double>> kTones{
+    {"low-high", {500, 1500}}, {"high-low", {1500, 500}}, {"middle", {900, 1000}},
+    {"wide", {400, 2500}},     {"edge", {2500, 2400}},
+};
+
+struct Clips {
+  std::vector<std::vector<float>> audio;
+  std::vector<WordSample> samples;
+};
+
+Clips clips() {
+  Clips result;
+  result.audio.reserve(100);
+  Random random(11);
+  for (const char* person : {"a", "b", "c"}) {
+    const double pitch = 0.97 + 0.03 * (person[0] - 'a');
+    for (const auto& [label, tones] : kTones) {
+      for (int take = 0; take < 5; ++take) {
+        result.audio.push_back(two_tones(tones.first, tones.second, pitch, &random));
+        result.samples.push_back({result.audio.back(), kRateHz, label, person});
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<VerifierTrial> trials(double distance) {
+  Random random(2);
+  std::vector<VerifierTrial> result;
+  for (int i = 0; i < 300; ++i) {
+    const auto kind = static_cast<TrialKind>(i % 3);
+    VectorD features(2);
+    features << random.normal() + (kind == TrialKind::word ? distance : 0), random.normal();
+    result.push_back({features, kind});
+  }
+  return result;
+}
+
+TEST(WordVerifier, WeighsWhatTellsWordsFromTheRest) {
+  const WordVerifier verifier = WordVerifier::fit(trials(3), false);
+  EXPECT_GT(verifier.word_weights()[0], 1);
+  EXPECT_NEAR(verifier.word_weights()[1], 0, 0.3);
+  EXPECT_GT(verifier.sound_weights()[0], 1);
+  VectorD features(2);
+  features << 3, 0;
+  EXPECT_GT(verifier.verification_score(features), 0);
+  features << 0, 0;
+  EXPECT_LT(verifier.verification_score(features), 0);
+}
+
+TEST(WordVerifier, TakesTheRatioWhereNothingWasLearned) {
+  VectorD features(2);
+  features << 0.25, 9;
+  EXPECT_EQ(WordVerifier().score(features), 0.25F);
+  std::vector<VerifierTrial> words_only = trials(3);
+  for (VerifierTrial& t : words_only) t.kind = TrialKind::word;
+  EXPECT_EQ(WordVerifier::fit(words_only, false).word_weights().size(), 0);
+  EXPECT_EQ(WordVerifier::fit({}, false).score(features), 0.25F);
+}
+
+TEST(WordVerifier, FilesBelongToAKindOfModels) {
+  const WordVerifier verifier = WordVerifier::fit(trials(3), false);
+  ModelFile file;
+  verifier.write(file, SequenceModelKind::ptbhmm, false);
+  EXPECT_EQ(WordVerifier::read(file, SequenceModelKind::ptbhmm, false).word_weights(),
+            verifier.word_weights());
+  EXPECT_THROW(WordVerifier::read(file, SequenceModelKind::hmm, false), FormatError);
+  EXPECT_EQ(WordVerifier::read(ModelFile(), SequenceModelKind::hmm, true).word_weights().size(), 0);
+}
+
+// A model with two states, of frames near 0 and then near 5, and one of frames near 5 and then 0.
+std::vector<GaussianMixtureHmm> steps() {
+  std::vector<GaussianMixtureHmm> result;
+  for (const bool rises : {true, false}) {
+    Topology topology;
+    topology.num_states = 2;
+    MatrixD transition(2, 2);
+    transition << 0.75, 0.25, 0, 1;  // the first state lasts four frames
+    VectorD start(2);
+    start << 1, 0;
+    MatrixD means(2, 1);
+    means << (rises ? 0 : 5), (rises ? 5 : 0);
+    result.emplace_back(MarkovChain(topology, start, transition),
+                        MixtureBank(MatrixD::Ones(2, 1), means, MatrixD::Ones(2, 1)));
+  }
+  return result;
+}
+
+// As features() finds them from a file of such models, of frames that fit the first one.
+VectorD features_of(int first_frames, int second_frames, int left_out) {
+  SequenceModelOptions options;
+  options.num_states = 2;
+  SequenceModels models(options);
+  ModelFile file;
+  const auto hmms = steps();
+  for (std::size_t c = 0; c < 2; ++c) hmms[c].write(file, "hmm." + std::to_string(c) + ".");
+  GaussianMixtureOptions garbage;
+  garbage.num_mixtures = 1;
+  MatrixF spread(4, 1);
+  spread << 0, 5, 1, 4;
+  GaussianMixture::train(spread, garbage).write(file, "garbage.");
+  file.set_integer("num_background", 0);
+  models.read(file, "", 2, 1);
+  MatrixF frames(first_frames + second_frames, 1);
+  frames.topRows(first_frames).setZero();
+  frames.bottomRows(second_frames).setConstant(5);
+  return WordVerifier::features({&models}, {frames}, models.scores(frames), left_out);
+}
+
+TEST(WordVerifier, FeaturesAreThoseOfTheAlignment) {
+  EXPECT_EQ(WordVerifier::feature_names(SequenceModelKind::hmm, false),
+            (std::vector<std::string>{"ratio", "rivals", "states", "length", "pace"}));
+  const VectorD usual = features_of(4, 4, -1);
+  const VectorD slow = features_of(40, 4, -1);
+  ASSERT_EQ(usual.size(), 5);
+  EXPECT_GT(usual[0], 0);
+  EXPECT_GT(usual[1], 1);  // the other model has both states the wrong way round
+  // The four states of both models: two fit a frame at their mean, two lie five deviations off.
+  EXPECT_NEAR(usual[2], 0.5 * 12.5, 1e-4);
+  EXPECT_NEAR(usual[3], std::log(0.006), 1e-6);  // as long as it should be
+  EXPECT_NEAR(usual[4], std::log(0.06), 1e-6);
+  const double late = std::log(40.5 / 4.5);
+  EXPECT_NEAR(slow[3], std::log(late * late + 0.006), 1e-6);
+  EXPECT_NEAR(slow[4], std::log(late + 0.06), 1e-6);
+  // Without the word that was said, the other one has no rival and does not fit.
+  const VectorD without = features_of(4, 4, 0);
+  EXPECT_EQ(without[1], 0);
+  EXPECT_LT(without[0], usual[0]);
+  EXPECT_LT(without[2], usual[2]);
+}
+
+TEST(WordRecognizer, TurnsDownWordsItWasNotTaughtAndBurstsOfNoise) {
+  const Clips all = clips();
+  std::vector<WordSample> train;
+  for (const WordSample& s : all.samples) {
+    if (s.group != "b" && s.label != "wide" && s.label != "edge") train.push_back(s);
+  }
+  const WordRecognizer recognizer = WordRecognizer::train(train, {});
+  int words = 0;
+  int accepted = 0;
+  int strangers_accepted = 0;
+  for (const WordSample& s : all.samples) {
+    if (s.group != "b") continue;
+    const Decision d = recognizer.recognise(s.samples, kRateHz);
+    const bool yes = d.status == DecisionStatus::recognised;
+    if (s.label == "wide" || s.label == "edge") {
+      strangers_accepted += yes ? 1 : 0;
+    } else {
+      ++words;
+      accepted += yes && d.label == s.label ? 1 : 0;
+    }
+  }
+  EXPECT_GT(2 * accepted, words);  // taught by two persons, spoken by a third
+  EXPECT_LE(strangers_accepted, 1);
+  Random random(9);
+  for (int i = 0; i < 10; ++i) {
+    std::vector<float> burst(kRateHz);
+    for (std::size_t n = 0; n < burst.size(); ++n) {
+      const bool on = n > 4000 && n < 8000 + 500 * static_cast<std::size_t>(i);
+      burst[n] = static_cast<float>((on ? 0.1 : 0.001) * random.normal());
+    }
+    EXPECT_NE(recognizer.recognise(burst, kRateHz).status, DecisionStatus::recognised) << i;
+  }
+}
+
+}  // namespace
+}  // namespace hri
