@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Vector quantisation: codebooks of whole frames and of their streams.
+#include "hri/models/codebook/codebook.hpp"
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <optional>
 #include <vector>
 
-#include "hri/models/codebook/codebook.hpp"
+#include "core/options.hpp"
 #include "hri/models/codebook/multi_stream_codebook.hpp"
-#include "model_inputs.hpp"
-#include "options.hpp"
+#include "models/model_inputs.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_matrix;

@@ -5,11 +5,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 #include "hri/signal/activity.hpp"
 #include "hri/signal/activity_meter.hpp"
 #include "hri/signal/endpointer.hpp"
-#include "options.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_span;

@@ -5,11 +5,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 #include "hri/signal/shrinkage.hpp"
 #include "hri/signal/wavelet_packets.hpp"
 #include "hri/signal/wavelet_stream.hpp"
-#include "options.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_matrix;

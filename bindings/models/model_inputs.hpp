@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/types.hpp"
 

@@ -5,7 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
 #include "hri/signal/dwt.hpp"
 #include "hri/signal/dwt2.hpp"
 

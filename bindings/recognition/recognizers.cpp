@@ -7,10 +7,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
-#include "options.hpp"
 
 namespace py = pybind11;
 

@@ -7,6 +7,7 @@
 
 #include <functional>
 
+#include "core/options.hpp"
 #include "hri/models/classifiers/distance_classifier.hpp"
 #include "hri/models/classifiers/distances.hpp"
 #include "hri/models/classifiers/gaussian_bayes.hpp"
@@ -17,8 +18,7 @@
 #include "hri/models/classifiers/possibility_classifier.hpp"
 #include "hri/models/classifiers/rbf_classifier.hpp"
 #include "hri/models/possibility/possibility.hpp"
-#include "model_inputs.hpp"
-#include "options.hpp"
+#include "models/model_inputs.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_integers;
@@ -289,7 +289,7 @@ void bind_possibility(py::module_& m) {
 
 }  // namespace
 
-void bind_models(py::module_& m) {
+void bind_classifiers(py::module_& m) {
   bind_distances(m);
   bind_possibility(m);
   bind_pca(m);

@@ -5,13 +5,13 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/io/wav.hpp"
 
 namespace py = pybind11;
 
-void bind_io(py::module_& m) {
+void bind_files(py::module_& m) {
   py::class_<hri::ModelFile>(m, "ModelFile",
                              "Tensors and metadata in the safetensors layout; strict reader.")
       .def(py::init<>())

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Both hands of a stream of masks.
+#include "hri/features/hand/hand_pair.hpp"
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <array>
 
-#include "arrays.hpp"
-#include "hri/features/hand/hand_pair.hpp"
-#include "options.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 
 namespace py = pybind11;
 

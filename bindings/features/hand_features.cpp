@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Features of hands, from plain grey and mask images.
+#include "hri/features/hand/hand_features.hpp"
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 #include "hri/features/hand/hand_crop.hpp"
-#include "hri/features/hand/hand_features.hpp"
-#include "options.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_image;

@@ -8,10 +8,10 @@
 #include <limits>
 #include <string>
 
+#include "core/options.hpp"
 #include "hri/models/hmm/hmm_stream.hpp"
 #include "hri/models/hmm/model_selection.hpp"
-#include "model_inputs.hpp"
-#include "options.hpp"
+#include "models/model_inputs.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_matrix;

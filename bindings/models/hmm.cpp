@@ -7,13 +7,13 @@
 
 #include <optional>
 
+#include "core/options.hpp"
 #include "hri/models/hmm/discrete_hmm.hpp"
 #include "hri/models/hmm/gaussian_mixture.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
 #include "hri/models/hmm/markov_chain.hpp"
 #include "hri/models/hmm/topology.hpp"
-#include "model_inputs.hpp"
-#include "options.hpp"
+#include "models/model_inputs.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_matrix;

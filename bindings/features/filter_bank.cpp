@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Filter banks.
+#include "hri/features/speech/filter_bank.hpp"
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
-#include "hri/features/speech/filter_bank.hpp"
-#include "options.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 
 namespace py = pybind11;
 

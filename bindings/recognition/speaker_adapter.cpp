@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Adaptation to a speaker. The Python class hri.SpeakerAdapter wraps this one.
+#include "hri/recognition/word/speaker_adapter.hpp"
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
-#include "hri/recognition/word/speaker_adapter.hpp"
-#include "options.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 
 namespace py = pybind11;
 
@@ -24,7 +25,7 @@ bool python_wants_to_stop() {
 
 }  // namespace
 
-void bind_adaptation(py::module_& m) {
+void bind_speaker_adapter(py::module_& m) {
   py::class_<hri::SpeakerAdapterOptions> options(m, "SpeakerAdapterOptions",
                                                  "Options of SpeakerAdapter.");
   hri_bind::options(options)

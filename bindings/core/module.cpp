@@ -10,22 +10,22 @@
 
 namespace py = pybind11;
 
-void bind_io(py::module_& m);
-void bind_signal(py::module_& m);
+void bind_files(py::module_& m);
+void bind_resample(py::module_& m);
 void bind_wavelets(py::module_& m);
 void bind_filter_bank(py::module_& m);
 void bind_end_points(py::module_& m);
 void bind_wavelet_tools(py::module_& m);
-void bind_features(py::module_& m);
+void bind_speech_features(py::module_& m);
 void bind_hand_shapes(py::module_& m);
 void bind_hand_pair(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_codebook(py::module_& m);
-void bind_models(py::module_& m);
+void bind_classifiers(py::module_& m);
 void bind_hmm(py::module_& m);
 void bind_possibilistic(py::module_& m);
 void bind_recognition(py::module_& m);
-void bind_adaptation(py::module_& m);
+void bind_speaker_adapter(py::module_& m);
 
 namespace {
 
@@ -83,20 +83,20 @@ PYBIND11_MODULE(_native, m) {
   m.doc() = "libhri's core: signal, features, models and recognition, without OpenCV.";
   m.attr("__version__") = HRI_VERSION;
   bind_errors(m);
-  bind_io(m);
-  bind_signal(m);
+  bind_files(m);
+  bind_resample(m);
   bind_wavelets(m);
   bind_filter_bank(m);
   bind_end_points(m);
   bind_wavelet_tools(m);
-  bind_features(m);
+  bind_speech_features(m);
   bind_hand_shapes(m);
   bind_hand_pair(m);
   bind_hand_features(m);
   bind_codebook(m);
-  bind_models(m);
+  bind_classifiers(m);
   bind_hmm(m);
   bind_possibilistic(m);
   bind_recognition(m);
-  bind_adaptation(m);
+  bind_speaker_adapter(m);
 }

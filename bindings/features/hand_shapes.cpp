@@ -5,14 +5,14 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 #include "hri/features/hand/chain_code.hpp"
 #include "hri/features/hand/contour.hpp"
 #include "hri/features/hand/fourier_descriptor.hpp"
 #include "hri/features/hand/hand_track.hpp"
 #include "hri/features/hand/shape_moments.hpp"
 #include "hri/features/hand/wavelet_descriptor.hpp"
-#include "options.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_image;

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 #include "hri/vision/hand_colours.hpp"
 #include "hri/vision/mask_smoothing.hpp"
 #include "hri/vision/silhouette.hpp"
-#include "options.hpp"
 
 namespace py = pybind11;
 

@@ -7,12 +7,12 @@
 
 #include <limits>
 
+#include "core/options.hpp"
 #include "hri/models/possibility/fixed_point_hmm.hpp"
 #include "hri/models/possibility/possibilistic_gaussian_hmm.hpp"
 #include "hri/models/possibility/possibilistic_hmm.hpp"
 #include "hri/models/possibility/possibilistic_stream.hpp"
-#include "model_inputs.hpp"
-#include "options.hpp"
+#include "models/model_inputs.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_integers;

@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Resampling.
+#include "hri/signal/resample.hpp"
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
-#include "hri/signal/resample.hpp"
+#include "core/arrays.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_span;
 using hri_bind::to_array;
 
-void bind_signal(py::module_& m) {
+void bind_resample(py::module_& m) {
   m.def(
       "resample",
       [](const hri_bind::FloatArray& samples, int from_hz, int to_hz) {

@@ -5,12 +5,12 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
+#include "core/arrays.hpp"
+#include "core/options.hpp"
 #include "hri/features/speech/cepstra_stream.hpp"
 #include "hri/features/speech/spectral_envelope.hpp"
 #include "hri/features/speech/time_normalisation.hpp"
 #include "hri/signal/linear_prediction.hpp"
-#include "options.hpp"
 
 namespace py = pybind11;
 
@@ -187,7 +187,7 @@ void bind_linear_prediction(py::module_& m) {
 
 }  // namespace
 
-void bind_features(py::module_& m) {
+void bind_speech_features(py::module_& m) {
   bind_options(m);
   bind_computer(m);
   bind_stream(m);
