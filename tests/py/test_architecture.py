@@ -139,6 +139,36 @@ def test_public_headers_hold_no_fixed_size_eigen_types() -> None:
     assert found == []
 
 
+HEADER_ONLY = {"Random", "Span"}
+
+
+def hidden_declarations(text: str) -> Iterator[str]:
+    """Declarations of a public header that a shared library would hide: their definition is in a source file, and
+    HRI_API is missing."""
+    text = re.sub(r"^namespace (?:hri::)?detail \{.*?^\}  // namespace (?:hri::)?detail", "", text, flags=re.M | re.S)
+    for line in re.findall(r"^class (?!HRI_API).*\{$", text, re.MULTILINE):
+        if line.split()[1] not in HEADER_ONLY:
+            yield line
+    words = "inline|constexpr|using|extern|namespace|template|struct|enum|static|class|HRI_API|//|#| "
+    for line in re.findall(rf"^(?!{words})(?:\[\[\w+\]\] )?(?!{words})[\w:<>, *&]+[ *&]\w+\(.*", text, re.MULTILINE):
+        if not line.endswith("{"):
+            yield line
+
+
+def test_public_headers_export_what_sources_define() -> None:
+    found = {str(p.relative_to(ROOT)): list(hidden_declarations(p.read_text())) for p in INCLUDE_ROOT.rglob("*.hpp")}
+    assert {name: lines for name, lines in found.items() if lines} == {}
+
+
+def test_a_declaration_without_export_is_seen() -> None:
+    hidden = "class Codebook {\n};\nint max_level(int length);\n[[noreturn]] void fail(const char* why,\n"
+    assert len(list(hidden_declarations(hidden))) == 3
+    exported = "class HRI_API Codebook {\n};\nHRI_API int max_level(int length);\n[[noreturn]] HRI_API void fail();\n"
+    private = "namespace detail {\nint max_level(int length);\n}  // namespace detail\n"
+    inline = "inline int zero() { return 0; }\n"
+    assert list(hidden_declarations(exported + private + inline)) == []
+
+
 def test_every_source_mirrors_a_folder_of_headers() -> None:
     assert {p.name for p in SOURCE_ROOT.iterdir()} == {p.name for p in INCLUDE_ROOT.iterdir()} == set(CPP)
 

@@ -10,37 +10,39 @@
 #include <stdexcept>
 #include <string>
 
+#include "hri/core/export.hpp"
+
 namespace hri {
 
 /// Root of everything libhri throws.
-class Error : public std::runtime_error {
+class HRI_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// A caller passed a value outside its documented range (Python: also a ValueError).
-class InvalidArgument : public Error {
+class HRI_API InvalidArgument : public Error {
  public:
   using Error::Error;
 };
 
 /// A file or byte stream breaks its format; the message names the file and the field (Python: also
 /// a ValueError).
-class FormatError : public Error {
+class HRI_API FormatError : public Error {
  public:
   using Error::Error;
 };
 
 /// The operating system refused a file operation; the message names the path (Python: also an
 /// OSError).
-class IoError : public Error {
+class HRI_API IoError : public Error {
  public:
   using Error::Error;
 };
 
 /// Training was interrupted by its `should_stop` callback; nothing was kept (Python:
 /// KeyboardInterrupt).
-class Interrupted : public Error {
+class HRI_API Interrupted : public Error {
  public:
   using Error::Error;
 };
@@ -52,11 +54,11 @@ using FailureHandler = void (*)(ErrorKind kind, const char* message);
 
 /// Installs `handler` (nullptr restores the default, which prints to stderr and aborts). Not
 /// thread-safe.
-void set_failure_handler(FailureHandler handler) noexcept;
+HRI_API void set_failure_handler(FailureHandler handler) noexcept;
 
 /// The one way out for errors: throws the class that belongs to `kind`, or calls the failure
 /// handler.
-[[noreturn]] void fail(ErrorKind kind, const std::string& message);
+[[noreturn]] HRI_API void fail(ErrorKind kind, const std::string& message);
 
 /// fail(invalid_argument, message) unless `condition`.
 inline void require(bool condition, const char* message) {

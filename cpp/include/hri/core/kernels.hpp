@@ -6,12 +6,14 @@
 
 #include <cstddef>
 
+#include "hri/core/export.hpp"
+
 namespace hri {
 
 /// Sum of a[i] b[i] over i < count, added up in sixteen lanes: equal on every processor.
-float dot(const float* a, const float* b, int count);
+HRI_API float dot(const float* a, const float* b, int count);
 
 /// Index of the first value that is NaN or infinite; `count` where there is none.
-std::size_t first_not_finite(const float* values, std::size_t count);
+HRI_API std::size_t first_not_finite(const float* values, std::size_t count);
 
 }  // namespace hri

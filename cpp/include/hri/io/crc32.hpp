@@ -7,12 +7,13 @@
 
 #include <cstdint>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
 
 /// The checksum of `bytes`, continuing from `previous` (0 to begin): crc32(b, crc32(a)) == crc32(a
 /// + b).
-std::uint32_t crc32(Span<const std::uint8_t> bytes, std::uint32_t previous = 0);
+HRI_API std::uint32_t crc32(Span<const std::uint8_t> bytes, std::uint32_t previous = 0);
 
 }  // namespace hri

@@ -13,13 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
 
 /// A named set of matrices and metadata. Getters throw FormatError that names the file and the
 /// field; every number they give is finite. Not thread-safe while being changed.
-class ModelFile {
+class HRI_API ModelFile {
  public:
   static constexpr int kFormatVersion = 1;
 

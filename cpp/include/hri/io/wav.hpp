@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -25,10 +26,11 @@ struct Wav {
 /// 0xFFFFFFFF), are read as far as they go, with a note. Throws IoError; FormatError naming file
 /// and field for anything else, for no samples, and for a sample that is not finite (names its
 /// index). Memory is bounded by the real size of the file.
-Wav read_wav(const std::string& path);
-Wav parse_wav(Span<const std::uint8_t> bytes, const std::string& name);
+HRI_API Wav read_wav(const std::string& path);
+HRI_API Wav parse_wav(Span<const std::uint8_t> bytes, const std::string& name);
 
 /// Writes mono 16-bit PCM, clipping at full scale; an old file stays whole if this fails.
-void write_wav_pcm16(const std::string& path, Span<const float> samples, int sample_rate_hz);
+HRI_API void write_wav_pcm16(const std::string& path, Span<const float> samples,
+                             int sample_rate_hz);
 
 }  // namespace hri

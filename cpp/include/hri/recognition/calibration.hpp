@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/recognition/decision.hpp"
@@ -23,7 +24,7 @@ struct HeldOut {
   float score = 0;
 };
 
-class Calibration {
+class HRI_API Calibration {
  public:
   Calibration() = default;
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
+
 namespace hri {
 
 enum class DecisionStatus : std::uint8_t {
@@ -17,7 +19,7 @@ enum class DecisionStatus : std::uint8_t {
 };
 
 /// The name of a status as it stands in JSON: "recognised", "unknown" or "no_input".
-const char* status_name(DecisionStatus status);
+HRI_API const char* status_name(DecisionStatus status);
 
 /// One class of the n-best list.
 struct NBest {

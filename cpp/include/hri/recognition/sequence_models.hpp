@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -48,7 +49,7 @@ struct AdaptationOptions {
 };
 
 /// Immutable but for `train`; const calls are safe from several threads.
-class SequenceModels {
+class HRI_API SequenceModels {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit SequenceModels(const SequenceModelOptions& options);

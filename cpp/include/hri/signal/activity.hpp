@@ -8,6 +8,7 @@
 
 #include <cstddef>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -32,7 +33,7 @@ struct SpeechBounds {
 
 /// Throws InvalidArgument for options out of range, a sample that is not finite (names it), and
 /// audio shorter than one frame ("too short").
-SpeechBounds find_speech(Span<const float> audio, int sample_rate_hz,
-                         const ActivityOptions& options);
+HRI_API SpeechBounds find_speech(Span<const float> audio, int sample_rate_hz,
+                                 const ActivityOptions& options);
 
 }  // namespace hri

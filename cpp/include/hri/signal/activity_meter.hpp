@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/activity.hpp"
 
@@ -24,7 +25,7 @@ struct ActivityFrame {
 };
 
 /// Turns samples into frames. Block sizes do not matter; nothing is allocated after construction.
-class ActivityMeter {
+class HRI_API ActivityMeter {
  public:
   /// Throws InvalidArgument for options out of range and a rate outside 1000..384000 Hz.
   ActivityMeter(int sample_rate_hz, const ActivityOptions& options);

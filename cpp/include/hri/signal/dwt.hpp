@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/wavelet.hpp"
 
@@ -38,36 +39,39 @@ enum class Border : std::uint8_t {
 };
 
 /// Coefficients of one level: (n + taps - 1) / 2, or (n + 1) / 2 for periodization.
-std::size_t dwt_length(std::size_t num_samples, std::size_t num_taps, Border border);
+HRI_API std::size_t dwt_length(std::size_t num_samples, std::size_t num_taps, Border border);
 /// Samples that one level of coefficients gives: 2 n - taps + 2 (at least 0), or 2 n.
-std::size_t idwt_length(std::size_t num_coefficients, std::size_t num_taps, Border border);
+HRI_API std::size_t idwt_length(std::size_t num_coefficients, std::size_t num_taps, Border border);
 /// Levels until the border reaches every coefficient: floor(log2(n / (taps - 1))), at least 0.
-int max_dwt_level(std::size_t num_samples, std::size_t num_taps);
+HRI_API int max_dwt_level(std::size_t num_samples, std::size_t num_taps);
 
 /// One level: `approx` and `detail` have dwt_length() values. T is float or double; sums are taken
 /// in T. Filters have one even length of at most 128 taps. Throws InvalidArgument for an empty
 /// signal and for lengths that do not fit.
 template <class T>
-void dwt(Span<const T> x, const Wavelet& wavelet, Border border, Span<T> approx, Span<T> detail);
+HRI_API void dwt(Span<const T> x, const Wavelet& wavelet, Border border, Span<T> approx,
+                 Span<T> detail);
 
 /// The inverse of one level: `x` has idwt_length() values, of which a signal of odd length takes
 /// one less.
 template <class T>
-void idwt(Span<const T> approx, Span<const T> detail, const Wavelet& wavelet, Border border,
-          Span<T> x);
+HRI_API void idwt(Span<const T> approx, Span<const T> detail, const Wavelet& wavelet, Border border,
+                  Span<T> x);
 
 /// Lengths of the coefficients of several levels as PyWavelets orders them: approximation, then
 /// details from coarse to fine. Throws InvalidArgument for levels outside 1..62.
-std::vector<std::size_t> wavedec_lengths(std::size_t num_samples, std::size_t num_taps,
-                                         Border border, int num_levels);
+HRI_API std::vector<std::size_t> wavedec_lengths(std::size_t num_samples, std::size_t num_taps,
+                                                 Border border, int num_levels);
 /// Several levels into `bands` of wavedec_lengths(). Allocates nothing once the thread has
 /// transformed a signal of this length.
 template <class T>
-void wavedec(Span<const T> x, const Wavelet& wavelet, Border border, Span<const Span<T>> bands);
+HRI_API void wavedec(Span<const T> x, const Wavelet& wavelet, Border border,
+                     Span<const Span<T>> bands);
 /// The inverse, into `x`: at most the idwt_length() of the finest details. Throws InvalidArgument
 /// for coefficients that no signal has.
 template <class T>
-void waverec(Span<const Span<const T>> bands, const Wavelet& wavelet, Border border, Span<T> x);
+HRI_API void waverec(Span<const Span<const T>> bands, const Wavelet& wavelet, Border border,
+                     Span<T> x);
 
 /// The same with vectors.
 template <class T>
@@ -76,10 +80,10 @@ struct WaveletDecomposition {
   std::size_t num_samples = 0;  ///< length of the signal, to which waverec cuts
 };
 template <class T>
-WaveletDecomposition<T> wavedec(Span<const T> x, const Wavelet& wavelet, Border border,
-                                int num_levels);
+HRI_API WaveletDecomposition<T> wavedec(Span<const T> x, const Wavelet& wavelet, Border border,
+                                        int num_levels);
 template <class T>
-std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavelet& wavelet,
-                       Border border);
+HRI_API std::vector<T> waverec(const WaveletDecomposition<T>& decomposition, const Wavelet& wavelet,
+                               Border border);
 
 }  // namespace hri

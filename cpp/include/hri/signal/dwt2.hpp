@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/dwt.hpp"
 
@@ -37,22 +38,24 @@ struct Dwt2Shape {
   Eigen::Index cols = 0;
 };
 /// The shape of each of the four bands.
-Dwt2Shape dwt2_shape(Eigen::Index rows, Eigen::Index cols, std::size_t num_taps, Border border);
+HRI_API Dwt2Shape dwt2_shape(Eigen::Index rows, Eigen::Index cols, std::size_t num_taps,
+                             Border border);
 
 /// One level. Throws InvalidArgument for an empty picture.
 template <class T>
-Dwt2<T> dwt2(const Eigen::Ref<const Matrix<T>>& image, const Wavelet& wavelet, Border border);
+HRI_API Dwt2<T> dwt2(const Eigen::Ref<const Matrix<T>>& image, const Wavelet& wavelet,
+                     Border border);
 /// The same into bands of dwt2_shape(). Allocates nothing once the thread has transformed a picture
 /// of this shape.
 template <class T>
-void dwt2(const Eigen::Ref<const Matrix<T>>& image, const Wavelet& wavelet, Border border,
-          Dwt2Bands<T> bands);
+HRI_API void dwt2(const Eigen::Ref<const Matrix<T>>& image, const Wavelet& wavelet, Border border,
+                  Dwt2Bands<T> bands);
 
 /// The inverse, cut to (rows, cols) of the picture. Throws InvalidArgument for shapes that do not
 /// fit.
 template <class T>
-Matrix<T> idwt2(const Dwt2<T>& level, const Wavelet& wavelet, Border border, Eigen::Index rows,
-                Eigen::Index cols);
+HRI_API Matrix<T> idwt2(const Dwt2<T>& level, const Wavelet& wavelet, Border border,
+                        Eigen::Index rows, Eigen::Index cols);
 
 /// Several levels of a picture.
 template <class T>
@@ -65,10 +68,10 @@ struct WaveletDecomposition2 {
 /// Both throw InvalidArgument: for levels outside 1..62 and an empty picture, and for coefficients
 /// that no picture has.
 template <class T>
-WaveletDecomposition2<T> wavedec2(const Eigen::Ref<const Matrix<T>>& image, const Wavelet& wavelet,
-                                  Border border, int num_levels);
+HRI_API WaveletDecomposition2<T> wavedec2(const Eigen::Ref<const Matrix<T>>& image,
+                                          const Wavelet& wavelet, Border border, int num_levels);
 template <class T>
-Matrix<T> waverec2(const WaveletDecomposition2<T>& decomposition, const Wavelet& wavelet,
-                   Border border);
+HRI_API Matrix<T> waverec2(const WaveletDecomposition2<T>& decomposition, const Wavelet& wavelet,
+                           Border border);
 
 }  // namespace hri

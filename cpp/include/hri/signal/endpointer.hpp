@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/activity.hpp"
 
@@ -42,7 +43,7 @@ struct Endpoint {
 
 /// One stream. Block sizes do not matter: the same samples give the same events at the same places.
 /// Nothing is allocated after construction. Not to be shared by threads.
-class Endpointer {
+class HRI_API Endpointer {
  public:
   /// Throws InvalidArgument for options out of range and a rate outside 1000..384000 Hz.
   Endpointer(int sample_rate_hz, const EndpointerOptions& options);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -20,7 +21,7 @@ struct LaneFftPlan;
 
 /// Real-input FFT of one fixed size. Const calls are safe from several threads (the library's plan
 /// is kept per thread).
-class RealFft {
+class HRI_API RealFft {
  public:
   /// `size` even, 2..2^24. Throws InvalidArgument otherwise.
   explicit RealFft(int size);

@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/export.hpp"
+
 namespace hri {
 
 /// How many whole frames of `frame_length` fit, one every `frame_shift` samples; both at least 1.
-int num_frames(std::size_t num_samples, int frame_length, int frame_shift);
+HRI_API int num_frames(std::size_t num_samples, int frame_length, int frame_shift);
 
 enum class WindowKind : std::uint8_t {
   hamming,        ///< 0.54 - 0.46 cos(2 pi n / (size - 1)), as HTK and the thesis use
@@ -22,6 +24,6 @@ enum class WindowKind : std::uint8_t {
 };
 
 /// A window of `size` >= 1 samples.
-std::vector<float> make_window(WindowKind kind, int size);
+HRI_API std::vector<float> make_window(WindowKind kind, int size);
 
 }  // namespace hri

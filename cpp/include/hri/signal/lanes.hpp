@@ -10,17 +10,18 @@
 #include <vector>
 
 #include "hri/core/cache_line.hpp"
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
 
 /// Signals side by side on this machine: 4, 8 or 16.
-int num_lanes();
+HRI_API int num_lanes();
 
 /// Values that begin at a cache line.
 using LaneBuffer = std::vector<float, detail::CacheLineAllocator<float>>;
 
 /// The first `count` values of num_lanes() signals, side by side into `out` (count * num_lanes()).
-void interleave(Span<const float* const> signals, std::size_t count, Span<float> out);
+HRI_API void interleave(Span<const float* const> signals, std::size_t count, Span<float> out);
 
 }  // namespace hri

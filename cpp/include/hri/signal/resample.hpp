@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -13,6 +14,6 @@ namespace hri {
 /// `samples` at `from_hz` as ceil(size * to_hz / from_hz) samples at `to_hz`; rates 1000..384000
 /// Hz. The pass band ends at 0.9 of the lower Nyquist rate (0.2 dB down there), the stop band
 /// begins at 1.02 of it and is 70 dB down. Throws InvalidArgument for rates out of range.
-std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz);
+HRI_API std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz);
 
 }  // namespace hri

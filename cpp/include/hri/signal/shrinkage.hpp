@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/dwt.hpp"
 
@@ -48,26 +49,27 @@ struct ShrinkageOptions {
 /// The signal without its noise, of the same length. Throws InvalidArgument for an empty signal,
 /// a NaN or an infinity, and options out of range.
 template <class T>
-std::vector<T> denoise(Span<const T> x, const ShrinkageOptions& options);
+HRI_API std::vector<T> denoise(Span<const T> x, const ShrinkageOptions& options);
 
 /// The approximation of level num_levels, divided by sqrt(2) a level so that it is as loud as the
 /// signal: about the signal at 1 / 2^num_levels of its rate, longer by what the border adds.
 template <class T>
-std::vector<T> approximate(Span<const T> x, const Wavelet& wavelet, Border border, int num_levels);
+HRI_API std::vector<T> approximate(Span<const T> x, const Wavelet& wavelet, Border border,
+                                   int num_levels);
 
 /// Standard deviation of normal noise: the median of |details| over 0.6745, which the few large
 /// details of a signal do not move. Throws InvalidArgument for no details.
 template <class T>
-double noise_level(Span<const T> details);
+HRI_API double noise_level(Span<const T> details);
 
 /// The threshold for the details of one level; num_samples is the signal's length. An infinite one
 /// means that nothing but noise is there.
 template <class T>
-double shrinkage_threshold(Span<const T> details, double noise, std::size_t num_samples,
-                           ThresholdRule rule);
+HRI_API double shrinkage_threshold(Span<const T> details, double noise, std::size_t num_samples,
+                                   ThresholdRule rule);
 
 /// Applies a threshold in place. Throws InvalidArgument for a negative one.
 template <class T>
-void shrink(Span<T> details, double threshold, ThresholdShape shape);
+HRI_API void shrink(Span<T> details, double threshold, ThresholdShape shape);
 
 }  // namespace hri

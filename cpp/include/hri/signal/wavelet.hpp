@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hri/core/export.hpp"
+
 namespace hri {
 
 /// Analysis (dec) and synthesis (rec) filters of one length. High-pass filters are quadrature
@@ -26,8 +28,8 @@ struct Wavelet {
 
 /// Throws InvalidArgument that lists the names for an unknown one. The reference lives as long as
 /// the program.
-const Wavelet& wavelet(std::string_view name);
+HRI_API const Wavelet& wavelet(std::string_view name);
 
-std::vector<std::string> wavelet_names();
+HRI_API std::vector<std::string> wavelet_names();
 
 }  // namespace hri

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/dwt.hpp"
 
@@ -24,12 +25,12 @@ struct WaveletPackets {
 
 /// Throws InvalidArgument for an empty signal and for levels outside 1..20.
 template <class T>
-WaveletPackets<T> wavelet_packets(Span<const T> x, const Wavelet& wavelet, Border border,
-                                  int num_levels);
+HRI_API WaveletPackets<T> wavelet_packets(Span<const T> x, const Wavelet& wavelet, Border border,
+                                          int num_levels);
 
 /// Rows of a level (0..20) by rising frequency: a detail turns its spectrum round, so that they
 /// follow Gray's code.
-std::vector<std::size_t> frequency_order(int level);
+HRI_API std::vector<std::size_t> frequency_order(int level);
 
 struct PacketNode {
   int level = 0;
@@ -39,12 +40,12 @@ struct PacketNode {
 /// The nodes that together describe the signal with the least Shannon entropy of energy (Coifman
 /// and Wickerhauser), from low indices to high.
 template <class T>
-std::vector<PacketNode> best_basis(const WaveletPackets<T>& packets);
+HRI_API std::vector<PacketNode> best_basis(const WaveletPackets<T>& packets);
 
 /// The signal from the rows of `basis` alone. Throws InvalidArgument unless these nodes, in any
 /// order, cover the signal exactly once.
 template <class T>
-std::vector<T> reconstruct(const WaveletPackets<T>& packets, Span<const PacketNode> basis,
-                           const Wavelet& wavelet, Border border);
+HRI_API std::vector<T> reconstruct(const WaveletPackets<T>& packets, Span<const PacketNode> basis,
+                                   const Wavelet& wavelet, Border border);
 
 }  // namespace hri

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/wavelet.hpp"
 
@@ -22,7 +23,7 @@ struct WaveletStreamOptions {
 /// T is float or double. After the constructor nothing is allocated, however long the pieces are.
 /// Coefficient k of level 1 is final with sample 2 k + 1.
 template <class T>
-class WaveletStream {
+class HRI_API WaveletStream {
  public:
   /// Throws InvalidArgument for options out of range.
   explicit WaveletStream(const WaveletStreamOptions& options);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/vision/silhouette.hpp"
 
@@ -34,7 +35,7 @@ struct HandColourOptions {
 
 /// One score a pixel, the sum of a function of each channel; above a threshold the pixel is hand.
 /// Immutable once learned; const calls are safe from several threads.
-class HandColours {
+class HRI_API HandColours {
  public:
   /// Starts from Otsu's thresholds on brightness and on several measures of redness, improves each
   /// by Fisher's discriminant over the channels and their logarithms, and keeps the one whose hand

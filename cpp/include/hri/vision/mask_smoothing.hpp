@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/vision/silhouette.hpp"
 
 namespace hri {
@@ -25,6 +26,7 @@ struct MaskSmoothingOptions {
 /// those two masks say; its quality is half the lower one of these. Frames without a hand are
 /// repaired in the same way, the first and last frame never; masks of different sizes are not
 /// compared. Throws InvalidArgument naming the field that is out of range.
-std::vector<int> smooth_masks(const MaskSmoothingOptions& options, std::vector<Silhouette>* clip);
+HRI_API std::vector<int> smooth_masks(const MaskSmoothingOptions& options,
+                                      std::vector<Silhouette>* clip);
 
 }  // namespace hri

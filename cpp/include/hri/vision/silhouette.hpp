@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 
 namespace hri {
@@ -52,7 +53,7 @@ struct Silhouette {
 };
 
 /// Immutable; const calls are safe from several threads.
-class SilhouetteExtractor {
+class HRI_API SilhouetteExtractor {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit SilhouetteExtractor(const SilhouetteOptions& options);

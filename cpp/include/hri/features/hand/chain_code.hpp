@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/contour.hpp"
@@ -16,18 +17,18 @@ namespace hri {
 
 /// The step from every point of a closed outline to the next. Empty for fewer than two points.
 /// Throws InvalidArgument where two points are not neighbours. `code` is written over.
-void chain_code(Span<const ContourPoint> contour, std::vector<std::uint8_t>* code);
+HRI_API void chain_code(Span<const ContourPoint> contour, std::vector<std::uint8_t>* code);
 
 /// Turn from every step to the next, modulo 8 (1 is 45 degrees to the left): it stays the same when
 /// the outline is turned by multiples of 90 degrees.
-void turn_code(Span<const std::uint8_t> code, std::vector<std::uint8_t>* turns);
+HRI_API void turn_code(Span<const std::uint8_t> code, std::vector<std::uint8_t>* turns);
 
 /// Where a closed code starts so that it is smallest as a number.
-std::size_t least_start(Span<const std::uint8_t> code);
+HRI_API std::size_t least_start(Span<const std::uint8_t> code);
 
 /// Turns from their least start on, the shape number (Bribiesca and Guzman, 1980): it depends
 /// neither on place, start nor turns by 90 degrees.
-std::vector<std::uint8_t> shape_number(Span<const ContourPoint> contour);
+HRI_API std::vector<std::uint8_t> shape_number(Span<const ContourPoint> contour);
 
 struct ChainCodeOptions {
   int num_parts = 1;       ///< of equal length, of which each has a histogram, 1..64. From 2 on the
@@ -36,7 +37,7 @@ struct ChainCodeOptions {
 };
 
 /// Histograms of chain codes. Immutable; const calls are safe from several threads.
-class ChainCodeComputer {
+class HRI_API ChainCodeComputer {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit ChainCodeComputer(const ChainCodeOptions& options);

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 
@@ -27,15 +28,16 @@ inline bool operator==(const ContourPoint& a, const ContourPoint& b) {
 /// order) of a one-channel mask, from its first pixel in reading order; holes do not matter.
 /// Empty where no pixel is above 0. `contour` is written over, and grows only where it is too
 /// small.
-void trace_contour(ImageView mask, std::vector<ContourPoint>* contour);
+HRI_API void trace_contour(ImageView mask, std::vector<ContourPoint>* contour);
 
 /// The same of values above `threshold`.
-void trace_contour(ConstMatrixRefF image, float threshold, std::vector<ContourPoint>* contour);
+HRI_API void trace_contour(ConstMatrixRefF image, float threshold,
+                           std::vector<ContourPoint>* contour);
 
 /// As many points as `x_px` and `y_px` have room for, at equal distances along the outline, which
 /// is smoothed over five pixels: the stairs of pixels make slanting edges longer than they are. An
 /// outline of one pixel gives it throughout. Throws InvalidArgument for an empty outline.
-void resample_contour(Span<const ContourPoint> contour, Span<float> x_px, Span<float> y_px);
+HRI_API void resample_contour(Span<const ContourPoint> contour, Span<float> x_px, Span<float> y_px);
 
 namespace detail {
 /// One step along an outline, clockwise from the right: directions 0..7.

@@ -6,6 +6,7 @@
 // phases the start and how far the shape is turned.
 #pragma once
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/contour.hpp"
@@ -21,7 +22,7 @@ struct FourierDescriptorOptions {
 };
 
 /// Immutable; const calls are safe from several threads.
-class FourierDescriptorComputer {
+class HRI_API FourierDescriptorComputer {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit FourierDescriptorComputer(const FourierDescriptorOptions& options);

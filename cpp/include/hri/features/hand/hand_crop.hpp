@@ -5,6 +5,7 @@
 // and size of the hand in the picture do not matter.
 #pragma once
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 
@@ -20,10 +21,10 @@ struct HandBox {
 /// The square around the mask. A forearm that makes the mask more than `max_aspect` times as high
 /// as wide is cut off at the bottom; `padding` (share of the side) is left free on every side.
 /// Throws InvalidArgument unless max_aspect > 0 and padding >= 0.
-HandBox hand_box(ImageView mask, float max_aspect = 1.6F, float padding = 0.08F);
+HRI_API HandBox hand_box(ImageView mask, float max_aspect = 1.6F, float padding = 0.08F);
 
 /// Samples `image` (one channel) inside `box` into `out` (square), 0..1; pixels average what they
 /// cover, and what lies outside the image repeats its border.
-void crop(ImageView image, const HandBox& box, MatrixRefF out);
+HRI_API void crop(ImageView image, const HandBox& box, MatrixRefF out);
 
 }  // namespace hri

@@ -6,6 +6,7 @@
 // Works on plain pixels, without OpenCV.
 #pragma once
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/chain_code.hpp"
@@ -38,7 +39,7 @@ struct HandFeatureOptions {
 };
 
 /// Immutable; const calls are safe from several threads.
-class HandFeatureComputer {
+class HRI_API HandFeatureComputer {
  public:
   /// Throws InvalidArgument naming the field that is out of range, or when every part is turned
   /// off.

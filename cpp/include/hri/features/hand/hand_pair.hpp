@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/features/hand/regions.hpp"
 
@@ -37,7 +38,7 @@ struct PairedHand {
 /// the shapes that they had before are moved over it so that they cover it together, each close to
 /// where its way would lead it; every pixel is then of the hand that covers it, or is nearer. Hands
 /// that hide one another wholly, stop there and turn back can leave with labels swapped.
-class HandPairTracker {
+class HRI_API HandPairTracker {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit HandPairTracker(const HandPairOptions& options);

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 
@@ -34,7 +35,7 @@ inline constexpr const char* kHandTrackColumns[kNumHandTrackColumns] = {
 };
 
 /// Immutable; const calls are safe from several threads.
-class HandTrackComputer {
+class HRI_API HandTrackComputer {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit HandTrackComputer(const HandTrackOptions& options);

@@ -5,6 +5,7 @@
 // cells with overlapping blocks normalised as by Dalal and Triggs (CVPR 2005).
 #pragma once
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -16,7 +17,7 @@ struct OrientationHistogramOptions {
 
 /// Values it gives: blocks of 2 x 2 cells, each (2 * 2 * num_bins) long; num_bins where there is
 /// one cell.
-int orientation_histogram_size(const OrientationHistogramOptions& options);
+HRI_API int orientation_histogram_size(const OrientationHistogramOptions& options);
 
 /// Histograms of `image` (any size of at least num_cells a side, values in -1e6..1e6): central
 /// differences, angle modulo 180 degrees, magnitude shared out linearly among neighbouring bins and
@@ -24,7 +25,7 @@ int orientation_histogram_size(const OrientationHistogramOptions& options);
 /// blocks whose gradients come to far less than 0.1 together fade towards them.
 /// Throws InvalidArgument for sizes that do not fit, and for a value that is not finite or too
 /// large (names row and column).
-void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOptions& options,
-                           Span<float> out);
+HRI_API void orientation_histogram(ConstMatrixRefF image,
+                                   const OrientationHistogramOptions& options, Span<float> out);
 
 }  // namespace hri

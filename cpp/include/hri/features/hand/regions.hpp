@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 
 namespace hri {
@@ -19,7 +20,7 @@ struct Region {
 
 /// Finds regions of masks of 0 and 255; memory is kept, so that a stream of masks allocates
 /// nothing.
-class RegionFinder {
+class HRI_API RegionFinder {
  public:
   /// All regions, in the order of their first pixels. Pixels that touch at a corner belong
   /// together.

@@ -5,6 +5,7 @@
 // Information Theory 8, 1962). Every pixel above 0 weighs 1 and lies at its centre, as in OpenCV.
 #pragma once
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 
@@ -23,22 +24,22 @@ struct ShapeMoments {
 };
 
 /// Of a one-channel mask.
-ShapeMoments shape_moments(ImageView mask);
+HRI_API ShapeMoments shape_moments(ImageView mask);
 
 /// The longer axis of the ellipse that has the same second moments.
 struct ShapeAxis {
   double angle_rad = 0;   ///< from the x axis towards y (down), in (-pi / 2, pi / 2]
   double elongation = 0;  ///< 0 (round, no direction) .. 1 (a line)
 };
-ShapeAxis shape_axis(const ShapeMoments& moments);
+HRI_API ShapeAxis shape_axis(const ShapeMoments& moments);
 
 constexpr int kNumHuMoments = 7;
 
 /// h1 .. h7: the same for a shape moved, scaled or turned; h7 changes its sign in a mirror.
-void hu_moments(const ShapeMoments& moments, Span<double> out);
+HRI_API void hu_moments(const ShapeMoments& moments, Span<double> out);
 
 /// The same as features: the root of each by its degree in the moments, with its sign, so that none
 /// is many powers of ten smaller than the others. Throws InvalidArgument for an empty mask.
-void hu_features(ImageView mask, Span<float> out);
+HRI_API void hu_features(ImageView mask, Span<float> out);
 
 }  // namespace hri

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
@@ -25,7 +26,7 @@ struct SilhouetteCepstrumOptions {
 };
 
 /// Immutable; const calls are safe from several threads.
-class SilhouetteCepstrumComputer {
+class HRI_API SilhouetteCepstrumComputer {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit SilhouetteCepstrumComputer(const SilhouetteCepstrumOptions& options);

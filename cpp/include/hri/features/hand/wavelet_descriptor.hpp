@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/contour.hpp"
@@ -26,10 +27,10 @@ struct WaveletDescriptorOptions {
 };
 
 /// The wavelet psi(r) of thesis eq. 3.22.
-double b_spline_wavelet(double r);
+HRI_API double b_spline_wavelet(double r);
 
 /// Immutable; const calls are safe from several threads.
-class WaveletDescriptorComputer {
+class HRI_API WaveletDescriptorComputer {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit WaveletDescriptorComputer(const WaveletDescriptorOptions& options);

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra_options.hpp"
 #include "hri/features/speech/filter_bank.hpp"
@@ -16,7 +17,7 @@
 namespace hri {
 
 /// Immutable; const calls are safe from several threads.
-class CepstraComputer {
+class HRI_API CepstraComputer {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   explicit CepstraComputer(const CepstraOptions& options);

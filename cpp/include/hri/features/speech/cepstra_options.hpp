@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "hri/core/export.hpp"
 #include "hri/features/speech/dynamics.hpp"
 #include "hri/features/speech/filter_bank.hpp"
 #include "hri/signal/framing.hpp"
@@ -22,7 +23,7 @@ enum class FramePadding : std::uint8_t {
   centred,  ///< zeros around the audio: frame t has sample t * shift in its middle
 };
 
-struct CepstraOptions {
+struct HRI_API CepstraOptions {
   // Frames.
   int sample_rate_hz = 16000;
   double frame_length_ms = 25;  ///< 1..1000
@@ -79,6 +80,6 @@ struct CepstraOptions {
 };
 
 /// Throws InvalidArgument naming the field that is out of range (of the filters: see FilterBank).
-void validate(const CepstraOptions& options);
+HRI_API void validate(const CepstraOptions& options);
 
 }  // namespace hri

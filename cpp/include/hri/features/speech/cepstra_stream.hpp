@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
 
@@ -14,7 +15,7 @@ namespace hri {
 
 /// For one thread at a time. Frames come out as soon as they are complete; deltas make them
 /// delta_orders * delta_window frames late.
-class CepstraStream {
+class HRI_API CepstraStream {
  public:
   /// Throws InvalidArgument as CepstraComputer does, and for what needs the whole utterance:
   /// normalisation other than none or a running one, top_db.

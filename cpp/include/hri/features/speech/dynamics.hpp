@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -28,15 +29,15 @@ constexpr bool is_running(Normalisation kind) {
 
 /// Regression deltas of columns [first, first + width) of `frames` into the `width` columns behind
 /// them: HTK's formula over `window` frames on each side, edge frames repeated.
-void append_deltas(MatrixRefF frames, int first_column, int width, int window);
+HRI_API void append_deltas(MatrixRefF frames, int first_column, int width, int window);
 
 /// Normalises columns [0, width) over all rows by a kind that is not running; constant columns
 /// become zero. `c0_column` is where `level` works (-1: no c0).
-void normalise(MatrixRefF frames, int width, Normalisation kind, int c0_column);
+HRI_API void normalise(MatrixRefF frames, int width, Normalisation kind, int c0_column);
 
 /// Running normalisation, frame by frame. The mean is that of all frames so far while they are
 /// fewer than `num_frames`, and forgets exponentially from then on, by 1 / num_frames a frame.
-class RunningNormaliser {
+class HRI_API RunningNormaliser {
  public:
   /// Begins anew, for frames of `width` values; num_frames >= 1.
   void start(int width, Normalisation kind, double num_frames);
@@ -54,7 +55,7 @@ class RunningNormaliser {
 /// stays (the channel) and what changes faster than speech does. Two frames late; before the first
 /// frame that frame is thought to have stood for ever, so that the output begins with zeros. (On
 /// log energies of filters it would do the same, as cepstra are their weighted sums.)
-class RastaFilter {
+class HRI_API RastaFilter {
  public:
   /// Begins anew, for frames of `width` values. `pole` in 0..1, 1 excluded; 0.98 in the paper, 0.94
   /// in its authors' programs.

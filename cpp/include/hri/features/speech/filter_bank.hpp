@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -54,18 +55,19 @@ struct FilterTriangle {
   double high_hz = 0;
 };
 
-double hz_to_mel(double hz, MelScale scale = MelScale::htk);
-double mel_to_hz(double mel, MelScale scale = MelScale::htk);
+HRI_API double hz_to_mel(double hz, MelScale scale = MelScale::htk);
+HRI_API double mel_to_hz(double mel, MelScale scale = MelScale::htk);
 /// Equivalent rectangular bandwidth in Hz at `centre_hz` (thesis eq. 6.10 with its units put
 /// right).
-double equivalent_rectangular_bandwidth(double centre_hz, double erb_factor);
+HRI_API double equivalent_rectangular_bandwidth(double centre_hz, double erb_factor);
 
 /// The triangles before they are sampled. Throws InvalidArgument where they do not fit below the
 /// Nyquist rate before the warp; what `warp` moves beyond it is cut off when they are sampled.
-std::vector<FilterTriangle> filter_triangles(const FilterBankOptions& options, int sample_rate_hz);
+HRI_API std::vector<FilterTriangle> filter_triangles(const FilterBankOptions& options,
+                                                     int sample_rate_hz);
 
 /// Immutable; const calls are safe from several threads.
-class FilterBank {
+class HRI_API FilterBank {
  public:
   /// Throws InvalidArgument naming the field that is out of range.
   FilterBank(const FilterBankOptions& options, int sample_rate_hz, int fft_size);

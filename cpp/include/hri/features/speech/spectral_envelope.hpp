@@ -4,6 +4,7 @@
 // Spectral envelope of a cepstrum (thesis eq. 3.34-3.36).
 #pragma once
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -11,6 +12,6 @@ namespace hri {
 /// out[t - 1] = exp(sum of c_i cos(i w_t)), w_t = pi t / n, t = 1 .. n = out.size(), from c_1, c_2,
 /// ... in `cepstra`. The frequency axis is that of the cepstra (mel for MFCC). The power spectrum
 /// that belongs to a cepstrum is exp(c_0) times the square of this.
-void spectral_envelope(Span<const float> cepstra, Span<float> out);
+HRI_API void spectral_envelope(Span<const float> cepstra, Span<float> out);
 
 }  // namespace hri

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
@@ -16,7 +17,7 @@
 namespace hri {
 
 /// Of every dimension: mean' = slope * mean + offset, variance' = spread * variance.
-struct LinearAdaptation {
+struct HRI_API LinearAdaptation {
   VectorD slope;
   VectorD offset;
   VectorD spread;
@@ -28,8 +29,9 @@ struct LinearAdaptation {
 /// maximisation). `prior_frames` imagined frames of the models themselves hold it near the
 /// identity, > 0. `per_model[m]` holds the sequences of models[m], which may be none. Throws
 /// InvalidArgument for frames that do not fit or are not finite.
-LinearAdaptation estimate_linear_adaptation(const std::vector<GaussianMixtureHmm>& models,
-                                            const std::vector<std::vector<MatrixF>>& per_model,
-                                            double prior_frames, const StopCheck& should_stop);
+HRI_API LinearAdaptation
+estimate_linear_adaptation(const std::vector<GaussianMixtureHmm>& models,
+                           const std::vector<std::vector<MatrixF>>& per_model, double prior_frames,
+                           const StopCheck& should_stop);
 
 }  // namespace hri

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/gaussian_mixture.hpp"
@@ -26,11 +27,13 @@ struct MapAdaptationOptions {
 /// Means, variances and weights of `model` adapted to `sequences`; its chain stays. Variances do
 /// not fall below a tenth of the model's own. Without sequences the model itself. Throws
 /// InvalidArgument for frames that do not fit or are not finite (names sequence, row, column).
-GaussianMixtureHmm adapt_map(const GaussianMixtureHmm& model, const std::vector<MatrixF>& sequences,
-                             const MapAdaptationOptions& options);
+HRI_API GaussianMixtureHmm adapt_map(const GaussianMixtureHmm& model,
+                                     const std::vector<MatrixF>& sequences,
+                                     const MapAdaptationOptions& options);
 
 /// The same for a mixture over single frames, which counts as one state.
-GaussianMixture adapt_map(const GaussianMixture& model, const std::vector<MatrixF>& sequences,
-                          const MapAdaptationOptions& options);
+HRI_API GaussianMixture adapt_map(const GaussianMixture& model,
+                                  const std::vector<MatrixF>& sequences,
+                                  const MapAdaptationOptions& options);
 
 }  // namespace hri

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -29,7 +30,7 @@ struct DistanceClassifierOptions {
 };
 
 /// Immutable; const calls are safe from several threads.
-class DistanceClassifier {
+class HRI_API DistanceClassifier {
  public:
   /// A class with one row takes the covariance within all. Throws InvalidArgument as validate_rows
   /// does.

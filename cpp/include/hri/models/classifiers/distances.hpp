@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -22,13 +23,13 @@ enum class Distance : std::uint8_t {
 /// Distance of two vectors of one length, accumulated in double. Throws InvalidArgument for lengths
 /// that differ, and for what bhattacharyya cannot take: negative entries or a sum of zero. Disjoint
 /// histograms are infinitely far.
-double distance(Distance kind, Span<const float> a, Span<const float> b);
+HRI_API double distance(Distance kind, Span<const float> a, Span<const float> b);
 
 /// Bhattacharyya distance of two Gaussians (Fukunaga, Statistical Pattern Recognition, eq. 3.152):
 /// 1/8 d' S^-1 d + 1/2 log(|S| / sqrt(|S_a| |S_b|)) with S the mean covariance and d the difference
 /// of means. Throws InvalidArgument for shapes that differ or covariances that are not positive
 /// definite.
-double bhattacharyya_gaussian(const VectorD& mean_a, ConstMatrixRefD covariance_a,
-                              const VectorD& mean_b, ConstMatrixRefD covariance_b);
+HRI_API double bhattacharyya_gaussian(const VectorD& mean_a, ConstMatrixRefD covariance_a,
+                                      const VectorD& mean_b, ConstMatrixRefD covariance_b);
 
 }  // namespace hri

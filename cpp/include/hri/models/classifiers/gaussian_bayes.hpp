@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -27,7 +28,7 @@ struct GaussianBayesOptions {
 
 /// Immutable; const calls are safe from several threads. Class priors are the shares of the
 /// training rows.
-class GaussianBayes {
+class HRI_API GaussianBayes {
  public:
   /// A class with one row takes the covariance shared by all. Throws InvalidArgument as
   /// validate_rows does.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -17,7 +18,7 @@ struct KnnOptions {
 };
 
 /// Immutable; const calls are safe from several threads.
-class Knn {
+class HRI_API Knn {
  public:
   /// Throws InvalidArgument as validate_rows does.
   static Knn train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,

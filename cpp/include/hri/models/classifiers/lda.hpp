@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -21,7 +22,7 @@ struct LdaOptions {
 
 /// Immutable; const calls are safe from several threads. Invariant: projected rows of the training
 /// set have the identity for their (shrunk) covariance within classes.
-class Lda {
+class HRI_API Lda {
  public:
   /// Directions in which rows of the same class do not vary at all are left out. The sign of a
   /// component is such that its largest entry is positive. Throws InvalidArgument as validate_rows

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -25,7 +26,7 @@ struct LinearSvmOptions {
 };
 
 /// Immutable; const calls are safe from several threads.
-class LinearSvm {
+class HRI_API LinearSvm {
  public:
   /// `classes[r]` in 0..num_classes - 1 is the class of row r; -1 is a row that belongs to none and
   /// counts against every class. Throws InvalidArgument for rows not

@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -19,7 +20,7 @@ struct LogisticRegressionOptions {
 };
 
 /// Immutable; const calls are safe from several threads.
-class LogisticRegression {
+class HRI_API LogisticRegression {
  public:
   /// Columns are standardised by the mean and deviation of all rows; one that is constant gets no
   /// weight. `row_weights` (positive) say how often each row counts. Throws InvalidArgument for

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -13,7 +14,7 @@ namespace hri {
 
 /// Immutable; const calls are safe from several threads. Invariant: rows of `components` are
 /// orthonormal.
-class Pca {
+class HRI_API Pca {
  public:
   /// The `num_components` directions of largest variance, 1..; fewer where the rows vary in fewer.
   /// The sign of a component is such that its largest entry is positive. Throws InvalidArgument for

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/classifiers/gaussian_bayes.hpp"
@@ -15,7 +16,7 @@ namespace hri {
 
 /// Unlike GaussianBayes it knows no priors: how often a class was trained has no say. Immutable;
 /// const calls are safe from several threads.
-class PossibilityClassifier {
+class HRI_API PossibilityClassifier {
  public:
   /// Throws InvalidArgument as validate_rows does.
   static PossibilityClassifier train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,

@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -30,7 +31,7 @@ struct RbfPlace {
 };
 
 /// Immutable; const calls are safe from several threads. It keeps its training rows.
-class RbfClassifier {
+class HRI_API RbfClassifier {
  public:
   /// `classes[r]` in 0..num_classes - 1 is the class of row r. Time grows with the cube of the
   /// rows, memory with the square. Throws InvalidArgument for rows not finite, a class without a

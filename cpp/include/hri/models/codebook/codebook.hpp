@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -38,7 +39,7 @@ struct CodebookReport {
 
 /// Immutable; const calls are safe from several threads. Invariant: at least one codeword, all
 /// finite.
-class Codebook {
+class HRI_API Codebook {
  public:
   /// Throws InvalidArgument for an empty or non-finite matrix.
   explicit Codebook(MatrixF centroids);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/codebook/codebook.hpp"
@@ -17,7 +18,7 @@ namespace hri {
 
 /// Immutable; const calls are safe from several threads. Invariant: at least one stream. The first
 /// stream has the first columns of a frame, the next one those that follow.
-class MultiStreamCodebook {
+class HRI_API MultiStreamCodebook {
  public:
   /// Throws InvalidArgument for no codebook.
   explicit MultiStreamCodebook(std::vector<Codebook> streams);

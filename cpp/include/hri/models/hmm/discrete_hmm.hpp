@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -43,7 +44,7 @@ struct DiscreteHmmOptions {
 };
 
 /// Immutable; const calls are safe from several threads. Invariant: the rows of emission sum to 1.
-class DiscreteHmm {
+class HRI_API DiscreteHmm {
  public:
   /// `emission` has shape (num_states, num_symbols). Throws InvalidArgument for what is no
   /// distribution.
@@ -103,7 +104,7 @@ class DiscreteHmm {
 
 /// Throws InvalidArgument unless every sequence has symbols, all in 0..num_symbols - 1. `where`
 /// begins the message.
-void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols,
-                      const std::string& where = "");
+HRI_API void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols,
+                              const std::string& where = "");
 
 }  // namespace hri

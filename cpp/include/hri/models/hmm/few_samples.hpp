@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/discrete_hmm.hpp"
@@ -30,15 +31,15 @@ struct FewSampleOptions {
 /// variance wider by what it is uncertain by, would be the predictive density: that of a new word
 /// is then so wide, beside the others, that it takes their words.) Throws InvalidArgument for no
 /// model, no data, frames that do not fit or are not finite (names sequence, row, column).
-GaussianMixtureHmm train_few(const std::vector<GaussianMixtureHmm>& known,
-                             const std::vector<MatrixF>& sequences,
-                             const FewSampleOptions& options);
+HRI_API GaussianMixtureHmm train_few(const std::vector<GaussianMixtureHmm>& known,
+                                     const std::vector<MatrixF>& sequences,
+                                     const FewSampleOptions& options);
 
 /// The same over symbols: a state that emits a symbol also emits those that the known states emit
 /// along with it, the more the fewer recordings there are. Emissions are at least `emission_floor`,
 /// 0..1 / num_symbols.
-DiscreteHmm train_few(const std::vector<DiscreteHmm>& known,
-                      const std::vector<SymbolSequence>& sequences, double emission_floor,
-                      const FewSampleOptions& options);
+HRI_API DiscreteHmm train_few(const std::vector<DiscreteHmm>& known,
+                              const std::vector<SymbolSequence>& sequences, double emission_floor,
+                              const FewSampleOptions& options);
 
 }  // namespace hri

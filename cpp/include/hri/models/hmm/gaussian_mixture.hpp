@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -29,7 +30,7 @@ struct GaussianMixtureOptions {
 };
 
 /// Immutable; const calls are safe from several threads.
-class GaussianMixture {
+class HRI_API GaussianMixture {
  public:
   /// Throws InvalidArgument for a bank that has not one state.
   explicit GaussianMixture(MixtureBank bank);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -44,7 +45,7 @@ struct GaussianMixtureHmmOptions {
 
 /// Immutable; const calls are safe from several threads. Invariant: the bank has one mixture a
 /// state.
-class GaussianMixtureHmm {
+class HRI_API GaussianMixtureHmm {
  public:
   /// Throws InvalidArgument for a bank that does not fit the chain.
   GaussianMixtureHmm(MarkovChain chain, MixtureBank bank);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/discrete_hmm.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
@@ -36,7 +37,7 @@ struct HmmFrame<GaussianMixtureHmm> {
 /// After any number of frames the scores are those of Model::log_likelihood() of all of them. For
 /// one thread at a time.
 template <class Model>
-class HmmStream {
+class HRI_API HmmStream {
  public:
   using Frame = typename HmmFrame<Model>::Type;
 

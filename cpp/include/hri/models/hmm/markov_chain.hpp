@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/hmm/padded_matrix.hpp"
@@ -25,7 +26,7 @@ struct Spread {
 
 /// Immutable; const calls are safe from several threads. Invariant: start and every row of
 /// transition() sum to 1, and transitions outside the topology are 0.
-class MarkovChain {
+class HRI_API MarkovChain {
  public:
   /// left_right, banded or ergodic: `transition` has shape (num_states, num_states). Throws
   /// InvalidArgument for what is no distribution or does not fit the topology.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -17,7 +18,7 @@ namespace hri {
 
 /// Immutable; const calls are safe from several threads. Invariant: weights of a state sum to 1,
 /// variances > 0.
-class MixtureBank {
+class HRI_API MixtureBank {
  public:
   MixtureBank() = default;
   /// `weights` (num_states, num_mixtures); `means`, `variances` (num_states * num_mixtures, dim),
@@ -71,7 +72,7 @@ struct BankEstimation {
 };
 
 /// Weighted sums of one pass over the data, from which a bank is re-estimated (M step).
-class MixtureAccumulator {
+class HRI_API MixtureAccumulator {
  public:
   MixtureAccumulator(int num_states, int num_mixtures, int dim);
 
@@ -105,16 +106,18 @@ struct GlobalStatistics {
   VectorD mean;
   VectorD variance;
 };
-GlobalStatistics global_statistics(const std::vector<MatrixF>& sequences);
+HRI_API GlobalStatistics global_statistics(const std::vector<MatrixF>& sequences);
 
 /// The state of every frame by k-means over all of them (standardised), seeded by rows far apart.
-std::vector<std::vector<int>> cluster_frames(const std::vector<MatrixF>& sequences, int num_states,
-                                             std::uint64_t seed, const StopCheck& should_stop);
+HRI_API std::vector<std::vector<int>> cluster_frames(const std::vector<MatrixF>& sequences,
+                                                     int num_states, std::uint64_t seed,
+                                                     const StopCheck& should_stop);
 
 /// A first bank from frames already assigned to states: k-means within each state, seeded. States
 /// without frames get the global statistics.
-MixtureBank initial_bank(const std::vector<MatrixF>& sequences,
-                         const std::vector<std::vector<int>>& states, int num_states,
-                         int num_mixtures, const VectorD& variance_floor, std::uint64_t seed);
+HRI_API MixtureBank initial_bank(const std::vector<MatrixF>& sequences,
+                                 const std::vector<std::vector<int>>& states, int num_states,
+                                 int num_mixtures, const VectorD& variance_floor,
+                                 std::uint64_t seed);
 
 }  // namespace hri

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/models/hmm/discrete_hmm.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
 
@@ -37,17 +38,18 @@ struct StateChoice {
 
 /// Free parameters: start and transition probabilities less one for every sum that is 1. Structural
 /// zeros are none, nor is a start in state 0.
-std::int64_t num_free_parameters(const Topology& topology);
-std::int64_t num_free_parameters(const DiscreteHmmOptions& options);
-std::int64_t num_free_parameters(const GaussianMixtureHmmOptions& options, int dim);
+HRI_API std::int64_t num_free_parameters(const Topology& topology);
+HRI_API std::int64_t num_free_parameters(const DiscreteHmmOptions& options);
+HRI_API std::int64_t num_free_parameters(const GaussianMixtureHmmOptions& options, int dim);
 
 /// Trains models of every number of states in `candidates` with `options` (whose own num_states is
 /// not read). Throws InvalidArgument for no candidate, or what train() refuses.
-StateChoice choose_num_states(const std::vector<SymbolSequence>& sequences,
-                              const DiscreteHmmOptions& options, Span<const int> candidates,
-                              const StateChoiceOptions& choice = {});
-StateChoice choose_num_states(const std::vector<MatrixF>& sequences,
-                              const GaussianMixtureHmmOptions& options, Span<const int> candidates,
-                              const StateChoiceOptions& choice = {});
+HRI_API StateChoice choose_num_states(const std::vector<SymbolSequence>& sequences,
+                                      const DiscreteHmmOptions& options, Span<const int> candidates,
+                                      const StateChoiceOptions& choice = {});
+HRI_API StateChoice choose_num_states(const std::vector<MatrixF>& sequences,
+                                      const GaussianMixtureHmmOptions& options,
+                                      Span<const int> candidates,
+                                      const StateChoiceOptions& choice = {});
 
 }  // namespace hri

@@ -7,12 +7,13 @@
 #include <cstdint>
 #include <string>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
 namespace hri {
 
-struct Topology {
+struct HRI_API Topology {
   enum class Kind : std::uint8_t {
     left_right,          ///< from i to i .. i + max_jump; starts in state 0
     banded,              ///< from i to i - max_jump .. i + max_jump; starts anywhere
@@ -35,18 +36,18 @@ struct Topology {
 };
 
 /// nullptr, or what is wrong with the fields.
-const char* topology_fault(const Topology& topology);
+HRI_API const char* topology_fault(const Topology& topology);
 /// Throws InvalidArgument naming the field.
-void validate(const Topology& topology);
+HRI_API void validate(const Topology& topology);
 
 /// Start probabilities: all on state 0 for left_right, uniform otherwise, shape (num_states,).
-VectorD initial_start(const Topology& topology);
+HRI_API VectorD initial_start(const Topology& topology);
 
 /// Row-stochastic start values without jumps: `stay` on the diagonal, the rest shared by the other
 /// states in reach.
-MatrixD initial_transition(const Topology& topology, double stay = 0.6);
+HRI_API MatrixD initial_transition(const Topology& topology, double stay = 0.6);
 
-void write_topology(const Topology& topology, ModelFile& file, const std::string& prefix);
-Topology read_topology(const ModelFile& file, const std::string& prefix);
+HRI_API void write_topology(const Topology& topology, ModelFile& file, const std::string& prefix);
+HRI_API Topology read_topology(const ModelFile& file, const std::string& prefix);
 
 }  // namespace hri

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/possibility/possibilistic_hmm.hpp"
 
@@ -24,7 +25,7 @@ class SymbolScorer;
 /// exp(-4095 / units()), but for 0, counts as that. A state that falls behind the best of its own
 /// class by more than 16 bits hold (23100 steps, less what the class as a whole loses in four
 /// frames) is taken for impossible.
-class FixedPointHmmSet {
+class HRI_API FixedPointHmmSet {
  public:
   /// Throws InvalidArgument unless the set's conjunction is product.
   explicit FixedPointHmmSet(const PossibilisticHmmSet& set);

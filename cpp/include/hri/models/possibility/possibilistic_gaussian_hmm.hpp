@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
@@ -24,7 +25,7 @@ class PossibilityChains;
 
 /// Immutable; const calls are safe from several threads. Invariant: at every frame the emission of
 /// the best state of all classes has possibility 1.
-class PossibilisticGaussianHmmSet {
+class HRI_API PossibilisticGaussianHmmSet {
  public:
   /// Throws InvalidArgument unless all models have one topology and dimension.
   explicit PossibilisticGaussianHmmSet(std::vector<GaussianMixtureHmm> models,

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -66,7 +67,7 @@ struct PossibilisticHmmOptions {
 /// Immutable; const calls are safe from several threads. Invariant: possibilities lie in 0..1, and
 /// of starts, of transitions, and of the emissions of every symbol the largest over all classes and
 /// states is 1 (eq. 5.14).
-class PossibilisticHmmSet {
+class HRI_API PossibilisticHmmSet {
  public:
   /// The set of trained models, scaled together by eq. 5.14. Throws InvalidArgument unless all
   /// models have one topology and number of symbols.

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/hmm_stream.hpp"
 #include "hri/models/possibility/possibilistic_hmm.hpp"
@@ -16,7 +17,7 @@ namespace hri {
 
 /// All classes are advanced together, one symbol at a time. Keeps what it needs of the set, which
 /// may be gone before it. For one thread at a time.
-class PossibilisticHmmStream {
+class HRI_API PossibilisticHmmStream {
  public:
   /// Throws InvalidArgument for a beam that is not positive.
   explicit PossibilisticHmmStream(const PossibilisticHmmSet& set,

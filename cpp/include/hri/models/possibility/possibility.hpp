@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -15,10 +16,10 @@ namespace hri {
 /// Pi(A) = max of the distribution over the event; 0 for an empty event. `event` holds indices of
 /// outcomes. Throws InvalidArgument for an index outside the distribution, or possibilities outside
 /// 0..1 (names the index).
-double possibility_of(Span<const double> distribution, const std::vector<int>& event);
+HRI_API double possibility_of(Span<const double> distribution, const std::vector<int>& event);
 
 /// N(A) = 1 - Pi(not A); 1 for the sure event. Throws as possibility_of does.
-double necessity_of(Span<const double> distribution, const std::vector<int>& event);
+HRI_API double necessity_of(Span<const double> distribution, const std::vector<int>& event);
 
 /// Of each class: `possibility` is its density over the largest, `necessity` is 1 - the best other
 /// class's possibility: the honest confidence, 0 for all but the best class.
@@ -30,6 +31,6 @@ struct Possibilities {
 /// From natural logs, shape (num_classes,). Where every density is 0 nothing is known: every class
 /// is fully possible and none necessary. Throws InvalidArgument for no classes, NaN or +inf (names
 /// the class).
-Possibilities possibilities(const VectorF& log_densities);
+HRI_API Possibilities possibilities(const VectorF& log_densities);
 
 }  // namespace hri

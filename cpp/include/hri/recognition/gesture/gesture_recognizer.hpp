@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/hand_features.hpp"
@@ -79,7 +80,7 @@ struct GestureSample {
 class GestureScorer;
 
 /// Immutable once made; const calls are safe from several threads.
-class GestureRecognizer {
+class HRI_API GestureRecognizer {
  public:
   /// Trains on the features of labelled gestures. Throws InvalidArgument for NaN, a label without a
   /// frame that shows a hand, fewer than two labels; Interrupted when `should_stop` says so.

@@ -5,6 +5,7 @@
 // frames show something else (thesis section 5.3, key frames).
 #pragma once
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
@@ -22,6 +23,6 @@ struct FrameRange {
 ///
 /// `features` has a row a frame, as GestureRecognizer::features gives them; its last
 /// `num_track_columns` columns are the track.
-FrameRange key_frames(ConstMatrixRefF features, Eigen::Index num_track_columns);
+HRI_API FrameRange key_frames(ConstMatrixRefF features, Eigen::Index num_track_columns);
 
 }  // namespace hri

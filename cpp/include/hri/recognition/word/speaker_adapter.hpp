@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/recognition/decision.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
@@ -29,7 +30,7 @@ struct SpeakerAdapterOptions {
 
 /// Not safe from several threads at once. Invariant: recognizer() is the recogniser it was made
 /// from, adapted to the words remembered at the last update.
-class SpeakerAdapter {
+class HRI_API SpeakerAdapter {
  public:
   /// Throws InvalidArgument for options out of range and for a recogniser whose models do not adapt
   /// (kind ptbhmm).

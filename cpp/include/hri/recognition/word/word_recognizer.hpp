@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
 #include "hri/io/model_file.hpp"
@@ -59,7 +60,7 @@ struct WordSample {
 };
 
 /// Immutable once made; const calls are safe from several threads.
-class WordRecognizer {
+class HRI_API WordRecognizer {
  public:
   /// Trains one model a label. `background` are words outside the vocabulary, of any speakers: they
   /// are learned as what else may be said, for rejection alone (models of the kind hmm; ptbhmm

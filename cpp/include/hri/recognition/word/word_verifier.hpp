@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/classifiers/logistic_regression.hpp"
@@ -32,7 +33,7 @@ struct VerifierTrial {
 
 /// Immutable; const calls are safe from several threads. One that has learned nothing takes the
 /// first feature for the score.
-class WordVerifier {
+class HRI_API WordVerifier {
  public:
   WordVerifier() = default;
 
