@@ -11,7 +11,8 @@ import click
 from hri.cli.output import json_option, say, write_json, write_text
 from hri.cli.progress import progress_bars
 from hri.core.optional import import_optional
-from hri.studies import STUDIES, draw, get_study, run_study
+from hri.studies import STUDIES, Study, draw, get_study
+from hri.studies.kept import measure, read_kept, verify
 from hri.studies.tables import csv_text, markdown, table
 
 
@@ -41,9 +42,24 @@ from hri.studies.tables import csv_text, markdown, table
     metavar="N",
     help="Only the first N recordings of every word by every person, where the study allows it.",
 )
+@click.option("--folds", type=click.IntRange(1), metavar="N", help="Only the first N folds, where the study has folds.")
+@click.option(
+    "--verify",
+    "kept_path",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="FILE",
+    help="Measure a part of the kept result in FILE anew; if it is the same, stamp FILE with the present code.",
+)
 @json_option
 def study(
-    name: str, data: str | None, out: str | None, only: tuple[str, ...], takes: int | None, json_path: str | None
+    name: str,
+    data: str | None,
+    out: str | None,
+    only: tuple[str, ...],
+    takes: int | None,
+    folds: int | None,
+    kept_path: str | None,
+    json_path: str | None,
 ) -> int:
     """Repeat a measured claim of the project; exit code 1 if its target was missed.
 
@@ -53,17 +69,23 @@ def study(
       hri study fsdd --data recordings/ --out results/
       hri study fsdd-noise --data recordings/ --only noise=white --takes 10
       HRI_DATA=recordings/ hri study fusion-digits --json fusion.json
+      hri study fsdd --data recordings/ --verify docs/results/fsdd.json
     """
     if name == "list":
         _say_list(json_path)
         return 0
     chosen = _parse_only(only)
     found = get_study(name)
+    if kept_path is not None:
+        if only or takes or folds or out or json_path:
+            raise click.UsageError("--verify takes the arguments of the study from FILE")
+        _verify(found, Path(kept_path), data)
+        return 0
     if out is not None:
         import_optional("matplotlib", "plots", "to draw the results of studies")
         Path(out).mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
-        result = run_study(found, data, progress, chosen, takes)
+        result = measure(found, data, progress, chosen, takes, folds)
     for line in _summary(result):
         say(line, json_path)
     if "rows" in result:
@@ -81,6 +103,16 @@ def study(
         click.echo(f"hri: study {name} missed its target: {result['target']}", err=True)
         return 1
     return 0
+
+
+def _verify(found: Study, path: Path, data: str | None) -> None:
+    kept = read_kept(path)
+    if kept["study"] != found.name:
+        raise click.UsageError(f"{path} is of the study {kept['study']}, not of {found.name}")
+    with progress_bars() as progress:
+        stamped = verify(found, kept, data, progress)
+    write_json(str(path), stamped)
+    click.echo(f"{found.name}\tthe same as measured at {kept['measured'].get('commit', kept['measured']['version'])}")
 
 
 def _say_list(json_path: str | None) -> None:

@@ -28,6 +28,7 @@ def cross_validate(
     make_recognizer: Callable[[], Recognizer],
     *,
     num_folds: int | None = None,
+    max_folds: int | None = None,
     train_persons: int | None = None,
     leave_out: str | None = None,
     seed: int = 0,
@@ -47,6 +48,8 @@ def cross_validate(
     num_folds : int, optional
         Folds by person; None holds out one person at a time (for gestures with more than 10 persons: 5 folds). Where
         persons are not known, folds are stratified by label, and the result says so.
+    max_folds : int, optional
+        Run only the first folds.
     train_persons : int, optional
         Train on this many persons of each fold's training part, drawn at random; None takes all.
     leave_out : str, optional
@@ -84,7 +87,7 @@ def cross_validate(
         folds = dataset.folds_stratified(num_folds or 5, seed)
         conditions["folds"] = "stratified by label: persons are not known, so test people may have been met"
     run = _runner(dataset, make_recognizer, conditions, progress)
-    return EvaluationResult(dataset.labels, [run(fold) for fold in folds], conditions)
+    return EvaluationResult(dataset.labels, [run(fold) for fold in folds[:max_folds]], conditions)
 
 
 def evaluate_split(

@@ -121,6 +121,7 @@ def evaluate_conditions(
     *,
     train: Sequence[Condition] = (),
     num_folds: int | None = None,
+    max_folds: int | None = None,
     seed: int = 0,
     front_end: FrontEnd | None = None,
     adapt: bool = False,
@@ -140,6 +141,8 @@ def evaluate_conditions(
         Training also gets a copy of every clip under each of these.
     num_folds : int, optional
         Folds by person; None holds out one person at a time.
+    max_folds : int, optional
+        Run only the first folds.
     seed : int
         Of folds and of what is random in the conditions.
     front_end : FrontEnd, optional
@@ -161,7 +164,7 @@ def evaluate_conditions(
         For recordings without persons, fewer than two persons, or `adapt` with several persons in a fold.
     """
     say = progress or (lambda what, done, total: None)
-    folds = dataset.folds_by_person(num_folds, seed)
+    folds = dataset.folds_by_person(num_folds, seed)[:max_folds]
     if adapt and any(len({dataset.samples[i].person for i in fold.test}) > 1 for fold in folds):
         raise InvalidArgument("adapt needs folds that hold out one person each")
     runner = SpeechRunner(dataset, make_recognizer, tests, train, seed, front_end, say, adapt)

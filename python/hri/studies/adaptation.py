@@ -13,7 +13,7 @@ import numpy as np
 from hri.core.errors import InvalidArgument
 from hri.recognition import SpeakerAdapter, WordRecognizer
 from hri.studies.clips import Clip, fit_clips, read_clips
-from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
 from hri.studies.word_features import WORD_FOLDERS
 
@@ -78,6 +78,7 @@ def _run(
     data: Sequence[str] = DATA,
     learning: Sequence[str] = LEARNING,
     takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
     rows: list[Row] = []
     for name in data:
@@ -85,7 +86,7 @@ def _run(
         clips = read_clips(data_dir, name, say, takes)
         persons = sorted({person for _, person, _ in clips})
         found: dict[tuple[str, int], dict[str, float]] = {}
-        for number, person in enumerate(persons):
+        for number, person in enumerate(persons[:folds]):
             own = [clip for clip in clips if clip[1] == person]
             if len(own) <= max(WORDS):
                 raise InvalidArgument(f"{name}: {person} has {len(own)} recordings, more than {max(WORDS)} are needed")
@@ -109,5 +110,8 @@ STUDIES = (
         layout=Layout(columns="words", x="words", panel="data"),
         axes={"data": DATA, "learning": LEARNING},
         thins=True,
+        sources=WORD_SOURCES,
+        folds=True,
+        quick={"data": ("hindi-words",)},
     ),
 )

@@ -50,6 +50,7 @@ def _run(
     features: Sequence[str] = tuple(FEATURES),
     classifier: Sequence[str] = tuple(CLASSIFIERS),
     takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
     rows = []
     for name in data:
@@ -58,7 +59,7 @@ def _run(
             say = within(progress, name)
             frames = all_frames(words, FEATURES[kind], kind, say)
             per_fold: dict[str, dict[str, float]] = {choice: {} for choice in classifier}
-            for person, train, test in persons_held_out(words):
+            for person, train, test in list(persons_held_out(words))[:folds]:
                 for done, choice in enumerate(classifier):
                     found = accuracies(CLASSIFIERS[choice], words, train, test, frames, {"": frames})
                     per_fold[choice][person] = found[""]
@@ -81,5 +82,14 @@ STUDIES = (
         layout=Layout(columns="features", panel="data"),
         axes={"data": DATA, "features": tuple(FEATURES), "classifier": tuple(CLASSIFIERS)},
         thins=True,
+        sources=(
+            "cpp/signal",
+            "cpp/features/speech",
+            "cpp/models/...",
+            "python/studies/word_features.py",
+            "python/studies/word_classifiers.py",
+        ),
+        folds=True,
+        quick={"data": ("hindi-words",), "features": ("hfcc",)},
     ),
 )

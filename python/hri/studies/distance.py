@@ -14,7 +14,7 @@ import numpy as np
 from hri.evaluation.conditions import Condition, Samples
 from hri.evaluation.room import InRoom, Response, Room, responses_at
 from hri.studies.noise import noise_paths
-from hri.studies.registry import Layout, Progress, Study
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.sweeps import SEED, Trainings, sweep, told
 
 DISTANCES_M = (0.5, 1.0, 2.0, 3.0, 4.0)
@@ -52,6 +52,7 @@ def _run(
     training: Sequence[str] = TRAINING,
     ambience: Sequence[str] = AMBIENCE,
     takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
     noises = {"silent": (), "noisy": (noise_paths(data_dir)["pink"],)}
     recorded = [Response.read(str(data_dir / RECORDED_RESPONSE))]
@@ -66,7 +67,8 @@ def _run(
     added: Trainings = {"close": [], "with rooms": [_AnyDistance(noises["noisy"])]}
     rows = []
     for name in data:
-        found = sweep(data_dir, name, tests, {choice: added[choice] for choice in training}, progress, takes=takes)
+        chosen = {choice: added[choice] for choice in training}
+        found = sweep(data_dir, name, tests, chosen, progress, takes=takes, folds=folds)
         for (_, trained), measured in found.items():
             for choice in ambience:
                 place = {"data": name, "training": trained, "ambience": choice}
@@ -89,5 +91,8 @@ STUDIES = (
         layout=Layout(columns="distance", x="distance", panel="data"),
         axes={"data": DATA, "training": TRAINING, "ambience": AMBIENCE},
         thins=True,
+        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
+        folds=True,
+        quick={"data": ("hindi-words",), "training": ("close",)},
     ),
 )

@@ -21,7 +21,7 @@ from hri.live import ArraySource, Attention, Listener
 from hri.media import read_audio
 from hri.recognition import WordRecognizer
 from hri.studies.noise import noise_paths
-from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
 from hri.studies.unknown_words import halves
 from hri.studies.word_features import WORD_FOLDERS, load_words
@@ -355,5 +355,6 @@ STUDIES = (
         Layout(measure="words_per_hour", percent=False),
         {"vocabulary": tuple(OTHER_WORDS)},
         thins=True,
+        sources=(*WORD_SOURCES, "python/live"),
     ),
 )

@@ -15,7 +15,7 @@ import numpy as np
 from hri.recognition import WordRecognizer
 from hri.recognition.decision import RECOGNISED
 from hri.studies.clips import Clip, fit_clips, read_clips
-from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
 from hri.studies.word_features import WORD_FOLDERS
 
@@ -137,11 +137,12 @@ def _run(
     data: Sequence[str] = DATA,
     model: Sequence[str] = MODELS,
     takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
     rows: list[Row] = []
     for name in data:
         say = within(progress, name)
-        splits = list(_splits(read_clips(data_dir, name, say, takes)))
+        splits = list(_splits(read_clips(data_dir, name, say, takes)))[:folds]
         labels = sorted({label for label, _, _ in splits[0].train})
         for kind in model:
             found: dict[tuple[str, int], dict[str, list[Row]]] = {}
@@ -170,5 +171,8 @@ STUDIES = (
         layout=Layout(x="samples", panel="data", measure="added"),
         axes={"data": DATA, "model": MODELS},
         thins=True,
+        sources=WORD_SOURCES,
+        folds=True,
+        quick={"data": ("hindi-words",)},
     ),
 )

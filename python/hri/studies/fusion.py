@@ -13,7 +13,8 @@ from hri.datasets import Dataset
 from hri.evaluation import EvaluationItem, EvaluationResult, cross_validate
 from hri.fusion import RULES, fuse
 from hri.recognition import GestureRecognizer, WordRecognizer
-from hri.studies.registry import Progress, Study
+from hri.studies.registry import GESTURE_SOURCES, WORD_SOURCES, Layout, Progress, Study
+from hri.studies.tables import Row, statistics
 
 NUM_FOLDS = 5
 FEW_PERSONS = 5
@@ -23,6 +24,7 @@ GAIN = 0.03
 """What fusion has to add to the better single mode ..."""
 CEILING = 0.97
 """... wherever that one is below this."""
+_SHOWN = ("accuracy_mean", "accuracy_std", "per_fold")
 
 
 def _pair(speech: EvaluationResult, signs: EvaluationResult) -> list[list[tuple[EvaluationItem, EvaluationItem]]]:
@@ -36,21 +38,19 @@ def _pair(speech: EvaluationResult, signs: EvaluationResult) -> list[list[tuple[
     ]
 
 
-def _statistics(per_fold: list[list[bool]]) -> dict[str, Any]:
-    accuracies = [float(np.mean(fold)) for fold in per_fold]
-    return {
-        "accuracy_mean": float(np.mean(accuracies)),
-        "accuracy_std": float(np.std(accuracies)),
-        "per_speaker": accuracies,
-    }
-
-
 def _condition(speech: EvaluationResult, signs: EvaluationResult) -> dict[str, Any]:
     pairs = _pair(speech, signs)
+    speakers = [fold.name for fold in speech.folds]
+
+    def by_speaker(right: list[list[bool]]) -> Row:
+        return statistics(
+            {name: float(np.mean(fold)) for name, fold in zip(speakers, right, strict=True)},
+        )
+
     result: dict[str, Any] = {
         "num_pairs": sum(len(fold) for fold in pairs),
-        "speech": _statistics([[s.best == s.truth for s, _ in fold] for fold in pairs]),
-        "gesture": _statistics([[g.best == g.truth for _, g in fold] for fold in pairs]),
+        "speech": by_speaker([[s.best == s.truth for s, _ in fold] for fold in pairs]),
+        "gesture": by_speaker([[g.best == g.truth for _, g in fold] for fold in pairs]),
     }
     better = max(result["speech"]["accuracy_mean"], result["gesture"]["accuracy_mean"])
     for rule in RULES:
@@ -61,19 +61,19 @@ def _condition(speech: EvaluationResult, signs: EvaluationResult) -> dict[str, A
             for decision, _ in decisions:
                 fired[decision.rule] = fired.get(decision.rule, 0) + 1
             right.append([d.label == truth for d, truth in decisions])
-        result[rule] = {**_statistics(right), "rules_fired": fired}
+        result[rule] = {**by_speaker(right), "rules_fired": fired}
         gain = result[rule]["accuracy_mean"] - better
         result[rule]["gain_over_better_mode"] = gain
         result[rule]["passed"] = better >= CEILING or gain >= GAIN
     return result
 
 
-def _run(data_dir: Path, progress: Progress) -> dict[str, Any]:
+def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dict[str, Any]:
     spoken = Dataset.load(data_dir / "fsdd" / "recordings", "speech")
     signed = Dataset.load(data_dir / "sign_digits", "gesture")
     common: dict[str, Any] = {"seed": SEED, "progress": progress}
-    clean = cross_validate(spoken, WordRecognizer, **common)
-    noisy = cross_validate(spoken, WordRecognizer, noise="white", snr_db=10.0, **common)
+    clean = cross_validate(spoken, WordRecognizer, max_folds=folds, **common)
+    noisy = cross_validate(spoken, WordRecognizer, max_folds=folds, noise="white", snr_db=10.0, **common)
     bright = cross_validate(signed, GestureRecognizer, num_folds=NUM_FOLDS, **common)
     dark, few = (
         cross_validate(signed, GestureRecognizer, num_folds=NUM_FOLDS, exposure=0.5, train_persons=persons, **common)
@@ -86,9 +86,15 @@ def _run(data_dir: Path, progress: Progress) -> dict[str, Any]:
         f"{hard}, signs learned from {FEW_PERSONS} persons": _condition(noisy, few),
     }
     passed = {rule: all(c[rule]["passed"] for c in conditions.values()) for rule in RULES}
+    rows = [
+        {"condition": name, "decided by": by, **{key: found[by][key] for key in _SHOWN}}
+        for name, found in conditions.items()
+        for by in ("speech", "gesture", *RULES)
+    ]
     return {
         "seed": SEED,
-        "conditions": conditions,
+        "rows": rows,
+        "rules": {name: {rule: found[rule]["rules_fired"] for rule in RULES} for name, found in conditions.items()},
         "passed_by_rule": passed,
         "passed": any(passed.values()),
     }
@@ -102,5 +108,8 @@ STUDIES = (
         ("fsdd/recordings", "sign_digits"),
         f"a fusion rule beats the better mode by {100 * GAIN:.0f} points wherever that is below {100 * CEILING:.0f} %",
         _run,
+        layout=Layout(columns="decided by"),
+        sources=tuple(dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES, "python/fusion"))),
+        folds=True,
     ),
 )

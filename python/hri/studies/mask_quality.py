@@ -101,5 +101,6 @@ STUDIES = (
         _run,
         layout=Layout(measure="told_apart"),
         axes={"way": WAYS},
+        sources=("cpp/vision", "python/vision"),
     ),
 )

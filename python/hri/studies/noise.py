@@ -16,7 +16,7 @@ from typing import Any
 from hri.evaluation import AddNoise, adapting
 from hri.evaluation.conditions import Condition
 from hri.studies.front_ends import FRONT_ENDS
-from hri.studies.registry import Layout, Progress, Study
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.sweeps import sweep, told
 
 NOISES = {
@@ -48,6 +48,7 @@ def _run(
     training: Sequence[str] = TRAINING,
     noise: Sequence[str] = tuple(NOISES),
     takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
     paths = noise_paths(data_dir)
     tests: dict[str, Condition | None] = {CLEAN: None}
@@ -55,7 +56,9 @@ def _run(
         tests |= {f"{name} {snr_db} dB": AddNoise([paths[name]], [snr_db], "second") for snr_db in SNRS_DB}
     added = {"clean": [], "random": [], "noisy": [AddNoise(list(paths.values()), TRAINING_SNRS_DB, "first")]}
     trainings = {name: added[name] for name in training}
-    found = sweep(data_dir, "fsdd", tests, trainings, progress, front_end, takes, options=OPTIONS, adapt=True)
+    found = sweep(
+        data_dir, "fsdd", tests, trainings, progress, front_end, takes, options=OPTIONS, adapt=True, folds=folds
+    )
     rows = []
     for (variant, trained), measured in found.items():
         for name, listening in product(noise, LISTENING):
@@ -85,5 +88,8 @@ STUDIES = (
         layout=Layout(columns="snr_db", x="snr_db", panel="noise"),
         axes={"front_end": tuple(FRONT_ENDS), "training": TRAINING, "noise": tuple(NOISES)},
         thins=True,
+        sources=(*WORD_SOURCES, "python/studies/sweeps.py", "python/studies/front_ends.py"),
+        folds=True,
+        quick={"front_end": ("plain",), "training": ("clean",), "noise": ("white",)},
     ),
 )

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.errors import InvalidArgument
-from hri.studies.registry import Progress, Study
+from hri.studies.registry import Layout, Progress, Study
 from hri.studies.sequences import Example, Split, signed_words, splits_by_person, spoken_words
+from hri.studies.tables import statistics
 
 SEEDS = tuple(range(10))
 """Of codebooks: with one alone, chance moves the difference of two models by a point; so every split is repeated."""
@@ -37,6 +38,9 @@ METHODS = {
     "min_best_path": "PTBHMM, min with conditioning; trained along best paths",
     "product_rows": "PTBHMM, product; emissions divided by their row's largest instead of eq. 5.14",
 }
+
+
+_SHOWN = ("accuracy_mean", "accuracy_std", "per_fold")
 
 
 @dataclass(frozen=True)
@@ -166,9 +170,9 @@ def _fold(
     return {name: shares_right(values, truth) for name, values in scores.items()}, same
 
 
-def _compare(name: str, examples: Sequence[Example], progress: Progress) -> dict[str, Any]:
+def _compare(name: str, examples: Sequence[Example], folds: int | None, progress: Progress) -> dict[str, Any]:
     setting = SETTINGS[name]
-    splits = [split for split in splits_by_person(examples, setting.least) if split.test]
+    splits = [split for split in splits_by_person(examples, setting.least) if split.test][:folds]
     if not splits or any(len(split.labels) < 2 for split in splits):
         few = f"two words of which the others have {setting.least} examples"
         raise InvalidArgument(f"{name}: needs two persons or more, and for each of them {few}")
@@ -185,7 +189,8 @@ def _compare(name: str, examples: Sequence[Example], progress: Progress) -> dict
             progress(name, number * len(SEEDS) + done + 1, len(splits) * len(SEEDS))
         for method, found in sums.items():
             right[method].append(found)
-    methods = {method: _statistics(right[method], right[REFERENCE]) for method in METHODS}
+    persons = [split.person for split in splits]
+    methods = {method: _statistics(persons, right[method], right[REFERENCE]) for method in METHODS}
     num_test = sum(len(split.test) for split in splits)
     return {
         "num_test": num_test,
@@ -199,26 +204,34 @@ def _compare(name: str, examples: Sequence[Example], progress: Progress) -> dict
     }
 
 
-def _statistics(right: list[NDArray[np.float64]], reference: list[NDArray[np.float64]]) -> dict[str, Any]:
-    per_fold = [float(fold.mean()) for fold in right]
+def _statistics(
+    persons: Sequence[str], right: list[NDArray[np.float64]], reference: list[NDArray[np.float64]]
+) -> dict[str, Any]:
+    per_fold = {person: float(fold.mean()) for person, fold in zip(persons, right, strict=True)}
     gains = np.concatenate(right) - np.concatenate(reference)
     return {
-        "accuracy_mean": float(np.mean(per_fold)),
-        "accuracy_std": float(np.std(per_fold)),
-        "per_fold": per_fold,
-        "difference_to_hmm": float(np.mean(per_fold) - np.mean([fold.mean() for fold in reference])),
+        **statistics(per_fold),
+        "difference_to_hmm": float(np.mean(list(per_fold.values())) - np.mean([fold.mean() for fold in reference])),
         "words_gained": float(gains[gains > 0].sum()),
         "words_lost": float(-gains[gains < 0].sum()),
     }
 
 
-def _run(data_dir: Path, progress: Progress) -> dict[str, Any]:
-    data_sets = {name: _compare(name, _read(name, data_dir, progress), progress) for name in SETTINGS}
+def _run(
+    data_dir: Path, progress: Progress, *, data: Sequence[str] | None = None, folds: int | None = None
+) -> dict[str, Any]:
+    data_sets = {name: _compare(name, _read(name, data_dir, progress), folds, progress) for name in data or SETTINGS}
+    rows = [
+        {"data": name, "method": method, **{key: found["methods"][method][key] for key in _SHOWN}}
+        for name, found in data_sets.items()
+        for method in METHODS
+    ]
     num_test = sum(found["num_test"] for found in data_sets.values())
     same = sum(found["same_decision_16_bit"] * found["num_test"] for found in data_sets.values()) / num_test
     return {
         "seeds": list(SEEDS),
         "methods": METHODS,
+        "rows": rows,
         "data_sets": data_sets,
         "same_decision_16_bit": same,
         "passed": same >= LEAST_SAME and all(found["passed"] for found in data_sets.values()),
@@ -235,5 +248,10 @@ STUDIES = (
         + ", ".join(f"{100 * most:g} points ({method})" for method, most in MOST_LOST.items())
         + f"; {100 * LEAST_SAME:g} % of decisions the same in 16 bits",
         _run,
+        layout=Layout(columns="method"),
+        axes={"data": tuple(SETTINGS)},
+        sources=("cpp/signal", "cpp/features/speech", "cpp/models/...", "python/studies/sequences.py"),
+        folds=True,
+        quick={"data": ("hindi-words",)},
     ),
 )

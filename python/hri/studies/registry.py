@@ -16,8 +16,32 @@ Progress = Callable[[str, int, int], None]
 """Called with (what is being done, steps done, steps in all)."""
 
 
+WORD_SOURCES = (
+    "cpp/signal",
+    "cpp/features/speech",
+    "cpp/models/...",
+    "cpp/recognition",
+    "cpp/recognition/word",
+    "python/recognition/word",
+    "python/evaluation",
+)
+"""The rooms that the recognition of words depends on; see `Study.sources`."""
+GESTURE_SOURCES = (
+    "cpp/signal",
+    "cpp/features/hand",
+    "cpp/models/...",
+    "cpp/recognition",
+    "cpp/recognition/gesture",
+    "cpp/vision",
+    "python/recognition/gesture",
+    "python/vision",
+    "python/evaluation",
+)
+"""Those that the recognition of gestures depends on."""
+
+
 def within(progress: Progress, name: str) -> Progress:
-    """Progress of a part of a study: tells its name too."""
+    """Progress of a part of a study, reported with its name."""
     return lambda what, done, total: progress(f"{name}: {what}", done, total)
 
 
@@ -71,6 +95,13 @@ class Study:
         What of it can be run alone: ``chosen`` gives some of the values of some axes.
     thins : bool
         Whether ``run(..., takes=N)`` takes the first N recordings of every word by every person, to be done sooner.
+    sources : tuple of str
+        Rooms of the source tree that the result depends on, see `hri.studies.provenance`; the study's own file is one
+        without being named.
+    folds : bool
+        Whether ``run(..., folds=N)`` runs the first N folds only.
+    quick : mapping of str to sequence of str
+        Values of `axes` that suffice to check that a kept result still holds.
     """
 
     name: str
@@ -81,6 +112,9 @@ class Study:
     layout: Layout = Layout()
     axes: Mapping[str, Sequence[str]] = field(default_factory=dict)
     thins: bool = False
+    sources: tuple[str, ...] = ()
+    folds: bool = False
+    quick: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
 def find_data(directory: str | os.PathLike[str] | None = None) -> Path:
@@ -106,8 +140,9 @@ def run_study(
     progress: Progress,
     only: Mapping[str, Sequence[str]] | None = None,
     takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
-    """Run `study` on the recordings in `directory`; the result also names the study, its target and its seed.
+    """Run `study` on the recordings in `directory`; the result also names the study and its target.
 
     Parameters
     ----------
@@ -120,12 +155,14 @@ def run_study(
         Run only these values of these axes of the study.
     takes : int, optional
         Only the first recordings of every word by every person; the result says so.
+    folds : int, optional
+        Only the first folds.
 
     Raises
     ------
     InvalidArgument
-        For data that is not there, an axis or value that the study does not have (lists those it has), or `takes` of a
-        study that needs all recordings.
+        For missing data, an axis or value that the study does not have (lists those it has), `takes` for a study that
+        needs all recordings, or `folds` for a study without folds.
     """
     chosen: dict[str, Any] = {axis: _chosen(study, axis, values) for axis, values in (only or {}).items()}
     if takes is not None:
@@ -134,6 +171,12 @@ def run_study(
         if takes < 1:
             raise InvalidArgument(f"takes is {takes}, must be at least 1")
         chosen["takes"] = takes
+    if folds is not None:
+        if not study.folds:
+            raise InvalidArgument(f"study {study.name} has no folds to choose from")
+        if folds < 1:
+            raise InvalidArgument(f"folds is {folds}, must be at least 1")
+        chosen["folds"] = folds
     data_dir = find_data(directory)
     missing = [name for name in study.data if not (data_dir / name).exists()]
     if missing:

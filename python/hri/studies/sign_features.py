@@ -160,6 +160,7 @@ def _points(signs: SignPictures, vectors: Vectors) -> dict[str, Any]:
 
 _DATA = ("sign_digits",)
 _TARGET = "none: a comparison"
+_SOURCES = ("cpp/signal", "cpp/features/hand", "cpp/models/...", "cpp/vision", "python/studies/sign_shapes.py")
 
 STUDIES = (
     Study(
@@ -170,6 +171,8 @@ STUDIES = (
         _run_features,
         layout=Layout(columns="classifier"),
         axes={"features": tuple(FEATURES), "classifier": tuple(CLASSIFIERS)},
+        sources=_SOURCES,
+        quick={"features": ("dwt+mfcc",), "classifier": ("svm",)},
     ),
     Study(
         "sign-coefficients",
@@ -179,6 +182,8 @@ STUDIES = (
         _run_coefficients,
         layout=Layout(columns="coefficients", x="coefficients", panel="classifier"),
         axes={"features": ("mfcc", "haar+mfcc", "db2+mfcc"), "classifier": tuple(CLASSIFIERS)},
+        sources=_SOURCES,
+        quick={"features": ("db2+mfcc",), "classifier": ("svm",)},
     ),
     Study(
         "sign-wavelets",
@@ -188,6 +193,8 @@ STUDIES = (
         _run_wavelets,
         layout=Layout(columns="level", x="level", panel="classifier"),
         axes={"wavelet": WAVELETS, "classifier": tuple(CLASSIFIERS)},
+        sources=_SOURCES,
+        quick={"wavelet": ("db2",), "classifier": ("svm",)},
     ),
     Study(
         "sign-distances",
@@ -197,5 +204,7 @@ STUDIES = (
         _run_distances,
         layout=Layout(panel="features", measure="ratio", percent=False),
         axes={"features": tuple(FEATURES)},
+        sources=_SOURCES,
+        quick={"features": ("dwt+mfcc",)},
     ),
 )

@@ -10,16 +10,18 @@ from typing import Any
 from hri.datasets import Dataset
 from hri.evaluation import adapting, evaluate_conditions
 from hri.recognition import WordRecognizer
-from hri.studies.registry import Layout, Progress, Study
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.sweeps import measured
 
 ALONE = "each clip alone"
 
 
 def _study(name: str, folder: str, summary: str, target: float) -> Study:
-    def run(data_dir: Path, progress: Progress) -> dict[str, Any]:
+    def run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dict[str, Any]:
         dataset = Dataset.load(data_dir / folder, "speech")
-        results = evaluate_conditions(dataset, WordRecognizer, {ALONE: None}, adapt=True, progress=progress)
+        results = evaluate_conditions(
+            dataset, WordRecognizer, {ALONE: None}, adapt=True, max_folds=folds, progress=progress
+        )
         heard = {"alone": results[ALONE], "adapting": results[adapting(ALONE)]}
         recognizer = WordRecognizer()
         return {
@@ -38,6 +40,8 @@ def _study(name: str, folder: str, summary: str, target: float) -> Study:
         "learned from, and nobody tells what was said",
         run,
         Layout(),
+        sources=WORD_SOURCES,
+        folds=True,
     )
 
 

@@ -42,6 +42,7 @@ def sweep(
     takes: int | None = None,
     options: Mapping[str, Mapping[str, Any]] | None = None,
     adapt: bool = False,
+    folds: int | None = None,
 ) -> dict[tuple[str, str], dict[str, Row]]:
     """What was measured, by (front end, training) and test, on a data set of `WORD_FOLDERS`.
 
@@ -61,6 +62,7 @@ def sweep(
                 seed=SEED,
                 front_end=choice.prepare,
                 adapt=adapt,
+                max_folds=folds,
                 progress=within(progress, f"{name}, {variant}, {trained}"),
             )
             found[variant, trained] = {test: measured(result) for test, result in results.items()}

@@ -14,7 +14,7 @@ from hri.datasets import Dataset, Fold
 from hri.evaluation import EvaluationResult
 from hri.evaluation.speech import SpeechRunner
 from hri.recognition import WordRecognizer
-from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.sweeps import SEED, measured, told
 from hri.studies.word_features import WORD_FOLDERS, load_words
 from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
@@ -96,5 +96,7 @@ STUDIES = (
         layout=Layout(columns="synthetic", x="synthetic", panel="data"),
         axes={"data": tuple(WORDS), "real": tuple(map(str, REAL)), "synthetic": tuple(map(str, SYNTHETIC))},
         thins=True,
+        sources=(*WORD_SOURCES, "python/synthetic"),
+        quick={"data": ("hindi-digits",), "real": ("0",)},
     ),
 )

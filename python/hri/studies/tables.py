@@ -6,9 +6,11 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
+from hri.core.errors import InvalidArgument
 from hri.studies.registry import Layout
 
 Row = dict[str, Any]
@@ -49,15 +51,16 @@ def measures_of(rows: Sequence[Row]) -> list[str]:
     return list(dict.fromkeys(key[: -len("_mean")] for row in rows for key in row if key.endswith("_mean")))
 
 
-def show(row: Row, layout: Layout, measure: str = "") -> str:
+def show(row: Row, layout: Layout, measure: str = "", shown: Pivot | None = None) -> str:
     """A measurement as "84.0 ± 9.2"; "" where the row has none."""
-    name = measure or layout.measure
+    name, digits = measure or layout.measure, 1 if shown is None else shown.digits
     mean = row.get(f"{name}_mean")
     if mean is None:
         return ""
     scale = 100.0 if layout.percent else 1.0
-    std = row.get(f"{name}_std")
-    return f"{scale * mean:.1f}" if std is None else f"{scale * mean:.1f} ± {scale * std:.1f}"
+    std = row.get(f"{name}_std") if shown is None or shown.spread else None
+    text = f"{scale * mean:.{digits}f}"
+    return text if std is None else f"{text} ± {scale * std:.{digits}f}"
 
 
 def table(result: Row, layout: Layout) -> list[list[str]]:
@@ -90,8 +93,7 @@ def markdown(result: Row, layout: Layout) -> str:
         lines += [f"the first {result['takes']} recordings of every word by every person", ""]
     if layout.columns:
         lines += [f"{layout.measure}{', %' if layout.percent else ''}, mean ± spread over persons held out", ""]
-    lines += ["| " + " | ".join(cells) + " |" for cells in (header, ["---"] * len(header), *rows)]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n" + markdown_table([header, *rows])
 
 
 def csv_text(result: Row, layout: Layout) -> str:
@@ -111,3 +113,78 @@ def csv_text(result: Row, layout: Layout) -> str:
     writer.writeheader()
     writer.writerows(flat)
     return text.getvalue()
+
+
+@dataclass(frozen=True)
+class Pivot:
+    """How a table of the documentation shows rows of a result.
+
+    Attributes
+    ----------
+    rows : tuple of str
+        Axes along the rows of the table; empty for all that vary.
+    columns : str
+        The axis along the columns; "measures" for one column a measure.
+    measures : tuple of str
+        What was measured, for one column a measure; empty for all.
+    where : mapping of str to sequence of str
+        Only the rows of the result with these values.
+    names : mapping of str to str
+        What axes, values and measures are called.
+    spread : bool
+        Whether to show the spread behind the mean.
+    digits : int
+        Decimals.
+    """
+
+    rows: tuple[str, ...] = ()
+    columns: str = "measures"
+    measures: tuple[str, ...] = ()
+    where: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
+    spread: bool = True
+    digits: int = 1
+
+
+def pivot(rows: Sequence[Row], layout: Layout, shown: Pivot) -> list[list[str]]:
+    """Header and cells.
+
+    Raises
+    ------
+    InvalidArgument
+        For an axis that the rows have not, no row left, or two rows for one cell.
+    """
+    axes = axes_of(rows)
+    unknown = {*shown.rows, *shown.where, shown.columns} - {*axes, "measures"}
+    if unknown:
+        raise InvalidArgument(f"no axis {', '.join(sorted(unknown))}; there are: {', '.join(axes)}")
+    kept = [row for row in rows if all(str(row.get(axis)) in values for axis, values in shown.where.items())]
+    if not kept:
+        raise InvalidArgument(f"no row has {dict(shown.where)}")
+    varied = [axis for axis in axes if len({str(row.get(axis)) for row in kept}) > 1]
+    down = [axis for axis in (shown.rows or varied) if axis != shown.columns]
+    by_measure = shown.columns == "measures"
+    lines: dict[tuple[str, ...], dict[str, str]] = {}
+    for row in kept:
+        cells = lines.setdefault(tuple(_named(row.get(axis, ""), shown) for axis in down), {})
+        found = (
+            {name: show(row, layout, name, shown) for name in shown.measures or measures_of(kept)}
+            if by_measure
+            else {_named(row[shown.columns], shown): show(row, layout, "", shown)}
+        )
+        if cells.keys() & found.keys():
+            raise InvalidArgument(f"several rows for one cell: {row}")
+        cells |= found
+    across = list(dict.fromkeys(name for cells in lines.values() for name in cells))
+    header = [_named(name, shown) for name in (*down, *across)]
+    return [header, *([*key, *(cells.get(name, "") for name in across)] for key, cells in lines.items())]
+
+
+def _named(value: Any, shown: Pivot) -> str:
+    return shown.names.get(str(value), str(value))
+
+
+def markdown_table(lines: Sequence[Sequence[str]]) -> str:
+    """Header and cells as Markdown."""
+    header, *rows = lines
+    return "".join("| " + " | ".join(cells) + " |\n" for cells in (header, ["---"] * len(header), *rows))

@@ -10,7 +10,7 @@ from typing import Any
 
 from hri.evaluation.conditions import Condition
 from hri.evaluation.tempo import ChangeTempo
-from hri.studies.registry import Layout, Progress, Study
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.sweeps import sweep, told
 
 FACTORS = (0.5, 0.7, 1.0, 1.4, 2.0)
@@ -26,12 +26,14 @@ def _run(
     data: Sequence[str] = DATA,
     training: Sequence[str] = TRAINING,
     takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
     tests: dict[str, Condition | None] = {str(f): None if f == 1.0 else ChangeTempo(f) for f in FACTORS}
     added = {"natural": [], "with other tempos": [ChangeTempo(0.7), ChangeTempo(1.4)]}
     rows = []
     for name in data:
-        found = sweep(data_dir, name, tests, {choice: added[choice] for choice in training}, progress, takes=takes)
+        chosen = {choice: added[choice] for choice in training}
+        found = sweep(data_dir, name, tests, chosen, progress, takes=takes, folds=folds)
         for (_, trained), measured in found.items():
             rows += [{"data": name, "training": trained, "tempo": f, **measured[str(f)]} for f in FACTORS]
     return told(rows)
@@ -48,5 +50,8 @@ STUDIES = (
         layout=Layout(columns="tempo", x="tempo", panel="data"),
         axes={"data": DATA, "training": TRAINING},
         thins=True,
+        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
+        folds=True,
+        quick={"data": ("hindi-words",), "training": ("natural",)},
     ),
 )

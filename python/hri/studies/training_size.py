@@ -45,19 +45,20 @@ def _run(
     data: Sequence[str] = DATA,
     classifier: Sequence[str] = CHOICES,
     takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
     rows = []
     for name in data:
         words = read_words(data_dir, name, progress, takes)
         frames = all_frames(words, FEATURES[FEATURE], name, progress)
-        folds = list(persons_held_out(words))
+        splits = list(persons_held_out(words))[:folds]
         counts = [count for count in SAMPLES[name] if takes is None or count <= takes]
-        total, done = len(classifier) * len(SPEAKERS) * len(counts) * len(folds), 0
+        total, done = len(classifier) * len(SPEAKERS) * len(counts) * len(splits), 0
         for choice in classifier:
             for num_speakers in SPEAKERS:
                 for count in counts:
                     per_fold = {}
-                    for person, train, test in folds:
+                    for person, train, test in splits:
                         # Every choice of speakers once, or one of them for every seed.
                         others = sorted({words[i].person for i in train})
                         groups = list(combinations(others, num_speakers))
@@ -91,5 +92,14 @@ STUDIES = (
         layout=Layout(columns="samples", x="samples", panel="data"),
         axes={"data": DATA, "classifier": CHOICES},
         thins=True,
+        sources=(
+            "cpp/signal",
+            "cpp/features/speech",
+            "cpp/models/...",
+            "python/studies/word_features.py",
+            "python/studies/word_classifiers.py",
+        ),
+        folds=True,
+        quick={"data": ("hindi-words",)},
     ),
 )

@@ -17,7 +17,7 @@ from hri.media import read_frames
 from hri.recognition import Decision, GestureRecognizer
 from hri.recognition.decision import NO_INPUT, RECOGNISED
 from hri.studies import webcam
-from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.registry import GESTURE_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
 from hri.studies.unknown_words import halves
 
@@ -85,9 +85,11 @@ def _folds(dataset: Dataset) -> list[Fold]:
     return dataset.folds_by_person(NUM_FOLDS, SEED) if by_person else dataset.folds_stratified(NUM_FOLDS, SEED)
 
 
-def _measure(dataset: Dataset, source: str, rows: Sequence[Rows], progress: Progress) -> tuple[Row, dict[str, Any]]:
+def _measure(
+    dataset: Dataset, source: str, rows: Sequence[Rows], num_halves: int | None, progress: Progress
+) -> tuple[Row, dict[str, Any]]:
     measured: dict[str, dict[str, float]] = {}
-    chosen, folds = halves(dataset.labels, NUM_HALVES, SEED), _folds(dataset)
+    chosen, folds = halves(dataset.labels, NUM_HALVES, SEED)[:num_halves], _folds(dataset)
     labels = [sample.label for sample in dataset.samples]
     empty = empty_clips()
     for number, half in enumerate(chosen):
@@ -135,7 +137,9 @@ def _measure(dataset: Dataset, source: str, rows: Sequence[Rows], progress: Prog
     return row, {"halves": chosen, "by_half": measured}
 
 
-def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(DATA)) -> dict[str, Any]:
+def _run(
+    data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(DATA), folds: int | None = None
+) -> dict[str, Any]:
     result_rows, details = [], {}
     for name in data:
         folder, pattern, source = DATA[name]
@@ -147,7 +151,7 @@ def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(DATA
         for done, sample in enumerate(dataset.samples):
             rows.append(recognizer.features(read_frames(sample.path).frames))
             progress(f"{name}: finding hands", done + 1, len(dataset))
-        row, details[name] = _measure(dataset, source, rows, within(progress, name))
+        row, details[name] = _measure(dataset, source, rows, folds, within(progress, name))
         result_rows.append({"data": name, **row})
     return {
         "seed": SEED,
@@ -168,5 +172,7 @@ STUDIES = (
         _run,
         Layout(measure="eer"),
         {"data": tuple(DATA)},
+        sources=GESTURE_SOURCES,
+        folds=True,
     ),
 )

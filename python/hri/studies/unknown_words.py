@@ -20,7 +20,7 @@ from hri.media import read_audio
 from hri.recognition import Decision, WordRecognizer
 from hri.recognition.decision import NO_INPUT, RECOGNISED
 from hri.studies.noise import noise_paths
-from hri.studies.registry import Layout, Progress, Study, within
+from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
 from hri.studies.word_features import WORD_FOLDERS, load_words
 
@@ -102,7 +102,9 @@ def _train(dataset: Dataset, clips: Sequence[Clip], fold: Fold, half: Sequence[s
     )
 
 
-def _measure(dataset: Dataset, noise: dict[str, list[Clip]], progress: Progress) -> tuple[Row, dict[str, Any]]:
+def _measure(
+    dataset: Dataset, noise: dict[str, list[Clip]], folds: int | None, progress: Progress
+) -> tuple[Row, dict[str, Any]]:
     clips = []
     for sample in dataset.samples:
         audio = read_audio(sample.path)
@@ -110,8 +112,8 @@ def _measure(dataset: Dataset, noise: dict[str, list[Clip]], progress: Progress)
     measured: dict[str, dict[str, float]] = {}
     curve: dict[str, list[float]] = {}
     chosen = halves(dataset.labels)
-    for number, half in enumerate(chosen):
-        for fold in dataset.folds_by_person(None, SEED):
+    for number, half in enumerate(chosen[:folds]):
+        for fold in dataset.folds_by_person(None, SEED)[:folds]:
             name = f"half {number + 1}, {fold.name}"
             words = _train(dataset, clips, fold, half, within(progress, f"half {number + 1}"))
             turn = _test(words, dataset, clips, fold, half)
@@ -136,12 +138,17 @@ def _measure(dataset: Dataset, noise: dict[str, list[Clip]], progress: Progress)
 
 
 def _run(
-    data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(WORD_FOLDERS), takes: int | None = None
+    data_dir: Path,
+    progress: Progress,
+    *,
+    data: Sequence[str] = tuple(WORD_FOLDERS),
+    takes: int | None = None,
+    folds: int | None = None,
 ) -> dict[str, Any]:
     noise = noises(noise_paths(data_dir))
     rows, details = [], {}
     for name in data:
-        row, details[name] = _measure(load_words(data_dir, name, takes), noise, within(progress, name))
+        row, details[name] = _measure(load_words(data_dir, name, takes), noise, folds, within(progress, name))
         rows.append({"data": name, **row})
     lines = {name: {"x": list(FALSE_ACCEPTS), "y": found.pop("curve")} for name, found in details.items()}
     return {
@@ -165,5 +172,8 @@ STUDIES = (
         Layout(measure="eer"),
         {"data": tuple(WORD_FOLDERS)},
         thins=True,
+        sources=WORD_SOURCES,
+        folds=True,
+        quick={"data": ("hindi-words",)},
     ),
 )

@@ -97,5 +97,13 @@ STUDIES = (
         layout=Layout(columns="level", x="level", panel="noise"),
         axes={"data": DATA, "method": tuple(METHODS), "wavelet": WAVELETS, "classifier": CHOICES},
         thins=True,
+        sources=(
+            "cpp/signal",
+            "cpp/features/speech",
+            "cpp/models/...",
+            "python/studies/word_features.py",
+            "python/studies/word_classifiers.py",
+        ),
+        quick={"data": ("hindi-words",), "method": ("shrinkage",), "wavelet": ("db6",), "classifier": ("hmm",)},
     ),
 )

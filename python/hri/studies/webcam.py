@@ -20,7 +20,7 @@ from hri.datasets.folds import Fold
 from hri.evaluation.conditions import expose, gamma, tint
 from hri.media import read_frames
 from hri.recognition import GestureRecognizer
-from hri.studies.registry import Layout, Progress, Study
+from hri.studies.registry import GESTURE_SOURCES, Layout, Progress, Study
 from hri.studies.tables import statistics
 
 FOLDER = "webcam_gestures"
@@ -112,14 +112,16 @@ def measurable(source: Sequence[str]) -> list[str]:
     return [name for name in source if name != "landmarks"]
 
 
-def _stratified(data_dir: Path, progress: Progress, *, source: Sequence[str] = SOURCES) -> dict[str, Any]:
+def _stratified(
+    data_dir: Path, progress: Progress, *, source: Sequence[str] = SOURCES, folds: int | None = None
+) -> dict[str, Any]:
     dataset = _load(data_dir)
     rows = []
     for name in measurable(source):
         features = _features(dataset, name, ["as recorded"], progress)["as recorded"]
         per_fold = {}
-        for seed in SEEDS:
-            for part, fold in enumerate(dataset.folds_stratified(NUM_FOLDS, seed)):
+        for seed in SEEDS[:folds]:
+            for part, fold in enumerate(dataset.folds_stratified(NUM_FOLDS, seed)[:folds]):
                 recognizer = _train(dataset, features, fold, name)
                 per_fold[f"seed {seed}, {fold.name}"] = float(np.mean(_right(dataset, recognizer, features, fold)))
                 progress(f"training, {name}", seed * NUM_FOLDS + part + 1, len(SEEDS) * NUM_FOLDS)
@@ -131,7 +133,9 @@ def _passed(rows: Sequence[dict[str, Any]]) -> bool:
     return all(row["accuracy_mean"] >= TARGETS[row["source"]] for row in rows)
 
 
-def _conditions(data_dir: Path, progress: Progress, *, source: Sequence[str] = SOURCES) -> dict[str, Any]:
+def _conditions(
+    data_dir: Path, progress: Progress, *, source: Sequence[str] = SOURCES, folds: int | None = None
+) -> dict[str, Any]:
     dataset = _load(data_dir)
     own = data_dir / FOLDER / CONDITIONS
     conditions = read_conditions(
@@ -141,7 +145,7 @@ def _conditions(data_dir: Path, progress: Progress, *, source: Sequence[str] = S
     for name in measurable(source):
         features = _features(dataset, name, ["as recorded"], progress)["as recorded"]
         right: dict[str, list[bool]] = {}
-        names = list(dict.fromkeys(conditions))
+        names = list(dict.fromkeys(conditions))[:folds]
         for done, left_out in enumerate(names):
             fold = Fold(
                 left_out,
@@ -153,17 +157,22 @@ def _conditions(data_dir: Path, progress: Progress, *, source: Sequence[str] = S
             progress(f"training, {name}", done + 1, len(names))
         # Conditions have 3 to 12 clips each, so that every clip counts as much as any other.
         every = [value for values in right.values() for value in values]
-        means.append({"left out": "all clips", "source": name, "accuracy_mean": float(np.mean(every))})
+        per_fold = {left_out: float(np.mean(values)) for left_out, values in right.items()}
+        means.append(
+            {"left out": "all clips", "source": name, "accuracy_mean": float(np.mean(every)), "per_fold": per_fold}
+        )
     return {"rows": [*rows, *means], "passed": _passed(means)}
 
 
-def _light(data_dir: Path, progress: Progress, *, light: Sequence[str] = tuple(LIGHTS)) -> dict[str, Any]:
+def _light(
+    data_dir: Path, progress: Progress, *, light: Sequence[str] = tuple(LIGHTS), folds: int | None = None
+) -> dict[str, Any]:
     dataset = _load(data_dir)
     lights = list(dict.fromkeys(("as recorded", *light)))
     features = _features(dataset, "silhouettes", lights, progress)
     per_fold: dict[str, dict[str, float]] = {name: {} for name in lights}
-    for seed in SEEDS:
-        for part, fold in enumerate(dataset.folds_stratified(NUM_FOLDS, seed)):
+    for seed in SEEDS[:folds]:
+        for part, fold in enumerate(dataset.folds_stratified(NUM_FOLDS, seed)[:folds]):
             recognizer = _train(dataset, features["as recorded"], fold, "silhouettes")
             for name in lights:
                 right = _right(dataset, recognizer, features[name], fold)
@@ -184,6 +193,8 @@ STUDIES = (
         _TARGET,
         _stratified,
         axes={"source": SOURCES},
+        sources=GESTURE_SOURCES,
+        folds=True,
     ),
     Study(
         "webcam-conditions",
@@ -193,6 +204,8 @@ STUDIES = (
         _conditions,
         layout=Layout(columns="source"),
         axes={"source": SOURCES},
+        sources=GESTURE_SOURCES,
+        folds=True,
     ),
     Study(
         "webcam-light",
@@ -201,5 +214,8 @@ STUDIES = (
         f"no light costs {100 * MAX_DROP:.0f} points or more",
         _light,
         axes={"light": tuple(LIGHTS)},
+        sources=GESTURE_SOURCES,
+        folds=True,
+        quick={"light": ("half exposure",)},
     ),
 )

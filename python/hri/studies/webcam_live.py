@@ -14,7 +14,7 @@ from hri.live import ClipSource, Watcher
 from hri.media import read_frames
 from hri.media.video import Clip
 from hri.recognition import Decision, GestureRecognizer
-from hri.studies.registry import Progress, Study
+from hri.studies.registry import GESTURE_SOURCES, Progress, Study
 from hri.studies.tables import statistics
 from hri.studies.webcam import FOLDER, PATTERN
 
@@ -35,7 +35,7 @@ def _best(decision: Decision | None) -> str:
     return decision.nbest[0].label if decision is not None and decision.nbest else ""
 
 
-def _live(data_dir: Path, progress: Progress) -> dict[str, Any]:
+def _live(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dict[str, Any]:
     dataset = Dataset.load(data_dir / FOLDER, "gesture", PATTERN)
     labels = [sample.label for sample in dataset.samples]
     features = []
@@ -45,7 +45,7 @@ def _live(data_dir: Path, progress: Progress) -> dict[str, Any]:
     per_fold: dict[str, dict[str, float]] = {"file": {}, "live": {}, "agree": {}}
     decisions, compute_ms = [], []
     for seed in SEEDS:
-        for part, fold in enumerate(dataset.folds_stratified(NUM_FOLDS, seed)):
+        for part, fold in enumerate(dataset.folds_stratified(NUM_FOLDS, seed)[:folds]):
             signs = GestureRecognizer().fit_features([features[i] for i in fold.train], [labels[i] for i in fold.train])
             found: dict[str, list[bool]] = {name: [] for name in per_fold}
             for i in fold.test:
@@ -79,5 +79,7 @@ STUDIES = (
         (FOLDER,),
         f"the last decision of the stream is right as often as that of the file, less {100 * MAX_GAP:.0f} points",
         _live,
+        sources=(*GESTURE_SOURCES, "python/live"),
+        folds=True,
     ),
 )
