@@ -11,6 +11,7 @@ import timing  # isort: skip  # first: it sets thread pools to one
 
 import argparse
 import json
+import platform
 import sys
 from pathlib import Path
 
@@ -24,6 +25,7 @@ import bench_robot
 import bench_signal
 import bench_vision
 import bench_wavelets
+from hri.studies.provenance import describe_code, source_root
 
 MODULES = (
     bench_wavelets,
@@ -55,6 +57,14 @@ def measure(bench: timing.Bench) -> dict[str, object]:
     }
 
 
+def processor() -> str:
+    """The name that the processor gives itself."""
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.partition(":")[2].strip()
+    return platform.machine()
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(prog="./run bench", description=__doc__)
@@ -82,7 +92,8 @@ def main() -> None:
             values = " ".join(f"{v:.4g}" for v in (value if isinstance(value, list) else [value]))
             print(f"{'':22} {what}: {values}", flush=True)
     if arguments.json:
-        arguments.json.write_text(json.dumps(entries, indent=2) + "\n")
+        report = {"measured": describe_code(source_root()), "machine": processor(), "benches": entries}
+        arguments.json.write_text(json.dumps(report, indent=2) + "\n")
 
 
 if __name__ == "__main__":

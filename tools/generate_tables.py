@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Write the tables of README.md and docs/ from docs/results/; --check only says whether they are up to date.
+"""Write the tables and example programs in README.md and docs/; --check only says whether they are up to date.
 
 A table stands between ``<!-- results: FILE option=value ... -->`` and ``<!-- end -->``. FILE is a result in
 docs/results/ without its ``.json``. Options, in the syntax of a shell:
@@ -15,7 +15,8 @@ spread=no           means only
 digits=N            decimals
 
 ``<!-- results: readme-accuracy -->`` and the like are put together from several results: see `tools/readme_tables.py`.
-`--check` also fails for a result whose study depends on code that has changed since (see `hri.studies.kept`).
+``<!-- example: PATH -->`` holds the program of that path. `--check` also fails for a result whose study depends on code
+that has changed since (see `hri.studies.kept`).
 """
 
 from __future__ import annotations
@@ -34,7 +35,9 @@ from hri.studies.tables import Pivot, markdown_table, pivot
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "docs" / "results"
-_BLOCK = re.compile(r"^<!-- results: (?P<spec>[^\n]*?) -->\n.*?^<!-- end -->$", re.DOTALL | re.MULTILINE)
+_BLOCK = re.compile(
+    r"^<!-- (?P<kind>results|example): (?P<spec>[^\n]*?) -->\n.*?^<!-- end -->$", re.DOTALL | re.MULTILINE
+)
 
 
 def caption(kept: dict) -> str:
@@ -68,6 +71,11 @@ def make_table(spec: str) -> str:
     return markdown_table(pivot(kept["rows"], study.layout, shown)) + "\n" + caption(kept) + "\n"
 
 
+def show_example(path: str) -> str:
+    """A program as a block of code."""
+    return f"```cpp\n{(ROOT / path).read_text(encoding='utf-8')}```\n"
+
+
 def _listed(text: str) -> tuple[str, ...]:
     return tuple(text.split(",")) if text else ()
 
@@ -80,31 +88,27 @@ def written_anew(page: Path) -> str:
     """The text of a page with its tables as they should be."""
 
     def replaced(block: re.Match[str]) -> str:
+        kind, spec = block["kind"], block["spec"]
         try:
-            table = make_table(block["spec"])
-        except (InvalidArgument, KeyError, ValueError) as error:
-            raise SystemExit(f"{page.relative_to(ROOT)}: <!-- results: {block['spec']} -->: {error}") from error
-        return f"<!-- results: {block['spec']} -->\n{table}<!-- end -->"
+            text = make_table(spec) if kind == "results" else show_example(spec)
+        except (InvalidArgument, OSError, KeyError, ValueError) as error:
+            raise SystemExit(f"{page.relative_to(ROOT)}: <!-- {kind}: {spec} -->: {error}") from error
+        return f"<!-- {kind}: {spec} -->\n{text}<!-- end -->"
 
     return _BLOCK.sub(replaced, page.read_text(encoding="utf-8"))
 
 
-def stale_results() -> list[str]:
-    """What to say of every result that its study's code has left behind."""
-    found = []
+def stale_results() -> dict[Path, str]:
+    """The results that are older than the code of their study, and why."""
+    found = {}
     for path in sorted(RESULTS.glob("*.json")):
         if path.name == readme_tables.BENCHES:
             continue
         kept = read_kept(path)
         if kept["study"] not in STUDIES:
-            found.append(f"{path.name}: there is no study {kept['study']}")
-            continue
-        rooms = stale_rooms(ROOT, STUDIES[kept["study"]], kept)
-        if rooms:
-            found.append(
-                f"{path.name}: measured with other code in {', '.join(rooms)}; "
-                f"hri study {kept['study']} --verify docs/results/{path.name}"
-            )
+            found[path] = f"there is no study {kept['study']}"
+        elif rooms := stale_rooms(ROOT, STUDIES[kept["study"]], kept):
+            found[path] = f"measured with other code in {', '.join(rooms)}; run tools/verify_results.sh"
     return found
 
 
@@ -113,7 +117,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing")
     parser.add_argument("--tables", action="store_true", help="do not ask whether results are older than their code")
+    parser.add_argument("--stale", action="store_true", help="list the results that are older than their code, and end")
     arguments = parser.parse_args()
+    if arguments.stale:
+        for path in stale_results():
+            print(path.relative_to(ROOT))
+        return 0
     check = arguments.check
     wrong = []
     for page in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))):
@@ -125,7 +134,7 @@ def main() -> int:
         else:
             page.write_text(text, encoding="utf-8")
     if check and not arguments.tables:
-        wrong += stale_results()
+        wrong += [f"{path.relative_to(ROOT)}: {why}" for path, why in stale_results().items()]
     print("\n".join(wrong), end="\n" if wrong else "", file=sys.stderr)
     return 1 if wrong else 0
 

@@ -22,7 +22,9 @@ def run(*arguments: str) -> str:
 def test_every_bench_agrees_with_its_peer_and_is_reported(tmp_path: Path) -> None:
     report = tmp_path / "bench.json"
     table = run("--json", str(report))
-    entries = json.loads(report.read_text())
+    written = json.loads(report.read_text())
+    assert written["machine"] and written["measured"]["version"]
+    entries = written["benches"]
     listed = [line.split("\t")[0] for line in run("--list").splitlines()]
     assert [entry["name"] for entry in entries] == listed
     for entry in entries:

@@ -72,7 +72,7 @@ def test_ctrl_c_stops_the_robot_within_its_limits_and_ends_the_program_after(run
     monkeypatch.setattr(KinematicRobot, "_command", interrupted)
     before = signal.getsignal(signal.SIGINT)
     result = run("play", "9", "--backend", "kinematic")
-    assert result.exit_code == 130 and "stop: stopped when told" in result.output
+    assert result.exit_code == 130 and "stop: stopped on request" in result.output
     assert 51 < len(sent) < 100 and abs(sent[-1] - sent[-2]) < abs(sent[49] - sent[48]), "it slowed down"
     assert signal.getsignal(signal.SIGINT) is before
 

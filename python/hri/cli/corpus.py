@@ -112,7 +112,7 @@ def gesture(
     """Drawn people who show digits with one hand; without labels, all ten.
 
     What is not asked for differs from person to person. Drawn signs vary less than filmed ones: record people where you
-    can. The manifest says that nobody was filmed, and what was asked for.
+    can. The manifest says that the pictures are synthetic, and holds the options.
 
     \b
     Examples:

@@ -147,7 +147,7 @@ class Dataset:
         )
 
     def folds_by_person(self, num_folds: int | None = None, seed: int = 0) -> list[Fold]:
-        """Folds in which nobody is in both parts; None holds out one person at a time.
+        """Folds in which no person is in both parts; None holds out one person at a time.
 
         Raises
         ------
@@ -170,7 +170,7 @@ class Dataset:
         return split_by_value(name, [sample.conditions[name] for sample in self.samples])
 
     def folds_stratified(self, num_folds: int = 5, seed: int = 0) -> list[Fold]:
-        """Folds with nearly the same share of every label, whoever made the recordings."""
+        """Folds with nearly the same share of every label, whatever the person."""
         return split_stratified([sample.label for sample in self.samples], num_folds, seed)
 
 

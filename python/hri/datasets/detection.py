@@ -104,7 +104,7 @@ def _misfit(pattern: Pattern, names: Sequence[str]) -> str | None:
 
 
 def _looks_like_persons(pattern: Pattern, persons: set[str], labels: set[str]) -> bool:
-    """Where the order does not tell person from label, the person must be named as one."""
+    """Where the order does not distinguish person and label, the person must be named as one."""
     if pattern.text.count("{label}") > 1 or "_nohash_" in pattern.text:
         return True
     if pattern.text.endswith("{label}_{person}_{take}"):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The Sheffield Kinect Gesture data set (SKIG), as it is published: folders and file names tell everything.
+"""The Sheffield Kinect Gesture data set (SKIG), as it is published: folders and file names hold all metadata.
 
 ``subject1_rgb/M_person_1_backgroud_1_illumination_1_pose_1_actionType_1.avi`` (sic) is the colour video of what
 ``subject1_dep/K_person_1_...avi`` shows in depth.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Honest accuracy: people are never shared between training and test."""
+"""Accuracy with persons held out, in noise, rooms and other light."""
 
 from hri.evaluation.conditions import Condition, FrontEnd, expose, gamma, tint
 from hri.evaluation.evaluate import cross_validate, evaluate_split

@@ -73,7 +73,7 @@ def _recording(path: str, sample_rate_hz: int) -> Samples:
 
 
 def active_power(samples: Samples, sample_rate_hz: int) -> float:
-    """Mean power of the frames in which somebody speaks, so that pauses round a word do not count.
+    """Mean power of the frames with speech, so that pauses around a word do not count.
 
     After ITU-T P.56: frames (20 ms) more than 15.9 dB below the active level are pauses; the level follows from the
     others, until both agree.

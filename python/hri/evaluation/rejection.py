@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""How well score tells what belongs to a vocabulary from what does not."""
+"""How well a score separates in-vocabulary from out-of-vocabulary input."""
 
 from __future__ import annotations
 

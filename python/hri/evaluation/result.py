@@ -49,7 +49,7 @@ class FoldResult:
 
 @dataclass(frozen=True)
 class EvaluationResult:
-    """Accuracy over folds in which nobody is both trained on and tested.
+    """Accuracy over folds.
 
     Attributes
     ----------

@@ -22,7 +22,7 @@ _TRAIN, _TEST, _ORDER = 0, 1, 2
 
 
 def adapting(test: str) -> str:
-    """The name under which `evaluate_conditions` tells what was measured of a test while adapting."""
+    """The name under which `evaluate_conditions` reports a test measured while adapting."""
     return f"{test}, adapting".removeprefix(", ")
 
 
@@ -45,7 +45,7 @@ class SpeechRunner:
     progress : callable
         Called with (what, done, total).
     adapt : bool
-        Also hear every test in random order with a `SpeakerAdapter`, which nobody tells what was said.
+        Also run every test in random order with an unsupervised `SpeakerAdapter`.
     """
 
     def __init__(
@@ -148,8 +148,8 @@ def evaluate_conditions(
     front_end : FrontEnd, optional
         Done to every clip of training and test after the condition.
     adapt : bool
-        Also hear the words of each test, in random order, with a `SpeakerAdapter`: every word is decided by what was
-        learned from those before it, of which nobody told what they were. Test folds have to be of one person each.
+        Also run each test, in random order, with an unsupervised `SpeakerAdapter`: every word is decided before it is
+        learned from. Test folds have to be of one person each.
     progress : callable, optional
         Called with (what, done, total).
 

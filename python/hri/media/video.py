@@ -44,7 +44,7 @@ class Clip:
 
     @property
     def fps(self) -> float:
-        """Frames a second by their times; 25 where these tell nothing."""
+        """Frames a second by their times; 25 where these are not usable."""
         duration_s = self.times_s[-1] - self.times_s[0]
         return (len(self.times_s) - 1) / duration_s if duration_s > 0 else DEFAULT_FPS
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What a few words of a new speaker are worth to a trained recogniser, named and not."""
+"""Adaptation of a trained recogniser to an unseen speaker from a few words, supervised and unsupervised."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hri.studies.word_features import WORD_FOLDERS
 
 DATA = tuple(WORD_FOLDERS)
 WORDS = (5, 10, 20)
-LEARNING = ("named", "not named")
+LEARNING = ("supervised", "unsupervised")
 DRAWS = 5
 """Times that the words to learn from are drawn for every speaker."""
 SEED = 0
@@ -34,10 +34,10 @@ def _draw(clips: Sequence[Clip], rng: np.random.Generator) -> list[int]:
     return [places[n] for n in rounds for places in waiting.values() if n < len(places)][: max(WORDS)]
 
 
-def _adapted(words: WordRecognizer, clips: Sequence[Clip], named: bool) -> WordRecognizer:
+def _adapted(words: WordRecognizer, clips: Sequence[Clip], supervised: bool) -> WordRecognizer:
     adapter = SpeakerAdapter(words)
     for label, _, sound in clips:
-        if named:
+        if supervised:
             adapter.learn(sound.samples, sound.sample_rate_hz, label)
         else:
             adapter.recognise(sound.samples, sound.sample_rate_hz, update=False)
@@ -66,8 +66,8 @@ def _of_speaker(
         for how in learning:
             shares.setdefault((how, 0), []).append(before)
             for count in WORDS:
-                taught = _adapted(words, [clips[place] for place in order[:count]], how == "named")
-                shares.setdefault((how, count), []).append(_share(taught, rest))
+                adapted = _adapted(words, [clips[place] for place in order[:count]], how == "supervised")
+                shares.setdefault((how, count), []).append(_share(adapted, rest))
     return {key: float(np.mean(found)) for key, found in shares.items()}
 
 
@@ -102,7 +102,7 @@ def _run(
 STUDIES = (
     Study(
         "adapt-words",
-        "a trained recogniser after 5, 10 and 20 words of a speaker it has not met, named or not, on the rest of his; "
+        "a trained recogniser after 5, 10 and 20 words of an unseen speaker, supervised and not, on the rest of them; "
         "leave one of 4 speakers out",
         tuple(WORD_FOLDERS.values()),
         "none: a comparison",

@@ -15,7 +15,7 @@ from hri.evaluation.conditions import Condition, Samples
 from hri.evaluation.room import InRoom, Response, Room, responses_at
 from hri.studies.noise import noise_paths
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
-from hri.studies.sweeps import SEED, Trainings, sweep, told
+from hri.studies.sweeps import SEED, Trainings, result_of, sweep
 
 DISTANCES_M = (0.5, 1.0, 2.0, 3.0, 4.0)
 TEST_ROOM = Room((7.0, 5.0, 2.8), 0.4)
@@ -77,7 +77,7 @@ def _run(
                     rows.append({**place, "distance": f"{distance:g} m", **measured[f"{choice} {distance}"]})
                 rows.append({**place, "distance": RECORDED, **measured[f"{choice} {RECORDED}"]})
     rooms = {"test_room": vars(TEST_ROOM), "training_room": vars(TRAINING_ROOM), "snr_db": SNR_DB}
-    return told(rows, rooms=rooms)
+    return result_of(rows, rooms=rooms)
 
 
 STUDIES = (

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""End points: words that are missed, noise that is taken for words, and how far off start and end are in noise."""
+"""End points: missed words, noise detected as speech, and errors of start and end in noise."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def noise_taken_for_speech(data_dir: Path) -> dict[str, dict[str, Any]]:
 
 
 def words_missed(dataset: Dataset, name: str, progress: Progress) -> dict[str, Any]:
-    """Recordings in which nobody is heard, as they are and in white noise."""
+    """Recordings in which no speech is found, as they are and in white noise."""
     rng = np.random.default_rng(SEED)
     missed = {"clean": 0, "10 dB": 0, "5 dB": 0}
     for done, sample in enumerate(dataset.samples):

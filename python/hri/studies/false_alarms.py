@@ -82,7 +82,7 @@ class Fold:
         return float(np.mean(self.own[mode] < threshold))
 
     def alarms_per_hour(self, mode: str, sound: str, threshold: float) -> float:
-        """How often something else is taken for a command."""
+        """How often something else is accepted as a command."""
         return float(np.sum(self.others[mode, sound] >= threshold)) / self.hours
 
 
@@ -201,7 +201,7 @@ def _streams(
 
 
 def _others(
-    words: WordRecognizer, streams: dict[str, list[Samples]], wake: str, rate: int, tell: Progress
+    words: WordRecognizer, streams: dict[str, list[Samples]], wake: str, rate: int, progress: Progress
 ) -> dict[tuple[str, str], NDArray[np.float64]]:
     found: dict[tuple[str, str], list[float]] = {(mode, sound): [] for mode in MODES for sound in streams}
     for sound, several in streams.items():
@@ -209,12 +209,12 @@ def _others(
             heard = utterances(words, stream, rate)
             found[PLAIN, sound] += [u.score for u in heard]
             found[WAKE_WORD, sound] += [e for _, _, e in pair_evidence(heard, wake, Attention().within_s)]
-            tell(f"listening to {sound}", done + 1, len(several))
+            progress(f"listening to {sound}", done + 1, len(several))
     return {key: np.array(values) for key, values in found.items()}
 
 
 def longest_word(labels: Sequence[str], clips: Sequence[Samples], rate: int) -> str:
-    """The word that takes longest to say, on average: there is most of it to tell it from others by."""
+    """The longest word on average, which is the easiest to distinguish from others."""
     lengths: dict[str, list[int]] = {}
     for label, clip in zip(labels, clips, strict=True):
         bounds = _native.find_speech(clip, rate)
@@ -223,7 +223,7 @@ def longest_word(labels: Sequence[str], clips: Sequence[Samples], rate: int) -> 
     return max(sorted(lengths), key=lambda label: float(np.mean(lengths[label])))
 
 
-def _fold(data_dir: Path, name: str, person: str, dataset: Dataset, half: Sequence[str], tell: Progress) -> Fold:
+def _fold(data_dir: Path, name: str, person: str, dataset: Dataset, half: Sequence[str], progress: Progress) -> Fold:
     train = [s for s in dataset.samples if s.person != person and s.label in half]
     mine = [s for s in dataset.samples if s.person == person]
     audio = [read_audio(s.path) for s in train]
@@ -234,7 +234,7 @@ def _fold(data_dir: Path, name: str, person: str, dataset: Dataset, half: Sequen
         [s.label for s in train],
         sample_rate_hz=[a.sample_rate_hz for a in audio],
         groups=[s.person for s in train],
-        progress=partial(tell, "training"),
+        progress=partial(progress, "training"),
     )
     wake = longest_word([s.label for s in train], [_clip(s, rate) for s in train], rate)
     own = [s for s in mine if s.label in half]
@@ -264,7 +264,7 @@ def _fold(data_dir: Path, name: str, person: str, dataset: Dataset, half: Sequen
         accuracy,
         SESSIONS * SESSION_S / 3600,
         {PLAIN: score, WAKE_WORD: _own_pairs(words, pairs, wake, rate, rng)},
-        _others(words, streams, wake, rate, tell),
+        _others(words, streams, wake, rate, progress),
     )
 
 
@@ -347,7 +347,7 @@ STUDIES = (
     Study(
         "false-alarms",
         "Hours of noise and of other words through the live path, plainly and after a wake word: half the vocabulary "
-        "never trained, nobody trained on among the speakers; what is taken for a command, by the threshold",
+        "never trained, by unseen speakers; accepted commands by threshold",
         ("fsdd/recordings", "hindi_words", "noise"),
         f"under {MAX_PER_HOUR} an hour at under {100 * MAX_FALSE_REJECTS:.0f} % false rejects, without a wake word, "
         "with the model's own threshold",

@@ -106,12 +106,12 @@ def _of_word(split: Split, label: str, model: str) -> Iterator[tuple[tuple[str, 
         for count in SAMPLES:
             if count > len(sounds):
                 continue
-            taught = copy(known).add_word(
+            extended = copy(known).add_word(
                 label,
                 [sound.samples for sound in sounds[:count]],
                 [sound.sample_rate_hz for sound in sounds[:count]],
             )
-            yield (source, count), _measure(taught, split.test, label)
+            yield (source, count), _measure(extended, split.test, label)
 
 
 def _rows(found: Mapping[tuple[str, int], Mapping[str, Sequence[Row]]], place: Row) -> Iterator[Row]:
@@ -125,8 +125,8 @@ def _rows(found: Mapping[tuple[str, int], Mapping[str, Sequence[Row]]], place: R
                 if measure in ones[0]
             }
             if shares:
-                told = statistics(shares, measure)
-                row |= told if measure == "added" else {k: v for k, v in told.items() if k != "per_fold"}
+                values = statistics(shares, measure)
+                row |= values if measure == "added" else {k: v for k, v in values.items() if k != "per_fold"}
         yield row
 
 

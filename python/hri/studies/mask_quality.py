@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the quality of a silhouette tells good masks from bad ones: against the hull of MediaPipe's joints."""
+"""Whether the quality of a silhouette separates good masks from bad ones: against the hull of MediaPipe's joints."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _shared(mask: NDArray[np.bool_], joints: NDArray[np.float32], frame_size: tu
     return float((mask & grown).sum() / (mask | grown).sum())
 
 
-def _told_apart(shared: NDArray[np.float64], quality: NDArray[np.float64]) -> float | None:
+def _separated(shared: NDArray[np.float64], quality: NDArray[np.float64]) -> float | None:
     """Of how many pairs of a good and a bad mask the good one has the higher quality; None without both."""
     good, bad = quality[shared >= GOOD], quality[shared < BAD]
     return float((good[:, None] > bad).mean()) if len(good) and len(bad) else None
@@ -68,7 +68,7 @@ def _row(way: str, pairs: Sequence[tuple[float, float]]) -> dict[str, Any]:
         "shared_mean": float(shared.mean()) if len(pairs) else None,
         "quality_mean": float(quality.mean()) if len(pairs) else None,
         "correlation_mean": float(np.corrcoef(shared, quality)[0, 1]) if varied else None,
-        "told_apart_mean": _told_apart(shared, quality),
+        "separated_mean": _separated(shared, quality),
     }
 
 
@@ -89,17 +89,17 @@ def _run(data_dir: Path, progress: Progress, *, way: Sequence[str] = WAYS) -> di
         progress("finding hands", done + 1, len(dataset))
     rows = [_row(name, pairs[name]) for name in way]
     rows.append(_row(ALL, [pair for found in pairs.values() for pair in found]))
-    return {"rows": rows, "every": _STEP, "passed": (rows[-1]["told_apart_mean"] or 0.0) >= TARGET}
+    return {"rows": rows, "every": _STEP, "passed": (rows[-1]["separated_mean"] or 0.0) >= TARGET}
 
 
 STUDIES = (
     Study(
         "mask-quality",
-        "whether the quality of a silhouette tells masks that fit MediaPipe's joints from those that do not",
+        "whether the quality of a silhouette separates masks that fit MediaPipe's joints from those that do not",
         (FOLDER,),
         f"all ways together: {100 * TARGET:.0f} % of pairs of a good and a bad mask in the right order",
         _run,
-        layout=Layout(measure="told_apart"),
+        layout=Layout(measure="separated"),
         axes={"way": WAYS},
         sources=("cpp/vision", "python/vision"),
     ),

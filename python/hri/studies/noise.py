@@ -17,7 +17,7 @@ from hri.evaluation import AddNoise, adapting
 from hri.evaluation.conditions import Condition
 from hri.studies.front_ends import FRONT_ENDS
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
-from hri.studies.sweeps import sweep, told
+from hri.studies.sweeps import result_of, sweep
 
 NOISES = {
     "white": "white_noise.wav",
@@ -31,7 +31,7 @@ TRAINING = ("clean", "random", "noisy")
 OPTIONS = {"clean": {"noise_copies": 0}}
 LISTENING = ("alone", "adapting")
 TARGETS = {"clean": 0.78, "noisy": 0.85}
-"""White noise at 10 dB, by what was trained on, while getting used to the speaker and the noise."""
+"""White noise at 10 dB, by what was trained on, while adapting to speaker and noise."""
 CLEAN = "clean"
 
 
@@ -73,7 +73,7 @@ def _run(
         and row["training"] in TARGETS
     }
     verdict = all(met.values()) if met else None
-    return told(rows, verdict, passed_by_training=met, training_snrs_db=TRAINING_SNRS_DB)
+    return result_of(rows, verdict, passed_by_training=met, training_snrs_db=TRAINING_SNRS_DB)
 
 
 STUDIES = (
@@ -83,7 +83,7 @@ STUDIES = (
         "noises added, with and without HFCC-E and wavelet shrinkage",
         ("fsdd/recordings", "noise"),
         f"white noise at 10 dB: >= {100 * TARGETS['clean']:.0f} % trained clean, "
-        f">= {100 * TARGETS['noisy']:.0f} % with noise, while getting used to the speaker and the noise",
+        f">= {100 * TARGETS['noisy']:.0f} % with noise, while adapting to speaker and noise",
         _run,
         layout=Layout(columns="snr_db", x="snr_db", panel="noise"),
         axes={"front_end": tuple(FRONT_ENDS), "training": TRAINING, "noise": tuple(NOISES)},

@@ -74,7 +74,7 @@ SETTINGS = {
     "asl-words": Setting(num_states=4, num_codewords=64, least=3),
 }
 # Hindi digits and words are not joined to one vocabulary: who is called speaker2 in one folder is not the speaker2
-# of the other, so that nobody could be held out of both.
+# of the other, so that no speaker could be held out of both.
 SPEECH_FOLDERS = {
     "english-digits": "fsdd/recordings",
     "hindi-digits": "hindi_words/digits",

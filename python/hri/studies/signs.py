@@ -38,7 +38,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
 STUDIES = (
     Study(
         "sign-digits",
-        "hand signs for 0-9, 5 folds by person, as recorded and at half exposure (HOG + RBF SVM: 92.5 %)",
+        "hand signs for 0-9, 5 folds by person, as recorded and at half exposure",
         ("sign_digits",),
         f"mean accuracy >= {100 * TARGET:.0f} %",
         _run,

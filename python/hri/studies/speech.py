@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Isolated words of unseen speakers: every clip on its own, and as heard by a recogniser that gets used to them."""
+"""Isolated words of unseen speakers: every clip on its own, and by a recogniser that adapts to the speaker."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def _study(name: str, folder: str, summary: str, target: float) -> Study:
         name,
         summary,
         (folder,),
-        f"mean accuracy >= {100 * target:.0f} % while getting used to the speaker: every clip is decided before it is "
-        "learned from, and nobody tells what was said",
+        f"mean accuracy >= {100 * target:.0f} % while adapting to the speaker without supervision: every clip is "
+        "decided before it is learned from",
         run,
         Layout(),
         sources=WORD_SOURCES,
@@ -49,19 +49,19 @@ STUDIES = (
     _study(
         "fsdd",
         "fsdd/recordings",
-        "English digits, leave one of 4 speakers out (GMM-HMM of hmmlearn: 84 % trained on 5 speakers)",
+        "English digits, leave one of 4 speakers out",
         0.90,
     ),
     _study(
         "hindi-digits",
         "hindi_words/digits",
-        "Hindi digits, leave one of 4 speakers out (hmmlearn: 89.5 %)",
+        "Hindi digits, leave one of 4 speakers out",
         0.97,
     ),
     _study(
         "hindi-words",
         "hindi_words/words",
-        "Hindi words, leave one of 4 speakers out (hmmlearn: 95.5 %)",
+        "Hindi words, leave one of 4 speakers out",
         0.99,
     ),
 )

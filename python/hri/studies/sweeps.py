@@ -26,7 +26,7 @@ Trainings = Mapping[str, Sequence[Condition]]
 
 
 def measured(result: EvaluationResult) -> Row:
-    """Accuracy by person, and the share of clips in which nobody was heard."""
+    """Accuracy by person, and the share of clips in which no speech was found."""
     unheard = [np.mean([t.decision.status == NO_INPUT for t in fold.items]) for fold in result.folds]
     per_fold = {fold.name: fold.accuracy for fold in result.folds}
     return {**statistics(per_fold), "no_input_mean": float(np.mean(unheard)), "no_input_std": float(np.std(unheard))}
@@ -69,6 +69,6 @@ def sweep(
     return found
 
 
-def told(rows: list[Row], passed: bool | None = None, **more: Any) -> dict[str, Any]:
-    """A result with what every sweep tells."""
+def result_of(rows: list[Row], passed: bool | None = None, **more: Any) -> dict[str, Any]:
+    """A result with what all sweeps have in common."""
     return {"seed": SEED, "options": WordRecognizer().get_params(), **more, "rows": rows, "passed": passed}

@@ -15,7 +15,7 @@ from hri.evaluation import EvaluationResult
 from hri.evaluation.speech import SpeechRunner
 from hri.recognition import WordRecognizer
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
-from hri.studies.sweeps import SEED, measured, told
+from hri.studies.sweeps import SEED, measured, result_of
 from hri.studies.word_features import WORD_FOLDERS, load_words
 from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
 
@@ -82,7 +82,7 @@ def _run(
                 result = EvaluationResult(recorded.labels, [runner.run(fold)[""] for fold in folds])
                 place = {"data": name, "real": num_real, "synthetic": num_synthetic}
                 rows.append({**place, **measured(result)})
-    return told(rows, synthetic_takes=TAKES)
+    return result_of(rows, synthetic_takes=TAKES)
 
 
 STUDIES = (

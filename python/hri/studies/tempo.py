@@ -11,7 +11,7 @@ from typing import Any
 from hri.evaluation.conditions import Condition
 from hri.evaluation.tempo import ChangeTempo
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
-from hri.studies.sweeps import sweep, told
+from hri.studies.sweeps import result_of, sweep
 
 FACTORS = (0.5, 0.7, 1.0, 1.4, 2.0)
 """How much faster than recorded: slow, medium at 1, fast."""
@@ -36,7 +36,7 @@ def _run(
         found = sweep(data_dir, name, tests, chosen, progress, takes=takes, folds=folds)
         for (_, trained), measured in found.items():
             rows += [{"data": name, "training": trained, "tempo": f, **measured[str(f)]} for f in FACTORS]
-    return told(rows)
+    return result_of(rows)
 
 
 STUDIES = (

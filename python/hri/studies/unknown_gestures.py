@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Gestures outside the vocabulary, hands at rest and pictures without a hand are turned down."""
+"""Rejection of out-of-vocabulary gestures, rest poses and pictures without a hand."""
 
 from __future__ import annotations
 
@@ -164,11 +164,11 @@ def _run(
 STUDIES = (
     Study(
         "unknown-gestures",
-        "gestures with half the vocabulary never trained, hands at rest, and pictures without a hand: equal error rate "
+        "gestures with half the vocabulary never trained, rest poses, and pictures without a hand: equal error rate "
         f"of rejection, shares at the default threshold; {NUM_HALVES} random halves, the score of {NUM_FOLDS} folds "
         "together",
         tuple(dict.fromkeys(material.folder for material in DATA.values())),
-        f"equal error rate < {100 * TARGET:.0f} %, of other gestures and of hands at rest",
+        f"equal error rate < {100 * TARGET:.0f} %, of other gestures and of rest poses",
         _run,
         Layout(measure="eer"),
         {"data": tuple(DATA)},

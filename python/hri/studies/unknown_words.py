@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Words outside the vocabulary, and noise, are turned down: half the words of a data set are never trained."""
+"""Rejection of out-of-vocabulary words and noise: half the words of a data set are never trained."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ Clip = tuple[NDArray[np.float32], int]
 
 @dataclass(frozen=True)
 class Turn:
-    """What was decided of one speaker's words: score, or -inf where nobody was heard; and whether accepted."""
+    """What was decided of one speaker's words: score, or -inf without speech; and whether accepted."""
 
     known: NDArray[np.float64]
     unknown: NDArray[np.float64]
@@ -91,14 +91,16 @@ def _shares(words: WordRecognizer, clips: Sequence[Clip]) -> dict[str, float]:
     return {name: status.count(name) / len(status) for name in (NO_INPUT, RECOGNISED)}
 
 
-def _train(dataset: Dataset, clips: Sequence[Clip], fold: Fold, half: Sequence[str], tell: Progress) -> WordRecognizer:
+def _train(
+    dataset: Dataset, clips: Sequence[Clip], fold: Fold, half: Sequence[str], progress: Progress
+) -> WordRecognizer:
     train = [i for i in fold.train if dataset.samples[i].label in half]
     return WordRecognizer().fit(
         [clips[i][0] for i in train],
         [dataset.samples[i].label for i in train],
         sample_rate_hz=[clips[i][1] for i in train],
         groups=[dataset.samples[i].person for i in train],
-        progress=lambda done, total: tell(f"training without {fold.name}", done, total),
+        progress=lambda done, total: progress(f"training without {fold.name}", done, total),
     )
 
 

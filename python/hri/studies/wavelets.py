@@ -43,18 +43,20 @@ def _measure(
     kind: FeatureKind, heard: dict[str, list[SpokenWord]], classifier: Sequence[str], progress: Progress
 ) -> dict[tuple[str, str], Row]:
     """By classifier and condition; trained on clean words."""
-    frames = {told: all_frames(clips, kind, told, progress) for told, clips in heard.items()}
+    frames = {
+        condition_name: all_frames(clips, kind, condition_name, progress) for condition_name, clips in heard.items()
+    }
     words = heard["clean"]
     folds = list(persons_held_out(words))
     measured: dict[tuple[str, str], Row] = {}
     for choice in classifier:
-        per_fold: dict[str, dict[str, float]] = {told: {} for told in heard}
+        per_fold: dict[str, dict[str, float]] = {condition_name: {} for condition_name in heard}
         for done, (person, train, test) in enumerate(folds):
             found = accuracies(CLASSIFIERS[choice], words, train, test, frames["clean"], frames)
-            for told, share in found.items():
-                per_fold[told][person] = share
+            for condition_name, share in found.items():
+                per_fold[condition_name][person] = share
             progress(choice, done + 1, len(folds))
-        measured |= {(choice, told): statistics(shares) for told, shares in per_fold.items()}
+        measured |= {(choice, condition_name): statistics(shares) for condition_name, shares in per_fold.items()}
     return measured
 
 
@@ -73,16 +75,21 @@ def _run(
     conditions |= {f"{name} {SNR_DB:g} dB": AddNoise([paths[name]], [SNR_DB]) for name in NOISES}
     rows = []
     for name in data:
-        heard = {told: read_words(data_dir, name, progress, takes, condition) for told, condition in conditions.items()}
+        heard = {
+            condition_name: read_words(data_dir, name, progress, takes, condition)
+            for condition_name, condition in conditions.items()
+        }
         plain = _measure(FeatureKind(HFCC), heard, classifier, within(progress, name))
         for how, family in product(method, wavelet):
             by_level = {0: plain}
             for level in LEVELS:
                 kind = METHODS[how](family, level, HFCC)
                 by_level[level] = _measure(kind, heard, classifier, within(progress, f"{name}, {family} {level}"))
-            for choice, told in plain:
-                place = {"data": name, "classifier": choice, "noise": told, "method": how, "wavelet": family}
-                rows += [{**place, "level": level, **found[choice, told]} for level, found in by_level.items()]
+            for choice, condition_name in plain:
+                place = {"data": name, "classifier": choice, "noise": condition_name, "method": how, "wavelet": family}
+                rows += [
+                    {**place, "level": level, **found[choice, condition_name]} for level, found in by_level.items()
+                ]
     return {"seed": 0, "snr_db": SNR_DB, "rows": rows, "passed": None}
 
 

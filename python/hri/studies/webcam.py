@@ -57,7 +57,7 @@ def read_conditions(clips: Sequence[str], table: Path | None = None) -> list[str
     Raises
     ------
     InvalidArgument
-        For a clip that nobody has looked at yet (names it and the file), or a file that is no such table.
+        For a clip without a condition (names it and the file), or a file that is no such table.
     """
     source = files("hri.studies").joinpath("webcam_conditions.toml") if table is None else table
     try:
@@ -188,7 +188,7 @@ _TARGET = " and ".join(f"{source} >= {100 * target:.0f} %" for source, target in
 STUDIES = (
     Study(
         "webcam-gestures",
-        f"8 dynamic gestures before webcams, {NUM_FOLDS} stratified folds (orientation histogram 1-NN: 31 %)",
+        f"8 dynamic gestures before webcams, {NUM_FOLDS} stratified folds",
         (FOLDER,),
         _TARGET,
         _stratified,

@@ -163,10 +163,10 @@ FEATURES: dict[str, FeatureKind] = {
 """By name, as the thesis compares them; "dwt3" are features of the third level's approximation."""
 
 
-def all_frames(words: Sequence[SpokenWord], kind: FeatureKind, told: str, progress: Progress) -> list[Frames]:
+def all_frames(words: Sequence[SpokenWord], kind: FeatureKind, name: str, progress: Progress) -> list[Frames]:
     """The frames of every word."""
     found = []
     for done, word in enumerate(words):
         found.append(kind.frames(word.samples, word.band_hz))
-        progress(f"{told}: features", done + 1, len(words))
+        progress(f"{name}: features", done + 1, len(words))
     return found

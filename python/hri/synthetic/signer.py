@@ -227,7 +227,7 @@ def make_gesture_corpus(
         root,
         "gesture",
         "synthetic signs",
-        "Drawn people who show digits with one hand; nobody was filmed.",
+        "Drawn people who show digits with one hand; no recordings of people.",
         {
             "program": "hri.synthetic.signer",
             "seed": seed,

@@ -259,7 +259,7 @@ def make_speech_corpus(
         root,
         "speech",
         "synthetic words",
-        "Words spoken by the espeak-ng synthesiser with made-up voices; nobody recorded them.",
+        "Words spoken by the espeak-ng synthesiser with synthetic voices; no recordings of people.",
         {
             "program": "hri.synthetic.speech",
             "seed": seed,

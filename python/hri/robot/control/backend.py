@@ -100,7 +100,7 @@ class Robot(ABC):
         """
         if not 0.0 < fps < np.inf:
             raise InvalidArgument(f"fps is {fps}, must be above 0 and finite")
-        self._stop.clear()  # before the check, which takes a while: whoever stops the robot during it means this motion
+        self._stop.clear()  # before the check, which takes a while: a stop during it concerns this motion
         require_safe(trajectory, self.table)
         names = trajectory.joint_names
         begin = self._positions_sent(names)
@@ -185,11 +185,11 @@ class Robot(ABC):
         """Do what `reset` says; the names are known to be joints."""
 
     def _tilt_deg(self) -> float:
-        """Angle between the base's z axis and the vertical; 0 for a robot that cannot fall or tell."""
+        """Angle between the base's z axis and the vertical; 0 for a robot that cannot fall or has no such sensor."""
         return 0.0
 
     def _on_feet_alone(self) -> bool:
-        """Whether nothing but feet touches the floor; True for a robot that cannot tell."""
+        """Whether nothing but feet touches the floor; True for a robot without contact sensors."""
         return True
 
     def __enter__(self) -> Self:
@@ -241,7 +241,7 @@ class Robot(ABC):
             self._event("fall", f"the base leans by {self._tilt_deg():.0f} degrees", log)
             self._upright_s = 0.0
         else:
-            self._event("stop", "stopped when told", log)
+            self._event("stop", "stopped on request", log)
         limits = self.table.limits_rad[[self.table.index(name) for name in names]]
         acceleration = self.table.max_acceleration_rad_s2
         for row in brake(positions, speeds, limits, self.table.max_speed_rad_s, acceleration, self.step_s).tolist():

@@ -1,16 +1,20 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps a robot upright and on its course while it follows a motion that knows nothing of the floor.
+"""Balance and heading control of a robot on its feet, for motions recorded without feedback.
 
-A motion recorded on one robot, played on another whose joints are a degree off, ends in a fall. What is missing is what
-the robot's gyroscope tells: how the base leans and turns beyond what the joints make it. The ankles of loaded feet lean
-the robot back, in proportion to lean and its rate. What a leg's joints are off by shows whenever it stands alone with
-its sole flat: its ankle learns that and keeps it in the air too, so that the foot lands as flat as the motion means it
-to. An ankle does not tilt a sole that stands on an edge any further: that moves the foot, not the robot, and holds it
-on the edge until it falls over it. The hips of loaded legs go on turning as long as the robot is off its course, and
-turn back while their foot is in the air: two feet on the floor turn alike, as feet that twist against one another slip.
-None of that begins before the feet alone carry the robot: while it sits and pushes itself up with its hands, an ankle
-that moves only tilts its foot onto an edge; `getting_up` tells what helps then.
+A motion recorded on one robot, played on another whose joints have an offset of a degree, ends in a fall. The feedback
+is the gyroscope's: tilt and heading of the base beyond what the joint angles imply.
+
+- Ankle strategy: the ankles of loaded feet counteract tilt and tilt rate proportionally.
+- Integral correction: the joint offset of a leg is observed whenever it stands alone with its sole flat; its ankle
+  corrects it, in the swing phase too, so that the foot lands as flat as the motion intends.
+- An ankle does not tilt a sole that stands on an edge any further: that moves the foot, not the robot, until it falls
+  over that edge.
+- Heading: the yaw joints of loaded hips correct the heading error, and return while their foot is in the air; with two
+  feet on the floor both turn alike, as feet that twist against one another slip.
+
+Nothing acts before the feet alone carry the robot: while it sits and pushes itself up with its hands, an ankle only
+tilts its foot onto an edge; see `getting_up`.
 """
 
 from __future__ import annotations
@@ -28,15 +32,15 @@ Floats = NDArray[np.float64]
 
 _LEAN = 0.5  # rad of an ankle per rad of lean
 _LEAN_RATE_S = 0.05  # rad of an ankle per rad/s of lean
-_HEADING_PER_S = 3.0  # rad/s of a loaded hip per rad off the course
+_HEADING_PER_S = 3.0  # rad/s of a loaded hip per rad of heading error
 _BACK_PER_S = 8.0  # a hip without load turns back at this many times its turn, per second
 _MOST_ANKLE_RAD = 0.12
 _MOST_HIP_RAD = 0.4
 _MOST_ANKLE_SPEED = 2.0  # rad/s
 _MOST_HIP_SPEED = 1.0
-_LEARN_PER_S = 1.0  # an ankle comes nearer to what its leg is off by at this many times the distance
+_LEARN_PER_S = 1.0  # gain of the integral correction of a leg's joint offset
 _MOST_LEARNED_RAD = 0.07
-_ALONE = (0.5, 0.9)  # share of the load from which a leg tells something of itself, and all
+_ALONE = (0.5, 0.9)  # share of the load from which a leg's offset is observed, and fully
 _FLAT = (1.0, 0.7)  # centre of pressure, 1 at the sole's edge: the same
 _EDGE = (0.6, 0.95)  # from which an ankle does not tilt the sole further about this edge, or not at all
 _LOADED = 0.3  # share of the load with which a leg counts in full

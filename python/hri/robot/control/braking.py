@@ -23,7 +23,7 @@ def brake(
     Parameters
     ----------
     positions_rad, speeds_rad_s : ndarray, shape (joints,)
-        Where the joints are; speeds above the most are taken for it.
+        Where the joints are; speeds above the limit are clipped to it.
     limits_rad : ndarray, shape (joints, 2)
         A joint brakes harder where it would pass one, up to the most acceleration.
     max_speed_rad_s, max_acceleration_rad_s2, step_s : float

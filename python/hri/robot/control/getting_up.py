@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Brings a robot that gets up from the floor over its feet: a degree too little in its joints and it sits down again.
+"""Moves the centre of mass of a robot that gets up from the floor over its feet.
 
-Hands push it up until its feet carry it. How much they carry tells how far its centre of mass is behind them; leaning
-its upper body forward brings that over the feet. An ankle would do less: it tilts a foot that carries little.
+Hands push it up until its feet carry it. The load on the hands shows how far the centre of mass is behind the feet;
+leaning the upper body forward moves it over them. An ankle would do less: it tilts a foot that carries little.
 """
 
 from __future__ import annotations

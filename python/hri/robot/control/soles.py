@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What the touch sensors in a robot's soles tell: how much each carries, and how near to its edge it carries it."""
+"""Load and centre of pressure of each sole, from its touch sensors."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hri.robot.model.joints import JointTable
 Floats = NDArray[np.float64]
 
 _SMOOTH_S = 0.02  # a force on a sole chatters: what counts is its mean over about this time
-_TOUCHING = 0.04  # share of the weight below which a sole does not tell where its load is
+_TOUCHING = 0.04  # share of the weight below which the centre of pressure is not known
 
 
 class Soles:
@@ -46,7 +46,7 @@ class Soles:
         self.off_middle = [[0.0, 0.0] for _ in self._middles]
 
     def feel(self, pressures: Floats, elapsed_s: float) -> None:
-        """Take what the sensors tell.
+        """Take the readings of the sensors.
 
         Parameters
         ----------
@@ -63,5 +63,5 @@ class Soles:
             moments, shape = self._moments[foot], zip(centre, self._middles[foot], self._halves[foot], strict=True)
             for axis, (at, middle, half) in enumerate(shape):
                 moments[axis] += part * (force * (at - middle) / half - moments[axis])
-            told = load > self._touching_n
-            self.off_middle[foot] = [min(max(moment / load, -1.0), 1.0) if told else 0.0 for moment in moments]
+            known = load > self._touching_n
+            self.off_middle[foot] = [min(max(moment / load, -1.0), 1.0) if known else 0.0 for moment in moments]

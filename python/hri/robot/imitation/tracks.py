@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Hands of a person over time, in pixels, with the nose or the shoulders to tell where the body is."""
+"""Hands of a person over time, in pixels, with the nose or the shoulders as reference."""
 
 from __future__ import annotations
 

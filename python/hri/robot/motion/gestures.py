@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What the robot shows for a recognised digit or sign: key poses, joined with least jerk."""
+"""The robot's motion for a recognised digit or sign: key poses joined by minimum-jerk trajectories."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Gesture:
     period_s: float
 
     def trajectory(self) -> Trajectory:
-        """Join the key poses with least jerk."""
+        """Join the key poses by minimum-jerk trajectories."""
         rows = round(self.times_s[-1] / self.period_s) + 1
         times_s = np.arange(rows) * self.period_s
         positions = minimum_jerk(self.times_s, self.poses_rad, times_s)

@@ -31,7 +31,7 @@ _SAME = {
 def with_nao_arms(trajectory: Trajectory) -> Trajectory:
     """Give a motion of HOAP-2's arms and head to NAO's joints.
 
-    Nothing is kept within NAO's limits: `check_trajectory(found, NAO)` tells whether NAO can make the motion, whose
+    Nothing is kept within NAO's limits: `check_trajectory(found, NAO)` reports whether NAO can make the motion, whose
     elbows bend less (88.5 degrees instead of 115) and arms rise less far to the side.
 
     Parameters

@@ -170,7 +170,7 @@ def _are_plain_counts(text: NDArray[np.uint8], cells: int) -> bool:
 
 
 def _parse_lines(lines: list[str], table: JointTable) -> tuple[float, NDArray[np.float64], list[Finding]]:
-    """Read row by row, to tell what is wrong with which cell."""
+    """Read row by row, to name the faulty cells."""
     while lines and not lines[-1].strip():
         lines.pop()
     first, last = _counted_range(table)

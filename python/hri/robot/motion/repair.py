@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Repairs single cells of a pulse CSV file, and tells every cell that it changed."""
+"""Repairs single cells of a pulse CSV file, and reports every cell that it changed."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from hri.robot.model.joints import HOAP2, JointTable, Shape
 from hri.robot.motion.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
-_LOOK_EVERY_RAD = 0.08  # of the joint that moves farthest
+_LOOK_EVERY_RAD = 0.08  # of the joint with the largest displacement
 _TOLERANCE_M = 0.001
 
 
@@ -140,6 +140,6 @@ def _box_in_box(turn_a: Floats, half_a: Floats, turn_b: Floats, half_b: Floats, 
             reach = half_a[i1] * sizes[:, i2, j] + half_a[i2] * sizes[:, i1, j]
             reach += half_b[j1] * sizes[:, i, j2] + half_b[j2] * sizes[:, i, j1]
             apart = np.abs(along_a[:, i2] * cosines[:, i1, j] - along_a[:, i1] * cosines[:, i2, j])
-            parallel = length < 1e-6  # then the faces' axes tell as much
+            parallel = length < 1e-6  # then the axes of the faces suffice
             depth = np.where(parallel, depth, np.minimum(depth, (reach - apart) / np.maximum(length, 1e-6)))
     return depth

@@ -31,7 +31,7 @@ def spline(
 ) -> Trajectory:
     """Pass through key poses along cubic pieces with continuous acceleration, at rest at both ends.
 
-    Unlike with least jerk from key to key (`minimum_jerk`) the joints do not stop at the keys between.
+    Unlike minimum-jerk motion from key to key (`minimum_jerk`) the joints do not stop at the keys between.
 
     Parameters
     ----------
@@ -114,12 +114,12 @@ def _excess(trajectory: Trajectory, table: JointTable) -> float:
 
 
 def concatenate(trajectories: Sequence[Trajectory], blend_s: float = 0.5, table: JointTable = HOAP2) -> Trajectory:
-    """Play motions one after another; from the end of each a blend with least jerk leads to the begin of the next.
+    """Play motions one after another; from the end of each a minimum-jerk blend leads to the begin of the next.
 
     Parameters
     ----------
     trajectories : sequence of Trajectory
-        At least one, all of the same joints in any order; the first one's period is taken for all.
+        At least one, all of the same joints in any order; the first one's period is used for all.
     blend_s : float
         Longer where the limits of speed and acceleration need it, none where the poses are the same.
     table : JointTable

@@ -80,7 +80,7 @@ def write_gallery(
 
 
 def gallery_page(gestures: Mapping[str, Gesture]) -> str:
-    """Text of the page; its last line holds a digest of all motions, so that a stale page can be told."""
+    """Text of the page; its last line holds a digest of all motions, so that a stale page can be detected."""
     rows = [
         f"| `{gesture.name}` | {gesture.meaning} | ![{gesture.name}]({IMAGES}/{gesture.name}.jpg) | {gesture.lacks} |\n"
         for gesture in gestures.values()

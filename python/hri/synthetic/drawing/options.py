@@ -120,7 +120,7 @@ class SignerOptions:
                 raise InvalidArgument(f"{name} is {values}, must be three numbers in 0..{high:g}")
 
     def asked_for(self) -> dict[str, Any]:
-        """The fields that differ from the default, as a manifest tells them."""
+        """The fields that differ from the default, as a manifest holds them."""
         given = {f.name: value for f in fields(self) if (value := getattr(self, f.name)) != f.default}
         return {name: list(value) if isinstance(value, tuple) else value for name, value in given.items()}
 
