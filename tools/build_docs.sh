@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 mkdir -p build/docs
 doxygen docs/Doxyfile
-.venv/bin/python -W error::UserWarning -m pdoc --docformat numpy --output-directory build/docs/python hri
+.venv/bin/python tools/build_python_docs.py build/docs/python
 for page in cpp/index.html cpp/annotated.html python/hri.html; do
   [[ -s build/docs/$page ]] || { echo "build/docs/$page was not written" >&2; exit 1; }
 done
