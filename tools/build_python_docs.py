@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Write the Python reference into the folder given, by pdoc. A module that cannot be imported and a warning are errors."""
+"""Write the Python reference by pdoc into a folder. A module that cannot be imported and a warning are errors."""
 
 from __future__ import annotations
 
