@@ -64,6 +64,7 @@ void bind_decision(py::module_& m) {
       .def_readonly("label", &hri::Decision::label)
       .def_readonly("confidence", &hri::Decision::confidence)
       .def_readonly("score", &hri::Decision::score)
+      .def_readonly("class_threshold", &hri::Decision::class_threshold)
       .def_readonly("nbest", &hri::Decision::nbest)
       .def_readonly("notes", &hri::Decision::notes);
 }

@@ -6,11 +6,12 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 
 import pytest
 
 from hri.core.errors import InvalidArgument
-from hri.fusion import RULES, FusionOptions, fuse
+from hri.fusion import ASK, RULES, FusionOptions, fuse
 from hri.recognition import Decision, NBest
 
 MODES = ("speech", "gesture")
@@ -78,6 +79,64 @@ def test_stop_wins_from_either_mode(rule: str) -> None:
     assert fuse(heard(**stop), seen(**go), rule=rule, options=halt).rule.startswith("stop") is False
     rejected = fuse(heard("unknown", **stop), seen(**go), rule=rule)
     assert not rejected.rule.startswith("stop")
+
+
+def unsure_stop(mode: str, threshold: float = 0.5) -> Decision:
+    """STOP at 43 %, below what training asks of it."""
+    return replace(decided(mode, stop=0.43, a=0.3, b=0.27), class_threshold=threshold)
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("mode", MODES)
+def test_an_unsure_stop_beside_a_sure_other_class_asks(rule: str, mode: str) -> None:
+    other = decided({"speech": "gesture", "gesture": "speech"}[mode], **{"7": 0.97, "a": 0.03})
+    stop = unsure_stop(mode)
+    fused = fuse(rule=rule, **{stop.mode: stop, other.mode: other})
+    assert (fused.label, fused.status, fused.confidence) == (ASK, ASK, 0.0)
+    assert fused.rule == f"ask: stop unsure in {mode}, {other.mode} sure of another class"
+    assert [entry.label for entry in fused.nbest] == ["stop", "7"]
+    at_threshold = replace(stop, class_threshold=stop.confidence)
+    assert fuse(rule=rule, **{stop.mode: at_threshold, other.mode: other}).label == "stop"
+    lenient = FusionOptions(stop_threshold=0.4)
+    assert fuse(rule=rule, options=lenient, **{stop.mode: stop, other.mode: other}).label == "stop"
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_an_unsure_stop_wins_over_what_is_not_sure(mode: str) -> None:
+    name = {"speech": "gesture", "gesture": "speech"}[mode]
+    stop = unsure_stop(mode)
+    for other in (
+        None,
+        decided(name, a=0.7, b=0.3),  # below its threshold
+        decided(name, "unknown", a=0.99, b=0.01),  # rejected
+        Decision(name, "no_input", "no_input", 0.0),
+        unsure_stop(name),
+    ):
+        fused = fuse(**{mode: stop, name: other})
+        assert (fused.label, fused.status) == ("stop", "recognised") and fused.rule.startswith("stop: unsure in")
+
+
+def test_a_sure_stop_wins_over_an_unsure_one_and_over_everything() -> None:
+    sure = replace(seen(stop=0.9, a=0.1), class_threshold=0.8)
+    assert fuse(unsure_stop("speech"), sure).rule == "stop: recognised in gesture"
+    assert fuse(heard(a=1.0), sure).label == "stop"
+
+
+def test_swapped_modes_are_refused() -> None:
+    with pytest.raises(InvalidArgument, match=r"^speech is a decision of mode 'gesture': .*WordRecognizer"):
+        fuse(GESTURE, SPEECH)
+    with pytest.raises(InvalidArgument, match=r"^gesture is a decision of mode 'speech': .*GestureRecognizer"):
+        fuse(None, SPEECH)
+
+
+@pytest.mark.parametrize("wrong", ["seven", 0.9, ("7", 0.9)])
+def test_what_is_no_decision_is_refused_by_name(wrong: object) -> None:
+    with pytest.raises(TypeError, match=rf"^speech must be a Decision or None.* got {type(wrong).__name__}$"):
+        fuse(wrong, GESTURE)
+    with pytest.raises(TypeError, match=r"^gesture must be a Decision or None"):
+        fuse(SPEECH, wrong)
+    with pytest.raises(TypeError, match=r"^options must be a FusionOptions"):
+        fuse(SPEECH, GESTURE, options=wrong)
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -169,6 +228,7 @@ def test_equal_classes_come_in_the_order_of_their_labels(rule: str) -> None:
         *((f"{name}_{mode}", v) for name in ("threshold", "reliability") for mode in MODES for v in (-0.1, 1.1, NAN)),
         *((f"weight_{mode}", v) for mode in MODES for v in (0.0, -1.0, NAN, math.inf)),
         *(("probability_floor", v) for v in (-0.1, 0.5, NAN)),
+        *(("stop_threshold", v) for v in (-0.1, 1.1, NAN)),
         ("stop_labels", "stop"),  # every letter of it would be a label
     ],
 )

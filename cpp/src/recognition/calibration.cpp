@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "hri/core/error.hpp"
@@ -47,6 +48,23 @@ Eigen::Index argmax(const VectorF& scores) {
   return best;
 }
 
+// The threshold of one class from the confidences of held-out decisions for it: `right` ones, and
+// `wrong` ones among `num_others` samples of other classes.
+float class_threshold(std::vector<float> right, std::vector<float> wrong, std::size_t num_others) {
+  std::sort(right.begin(), right.end());
+  std::sort(wrong.rbegin(), wrong.rend());
+  const auto allowed = [](double rate, std::size_t count) {
+    return static_cast<std::size_t>(rate * static_cast<double>(count));
+  };
+  float threshold = 0;
+  const std::size_t false_alarms = allowed(Calibration::kMaxFalseAlarmRate, num_others);
+  if (false_alarms < wrong.size())
+    threshold = std::nextafter(wrong[false_alarms], std::numeric_limits<float>::max());
+  if (!right.empty())
+    threshold = std::min(threshold, right[allowed(Calibration::kMaxMissRate, right.size())]);
+  return std::max(threshold, Calibration::kMinClassThreshold);
+}
+
 }  // namespace
 
 const char* status_name(DecisionStatus status) {
@@ -74,6 +92,42 @@ Calibration Calibration::fit(const std::vector<HeldOut>& held_out, double false_
   std::sort(right.begin(), right.end());
   const auto rank = static_cast<std::size_t>(false_reject_rate * static_cast<double>(right.size()));
   result.threshold_ = static_cast<double>(right[std::min(rank, right.size() - 1)]);
+
+  const auto num_classes = static_cast<std::size_t>(held_out.front().scores.size());
+  std::vector<std::vector<float>> right_of(num_classes);
+  std::vector<std::vector<float>> wrong_of(num_classes);
+  std::vector<std::size_t> samples_of(num_classes);
+  for (const HeldOut& h : held_out) {
+    ++samples_of[static_cast<std::size_t>(h.truth)];
+    if (h.score < static_cast<float>(result.threshold_)) continue;  // rejected: no false alarm
+    const Eigen::Index best = argmax(h.scores);
+    auto& list = best == h.truth ? right_of : wrong_of;
+    list[static_cast<std::size_t>(best)].push_back(result.posterior(h.scores)[best]);
+  }
+  result.class_thresholds_.resize(static_cast<Eigen::Index>(num_classes));
+  for (std::size_t c = 0; c < num_classes; ++c) {
+    result.class_thresholds_[static_cast<Eigen::Index>(c)] =
+        class_threshold(right_of[c], wrong_of[c], held_out.size() - samples_of[c]);
+  }
+  return result;
+}
+
+Calibration Calibration::with_class(int index) const {
+  Calibration result = *this;
+  const Eigen::Index n = class_thresholds_.size();
+  if (n == 0) return result;
+  result.class_thresholds_.resize(n + 1);
+  result.class_thresholds_ << class_thresholds_.head(index), class_thresholds_.maxCoeff(),
+      class_thresholds_.tail(n - index);
+  return result;
+}
+
+Calibration Calibration::without_class(int index) const {
+  Calibration result = *this;
+  const Eigen::Index n = class_thresholds_.size();
+  if (n == 0) return result;
+  result.class_thresholds_.resize(n - 1);
+  result.class_thresholds_ << class_thresholds_.head(index), class_thresholds_.tail(n - 1 - index);
   return result;
 }
 
@@ -98,12 +152,15 @@ Decision Calibration::decide(const VectorF& scores, float score,
   d.label = accepted ? d.nbest.front().label : status_name(d.status);
   d.confidence = d.nbest.front().probability;
   d.score = score;
+  if (class_thresholds_.size() > 0) d.class_threshold = class_thresholds_[order.front()];
   return d;
 }
 
 void Calibration::write(ModelFile& file) const {
   file.set_number("calibration.scale", scale_);
   file.set_number("calibration.threshold", threshold_);
+  if (class_thresholds_.size() > 0)
+    file.set_vector("calibration.class_thresholds", class_thresholds_);
 }
 
 Calibration Calibration::read(const ModelFile& file) {
@@ -111,6 +168,14 @@ Calibration Calibration::read(const ModelFile& file) {
   result.scale_ = file.number("calibration.scale");
   result.threshold_ = file.number("calibration.threshold");
   if (!(result.scale_ > 0)) fail(ErrorKind::format, "calibration.scale must be positive");
+  if (file.has("calibration.class_thresholds")) {
+    const VectorF thresholds = file.vector_f("calibration.class_thresholds");
+    if (static_cast<std::size_t>(thresholds.size()) != file.text_list("labels").size() ||
+        thresholds.minCoeff() < 0 || thresholds.maxCoeff() > 1) {
+      fail(ErrorKind::format, "calibration.class_thresholds must be one number in 0..1 a label");
+    }
+    result.class_thresholds_ = thresholds;
+  }
   return result;
 }
 

@@ -3,6 +3,6 @@
 """Fusion of speech and gesture; knows decisions only."""
 
 from hri.fusion.fuse import fuse
-from hri.fusion.options import RULES, FusedDecision, FusionOptions
+from hri.fusion.options import ASK, RULES, FusedDecision, FusionOptions
 
-__all__ = ["RULES", "FusedDecision", "FusionOptions", "fuse"]
+__all__ = ["ASK", "RULES", "FusedDecision", "FusionOptions", "fuse"]

@@ -7,6 +7,7 @@ from __future__ import annotations
 from hri.core.errors import InvalidArgument
 from hri.fusion import vectors
 from hri.fusion.options import RULES, FusedDecision, FusionOptions
+from hri.fusion.stop import decide_stop
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision
 
 _VECTOR_RULES = {
@@ -23,12 +24,13 @@ def fuse(
     rule: str = "table_6_9",
     options: FusionOptions | None = None,
 ) -> FusedDecision:
-    """Fuse what was heard and what was seen.
+    """Fuse the decisions of both modes.
 
     Parameters
     ----------
     speech, gesture : Decision or None
-        None, or a decision without input, leaves the other mode alone.
+        What a `WordRecognizer` and what a `GestureRecognizer` decided. None, or a decision without input, leaves the
+        other mode alone.
     rule : {"table_6_9", "weighted_sum", "product", "dempster_shafer"}
         Table 6.9 takes the class of the surer mode; the others combine the whole score vectors.
     options : FusionOptions, optional
@@ -36,19 +38,26 @@ def fuse(
     Returns
     -------
     FusedDecision
-        ``rule`` says which case fired.
+        ``rule`` says which case fired. Its status is "ask" where a stop label is unsure and the other mode is sure of
+        another class: the robot should rest, and ask.
 
     Raises
     ------
     InvalidArgument
-        For an unknown rule.
+        For an unknown rule, or a decision of the other mode, as when `speech` and `gesture` are swapped.
+    TypeError
+        For an argument that is no decision; names it, and says what would work.
     """
     if rule not in RULES:
         raise InvalidArgument(f"rule is {rule!r}, must be one of {', '.join(RULES)}")
+    _require_mode(speech, "speech")
+    _require_mode(gesture, "gesture")
+    if options is not None and not isinstance(options, FusionOptions):
+        raise TypeError(f"options must be a FusionOptions or None, got {type(options).__name__}")
     options = options or FusionOptions()
-    for decision in (speech, gesture):
-        if decision is not None and decision.status == RECOGNISED and decision.label in options.stop_labels:
-            return _as_decided(decision, f"stop: recognised in {decision.mode}", speech, gesture)
+    stopped = decide_stop(speech, gesture, options)
+    if stopped is not None:
+        return stopped
     heard = speech if _has_input(speech) else None
     seen = gesture if _has_input(gesture) else None
     if heard is None and seen is None:
@@ -62,6 +71,22 @@ def fuse(
     if rule == "table_6_9":
         return _table_6_9(heard, seen, options)
     return _by_vectors(heard, seen, rule, options)
+
+
+def _require_mode(decision: Decision | None, argument: str) -> None:
+    value: object = decision  # what the caller gave, whatever the annotation says
+    if value is None:
+        return
+    recognizer = {"speech": "WordRecognizer", "gesture": "GestureRecognizer"}[argument]
+    if not isinstance(value, Decision):
+        raise TypeError(
+            f"{argument} must be a Decision or None, as {recognizer}.recognise gives it, got {type(value).__name__}"
+        )
+    if value.mode != argument:
+        raise InvalidArgument(
+            f"{argument} is a decision of mode {value.mode!r}: give what {recognizer}.recognise decided; "
+            "the call is fuse(speech, gesture)"
+        )
 
 
 def _has_input(decision: Decision | None) -> bool:

@@ -8,8 +8,12 @@ import math
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from hri.core.display import html_table, summary
 from hri.core.errors import InvalidArgument
-from hri.recognition.decision import Decision, NBest, plain
+from hri.recognition.decision import Decision, NBest, nbest_table, plain, rivals
+
+ASK = "ask"
+"""Status and label where the robot should rest and ask."""
 
 RULES = ("table_6_9", "weighted_sum", "product", "dempster_shafer")
 
@@ -29,7 +33,11 @@ class FusionOptions:
     probability_floor : float
         No class falls below this in the product rule, 0..0.1: one mode alone cannot veto a class.
     stop_labels : tuple of str
-        Recognised in either mode, these win over everything.
+        Recognised in either mode, these win over everything; see `stop_threshold`.
+    stop_threshold : float, optional
+        Confidence from which a stop label is sure, 0..1. None takes ``Decision.class_threshold``, which training chose
+        from the label's own false alarms and misses. Below it, a mode that is sure of another class makes the answer
+        "ask".
     """
 
     threshold_gesture: float = 0.8
@@ -40,6 +48,7 @@ class FusionOptions:
     reliability_speech: float = 0.9
     probability_floor: float = 1e-3
     stop_labels: tuple[str, ...] = ("stop",)
+    stop_threshold: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("threshold_gesture", "threshold_speech", "reliability_gesture", "reliability_speech"):
@@ -50,6 +59,10 @@ class FusionOptions:
                 raise InvalidArgument(f"FusionOptions.{name} must be positive and finite, got {getattr(self, name)}")
         if not 0 <= self.probability_floor <= 0.1:
             raise InvalidArgument(f"FusionOptions.probability_floor must lie in 0..0.1, got {self.probability_floor}")
+        if self.stop_threshold is not None and not 0 <= self.stop_threshold <= 1:
+            raise InvalidArgument(
+                f"FusionOptions.stop_threshold must lie in 0..1 or be None, got {self.stop_threshold}"
+            )
         labels: object = self.stop_labels
         if isinstance(labels, str):
             raise InvalidArgument(f"FusionOptions.stop_labels must be a tuple of labels, got {labels!r}")
@@ -62,11 +75,13 @@ class FusedDecision:
     Attributes
     ----------
     label, status, confidence
-        As in `Decision`.
+        As in `Decision`; besides, all of them may say "ask", with confidence 0: a stop label is unsure, and the other
+        mode is sure of another class.
     rule : str
         The rule that fired, for example "table 6.9: only gesture above its threshold".
     nbest : tuple of NBest
-        Fused probabilities of every class, falling; for table 6.9 the list of the mode that won.
+        Fused probabilities of every class, falling; for table 6.9 the list of the mode that won; for "ask" the two
+        classes to choose between.
     speech, gesture : Decision or None
         What was fused.
     """
@@ -78,6 +93,13 @@ class FusedDecision:
     nbest: tuple[NBest, ...] = field(default=())
     speech: Decision | None = None
     gesture: Decision | None = None
+
+    def __repr__(self) -> str:
+        told = rivals(self.nbest, self.label)
+        return summary("FusedDecision", repr(self.label), f"{self.confidence:.3f}", repr(self.rule), told)
+
+    def _repr_html_(self) -> str:
+        return html_table(*nbest_table(self.nbest), repr(self))
 
     def to_dict(self) -> dict[str, Any]:
         """As plain values that can be written as JSON; a score that is not finite is None."""

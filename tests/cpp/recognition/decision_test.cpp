@@ -58,6 +58,82 @@ TEST(Calibration, RejectsTheShareOfRightAnswersItWasAllowed) {
   EXPECT_THROW(Calibration::fit(samples, 0.9), InvalidArgument);
 }
 
+// Of `count` samples of class 0 and as many of class 1, all decided with margin `right`, but
+// `num_wrong` of class 1 that are taken for class 0 with margin `wrong`.
+std::vector<HeldOut> with_false_alarms(int count, int num_wrong, float right, float wrong) {
+  std::vector<HeldOut> result;
+  for (int i = 0; i < 2 * count; ++i) {
+    const int truth = i % 2;
+    const bool mistaken = truth == 1 && i / 2 < num_wrong;
+    const int best = mistaken ? 0 : truth;
+    VectorF scores = VectorF::Zero(2);
+    scores[best] = mistaken ? wrong : right;
+    result.push_back({scores, truth, 1});
+  }
+  return result;
+}
+
+TEST(Calibration, PutsEachClassAboveItsFalseAlarms) {
+  // Class 0 has 5 % of false alarms, all less sure than right decisions; class 1 has none.
+  const std::vector<HeldOut> samples = with_false_alarms(1000, 50, 4, 2);
+  const Calibration c = Calibration::fit(samples, 0.02);
+  const std::vector<std::string> labels{"stop", "go"};
+  int false_alarms = 0;
+  int hits = 0;
+  for (const HeldOut& s : samples) {
+    const Decision d = c.decide(s.scores, s.score, labels);
+    if (d.label != "stop") {
+      EXPECT_EQ(d.class_threshold, Calibration::kMinClassThreshold);
+      continue;
+    }
+    const bool sure = d.confidence >= d.class_threshold;
+    (s.truth == 0 ? hits : false_alarms) += static_cast<int>(sure);
+  }
+  EXPECT_EQ(false_alarms, 0);
+  EXPECT_EQ(hits, 1000);
+}
+
+TEST(Calibration, MissesFewOfAClassEvenIfItsFalseAlarmsAreSurer) {
+  const Calibration c = Calibration::fit(with_false_alarms(1000, 50, 3, 6), 0.02);
+  VectorF right(2);
+  right << 3, 0;
+  const Decision d = c.decide(right, 1, {"stop", "go"});
+  EXPECT_GE(d.confidence, d.class_threshold);
+  EXPECT_GT(d.class_threshold, Calibration::kMinClassThreshold);
+}
+
+TEST(Calibration, KeepsClassThresholdsWithTheirClasses) {
+  const Calibration two = Calibration::fit(with_false_alarms(1000, 50, 4, 2), 0.02);
+  const float stop = two.class_thresholds()[0];
+  const Calibration three = two.with_class(1);
+  EXPECT_EQ(three.class_thresholds()[0], stop);
+  EXPECT_EQ(three.class_thresholds()[1], stop);
+  EXPECT_EQ(three.class_thresholds()[2], two.class_thresholds()[1]);
+  EXPECT_EQ(three.without_class(1).class_thresholds(), two.class_thresholds());
+  EXPECT_EQ(two.without_class(0).class_thresholds()[0], two.class_thresholds()[1]);
+  EXPECT_EQ(Calibration().with_class(0).class_thresholds().size(), 0);
+}
+
+TEST(Calibration, ReadsClassThresholdsBackAndDoesWithout) {
+  ModelFile file;
+  file.set_text_list("labels", {"go", "stop"});
+  const Calibration saved = Calibration::fit(with_false_alarms(1000, 50, 4, 2), 0.02);
+  saved.write(file);
+  EXPECT_EQ(Calibration::read(file).class_thresholds(), saved.class_thresholds());
+
+  ModelFile older;
+  older.set_number("calibration.scale", 1);
+  older.set_number("calibration.threshold", 0);
+  EXPECT_EQ(Calibration::read(older).class_thresholds().size(), 0);
+
+  for (const std::vector<float>& wrong : {std::vector<float>{0.5F}, {0.5F, 1.5F}, {-0.1F, 0.5F}}) {
+    file.set_vector(
+        "calibration.class_thresholds",
+        VectorF(Eigen::Map<const VectorF>(wrong.data(), static_cast<Eigen::Index>(wrong.size()))));
+    EXPECT_THROW(Calibration::read(file), FormatError);
+  }
+}
+
 TEST(Calibration, DecidesWithAnNBestListThatFallsAndSumsToOne) {
   VectorF scores(3);
   scores << 1, 3, 2;

@@ -4,7 +4,8 @@
 // From raw scores to probabilities and to rejection, learned on held-out people.
 // Posterior by temperature scaling, P(c) = softmax(a s_c) (Guo et al., "On calibration of modern
 // neural networks", ICML 2017); rejection by a quantile of the score of correct held-out
-// decisions.
+// decisions. Each class has an operating point of its own besides, from its false alarms and
+// misses.
 #pragma once
 
 #include <string>
@@ -26,11 +27,20 @@ struct HeldOut {
 
 class HRI_API Calibration {
  public:
+  /// Share of held-out samples of other classes that may be taken for a class at or above its
+  /// threshold, and share of its own right decisions that may lie below.
+  static constexpr double kMaxFalseAlarmRate = 0.005;
+  static constexpr double kMaxMissRate = 0.05;
+  /// No class threshold lies below: a decision that is more likely wrong than right is not sure.
+  static constexpr float kMinClassThreshold = 0.5F;
+
   Calibration() = default;
 
   /// Fits the scale to the least negative log-likelihood of `held_out`, and the threshold to the
-  /// quantile `false_reject_rate` (0..1) of the score of its correct decisions. Falls back to
-  /// scale 1 and no threshold where `held_out` is empty or never right.
+  /// quantile `false_reject_rate` (0..1) of the score of its correct decisions. A class threshold
+  /// is the least confidence at which the class keeps to kMaxFalseAlarmRate, or the largest that
+  /// keeps to kMaxMissRate where both cannot be met, but at least kMinClassThreshold. Falls back to
+  /// scale 1 and no thresholds where `held_out` is empty or never right.
   static Calibration fit(const std::vector<HeldOut>& held_out, double false_reject_rate);
 
   /// softmax(scale * scores), computed in float.
@@ -42,6 +52,14 @@ class HRI_API Calibration {
 
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] double threshold() const { return threshold_; }
+  /// One a label (see Decision::class_threshold); empty where training found none.
+  [[nodiscard]] const VectorF& class_thresholds() const { return class_thresholds_; }
+
+  /// With one class more, which gets the number `index`; as nothing was held out of it, its
+  /// threshold is the largest of the others.
+  [[nodiscard]] Calibration with_class(int index) const;
+  /// Without one class.
+  [[nodiscard]] Calibration without_class(int index) const;
 
   void write(ModelFile& file) const;
   static Calibration read(const ModelFile& file);
@@ -49,6 +67,7 @@ class HRI_API Calibration {
  private:
   double scale_ = 1.0;
   double threshold_ = -1e30;
+  VectorF class_thresholds_;
 };
 
 }  // namespace hri

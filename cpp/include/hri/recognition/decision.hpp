@@ -33,8 +33,10 @@ struct Decision {
   DecisionStatus status = DecisionStatus::no_input;
   std::string label = "no_input";  ///< class name, or "unknown" or "no_input"
   float confidence = 0;            ///< probability of the best class, 0..1; 0 without input
-  float score = 0;           ///< what the rejection threshold is compared with (see the recogniser)
-  std::vector<NBest> nbest;  ///< every class in falling order; empty without input
+  float score = 0;  ///< what the rejection threshold is compared with (see the recogniser)
+  float class_threshold = 0;  ///< confidence from which the best class is sure, by its false alarms
+                              ///< and misses on held-out people; 0 where training found none
+  std::vector<NBest> nbest;   ///< every class in falling order; empty without input
   std::vector<std::string> notes;  ///< what was converted or assumed on the way
 };
 

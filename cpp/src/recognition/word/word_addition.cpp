@@ -38,6 +38,7 @@ WordRecognizer WordRecognizer::with_word(const std::vector<WordSample>& samples,
   WordRecognizer result = *this;
   result.labels_ = sorted_labels(labels);
   const int index = label_index(result.labels_, label);
+  result.calibration_ = calibration_.with_class(index);
 
   const WordFrames frames(*this);
   std::vector<std::vector<MatrixF>> per_stream(streams_.size());
@@ -67,6 +68,7 @@ WordRecognizer WordRecognizer::without_word(const std::string& label) const {
   const int index = label_index(labels_, label);
   WordRecognizer result = *this;
   result.labels_.erase(result.labels_.begin() + index);
+  result.calibration_ = calibration_.without_class(index);
   for (WordStream& stream : result.streams_) stream.models = stream.models.without_class(index);
   return result;
 }
