@@ -7,6 +7,7 @@ The names below are loaded on first use, so that ``import hri`` pulls in neither
 
 from __future__ import annotations
 
+import logging
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -74,6 +75,9 @@ __all__ = [
     "render_video",
     "train",
 ]
+
+
+logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 
 def __getattr__(name: str) -> Any:

@@ -31,7 +31,7 @@ PYTHON = {
     "vision": {"core", "features", "media"},
     "datasets": {"core", "media"},
     "synthetic": {"core", "media", "datasets"},
-    "recognition": {"core", "vision"},
+    "recognition": {"core", "media", "vision"},
     "live": {"core", "media", "datasets", "vision", "recognition"},
     "evaluation": {"core", "media", "datasets", "recognition"},
     "fusion": {"core", "recognition.decision"},

@@ -38,8 +38,8 @@ def strange(slope: float, seed: int) -> np.ndarray:
 def test_words_that_were_named_are_learned(words: package.WordRecognizer) -> None:
     adapter = package.SpeakerAdapter(words, words_per_label=0)
     for seed in range(3):
-        adapter.learn(strange(800.0, seed), RATE_HZ, "1")
-        adapter.learn(strange(-350.0, seed), RATE_HZ, "2")
+        adapter.learn(strange(800.0, seed), "1", RATE_HZ)
+        adapter.learn(strange(-350.0, seed), "2", RATE_HZ)
     assert adapter.update_due and adapter.num_words == 6
     adapter.update()
     assert not adapter.update_due
@@ -65,7 +65,7 @@ def test_options_and_words_are_checked(words: package.WordRecognizer) -> None:
     with pytest.raises(InvalidArgument, match="trusted_share"):
         package.SpeakerAdapter(words, trusted_share=2.0)
     with pytest.raises(InvalidArgument, match="no word 'left'"):
-        package.SpeakerAdapter(words).learn(strange(800.0, 1), RATE_HZ, "left")
+        package.SpeakerAdapter(words).learn(strange(800.0, 1), "left", RATE_HZ)
     with pytest.raises(InvalidArgument, match="not trained"):
         package.SpeakerAdapter(package.WordRecognizer())
 
@@ -111,7 +111,7 @@ def test_command_learns_the_words_of_one_person_by_their_names(
     assert all(f"{label}_low_" in file for file, label in told["heard"].items())
     adapter = package.SpeakerAdapter(words)
     for file, label in told["heard"].items():
-        adapter.learn(package.read_audio(file).samples, RATE_HZ, label)
+        adapter.learn(file, label)
     adapter.update()
     clip = strange(800.0, 9)
     adapted = package.WordRecognizer.load(tmp_path / "mine.hri")

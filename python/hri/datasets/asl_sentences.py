@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import short_repr
 from hri.core.errors import FormatError, IoError
 
 HANDS_COLUMNS = ("video", "frame", "left-x", "left-y", "right-x", "right-y", "nose-x", "nose-y")
@@ -37,6 +38,7 @@ class SignedWord:
 
 
 @dataclass(frozen=True)
+@short_repr
 class SignedSentence:
     """One video.
 

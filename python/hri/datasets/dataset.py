@@ -4,18 +4,23 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
 
+from hri.core.display import count, html_table, short_path, summary
 from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.suggest import did_you_mean
 from hri.datasets.detection import detect_kind, detect_pattern, media_files
 from hri.datasets.folds import Fold, split_by_person, split_by_value, split_stratified
 from hri.datasets.manifest import KINDS, MANIFEST_NAME, Manifest, read_manifest
 from hri.datasets.pattern import Pattern
 from hri.datasets.skig import is_skig, skig_clips
 from hri.media import natural_key
+
+_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -28,6 +33,11 @@ class Sample:
     person: str = ""
     take: str = ""
     conditions: dict[str, str] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        known = {"person": self.person, "take": self.take, **self.conditions}
+        told = (f"{name}={value!r}" for name, value in known.items() if value)
+        return summary("Sample", repr(self.label), *told, short_path(self.path))
 
 
 @dataclass(frozen=True)
@@ -84,7 +94,12 @@ class Dataset:
         IoError
             When `directory` is not a folder.
         """
-        root = Path(directory)
+        dataset = cls._load(Path(directory), kind, pattern)
+        _log.info("%r", dataset)
+        return dataset
+
+    @classmethod
+    def _load(cls, root: Path, kind: str | None, pattern: str | None) -> Dataset:
         if kind is not None and kind not in KINDS:
             raise InvalidArgument(f"kind is {kind!r}, must be one of {KINDS}")
         if not root.is_dir():
@@ -104,6 +119,24 @@ class Dataset:
 
     def __len__(self) -> int:
         return len(self.samples)
+
+    def __repr__(self) -> str:
+        return summary(
+            "Dataset",
+            self.kind,
+            count(len(self), "sample"),
+            count(len(self.labels), "label"),
+            count(len(self.persons), "person") if self.persons else "persons not known",
+            "synthetic" if self.synthetic else "",
+            short_path(self.root),
+        )
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for label in self.labels:
+            persons = [sample.person for sample in self.samples if sample.label == label]
+            rows.append((label, len(persons), len({person for person in persons if person}) or ""))
+        return html_table(("label", "samples", "persons"), rows, repr(self))
 
     def __iter__(self) -> Iterator[Sample]:
         return iter(self.samples)
@@ -227,4 +260,4 @@ def _listed_samples(root: Path, manifest: Manifest, manifest_path: Path) -> list
 def _require_members(wanted: Collection[str] | None, known: list[str], what: str) -> None:
     for name in wanted or ():
         if name not in known:
-            raise InvalidArgument(f"no {what} {name!r} in this data set; it has {known}")
+            raise InvalidArgument(f"no {what} {name!r} in this data set; {did_you_mean(name, known, 'it has')}")

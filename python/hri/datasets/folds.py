@@ -9,10 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 
 
 @dataclass(frozen=True)
+@short_repr
 class Fold:
     """One split; indices point into `Dataset.samples`, rising.
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from hri.core.display import short_repr
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.datasets.pattern import Pattern
 
@@ -44,6 +45,7 @@ class SampleRow:
 
 
 @dataclass(frozen=True)
+@short_repr
 class Manifest:
     """The checked content of a dataset.toml.
 

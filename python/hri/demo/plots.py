@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hri import _native
-from hri.core.optional import import_optional
+from hri.core.plotting import new_figure
 from hri.demo.scenes import Scene
 from hri.evaluation import EvaluationResult
 
@@ -21,7 +21,7 @@ def plot_scene(scene: Scene) -> bytes:
     """What was heard (waveform and cepstra), what was seen (picture and silhouette), and the candidates."""
     from hri import _native_vision
 
-    figure = _figure(10.5, 4.6)
+    figure = new_figure((10.5, 4.6))
     grid = figure.add_gridspec(2, 3, width_ratios=(1.25, 1.0, 1.1))
     samples, rate_hz = scene.audio.samples, scene.audio.sample_rate_hz
     wave = figure.add_subplot(grid[0, 0])
@@ -72,7 +72,7 @@ def _bars(axes: Any, scene: Scene) -> None:
 
 def plot_confusions(words: EvaluationResult, signs: EvaluationResult) -> bytes:
     """Confusion matrices of both modes side by side."""
-    figure = _figure(9.5, 4.6)
+    figure = new_figure((9.5, 4.6))
     for place, (title, result) in enumerate((("spoken words", words), ("signs", signs))):
         axes = figure.add_subplot(1, 2, place + 1)
         counts = result.confusion()
@@ -86,16 +86,6 @@ def plot_confusions(words: EvaluationResult, signs: EvaluationResult) -> bytes:
         axes.set(xlabel="recognised as", ylabel="truth")
         axes.set_title(f"{title}, unseen synthetic people: {100 * result.mean:.0f} %")
     return _png(figure)
-
-
-def _figure(width: float, height: float) -> Any:
-    import_optional("matplotlib", "plots", "to draw plots")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height), layout="constrained")
-    FigureCanvasAgg(figure)
-    return figure
 
 
 def _png(figure: Any) -> bytes:

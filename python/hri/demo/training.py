@@ -11,8 +11,7 @@ from hri.datasets import Dataset
 from hri.demo.corpus import Corpus, Progress
 from hri.evaluation import EvaluationItem, EvaluationResult, FoldResult
 from hri.evaluation.training import train
-from hri.media import read_audio, read_frames
-from hri.recognition import Decision, GestureRecognizer, WordRecognizer
+from hri.recognition import GestureRecognizer, WordRecognizer
 
 
 @dataclass(frozen=True)
@@ -47,12 +46,6 @@ def _only(dataset: Dataset, persons: Collection[str]) -> Dataset:
 
 
 def _test(dataset: Dataset, recognizer: WordRecognizer | GestureRecognizer) -> EvaluationResult:
-    def decide(path: str) -> Decision:
-        if isinstance(recognizer, WordRecognizer):
-            audio = read_audio(path)
-            return recognizer.recognise(audio.samples, audio.sample_rate_hz)
-        return recognizer.recognise(read_frames(path).frames)
-
-    items = tuple(EvaluationItem(i, s.label, decide(str(s.path))) for i, s in enumerate(dataset.samples))
+    items = tuple(EvaluationItem(i, s.label, recognizer.recognise(s.path)) for i, s in enumerate(dataset.samples))
     fold = FoldResult(", ".join(dataset.persons), items)
     return EvaluationResult(dataset.labels, [fold], {"synthetic": True})

@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from os import PathLike, fspath
+from os import PathLike
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.optional import import_optional
+from hri.core.display import count, html_table, summary
+from hri.core.plotting import new_axes, save_figure
 from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
 
 
@@ -22,6 +23,9 @@ class EvaluationItem:
     index: int
     truth: str
     decision: Decision
+
+    def __repr__(self) -> str:
+        return summary("EvaluationItem", self.index, f"truth={self.truth!r}", repr(self.decision))
 
     @property
     def best(self) -> str:
@@ -35,6 +39,10 @@ class FoldResult:
 
     name: str
     items: tuple[EvaluationItem, ...]
+
+    def __repr__(self) -> str:
+        accuracy = f"accuracy {100 * self.accuracy:.1f} %" if self.items else ""
+        return summary("FoldResult", repr(self.name), count(len(self.items), "item"), accuracy)
 
     @property
     def accuracy(self) -> float:
@@ -62,6 +70,18 @@ class EvaluationResult:
     labels: list[str]
     folds: list[FoldResult]
     conditions: dict[str, Any] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        accuracy = f"accuracy {100 * self.mean:.1f} % ± {100 * self.std:.1f}" if self.items else ""
+        found = (count(len(self.items), "item"), count(len(self.folds), "fold"), count(len(self.labels), "label"))
+        return summary("EvaluationResult", accuracy, *found)
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (fold.name, len(fold.items), f"{100 * fold.accuracy:.1f} %", f"{100 * fold.rejected:.1f} %")
+            for fold in self.folds
+        ]
+        return html_table(("fold", "items", "accuracy", "rejected"), rows, repr(self))
 
     @property
     def items(self) -> list[EvaluationItem]:
@@ -106,27 +126,35 @@ class EvaluationResult:
             "conditions": self.conditions,
         }
 
-    def plot_confusion(self, path: str | PathLike[str]) -> None:
-        """Write the confusion matrix as a picture (PNG, SVG or PDF by suffix)."""
-        import_optional("matplotlib", "plots", "to draw the confusion matrix")
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
+    def plot_confusion(self, path: str | PathLike[str] | None = None, *, ax: Any = None) -> Any:
+        """Draw the confusion matrix, each row shaded by its shares.
 
+        Parameters
+        ----------
+        path : path-like, optional
+            Also write it as a picture (PNG, SVG or PDF by suffix).
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; by default in a figure of its own.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        side = 2.5 + 0.45 * len(self.labels)
+        axes = new_axes((side, side), "to draw the confusion matrix") if ax is None else ax
         counts = self.confusion()
         columns = [*self.labels, "none"] if counts[:, -1].any() else self.labels
         counts = counts[:, : len(columns)]
-        side = 2.5 + 0.45 * len(self.labels)
-        figure = Figure(figsize=(side, side), layout="constrained")
-        FigureCanvasAgg(figure)
-        axes = figure.add_subplot()
         axes.imshow(counts / np.maximum(counts.sum(axis=1, keepdims=True), 1), cmap="Blues", vmin=0, vmax=1)
-        for (row, column), count in np.ndenumerate(counts):
-            if count:
-                dark = count > 0.5 * counts[row].sum()
-                axes.text(column, row, str(count), ha="center", va="center", color="white" if dark else "black")
+        for (row, column), number in np.ndenumerate(counts):
+            if number:
+                dark = number > 0.5 * counts[row].sum()
+                axes.text(column, row, str(number), ha="center", va="center", color="white" if dark else "black")
         axes.set_xticks(range(len(columns)), columns, rotation=60, ha="right")
         axes.set_yticks(range(len(self.labels)), self.labels)
         axes.set_xlabel("recognised as")
         axes.set_ylabel("truth")
         axes.set_title(f"accuracy {100 * self.mean:.1f} % ± {100 * self.std:.1f} ({len(self.folds)} folds)")
-        figure.savefig(fspath(path), dpi=110)
+        if path is not None:
+            save_figure(axes.figure, path)
+        return axes

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 from hri.core.optional import import_optional
 from hri.evaluation.conditions import Samples
@@ -42,6 +43,7 @@ class Room:
 
 
 @dataclass(frozen=True)
+@short_repr
 class Response:
     """What a microphone hears of a click: `samples` at `sample_rate_hz`."""
 

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -12,8 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.core.display import summary
 from hri.core.errors import FormatError, IoError
 from hri.core.optional import import_optional
+
+_log = logging.getLogger(__name__)
 
 AUDIO_SUFFIXES = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aiff", ".aif")
 
@@ -34,6 +38,9 @@ class Audio:
     samples: NDArray[np.float32]
     sample_rate_hz: int
     notes: list[str] = field(default_factory=list)
+
+    def __repr__(self) -> str:
+        return summary("Audio", f"{self.duration_s:.3f} s", f"{self.sample_rate_hz} Hz", *self.notes)
 
     @property
     def duration_s(self) -> float:
@@ -73,6 +80,8 @@ def read_audio(path: str | PathLike[str]) -> Audio:
     else:
         audio = _read_with_soundfile(path)
     _require_usable(audio.samples, path)
+    for note in audio.notes:
+        _log.info("%s: %s", path, note)
     return audio
 
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import count, short_path, summary
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.core.optional import import_opencv
 from hri.media.order import natural_key
@@ -41,6 +42,10 @@ class Clip:
     frames: list[Frame]
     times_s: list[float]
     path: Path
+
+    def __repr__(self) -> str:
+        height, width = self.frames[0].shape[:2] if self.frames else (0, 0)
+        return summary("Clip", count(len(self.frames), "frame"), f"{width} x {height}", short_path(self.path))
 
     @property
     def fps(self) -> float:

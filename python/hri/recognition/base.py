@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -13,6 +14,8 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.recognition.decision import Decision
+
+_log = logging.getLogger(__name__)
 
 if TYPE_CHECKING:
     from typing import Self
@@ -54,6 +57,7 @@ class Recognizer:
     def save(self, path: str | PathLike[str]) -> None:
         """Write the model (safetensors layout). The old file stays whole if this fails."""
         self._trained.save(fspath(path))
+        _log.info("%s: written", fspath(path))
 
     def decide(self, X: Sequence[Any], *args: Any, **kwargs: Any) -> list[Decision]:
         """The decision for every item of `X`."""

@@ -3,6 +3,7 @@
 """Measured claims on real recordings: ``hri study list``, ``hri study NAME --data DIR``."""
 
 from hri.core.errors import InvalidArgument
+from hri.core.suggest import did_you_mean
 from hri.studies import (
     adaptation,
     classifiers,
@@ -67,7 +68,7 @@ STUDIES: dict[str, Study] = {study.name: study for module in _MODULES for study 
 def get_study(name: str) -> Study:
     """The study of that name. Raises InvalidArgument that lists the names there are."""
     if name not in STUDIES:
-        raise InvalidArgument(f"no study '{name}'; there are: {', '.join(STUDIES)}")
+        raise InvalidArgument(f"no study '{name}'; {did_you_mean(name, STUDIES)}")
     return STUDIES[name]
 
 

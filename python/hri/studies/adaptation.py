@@ -38,7 +38,7 @@ def _adapted(words: WordRecognizer, clips: Sequence[Clip], supervised: bool) -> 
     adapter = SpeakerAdapter(words)
     for label, _, sound in clips:
         if supervised:
-            adapter.learn(sound.samples, sound.sample_rate_hz, label)
+            adapter.learn(sound, label)
         else:
             adapter.recognise(sound.samples, sound.sample_rate_hz, update=False)
     adapter.update()

@@ -4,49 +4,51 @@
 
 from __future__ import annotations
 
-from os import PathLike, fspath
+from os import PathLike
 from typing import Any
 
 import numpy as np
 
-from hri.core.optional import import_optional
+from hri.core.plotting import new_axes, new_figure, save_figure
 from hri.studies.registry import Layout
 from hri.studies.tables import Row, axes_of, result_rows
 
 
-def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
-    """Write the picture of a result (PNG, SVG or PDF by suffix): lines over `Layout.x`, or bars; bars of error are
-    the spread over the persons held out. A result with ``"curves"``, shares or rates over shares by name, gets those
-    drawn; one with ``"points"``, planes of points by feature and class, gets them and the distances in its rows.
+def draw(result: Row, layout: Layout, path: str | PathLike[str] | None = None) -> Any:
+    """Draw a result: lines over `Layout.x`, or bars; bars of error are the spread over the persons held out.
+
+    A result with ``"curves"``, shares or rates over shares by name, gets those drawn; one with ``"points"``, planes of
+    points by feature and class, gets them and the distances in its rows. A `path` also writes the picture (PNG, SVG or
+    PDF by suffix).
+
+    Returns
+    -------
+    ndarray of matplotlib.axes.Axes
 
     Raises
     ------
     ImportError
         Without matplotlib; says how to install it.
     """
-    import_optional("matplotlib", "plots", "to draw studies")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     if "curves" in result:
-        figure = Figure(figsize=(5.0, 4.6), layout="constrained")
-        FigureCanvasAgg(figure)
-        _curves(figure.subplots(), result["curves"])
-        figure.suptitle(str(result["study"]))
-        figure.savefig(fspath(path), dpi=110)
-        return
-    if "points" in result:
-        figure = Figure(figsize=(3.2 * len(result["points"]), 9.0), layout="constrained")
-        FigureCanvasAgg(figure)
-        _points(figure, result)
-        figure.suptitle(str(result["study"]))
-        figure.savefig(fspath(path), dpi=90)
-        return
+        drawn = np.asarray([new_axes((5.0, 4.6), "to draw studies")])
+        _curves(drawn[0], result["curves"])
+    elif "points" in result:
+        drawn = _points(new_figure((3.2 * len(result["points"]), 9.0), "to draw studies"), result)
+    else:
+        drawn = _panels(result, layout)
+    figure = drawn.flat[0].figure
+    figure.suptitle(str(result["study"]))
+    if path is not None:
+        save_figure(figure, path, dpi=90 if "points" in result else 110)
+    return drawn
+
+
+def _panels(result: Row, layout: Layout) -> Any:
     rows = [row for row in result_rows(result, layout) if row.get(f"{layout.measure}_mean") is not None]
     panels = list(dict.fromkeys(row.get(layout.panel, "") for row in rows)) or [""]
     wide = 4.6 if layout.x else 2.5 + 0.28 * max(1, len(rows) // len(panels))
-    figure = Figure(figsize=(max(4.6, min(wide, 14.0)) * len(panels), 4.2), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = new_figure((max(4.6, min(wide, 14.0)) * len(panels), 4.2), "to draw studies")
     every = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
     for axes, panel in zip(every, panels, strict=True):
         members = [row for row in rows if row.get(layout.panel, "") == panel]
@@ -54,8 +56,7 @@ def draw(result: Row, layout: Layout, path: str | PathLike[str]) -> None:
         axes.set_title(str(panel))
         axes.grid(alpha=0.3)
     every[0].set_ylabel(f"{layout.measure}{', %' if layout.percent else ''}")
-    figure.suptitle(str(result["study"]))
-    figure.savefig(fspath(path), dpi=110)
+    return every
 
 
 def _curves(axes: Any, curves: Row) -> None:
@@ -73,7 +74,7 @@ def _curves(axes: Any, curves: Row) -> None:
     axes.legend(fontsize="small")
 
 
-def _points(figure: Any, result: Row) -> None:
+def _points(figure: Any, result: Row) -> Any:
     """A column for each feature: its planes, and below them the distances within and between classes."""
     num_planes = max(len(planes) for planes in result["points"].values())
     every = figure.subplots(num_planes + 1, len(result["points"]), squeeze=False)
@@ -95,6 +96,7 @@ def _points(figure: Any, result: Row) -> None:
     every[0, 0].legend(fontsize="x-small", ncols=2)
     every[-1, 0].set_ylabel("distance")
     every[-1, 0].legend(fontsize="x-small")
+    return every
 
 
 def _values(rows: list[Row], layout: Layout) -> tuple[list[float], list[float]]:

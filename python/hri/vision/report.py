@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 from hri.features.hand import hand_column_names, hand_features
 from hri.media import Clip
@@ -24,6 +25,7 @@ _PLACE = ("quality", "repaired", "centre_x", "centre_y", "area")
 
 
 @dataclass(frozen=True)
+@short_repr
 class FrameHand:
     """What was found of the hand in one frame.
 
@@ -59,6 +61,7 @@ class FrameHand:
 
 
 @dataclass(frozen=True)
+@short_repr
 class HandReport:
     """A clip and what was found in it, frame by frame; `inspect_hands` makes one.
 

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Sequence
-from os import PathLike, fspath
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -14,10 +15,11 @@ from numpy.typing import NDArray
 from hri import _native
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
+from hri.recognition.inputs import ClipInput, as_frames
+from hri.recognition.loading import load_native
 from hri.vision.hands import LEAST_QUALITY, find_landmarks, find_silhouettes, landmark_features
 
-Frame = NDArray[np.uint8]
-Clip = Sequence[Frame]
+_log = logging.getLogger(__name__)
 
 
 class GestureRecognizer(Recognizer):
@@ -47,14 +49,15 @@ class GestureRecognizer(Recognizer):
         super().__init__(**options)
         self._silhouette = silhouette
 
-    def features(self, clip: Clip) -> NDArray[np.float32]:
+    def features(self, clip: ClipInput) -> NDArray[np.float32]:
         """Features of every frame that shows a hand, float32, shape (num_frames_with_hand, num_features).
 
         Parameters
         ----------
-        clip : sequence of uint8 arrays, shape (height, width, 3), BGR
+        clip : path, Clip, picture or sequence of pictures
+            As `recognise` takes it.
         """
-        frames = list(clip)
+        frames = as_frames(clip)
         if self.options.source == _native.GestureSource.landmarks:
             size = (frames[0].shape[1], frames[0].shape[0]) if frames else (1, 1)
             return landmark_features(find_landmarks(frames), size)
@@ -99,7 +102,7 @@ class GestureRecognizer(Recognizer):
 
     def fit(
         self,
-        X: Sequence[Clip],
+        X: Sequence[ClipInput],
         y: Sequence[str],
         *,
         groups: Sequence[str] | None = None,
@@ -110,7 +113,7 @@ class GestureRecognizer(Recognizer):
         Parameters
         ----------
         X : sequence of clips
-            Each a sequence of uint8 BGR frames, shape (height, width, 3); a still is a clip of one frame.
+            Each as `recognise` takes it; a still is a clip of one frame.
         y : sequence of str
         groups : sequence of str, optional
             The signer of each clip; calibration then holds out whole signers.
@@ -147,24 +150,44 @@ class GestureRecognizer(Recognizer):
             raise _native.InvalidArgument(
                 f"features, y and groups differ in length: {len(rows)}, {len(y)}, {len(signers)}"
             )
+        _log.info("training on %d clips of %d labels", len(rows), len(set(y)))
         self._native = self._native_class.train(
             list(rows), [str(label) for label in y], signers, self.options, progress
         )
         return self
 
-    def recognise(self, clip: Clip) -> Decision:
-        """Recognise one clip (a sequence of BGR frames)."""
+    def recognise(self, clip: ClipInput) -> Decision:
+        """Recognise one sign.
+
+        Parameters
+        ----------
+        clip : path, Clip, picture or sequence of pictures
+            A picture, a video or a folder of pictures; what `hri.read_frames` gives; or uint8 BGR arrays of shape
+            (height, width, 3), one for a still.
+
+        Raises
+        ------
+        InvalidArgument
+            For arrays of another shape or type; names the argument, and says what would work.
+        FormatError, IoError
+            For a file that is neither a picture nor a video.
+
+        Examples
+        --------
+        >>> signs.recognise("seven.jpg").label  # doctest: +SKIP
+        >>> signs.recognise(picture).label      # doctest: +SKIP
+        """
         return self.recognise_features(self.features(clip))
 
     def recognise_features(self, rows: NDArray[np.float32]) -> Decision:
         """Recognise what `features` returned."""
         return Decision.from_native(self.mode, self._trained.recognise_features(rows))
 
-    def decide(self, X: Sequence[Clip]) -> list[Decision]:
-        """The decision for every clip of `X`."""
+    def decide(self, X: Sequence[ClipInput]) -> list[Decision]:
+        """The decision for every item of `X`, each as `recognise` takes it."""
         return [self.recognise(clip) for clip in X]
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
-        return cls._wrap(_native.GestureRecognizer.load(fspath(path)))
+        return cls._wrap(load_native(_native.GestureRecognizer, path, "gesture_recognizer"))

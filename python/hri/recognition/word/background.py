@@ -11,6 +11,7 @@ from importlib.resources import as_file, files
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import summary
 from hri.core.errors import FormatError
 
 RATE_HZ = 16000
@@ -34,6 +35,9 @@ class BackgroundWord:
     samples: NDArray[np.float32]
     sample_rate_hz: int
     label: str
+
+    def __repr__(self) -> str:
+        return summary("BackgroundWord", repr(self.label), f"{len(self.samples)} samples", f"{self.sample_rate_hz} Hz")
 
 
 def compress(samples: NDArray[np.float32]) -> NDArray[np.uint8]:

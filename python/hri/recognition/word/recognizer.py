@@ -4,19 +4,23 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Sequence
-from os import PathLike, fspath
-from typing import Any
+from dataclasses import replace
+from os import PathLike
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.core.suggest import did_you_mean
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
+from hri.recognition.inputs import AudioInput, as_audio, as_audios
+from hri.recognition.loading import load_native
 from hri.recognition.word.background import BackgroundWord, background_words
 
-Audio = NDArray[np.float32]
+_log = logging.getLogger(__name__)
 
 
 class WordRecognizer(Recognizer):
@@ -50,10 +54,10 @@ class WordRecognizer(Recognizer):
 
     def fit(
         self,
-        X: Sequence[Audio],
+        X: Sequence[AudioInput],
         y: Sequence[str],
         *,
-        sample_rate_hz: int | Sequence[int],
+        sample_rate_hz: int | Sequence[int] | None = None,
         groups: Sequence[str] | None = None,
         background: Sequence[BackgroundWord] | None = None,
         progress: Callable[[int, int], None] | None = None,
@@ -62,12 +66,12 @@ class WordRecognizer(Recognizer):
 
         Parameters
         ----------
-        X : sequence of float32 arrays, shape (num_samples,)
-            Mono audio in -1..1.
+        X : sequence of paths, Audio, or arrays of shape (num_samples,)
+            Each as `recognise` takes it.
         y : sequence of str
             The word spoken in each clip.
-        sample_rate_hz : int or sequence of int
-            One rate for all clips, or one for each.
+        sample_rate_hz : int or sequence of int, optional
+            Of arrays: one rate for all, or one for each.
         groups : sequence of str, optional
             The speaker of each clip; calibration then holds out whole speakers.
         background : sequence of BackgroundWord, optional
@@ -84,28 +88,28 @@ class WordRecognizer(Recognizer):
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
-        rates = _rates(sample_rate_hz, len(X))
         speakers = [""] * len(X) if groups is None else [str(g) for g in groups]
-        if not len(X) == len(y) == len(rates) == len(speakers):
-            raise _native.InvalidArgument(
-                f"X, y, sample_rate_hz and groups differ in length: {len(X)}, {len(y)}, {len(rates)}, {len(speakers)}"
-            )
-        clips = _as_clips(X, "X")
+        if not len(X) == len(y) == len(speakers):
+            raise _native.InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
+        clips = as_audios(X, sample_rate_hz)
+        _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
         others = background_words() if background is None else background
         self._native = self._native_class.train(
-            clips,
-            rates,
+            [clip.samples for clip in clips],
+            [clip.sample_rate_hz for clip in clips],
             [str(label) for label in y],
             speakers,
             self.options,
             progress,
-            [_as_audio(word.samples, f"background[{i}].samples") for i, word in enumerate(others)],
+            [np.ascontiguousarray(word.samples, dtype=np.float32) for word in others],
             [word.sample_rate_hz for word in others],
             [word.label for word in others],
         )
         return self
 
-    def add_word(self, label: str, clips: Sequence[Audio], sample_rate_hz: int | Sequence[int]) -> WordRecognizer:
+    def add_word(
+        self, label: str, clips: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None
+    ) -> WordRecognizer:
         """Learn one word more from few recordings; three do. The models of the other words stay as they are.
 
         How far a word varies is taken from the words that the recogniser knows; so is the rejection threshold.
@@ -114,10 +118,10 @@ class WordRecognizer(Recognizer):
         ----------
         label : str
             A word that the recogniser does not have.
-        clips : sequence of float32 arrays, shape (num_samples,)
+        clips : sequence of paths, Audio, or arrays of shape (num_samples,)
             Recordings of the word, one or more, each with speech in it.
-        sample_rate_hz : int or sequence of int
-            One rate for all clips, or one for each.
+        sample_rate_hz : int or sequence of int, optional
+            Of arrays: one rate for all, or one for each.
 
         Raises
         ------
@@ -125,33 +129,53 @@ class WordRecognizer(Recognizer):
             For a label that is there already, no clip, or one that is silent or broken (names it); the recogniser
             is left as it was.
         """
-        self._native = self._trained.with_word(label, _as_clips(clips, "clips"), _rates(sample_rate_hz, len(clips)))
+        read = as_audios(clips, sample_rate_hz, "clips")
+        self._native = self._trained.with_word(
+            label, [clip.samples for clip in read], [clip.sample_rate_hz for clip in read]
+        )
         return self
 
     def remove_word(self, label: str) -> WordRecognizer:
         """Forget a word. Raises InvalidArgument for one that is not known, or where fewer than two would be left."""
+        if label not in self.classes_:
+            raise _native.InvalidArgument(f"no word {label!r}; {did_you_mean(label, self.classes_, 'it has')}")
         self._native = self._trained.without_word(label)
         return self
 
-    def recognise(self, audio: Audio, sample_rate_hz: int) -> Decision:
-        """Recognise one clip.
+    def recognise(self, audio: AudioInput, sample_rate_hz: int | None = None) -> Decision:
+        """Recognise one word.
 
         Parameters
         ----------
-        audio : float32 array, shape (num_samples,)
-        sample_rate_hz : int
-            Another rate than the model's is resampled, and said so in ``Decision.notes``.
+        audio : path, Audio, or array of shape (num_samples,)
+            A recording; what `hri.read_audio` gives; or mono samples, floats in -1..1 or int16.
+        sample_rate_hz : int, optional
+            Of an array. Another rate than the model's is resampled, and said so in ``Decision.notes``.
+
+        Raises
+        ------
+        InvalidArgument
+            For an array without a rate, or of several channels; names the argument, and says what would work.
+        FormatError, IoError
+            For a file that is no recording.
+
+        Examples
+        --------
+        >>> words.recognise("seven.wav").label     # doctest: +SKIP
+        >>> words.recognise(samples, 16000).label  # doctest: +SKIP
         """
-        return Decision.from_native(self.mode, self._trained.recognise(_as_audio(audio, "audio"), sample_rate_hz))
+        heard = as_audio(audio, sample_rate_hz)
+        decision = Decision.from_native(self.mode, self._trained.recognise(heard.samples, heard.sample_rate_hz))
+        return replace(decision, notes=(*heard.notes, *decision.notes)) if heard.notes else decision
 
-    def scores(self, audio: Audio, sample_rate_hz: int) -> NDArray[np.float32]:
+    def scores(self, audio: AudioInput, sample_rate_hz: int | None = None) -> NDArray[np.float32]:
         """Raw score of every class (natural log), shape (num_classes,), in the order of `classes_`."""
-        return np.asarray(self._trained.scores(_as_audio(audio, "audio"), sample_rate_hz))
+        heard = as_audio(audio, sample_rate_hz)
+        return np.asarray(self._trained.scores(heard.samples, heard.sample_rate_hz))
 
-    def decide(self, X: Sequence[Audio], sample_rate_hz: int | Sequence[int]) -> list[Decision]:
-        """The decision for every clip of `X`."""
-        rates = _rates(sample_rate_hz, len(X))
-        return [self.recognise(x, rate) for x, rate in zip(X, rates, strict=True)]
+    def decide(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> list[Decision]:
+        """The decision for every item of `X`, each as `recognise` takes it."""
+        return [self.recognise(audio) for audio in as_audios(X, sample_rate_hz)]
 
     @property
     def threshold(self) -> float:
@@ -161,19 +185,4 @@ class WordRecognizer(Recognizer):
     @classmethod
     def load(cls, path: str | PathLike[str]) -> WordRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
-        return cls._wrap(_native.WordRecognizer.load(fspath(path)))
-
-
-def _rates(sample_rate_hz: int | Sequence[int], count: int) -> list[int]:
-    return [sample_rate_hz] * count if isinstance(sample_rate_hz, int) else list(sample_rate_hz)
-
-
-def _as_clips(clips: Sequence[Audio], name: str) -> list[Audio]:
-    return [_as_audio(clip, f"{name}[{i}]") for i, clip in enumerate(clips)]
-
-
-def _as_audio(samples: Any, name: str) -> Audio:
-    array = np.ascontiguousarray(samples, dtype=np.float32)
-    if array.ndim != 1:
-        raise _native.InvalidArgument(f"{name} must be one-dimensional (mono), got shape {array.shape}")
-    return array
+        return cls._wrap(load_native(_native.WordRecognizer, path, "word_recognizer"))

@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from hri import _native
+from hri.core.suggest import did_you_mean
 from hri.recognition.decision import Decision
-from hri.recognition.word.recognizer import Audio, WordRecognizer
+from hri.recognition.inputs import AudioInput, as_audio
+from hri.recognition.word.recognizer import WordRecognizer
 
 
 class SpeakerAdapter:
@@ -44,26 +45,29 @@ class SpeakerAdapter:
 
     def __init__(self, recognizer: WordRecognizer, **options: Any) -> None:
         self.options = _native.SpeakerAdapterOptions(**options)
+        self._labels = [str(known) for known in recognizer.classes_]
         self._native = _native.SpeakerAdapter(recognizer._trained, self.options)
 
-    def recognise(self, audio: Audio, sample_rate_hz: int, *, update: bool = True) -> Decision:
+    def recognise(self, audio: AudioInput, sample_rate_hz: int | None = None, *, update: bool = True) -> Decision:
         """Recognise one clip, then learn from it.
 
         Parameters
         ----------
-        audio : float32 array, shape (num_samples,)
-            Mono, -1..1.
-        sample_rate_hz : int
+        audio : path, Audio, or array of shape (num_samples,)
+        sample_rate_hz : int, optional
+            Of an array; as for `WordRecognizer.recognise`.
         update : bool
             False leaves the learning to a call of `update`, for whoever has to answer at once.
         """
-        samples = np.ascontiguousarray(audio, dtype=np.float32)
-        decision = Decision.from_native("speech", self._native.recognise(samples, sample_rate_hz))
+        heard = as_audio(audio, sample_rate_hz)
+        decision = Decision.from_native("speech", self._native.recognise(heard.samples, heard.sample_rate_hz))
+        if heard.notes:
+            decision = replace(decision, notes=(*heard.notes, *decision.notes))
         if update and self.update_due:
             self.update()
         return decision
 
-    def learn(self, audio: Audio, sample_rate_hz: int, label: str) -> None:
+    def learn(self, audio: AudioInput, label: str, sample_rate_hz: int | None = None) -> None:
         """Remember a word that somebody named; `update` learns from it.
 
         Raises
@@ -71,7 +75,10 @@ class SpeakerAdapter:
         InvalidArgument
             For a label that the recogniser does not have, or audio in which nobody speaks.
         """
-        self._native.learn(np.ascontiguousarray(audio, dtype=np.float32), sample_rate_hz, label)
+        heard = as_audio(audio, sample_rate_hz)
+        if label not in self._labels:
+            raise _native.InvalidArgument(f"no word {label!r}; {did_you_mean(label, self._labels, 'it has')}")
+        self._native.learn(heard.samples, heard.sample_rate_hz, label)
 
     @property
     def update_due(self) -> bool:

@@ -10,6 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument, IoError
 from hri.robot.model.joints import Vector
 
@@ -35,6 +36,7 @@ class Event:
 
 
 @dataclass(frozen=True)
+@short_repr
 class RobotState:
     """One moment.
 

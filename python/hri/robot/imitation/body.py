@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 from hri.robot.imitation.tracks import Gap, HandTrack, bridge
 from hri.robot.model.arm import SIDES, Arm
@@ -28,6 +29,7 @@ MIN_HEIGHT_PX = 20.0
 
 
 @dataclass(frozen=True)
+@short_repr
 class Targets:
     """Where the robot's hands should go, seen from the front.
 

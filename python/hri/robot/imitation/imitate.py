@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 from hri.robot.imitation.body import Targets, scale_to_robot
 from hri.robot.imitation.both import Arms, find_both, least_clearance_m
@@ -70,6 +71,7 @@ class ImitationOptions:
 
 
 @dataclass(frozen=True)
+@short_repr
 class Imitation:
     """A motion made from a track, and how near it comes.
 

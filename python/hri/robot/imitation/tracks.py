@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import short_repr
 from hri.core.errors import FormatError, InvalidArgument, IoError
 
 Floats = NDArray[np.float64]
@@ -25,6 +26,7 @@ _SHOULDERS = ("left-shoulder-x", "left-shoulder-y", "right-shoulder-x", "right-s
 
 
 @dataclass(frozen=True)
+@short_repr
 class HandTrack:
     """Positions in pixels from the upper left corner, as a camera before the person sees them; NaN where not seen.
 

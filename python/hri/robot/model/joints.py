@@ -13,7 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import short_repr, summary
 from hri.core.errors import InvalidArgument
+from hri.core.suggest import did_you_mean
 
 Vector = tuple[float, float, float]
 
@@ -47,6 +49,7 @@ class Shape:
 
 
 @dataclass(frozen=True)
+@short_repr
 class Link:
     """A rigid part: mass, centre of mass, inertia (ixx iyy izz ixy ixz iyz) and shapes."""
 
@@ -145,6 +148,9 @@ class JointTable:
     joints: tuple[Joint, ...]
     cameras: tuple[Camera, ...] = ()
 
+    def __repr__(self) -> str:
+        return summary("JointTable", repr(self.name), f"{len(self.joints)} joints", f"base {self.base.name!r}")
+
     def __getitem__(self, name: str) -> Joint:
         return self.joints[self.index(name)]
 
@@ -156,7 +162,7 @@ class JointTable:
         try:
             return self._indices[name]
         except KeyError:
-            raise InvalidArgument(f"{self.name} has no joint {name!r}") from None
+            raise InvalidArgument(f"{self.name} has no joint {name!r}; {did_you_mean(name, self._indices)}") from None
 
     @property
     def names(self) -> tuple[str, ...]:

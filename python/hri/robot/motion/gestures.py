@@ -13,7 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
+from hri.core.suggest import did_you_mean
 from hri.robot.model.arm import MIRROR, arm_angles, arm_of, arm_points
 from hri.robot.model.clearance import body_clearance, body_of, forearm_balls
 from hri.robot.model.joints import HOAP2
@@ -36,6 +38,7 @@ _KEY_FIELDS = {"left", "right", "head", "hold_s", "slower"}
 
 
 @dataclass(frozen=True)
+@short_repr
 class Gesture:
     """A motion from rest to rest.
 
@@ -116,7 +119,7 @@ def gesture_trajectory(name: str) -> Trajectory:
     """Motion of a gesture; InvalidArgument, with the known names, when there is none."""
     gestures = load_gestures()
     if name not in gestures:
-        raise InvalidArgument(f"no gesture {name!r}; there are {', '.join(gestures)}")
+        raise InvalidArgument(f"no gesture {name!r}; {did_you_mean(name, gestures)}")
     return gestures[name].trajectory()
 
 

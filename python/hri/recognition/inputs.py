@@ -1,0 +1,175 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What a recogniser may be given: a file, what `hri.media` read of one, or arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.media import (
+    AUDIO_SUFFIXES,
+    IMAGE_SUFFIXES,
+    VIDEO_SUFFIXES,
+    Audio,
+    Clip,
+    read_audio,
+    read_frames,
+    read_pictures,
+)
+
+Samples = NDArray[np.float32]
+Frame = NDArray[np.uint8]
+AudioInput = str | PathLike[str] | Audio | ArrayLike
+"""One utterance: a path, an `hri.media.Audio`, or samples whose rate is given beside them."""
+ClipInput = str | PathLike[str] | Clip | Frame | Iterable[Frame]
+"""One sign: a path (picture, video, folder of pictures), an `hri.media.Clip`, a picture or a sequence of pictures."""
+
+MODEL_SUFFIX = ".hri"
+_PCM16_FULL_SCALE = 32768.0
+
+
+def as_audio(value: AudioInput, sample_rate_hz: int | None, name: str = "audio") -> Audio:
+    """One utterance as `Audio`.
+
+    Parameters
+    ----------
+    value : path, Audio or array of shape (num_samples,)
+        Floats in -1..1, or the int16 samples of a PCM file.
+    sample_rate_hz : int or None
+        For arrays; a file and an Audio know theirs.
+    name : str
+        The argument, as the caller knows it.
+
+    Raises
+    ------
+    InvalidArgument
+        For an array without a rate, a rate beside a file, several channels; names the argument, and says what would
+        work.
+    FormatError, IoError
+        As `read_audio`.
+    """
+    if isinstance(value, Audio):
+        if sample_rate_hz not in (None, value.sample_rate_hz):
+            raise InvalidArgument(f"sample_rate_hz is {sample_rate_hz}, but {name} has {value.sample_rate_hz} Hz")
+        return value
+    if isinstance(value, str | PathLike):
+        if sample_rate_hz is not None:
+            raise InvalidArgument(f"sample_rate_hz is for arrays: {name} is a file, which knows its own")
+        return _read_sound(Path(value), name)
+    samples, notes = _as_samples(value, name)
+    if sample_rate_hz is None:
+        raise InvalidArgument(f"{name} is an array, whose rate is not known: give sample_rate_hz, such as 16000")
+    rate: object = sample_rate_hz
+    if isinstance(rate, bool) or not isinstance(rate, int | np.integer):
+        raise InvalidArgument(f"sample_rate_hz must be an integer, got {rate!r}")
+    return Audio(samples, int(rate), notes)
+
+
+def as_audios(values: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None, name: str = "X") -> list[Audio]:
+    """Several utterances; `sample_rate_hz` is one rate for all, one for each, or None.
+
+    Raises
+    ------
+    InvalidArgument
+        As `as_audio`, naming the item; for one utterance in place of several, or rates that are more or fewer.
+    """
+    given: object = values  # whatever the annotation says
+    if isinstance(given, str | PathLike | Audio) or (isinstance(given, np.ndarray) and given.ndim == 1):
+        raise InvalidArgument(f"{name} must be a sequence of utterances, got one: write [{name}], or call recognise")
+    if sample_rate_hz is None or isinstance(sample_rate_hz, int | np.integer):
+        rates: list[Any] = [sample_rate_hz] * len(values)
+    else:
+        rates = list(sample_rate_hz)
+    if len(rates) != len(values):
+        raise InvalidArgument(f"{name} and sample_rate_hz differ in length: {len(values)}, {len(rates)}")
+    return [as_audio(value, rate, f"{name}[{i}]") for i, (value, rate) in enumerate(zip(values, rates, strict=True))]
+
+
+def as_frames(value: ClipInput, name: str = "clip") -> list[Frame]:
+    """One sign as its BGR frames.
+
+    Parameters
+    ----------
+    value : path, Clip, picture of shape (height, width, 3), or pictures
+        An array of shape (num_frames, height, width, 3) is a sequence of pictures, too.
+    name : str
+        The argument, as the caller knows it.
+
+    Raises
+    ------
+    InvalidArgument
+        For pictures that are no uint8 arrays of three colours; names the argument, and says what would work.
+    FormatError, IoError
+        As `read_frames` and `read_pictures`.
+    """
+    if isinstance(value, Clip):
+        return value.frames
+    if isinstance(value, str | PathLike):
+        return _read_pictures(Path(value), name)
+    if isinstance(value, np.ndarray) and value.ndim in (2, 3):
+        return [_as_frame(value, name)]
+    if not isinstance(value, Iterable):
+        raise InvalidArgument(f"{name} must be a path, a Clip, a picture or a sequence of them, got {_kind(value)}")
+    return [_as_frame(frame, f"{name}[{i}]") for i, frame in enumerate(value)]
+
+
+def _read_sound(path: Path, name: str) -> Audio:
+    if path.suffix.lower() in (*IMAGE_SUFFIXES, *VIDEO_SUFFIXES):
+        raise FormatError(f"{name}: {path} is a picture or video: a GestureRecognizer recognises it")
+    _require_no_model(path, name)
+    return read_audio(path)
+
+
+def _require_no_model(path: Path, name: str) -> None:
+    if path.suffix.lower() == MODEL_SUFFIX:
+        raise FormatError(f"{name}: {path} is a model, not a recording: load reads it")
+
+
+def _read_pictures(path: Path, name: str) -> list[Frame]:
+    if path.suffix.lower() in AUDIO_SUFFIXES:
+        raise FormatError(f"{name}: {path} is a sound file: a WordRecognizer recognises it")
+    if not path.exists():
+        raise IoError(f"{name}: {path}: no such file or folder")
+    _require_no_model(path, name)
+    return (read_pictures(path) if path.is_dir() else read_frames(path)).frames
+
+
+def _as_samples(value: Any, name: str) -> tuple[Samples, list[str]]:
+    try:
+        array = np.asarray(value)
+    except ValueError as error:  # lists of different lengths
+        raise InvalidArgument(f"{name} must be a path, an Audio or an array of samples: {error}") from error
+    if array.dtype.kind not in "fiu" or (array.dtype.kind in "iu" and array.dtype != np.int16 and array.size):
+        raise InvalidArgument(
+            f"{name} must be a path, an Audio, or an array of floats in -1..1 or of int16, got {_kind(value)}"
+        )
+    if array.ndim != 1:
+        channels = ": average its channels first" if array.ndim == 2 else ""
+        raise InvalidArgument(f"{name} must be one-dimensional (mono), got shape {array.shape}{channels}")
+    if array.dtype == np.int16:
+        return (array / _PCM16_FULL_SCALE).astype(np.float32), ["converted from 16-bit integers"]
+    return np.ascontiguousarray(array, dtype=np.float32), []
+
+
+def _as_frame(value: Any, name: str) -> Frame:
+    if not isinstance(value, np.ndarray):
+        hint = ": recognise takes one at a time, predict takes several" if isinstance(value, str | PathLike) else ""
+        raise InvalidArgument(f"{name} must be a picture, a uint8 array (height, width, 3), got {_kind(value)}{hint}")
+    if value.ndim != 3 or value.shape[2] != 3:
+        hint = ": a grey picture has no colours to find skin by" if value.ndim == 2 else ""
+        raise InvalidArgument(f"{name} must have shape (height, width, 3), BGR, got {value.shape}{hint}")
+    if value.dtype != np.uint8:
+        raise InvalidArgument(f"{name} must be uint8, 0..255, got {value.dtype}")
+    return value
+
+
+def _kind(value: object) -> str:
+    dtype = f" of {value.dtype}" if isinstance(value, np.ndarray) else ""
+    return f"{type(value).__name__}{dtype}"

@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What a recogniser may be given: files, what was read of them, arrays; and what it says of anything else."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import hri
+from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.media import Audio, read_audio, read_frames, read_image
+from hri.recognition.inputs import as_audio, as_frames
+
+
+@pytest.fixture(scope="module")
+def words(spoken: Path) -> hri.WordRecognizer:
+    paths = sorted(spoken.glob("*.wav"))
+    return hri.WordRecognizer(noise_copies=0, num_warps=1).fit(paths, [p.name[0] for p in paths], background=[])
+
+
+@pytest.fixture(scope="module")
+def signs(signed: Path) -> hri.GestureRecognizer:
+    paths = sorted(signed.glob("*/*"))
+    return hri.GestureRecognizer().fit(paths, [p.parent.name for p in paths])
+
+
+def test_a_word_is_recognised_from_whatever_holds_it(words: hri.WordRecognizer, spoken: Path) -> None:
+    path = spoken / "1_low_0.wav"
+    audio = read_audio(path)
+    expected = words.recognise(audio.samples, audio.sample_rate_hz)
+    assert expected.nbest[0].label == "1"
+    for given in (path, str(path), audio):
+        assert words.recognise(given) == expected
+    assert words.recognise(list(audio.samples), audio.sample_rate_hz) == expected
+    pcm16 = words.recognise(np.round(audio.samples * 32768).astype(np.int16), audio.sample_rate_hz)
+    assert pcm16.nbest == expected.nbest and pcm16.notes == ("converted from 16-bit integers",)
+    np.testing.assert_array_equal(words.scores(path), words.scores(audio))
+    assert list(words.predict([path, audio])) == ["1", "1"]
+
+
+def test_training_takes_files_and_arrays_alike(spoken: Path) -> None:
+    paths = sorted(spoken.glob("*.wav"))
+    labels = [path.name[0] for path in paths]
+    audios = [read_audio(path) for path in paths]
+
+    def fitted(clips: list[Any], **rate: int) -> hri.WordRecognizer:
+        return hri.WordRecognizer(noise_copies=0, num_warps=1).fit(clips, labels, background=[], **rate)
+
+    by_path = fitted(list(paths))
+    by_array = fitted([audio.samples for audio in audios], sample_rate_hz=audios[0].sample_rate_hz)
+    np.testing.assert_array_equal(by_path.scores(paths[0]), by_array.scores(paths[0]))
+
+
+def test_notes_of_the_file_reach_the_decision(words: hri.WordRecognizer, spoken: Path) -> None:
+    audio = read_audio(spoken / "1_low_0.wav")
+    noted = Audio(audio.samples, audio.sample_rate_hz, ["averaged 2 channels to mono"])
+    assert words.recognise(noted).notes == ("averaged 2 channels to mono",)
+
+
+def test_a_sign_is_recognised_from_whatever_holds_it(
+    signs: hri.GestureRecognizer, signed: Path, tmp_path: Path
+) -> None:
+    path = sorted((signed / "2").iterdir())[0]
+    picture = read_image(path)
+    expected = signs.recognise([picture])
+    shutil.copy(path, tmp_path / path.name)
+    for given in (path, str(path), read_frames(path), picture, picture[np.newaxis], tmp_path, iter([picture])):
+        assert signs.recognise(given) == expected
+
+
+@pytest.mark.parametrize(
+    ("make", "error", "message"),
+    [
+        (lambda p: as_audio(np.zeros(800, np.float32), None), InvalidArgument, "^audio is an array.* sample_rate_hz"),
+        (
+            lambda p: as_audio(p / "1_low_0.wav", 16000),
+            InvalidArgument,
+            "is for arrays: audio is a file",
+        ),
+        (lambda p: as_audio(np.zeros((800, 2), np.float32), 16000), InvalidArgument, "mono.*average its channels"),
+        (
+            lambda p: as_audio(np.zeros(800, np.int64), 16000),
+            InvalidArgument,
+            "^audio must be .* got ndarray of int64",
+        ),
+        (lambda p: as_audio(None, 16000), InvalidArgument, "^audio must be a path, an Audio"),
+        (lambda p: as_audio(np.zeros(800, np.float32), "16000"), InvalidArgument, "^sample_rate_hz must be an integer"),
+        (lambda p: as_audio("sign.jpg", None), FormatError, "audio: sign.jpg is a picture.*GestureRecognizer"),
+        (lambda p: as_audio("words.hri", None), FormatError, "audio: words.hri is a model"),
+        (lambda p: as_audio(p / "none.wav", None), IoError, "none.wav"),
+        (lambda p: as_audio(Audio(np.zeros(8, np.float32), 8000), 16000), InvalidArgument, "audio has 8000 Hz"),
+    ],
+)
+def test_what_is_no_utterance_is_refused_by_name(
+    spoken: Path, make: Callable[[Path], Any], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        make(spoken)
+
+
+@pytest.mark.parametrize(
+    ("given", "error", "message"),
+    [
+        (np.zeros((4, 4), np.uint8), InvalidArgument, r"^clip must have shape \(height, width, 3\).*grey"),
+        (np.zeros((4, 4, 3), np.float32), InvalidArgument, "^clip must be uint8, 0..255, got float32"),
+        (
+            [np.zeros((4, 4, 3), np.uint8), np.zeros((4, 4, 4), np.uint8)],
+            InvalidArgument,
+            r"^clip\[1\] must have",
+        ),
+        (["a.jpg", "b.jpg"], InvalidArgument, r"^clip\[0\] must be a picture.*predict takes several"),
+        (7, InvalidArgument, "^clip must be a path, a Clip, a picture or a sequence of them, got int"),
+        ("word.wav", FormatError, "clip: word.wav is a sound file: a WordRecognizer"),
+        ("nowhere.jpg", IoError, "clip: nowhere.jpg: no such file"),
+    ],
+)
+def test_what_is_no_sign_is_refused_by_name(given: Any, error: type[Exception], message: str) -> None:
+    with pytest.raises(error, match=message):
+        as_frames(given)
+
+
+def test_one_utterance_in_place_of_several_is_refused(words: hri.WordRecognizer, spoken: Path) -> None:
+    for one in (str(spoken / "1_low_0.wav"), read_audio(spoken / "1_low_0.wav"), np.zeros(800, np.float32)):
+        with pytest.raises(InvalidArgument, match="X must be a sequence of utterances, got one"):
+            words.predict(one)
+    with pytest.raises(InvalidArgument, match=r"^X\[1\] is an array"):
+        words.predict([spoken / "1_low_0.wav", np.zeros(800, np.float32)])
+    with pytest.raises(InvalidArgument, match="differ in length: 2, 1"):
+        words.predict([np.zeros(800, np.float32)] * 2, sample_rate_hz=[16000])
+
+
+def test_a_model_of_the_other_kind_is_said_to_be_one(
+    words: hri.WordRecognizer, signs: hri.GestureRecognizer, spoken: Path, tmp_path: Path
+) -> None:
+    words.save(tmp_path / "words.hri")
+    signs.save(tmp_path / "signs.hri")
+    with pytest.raises(FormatError, match=r"words\.hri is a word recogniser, and a gesture recogniser is needed"):
+        hri.GestureRecognizer.load(tmp_path / "words.hri")
+    with pytest.raises(FormatError, match=r"signs\.hri is a gesture recogniser, and a word recogniser is needed"):
+        hri.WordRecognizer.load(tmp_path / "signs.hri")
+    with pytest.raises(FormatError, match=r"1_low_0\.wav is a sound file, not a model"):
+        hri.WordRecognizer.load(spoken / "1_low_0.wav")
+
+
+def test_class_thresholds_are_saved_with_the_model(words: hri.WordRecognizer, spoken: Path, tmp_path: Path) -> None:
+    words.save(tmp_path / "words.hri")
+    path = spoken / "1_low_0.wav"
+    decision = hri.WordRecognizer.load(tmp_path / "words.hri").recognise(path)
+    assert decision == words.recognise(path)
+    assert 0.5 <= decision.class_threshold <= 1.0
