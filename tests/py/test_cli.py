@@ -88,14 +88,14 @@ def test_evaluate_gestures_of_unseen_persons(hri, signed: Path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["recognise"], "give --speech FILE, --gesture FILE, or both"),
+        (["recognise"], "give a recording: --speech FILE, --gesture FILE, or both"),
         (["evaluate", "speech"], "give either --data DIR, or --train DIR and --test DIR"),
         (["evaluate", "speech", "--data", ".", "--noise", "white"], "--noise and --snr go together"),
         (["evaluate", "speech", "--data", ".", "--exposure", "0.5"], "--exposure is for gestures"),
         (["evaluate", "gesture", "--data", ".", "--noise", "pink", "--snr", "3"], "--noise is for speech"),
         (["study", "fsdd-noise", "--only", "white"], "--only 'white' is not AXIS=VALUE"),
         (["train", "smell", "--data", "."], "'smell' is not one of 'speech', 'gesture'"),
-        (["nonsense"], "No such command 'nonsense'"),
+        (["nonsense"], "no command 'nonsense'"),
     ],
 )
 def test_wrong_usage_ends_with_2(hri, arguments: list[str], message: str):

@@ -125,7 +125,7 @@ def test_a_study_that_misses_its_target_ends_with_1(
         f"target\t{study.target}",
         f"passed\t{'yes' if passed else 'no'}",
     ]
-    assert ("missed its target" in result.err) is not passed
+    assert ("did not meet its target" in result.err) is not passed
 
 
 def test_a_label_that_the_robot_does_not_know_still_gives_the_decision(hri, spoken: Path, tmp_path: Path):

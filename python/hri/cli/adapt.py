@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import kept_model, load_dataset, pattern_option
@@ -70,7 +71,7 @@ def adapt(
     for path, said in heard:
         say(f"{said}\t{path}", json_path)
     counts = {"num_words": adapter.num_words, "num_learned": adapter.num_learned}
-    click.echo(f"learned from {adapter.num_learned} of {adapter.num_words} words: {output}", err=True)
+    note(f"learned from {adapter.num_learned} of {adapter.num_words} words: {output}")
     write_json(json_path, {"model": output, **counts, "heard": {str(path): said for path, said in heard}})
 
 
@@ -79,7 +80,7 @@ def _learned(adapter: SpeakerAdapter, words: list[tuple[Path, str | None]]) -> I
     for path, label in words:
         audio = read_audio(path)
         if label is not None:
-            adapter.learn(audio.samples, audio.sample_rate_hz, label)
+            adapter.learn(audio, label)
             yield path, label
         else:
-            yield path, adapter.recognise(audio.samples, audio.sample_rate_hz).label
+            yield path, adapter.recognise(audio).label

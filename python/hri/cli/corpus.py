@@ -9,13 +9,14 @@ from typing import Any
 
 import click
 
+from hri.cli.groups import SuggestingGroup
 from hri.cli.progress import progress_bars
 from hri.synthetic.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
 from hri.synthetic.signer import SIGNS, make_gesture_corpus
 from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
 
 
-@click.group()
+@click.group(cls=SuggestingGroup)
 def corpus() -> None:
     """Make a data set where there are no recordings yet; it says of itself that it is synthetic.
 

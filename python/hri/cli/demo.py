@@ -11,6 +11,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.messages import note
 from hri.cli.output import write_json
 from hri.cli.progress import progress_bars
 from hri.core.errors import InvalidArgument, IoError
@@ -32,15 +33,16 @@ MADE = ("index.html", "result.json", "signer_and_robot.webm", "corpus", "models"
     show_default=True,
     help="Folder to write; one from an earlier demo is replaced.",
 )
-@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of voices, signers and noise.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed of voices, signers and noise.")
 @click.option("--backend", type=click.Choice(["pybullet", "kinematic"]), default="pybullet", show_default=True)
-@click.option("--keep-corpus/--no-keep-corpus", default=True, show_default=True, help="Keep what was learned from.")
-@click.option("--quick", is_flag=True, help="A very small corpus: sooner done, less sure.")
+@click.option("--keep-corpus/--no-keep-corpus", default=True, show_default=True, help="Keep the training data.")
+@click.option("--quick", is_flag=True, help="A very small corpus: faster, less accurate.")
 def demo(out: Path, seed: int, backend: str, keep_corpus: bool, quick: bool) -> None:
     """Show everything at once, on recordings that the demo makes itself; prints the page to open.
 
-    Synthetic voices say digits in English and Hindi, drawn signers show them; both are learned, people who were not
-    trained on command the robot, and a page explains what happened. Takes less than a minute and a half.
+    Synthetic voices say digits in English and Hindi, drawn signers show them. Recognisers are trained on both; voices
+    and signers that are in no training data command the robot, and a page explains what happened. Takes less than a
+    minute and a half.
 
     \b
     Examples:
@@ -65,7 +67,7 @@ def demo(out: Path, seed: int, backend: str, keep_corpus: bool, quick: bool) -> 
             (out / folder).mkdir()
         trained.words.save(out / "models" / "speech.hri")
         trained.signs.save(out / "models" / "gesture.hri")
-        _say(f"playing {len(SCRIPTS)} scenes with people never seen before")
+        _say(f"playing {len(SCRIPTS)} scenes with unseen voices and signers")
         scenes = []
         for number, script in enumerate(SCRIPTS):
             scenes.append(play(number, script, trained.words, trained.signs, seed))
@@ -101,17 +103,14 @@ def demo(out: Path, seed: int, backend: str, keep_corpus: bool, quick: bool) -> 
     if not keep_corpus:
         shutil.rmtree(out / "corpus")
     for scene in scenes:
-        click.echo(
-            f"{scene.script.title}: {scene.decision.label} ({scene.decision.confidence:.2f}), {scene.decision.rule}",
-            err=True,
-        )
+        note(f"{scene.script.title}: {scene.decision.label} ({scene.decision.confidence:.2f}), {scene.decision.rule}")
     click.echo(str((out / "index.html").resolve()))
 
 
 def _say(what: str) -> None:
     """One plain line a step where no bars are drawn."""
     if not sys.stderr.isatty():
-        click.echo(what, err=True)
+        note(what)
 
 
 def _require_tools(backend: str) -> None:

@@ -47,7 +47,7 @@ def denoise(
     strength: float,
     level: int | None,
 ) -> None:
-    """Take stationary noise out of the recording IN, by a wavelet transform.
+    """Reduce stationary noise in the recording IN by wavelet shrinkage.
 
     \b
     Examples:

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say_table, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import load_dataset, mode_argument, options_option, pattern_option, recognizer_factory
@@ -59,7 +60,7 @@ def evaluate(
     confusion: str | None,
     json_path: str | None,
 ) -> None:
-    """Measure the accuracy of MODE on people who were not trained on.
+    """Measure the accuracy of MODE (speech or gesture) on persons who are not in the training data.
 
     \b
     Examples:
@@ -108,18 +109,18 @@ def evaluate(
             result = evaluate_split(parts[0], parts[1], make, **conditions)
     say_table(_table(result), json_path)
     if "stratified" in str(result.conditions.get("folds", "")):
-        click.echo(f"folds are {result.conditions['folds']}", err=True)
+        note(f"folds are {result.conditions['folds']}")
     if confusion is not None:
         Path(confusion).parent.mkdir(parents=True, exist_ok=True)
         result.plot_confusion(confusion)
-        click.echo(f"confusion matrix: {confusion}", err=True)
+        note(f"confusion matrix: {confusion}")
     write_json(json_path, {"mode": mode, **result.to_dict(), "options": make().get_params()})
 
 
 def _warn_of_shared_persons(train: Dataset, test: Dataset) -> None:
     shared = [person for person in test.persons if person in train.persons]
     if shared:
-        click.echo(f"in both folders: {' '.join(shared)}; if they are the same people, they were met before", err=True)
+        note(f"in both folders: {' '.join(shared)}; if they are the same persons, the test is not speaker-independent")
 
 
 def _table(result: EvaluationResult) -> list[tuple[str, ...]]:

@@ -13,10 +13,11 @@ import click
 import numpy as np
 
 from hri._native import CepstraComputer
+from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_bytes, write_text
 from hri.cli.recognizers import naming_options, parse_options
 from hri.core.errors import InvalidArgument
-from hri.core.optional import import_optional
+from hri.core.plotting import new_figure, save_figure
 from hri.features import KINDS, PRESETS, cepstra_options, column_names
 from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, Audio, frame_rate, read_audio, read_frames
@@ -87,7 +88,7 @@ def features(
         text = _table(found.rows, found.names, "," if out else "\t")
         click.echo(text, nl=False) if out is None else write_text(Path(out), text)
     if out is not None:
-        click.echo(f"{out}: {found.rows.shape[0]} frames of {found.rows.shape[1]} features", err=True)
+        note(f"{out}: {found.rows.shape[0]} frames of {found.rows.shape[1]} features")
 
 
 @dataclass(frozen=True)
@@ -105,8 +106,8 @@ class _Found:
 
 def _heard(recording: str, kind: Any, preset: Any, options: tuple[str, ...]) -> _Found:
     audio = read_audio(recording)
-    for note in audio.notes:
-        click.echo(f"{recording}: {note}", err=True)
+    for text in audio.notes:
+        note(f"{recording}: {text}")
     with naming_options():
         chosen = cepstra_options(audio.sample_rate_hz, kind, preset, **parse_options(options))
     rows = np.asarray(CepstraComputer(chosen).compute(audio.samples))
@@ -127,7 +128,7 @@ def _seen(recording: str, kind: Any, options: tuple[str, ...]) -> _Found:
     if len(empty) == len(shapes):
         raise InvalidArgument(f"{recording}: no hand is seen")
     if empty:
-        click.echo(f"{recording}: no hand, and so no row, in frames {', '.join(empty)}", err=True)
+        note(f"{recording}: no hand, and so no row, in frames {', '.join(empty)}")
     rows = hand_features([s.grey for s in shapes], [s.mask for s in shapes], kind, **fields)
     middle = max((i for i in range(len(shapes)) if str(i) not in empty), key=lambda i: -abs(i - len(shapes) // 2))
     title = f"{Path(recording).name}: {kind}"
@@ -141,12 +142,7 @@ def _table(found: Any, names: list[str], separator: str) -> str:
 
 
 def _plot(path: str, found: _Found) -> None:
-    import_optional("matplotlib", "plots", "to draw features")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(9.0, 5.0), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = new_figure((9.0, 5.0), "to draw features")
     beside = found.audio is None
     above, below = figure.subplots(*((1, 2) if beside else (2, 1)), sharex=not beside)
     above.set_title(found.title)
@@ -168,4 +164,4 @@ def _plot(path: str, found: _Found) -> None:
         below.imshow(scaled.T, aspect="auto", origin="lower", extent=extent, cmap="magma")
         below.set(xlabel="s", ylabel="feature (each scaled)")
     Path(path).parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=110)
+    save_figure(figure, path)

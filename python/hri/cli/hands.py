@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_json, write_text
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import naming_options, parse_options
@@ -140,7 +141,7 @@ def hands(
     for side, found in report.hands.items():
         which = "a hand" if side == "hand" else f"a {side} hand"
         num_found = sum(hand.found for hand in found)
-        click.echo(f"{written or clip}: {which} in {num_found} of {len(found)} frames", err=True)
+        note(f"{written or clip}: {which} in {num_found} of {len(found)} frames")
 
 
 def _options(method: str | None) -> Any:

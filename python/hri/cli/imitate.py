@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.messages import note
 from hri.core.errors import InvalidArgument, IoError
 from hri.robot.imitation.imitate import FORMS, Imitation, ImitationOptions
 from hri.robot.imitation.imitate import imitate as make_imitation
@@ -84,14 +85,12 @@ def _chosen(tracks: dict[str, HandTrack], file: Path, name: str | None) -> HandT
 
 def _tell(made: Imitation, guessed: bool) -> None:
     how = "guessed from the track" if guessed else "as given"
-    click.echo(f"the person's height: {made.targets.height_px:.0f} px, {how}", err=True)
+    note(f"the person's height: {made.targets.height_px:.0f} px, {how}")
     for gap in made.gaps:
-        click.echo(f"{gap.what} not seen in frames {gap.first} to {gap.last}: bridged", err=True)
+        note(f"{gap.what} not seen in frames {gap.first} to {gap.last}: bridged")
     report = made.report()
     for side, share in report["reached"].items():
-        click.echo(f"{side} hand: {100 * share:.1f} % of the frames it is seen in are within reach", err=True)
+        note(f"{side} hand: {100 * share:.1f} % of the frames it is seen in are within reach")
     rms = "nothing is within reach" if report["rms_m"] is None else f"{1000 * report['rms_m']:.1f} mm"
-    click.echo(f"distance from the scaled track there, root mean square: {rms}", err=True)
-    click.echo(
-        f"{report['slower']:.2f} times as long as the track; {made.trajectory.duration_s:.1f} s in all", err=True
-    )
+    note(f"distance from the scaled track there, root mean square: {rms}")
+    note(f"{report['slower']:.2f} times as long as the track; {made.trajectory.duration_s:.1f} s in all")

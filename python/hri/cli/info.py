@@ -35,7 +35,7 @@ KINDS = {"word_recognizer": "speech", "gesture_recognizer": "gesture"}
 @click.argument("model", required=False, type=click.Path(exists=True, dir_okay=False))
 @json_option
 def info(model: str | None, json_path: str | None) -> None:
-    """Tell what is installed; with MODEL, what that model file holds.
+    """Show what is installed; with MODEL, what that model file holds.
 
     \b
     Examples:

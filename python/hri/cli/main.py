@@ -16,6 +16,8 @@ except ImportError:  # the base install has no command line
     sys.exit("hri: error: the command line needs click: pip install libhri[cli]")
 
 from hri import __version__
+from hri.cli.groups import SuggestingGroup
+from hri.cli.messages import set_verbosity
 from hri.core.errors import Error
 
 EXIT_USAGE = 2
@@ -24,27 +26,27 @@ EXIT_UNEXPECTED = 70
 EXIT_INTERRUPTED = 130
 
 COMMANDS = {
-    "demo": ("hri.cli.demo:demo", "Make a corpus, train, recognise a word and a sign, move the robot."),
+    "demo": ("hri.cli.demo:demo", "See everything work: made-up recordings, training, fusion, a moving robot."),
     "train": ("hri.cli.train:train", "Train a recogniser on a folder of recordings."),
-    "add-word": ("hri.cli.vocabulary:add_word", "Teach a recogniser one word more, from few recordings."),
-    "remove-word": ("hri.cli.vocabulary:remove_word", "Let a recogniser forget a word."),
+    "add-word": ("hri.cli.vocabulary:add_word", "Add a word to a trained recogniser, from few recordings."),
+    "remove-word": ("hri.cli.vocabulary:remove_word", "Remove a word from a trained recogniser."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
     "watch": ("hri.cli.watch:watch", "Recognise gestures as they are shown, to a camera or in a video."),
-    "adapt": ("hri.cli.adapt:adapt", "Let a model of words get used to a speaker or a room."),
-    "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on people who were not trained on."),
-    "record": ("hri.cli.record:record", "Make a data set of your own words, from a microphone."),
-    "corpus": ("hri.cli.corpus:corpus", "Make up recordings: words by a synthesiser, signs by drawn people."),
-    "hands": ("hri.cli.hands:hands", "Show what is found of the hand in a clip, as a film and a table."),
-    "features": ("hri.cli.features:features", "Features of sound or of hands, as a table or a plot."),
-    "denoise": ("hri.cli.denoise:denoise", "Take noise out of a recording by wavelets."),
-    "study": ("hri.cli.study:study", "Repeat a measured claim of the project."),
-    "robot": ("hri.cli.robot:robot", "Check motions of HOAP-2, carry them out in simulation, film them."),
-    "info": ("hri.cli.info:info", "Tell what is installed, or what a model file holds."),
+    "adapt": ("hri.cli.adapt:adapt", "Adapt a word recogniser to a speaker, a microphone or a room."),
+    "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on unseen persons, with cross-validation."),
+    "record": ("hri.cli.record:record", "Record a data set of your own words or gestures."),
+    "corpus": ("hri.cli.corpus:corpus", "Make synthetic recordings: words by espeak-ng, signs by drawn persons."),
+    "hands": ("hri.cli.hands:hands", "Show the hand found in a clip: mask, outline, track and features."),
+    "features": ("hri.cli.features:features", "Compute features of sound or of hands, as a table or a plot."),
+    "denoise": ("hri.cli.denoise:denoise", "Reduce noise in a recording by wavelets."),
+    "study": ("hri.cli.study:study", "Repeat a published measurement (accuracy, rejection, robustness)."),
+    "robot": ("hri.cli.robot:robot", "Check, simulate and film motions of the robots HOAP-2 and NAO."),
+    "info": ("hri.cli.info:info", "Show what is installed, or what a model file holds."),
 }
 
 
-class LazyGroup(click.Group):
+class LazyGroup(SuggestingGroup):
     """Loads a command's module when the command is called, so that ``hri --help`` answers at once."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -65,7 +67,9 @@ class LazyGroup(click.Group):
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="hri")
-def hri() -> None:
+@click.option("-v", "--verbose", count=True, help="Also say what the library does; -vv every detail.")
+@click.option("-q", "--quiet", is_flag=True, help="Results and errors only.")
+def hri(verbose: int, quiet: bool) -> None:
     """Command a humanoid robot with spoken words and signed gestures.
 
     \b
@@ -73,12 +77,16 @@ def hri() -> None:
       hri demo
       hri train speech --data spoken/
       hri train gesture --data signed/
-      hri recognise --speech seven.wav --gesture seven.jpg --robot robot.webm
+      hri recognise seven.wav seven.jpg --robot robot.webm
       hri evaluate speech --data spoken/
+      hri train --help
 
-    Exit codes: 0 done (also for "unknown"), 1 a target was missed, 2 wrong usage, 3 bad data, 70 a fault
+    Exit codes: 0 done (also for "unknown"), 1 target not met, 2 wrong usage, 3 bad data, 70 a fault
     of hri itself, 130 interrupted.
     """
+    if verbose and quiet:
+        raise click.UsageError("--verbose and --quiet exclude each other")
+    set_verbosity(-1 if quiet else verbose)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

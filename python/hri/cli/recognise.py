@@ -9,21 +9,25 @@ from typing import Any
 
 import click
 
+from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import kept_model
 from hri.core.errors import Error, InvalidArgument
+from hri.core.suggest import did_you_mean
 from hri.fusion import RULES, FusedDecision, fuse
-from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, read_audio, read_frames, write_image
+from hri.media import AUDIO_SUFFIXES, IMAGE_SUFFIXES, VIDEO_SUFFIXES, write_image
 from hri.recognition import Decision, GestureRecognizer, WordRecognizer
 from hri.recognition.decision import RECOGNISED
+from hri.recognition.inputs import MODEL_SUFFIX
 
 _file = click.Path(exists=True, dir_okay=False)
 
 
 @click.command()
+@click.argument("files", nargs=-1, type=click.Path(exists=True), metavar="[FILE]...")
 @click.option("--speech", type=_file, help="A recording of one spoken word.")
-@click.option("--gesture", type=_file, help="A picture or clip of one sign.")
+@click.option("--gesture", type=click.Path(exists=True), help="A picture, video or folder of pictures of one sign.")
 @click.option(
     "--speech-model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user."
 )
@@ -47,6 +51,7 @@ _file = click.Path(exists=True, dir_okay=False)
 @click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to list of each mode.")
 @json_option
 def recognise(
+    files: tuple[str, ...],
     speech: str | None,
     gesture: str | None,
     speech_model: str | None,
@@ -60,29 +65,36 @@ def recognise(
 ) -> None:
     """Recognise a spoken word, a sign, or both together; print label, confidence and the rule that fired.
 
-    "unknown" and "no_input" are answers too: the robot then does not move.
+    FILE is a recording of a word, or a picture, video or folder of pictures of a sign: one of each at most; --speech
+    and --gesture say which is which. "unknown", "no_input" and "ask" (an unsure STOP) are answers too: the robot then
+    does not move.
 
     \b
     Examples:
-      hri recognise --speech seven.wav
+      hri recognise seven.wav
+      hri recognise seven.wav seven.jpg
       hri recognise --speech seven.wav --gesture seven.jpg --robot robot.webm
       hri recognise --gesture clip.mp4 --gui
       hri recognise --speech seven.wav --gesture seven.jpg --rule product --json -
     """
+    for file in files:
+        if _is_sound(file):
+            speech = _only_one(speech, file, "words")
+        else:
+            gesture = _only_one(gesture, file, "signs")
     if speech is None and gesture is None:
-        raise click.UsageError("give --speech FILE, --gesture FILE, or both")
+        raise click.UsageError("give a recording: --speech FILE, --gesture FILE, or both")
     if gui and backend != "pybullet":
         raise click.UsageError("--gui needs --backend pybullet")
     heard = seen = None
     if speech is not None:
         words = WordRecognizer.load(speech_model or kept_model("speech"))
-        audio = read_audio(speech)
-        heard = words.recognise(audio.samples, audio.sample_rate_hz)
-        _describe(heard, speech, [*audio.notes, *heard.notes], top)
+        heard = words.recognise(speech)
+        _describe(heard, speech, top)
     if gesture is not None:
         signs = GestureRecognizer.load(gesture_model or kept_model("gesture"))
-        seen = signs.recognise(read_frames(gesture).frames)
-        _describe(seen, gesture, seen.notes, top)
+        seen = signs.recognise(gesture)
+        _describe(seen, gesture, top)
     decision = fuse(heard, seen, rule=rule)
     say(f"{decision.label}\t{decision.confidence:.3f}\t{decision.rule}", json_path)
     answer = None
@@ -96,12 +108,29 @@ def recognise(
         write_json(json_path, {**decision.to_dict(), "robot": answer})
 
 
-def _describe(decision: Decision, path: str, notes: Any, top: int) -> None:
+def _is_sound(file: str) -> bool:
+    suffix = Path(file).suffix.lower()
+    if suffix in AUDIO_SUFFIXES:
+        return True
+    if suffix in (*IMAGE_SUFFIXES, *VIDEO_SUFFIXES) or Path(file).is_dir():
+        return False
+    if suffix == MODEL_SUFFIX:
+        raise click.UsageError(f"{file} is a model, not a recording: give it as --speech-model or --gesture-model")
+    raise click.UsageError(f"{file} is neither sound, picture nor video by its suffix: say --speech or --gesture")
+
+
+def _only_one(before: str | None, file: str, what: str) -> str:
+    if before is not None:
+        raise click.UsageError(f"{before} and {file} are both {what}: one at a time")
+    return file
+
+
+def _describe(decision: Decision, path: str, top: int) -> None:
     """What one mode found, on standard error."""
     best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in decision.nbest[:top])
-    click.echo(f"{decision.mode}: {decision.label} ({best or decision.status}) {path}", err=True)
-    for note in notes:
-        click.echo(f"{decision.mode}: note: {note}", err=True)
+    note(f"{decision.mode}: {decision.label} ({best or decision.status}) {path}")
+    for text in decision.notes:
+        note(f"{decision.mode}: note: {text}")
 
 
 def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool) -> dict[str, Any]:
@@ -109,11 +138,12 @@ def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool)
     from hri.robot import gesture_trajectory, load_gestures, open_robot, render_video
 
     if decision.status != RECOGNISED:
-        click.echo(f"robot: not moved, because the answer is {decision.label}", err=True)
+        note(f"robot: not moved, because the answer is {decision.label}")
         return {"moved": False, "reason": decision.label}
     if decision.label not in load_gestures():
         raise InvalidArgument(
-            f"the robot has no gesture named {decision.label!r}; 'hri robot gestures' lists those it has"
+            f"the robot has no gesture named {decision.label!r}; "
+            f"{did_you_mean(decision.label, load_gestures())} ('hri robot gestures' lists all)"
         )
     trajectory = gesture_trajectory(decision.label)
     if gui:
@@ -129,5 +159,5 @@ def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool)
         with progress_bars() as progress:
             render_video(trajectory, path, backend, progress=lambda done, total: progress("filming", done, total))
     if path is not None:
-        click.echo(f"robot: {path}", err=True)
+        note(f"robot: {path}")
     return {"moved": True, "gesture": decision.label, "film": None if path is None else str(path)}

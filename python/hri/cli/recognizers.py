@@ -12,6 +12,7 @@ from typing import Any
 
 import click
 
+from hri.cli.messages import note
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
 from hri.recognition import GestureRecognizer, WordRecognizer
@@ -57,11 +58,11 @@ def kept_model(mode: str) -> Path:
 
 
 def load_dataset(directory: str, mode: str, pattern: str | None) -> Dataset:
-    """`Dataset.load`; recordings that do not fit the pattern are told of on standard error."""
+    """`Dataset.load`; recordings that do not fit the pattern are reported on standard error."""
     dataset = Dataset.load(directory, mode, pattern)
     if dataset.ignored:
         example = dataset.ignored[0].relative_to(dataset.root)
-        click.echo(f"{len(dataset.ignored)} recordings do not fit the pattern, such as {example}", err=True)
+        note(f"{len(dataset.ignored)} recordings do not fit the pattern, such as {example}")
     return dataset
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import SuggestingGroup
 from hri.cli.live_screen import (
     camera,
     camera_option,
@@ -20,12 +21,13 @@ from hri.cli.live_screen import (
     stall_option,
     tell,
 )
+from hri.cli.messages import note
 from hri.cli.sight_screen import SightScreen
 from hri.core.errors import FormatError
 from hri.live import AudioSource, Event, FileSource, FrameSource, GestureRecorder, VideoSource, WordRecorder
 
 
-@click.group()
+@click.group(cls=SuggestingGroup)
 def record() -> None:
     """Make a data set of your own.
 
@@ -143,7 +145,7 @@ def gesture(
 def _tell_done(recorder: WordRecorder | GestureRecorder, person: str, out: str, files: tuple[str, ...]) -> None:
     missing = recorder.missing()
     done = f"{recorder.num_takes - len(missing)} of {recorder.num_takes} recordings by {person} are in {out}"
-    click.echo(done, err=True)
+    note(done)
     if missing:
         raise FormatError(f"{', '.join(files)}: ended before '{missing[0][0]}', take {missing[0][1]}")
 

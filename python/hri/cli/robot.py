@@ -13,7 +13,9 @@ from pathlib import Path
 import click
 import numpy as np
 
+from hri.cli.groups import SuggestingGroup
 from hri.cli.imitate import imitate
+from hri.cli.messages import note
 from hri.core.errors import InvalidArgument
 from hri.robot.control.backend import Robot
 from hri.robot.control.state import MotionLog
@@ -53,7 +55,7 @@ _robot = click.option(
 )
 
 
-@click.group()
+@click.group(cls=SuggestingGroup)
 def robot() -> None:
     """Check motions of the robot HOAP-2 or NAO, carry them out in simulation and film them.
 
@@ -77,7 +79,7 @@ def check(file: Path, repaired: Path | None, table: JointTable) -> None:
     """Look over FILE, pulses or the short form; tab-separated findings go to stdout, exit code 3 for errors.
 
     With --repair, cells that hold no count are taken from their neighbours and counts beyond a limit become the limit
-    in a new file; every change is told on stderr, and the findings are those of the new file.
+    in a new file; every change is reported on stderr, and the findings are those of the new file.
 
     \b
     Example:
@@ -89,7 +91,7 @@ def check(file: Path, repaired: Path | None, table: JointTable) -> None:
     if repaired is not None:
         for change in repair_pulse_csv(file, repaired):
             where = f"row {change.row}, column {change.column} ({change.joint})"
-            click.echo(f"{where}: {change.before!r} is now {change.after}: {change.reason}", err=True)
+            note(f"{where}: {change.before!r} is now {change.after}: {change.reason}")
         file = repaired
     short = is_short_csv(file)
     findings = check_trajectory(read_short_csv(file, table), table) if short else check_pulse_csv(file)
@@ -97,7 +99,7 @@ def check(file: Path, repaired: Path | None, table: JointTable) -> None:
         place = (finding.severity, str(finding.row), finding.column, finding.joint)
         click.echo("\t".join((*place, finding.message)))
     errors = sum(finding.severity == "error" for finding in findings)
-    click.echo(f"{file}: {errors} errors, {len(findings) - errors} warnings", err=True)
+    note(f"{file}: {errors} errors, {len(findings) - errors} warnings")
     if errors:
         sys.exit(EXIT_BAD_DATA)
 
@@ -129,8 +131,8 @@ def play(
 ) -> None:
     """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
 
-    A robot on its feet begins with the motion's first row, standing or lying, and tells where it got to, and whether it
-    fell, on stderr: exit code 1. Ctrl-C stops the robot, within its limits of speed and acceleration: exit code 130.
+    A robot on its feet begins with the motion's first row, standing or lying; where it ends, and whether it fell (exit
+    code 1), is reported on stderr. Ctrl-C stops the robot, within its limits of speed and acceleration: exit code 130.
 
     \b
     Example:
@@ -151,15 +153,15 @@ def play(
         for name, position in opened.joint_positions_rad().items():
             click.echo(f"{name}\t{position:.4f}")
         for event in opened.events:
-            click.echo(f"{event.time_s:.2f} s: {event.kind}: {event.message}", err=True)
+            note(f"{event.time_s:.2f} s: {event.kind}: {event.message}")
         if stand:
             end = opened.state()
             place = ", ".join(f"{value:.3f}" for value in end.base_position_m)
             turned = ", ".join(f"{np.degrees(value):.1f}" for value in end.base_rpy_rad)
-            click.echo(f"base at {place} m; roll, pitch, yaw {turned} deg", err=True)
+            note(f"base at {place} m; roll, pitch, yaw {turned} deg")
     if log_path is not None:
         log.write(log_path)
-        click.echo(f"log: {log_path}", err=True)
+        note(f"log: {log_path}")
     if opened.events:
         sys.exit(EXIT_FELL if opened.events[-1].kind == "fall" else EXIT_INTERRUPTED)
 
@@ -219,14 +221,14 @@ def convert(motion: str, out: Path, short: bool, slow: bool) -> None:
     if slow:
         slower = slow_to_limits(trajectory)
         if slower is not trajectory:
-            click.echo(f"slowed from {trajectory.duration_s:g} to {slower.duration_s:g} s", err=True)
+            note(f"slowed from {trajectory.duration_s:g} to {slower.duration_s:g} s")
         trajectory = slower
     if out.suffix.lower() == ".csv" and short:
         write_short_csv(out, trajectory)
     elif out.suffix.lower() == ".csv":
         left_out = write_pulse_csv(out, trajectory)
         if left_out:
-            click.echo(f"left out, as the format has no count: {', '.join(left_out)}", err=True)
+            note(f"left out, as the format has no count: {', '.join(left_out)}")
     elif out.suffix.lower() == ".tsv":
         trajectory.write_tsv(out)
     else:

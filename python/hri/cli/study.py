@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.messages import note
 from hri.cli.output import json_option, say, write_json, write_text
 from hri.cli.progress import progress_bars
 from hri.core.optional import import_optional
@@ -61,7 +62,7 @@ def study(
     kept_path: str | None,
     json_path: str | None,
 ) -> int:
-    """Repeat a measured claim of the project; exit code 1 if its target was missed.
+    """Repeat a published measurement; exit code 1 if its target is not met.
 
     \b
     Examples:
@@ -98,9 +99,9 @@ def study(
         write_text(place.with_suffix(".csv"), csv_text(result, found.layout))
         write_json(str(place.with_suffix(".json")), result)
         draw(result, found.layout, place.with_suffix(".png"))
-        click.echo(f"results: {place}.md .csv .json .png", err=True)
+        note(f"results: {place}.md .csv .json .png")
     if result["passed"] is False:
-        click.echo(f"hri: study {name} missed its target: {result['target']}", err=True)
+        click.echo(f"hri: study {name} did not meet its target: {result['target']}", err=True)
         return 1
     return 0
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
@@ -74,11 +75,9 @@ def train(
     recognizer.save(path)
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
-    click.echo(
-        f"{len(dataset)} recordings{persons}, {len(dataset.labels)} labels: {' '.join(dataset.labels)}", err=True
-    )
+    note(f"{len(dataset)} recordings{persons}, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
     if len(dataset.persons) < 2:
-        click.echo("confidences are calibrated best with two persons or more", err=True)
+        note("confidences are calibrated best with two persons or more")
     write_json(
         json_path,
         {

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.recognizers import kept_model
 from hri.media import read_audio
@@ -77,5 +78,5 @@ def _keep(words: WordRecognizer, target: Path, json_path: str | None) -> None:
     words.save(target)
     labels = [str(label) for label in words.classes_]
     say(str(target), json_path)
-    click.echo(f"{len(labels)} labels: {' '.join(labels)}", err=True)
+    note(f"{len(labels)} labels: {' '.join(labels)}")
     write_json(json_path, {"model": str(target), "labels": labels})

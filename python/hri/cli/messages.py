@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What is said beside the results, on standard error: messages of commands, and the library's log."""
+
+from __future__ import annotations
+
+import logging
+
+import click
+
+_COMMANDS = logging.getLogger("hri.cli")
+_LIBRARY = logging.getLogger("hri")
+
+
+class _StandardError(logging.Handler):
+    """Writes to what standard error is at that moment; the library's records carry their logger's name."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        text = record.getMessage()
+        click.echo(text if record.name == _COMMANDS.name else f"{record.name}: {text}", err=True)
+
+
+def note(text: str) -> None:
+    """A message for people, on standard error unless ``hri --quiet``."""
+    _COMMANDS.info(text)
+
+
+def set_verbosity(verbosity: int) -> None:
+    """How much is said.
+
+    Parameters
+    ----------
+    verbosity : int
+        -1: errors only. 0: what commands have to say, and the library's warnings. 1: also what the library does.
+        2: every detail.
+    """
+    for handler in _LIBRARY.handlers[:]:
+        if isinstance(handler, _StandardError):
+            _LIBRARY.removeHandler(handler)
+    _LIBRARY.addHandler(_StandardError())
+    _LIBRARY.propagate = False
+    level = {-1: logging.ERROR, 0: logging.WARNING, 1: logging.INFO}.get(verbosity, logging.DEBUG)
+    _LIBRARY.setLevel(level)
+    _COMMANDS.setLevel(logging.ERROR if verbosity < 0 else min(level, logging.INFO))

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What the command line says beside its results: suggestions, how much it tells, and help with examples."""
+
+from __future__ import annotations
+
+import logging
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+import pytest
+
+from hri.cli.main import hri as root
+from hri.core.suggest import did_you_mean, nearest
+from hri.datasets import Dataset
+from hri.recognition import WordRecognizer
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        ("trian speech", 2, "no command 'trian'; did you mean 'train'?"),
+        ("recognize --speech x", 2, "did you mean 'recognise'?"),
+        ("robot gesture", 2, "did you mean 'gestures'?"),
+        ("corpus speach", 2, "did you mean 'speech'?"),
+        ("record words", 2, "did you mean 'word'?"),
+        ("train speech --dat .", 2, "--data"),
+        ("study fusion-digit", 3, "did you mean 'fusion-digits'"),
+        ("robot play namste --backend kinematic", 3, "did you mean 'namaste'?"),
+    ],
+)
+def test_what_was_meant_is_suggested(hri, arguments: str, code: int, message: str):
+    result = hri(*arguments.split())
+    assert (result.code, result.out) == (code, "")
+    assert message in result.err and result.err.count("\n") == 1
+
+
+def test_names_that_are_like_none_are_listed():
+    assert did_you_mean("xyz", ["train", "watch"]) == "there are: train, watch"
+    assert did_you_mean("xyz", [f"label{i}" for i in range(30)], "it has").endswith("label11 and 18 more")
+    assert nearest("STOP", ["stop", "start"])[0] == "stop"
+
+
+def test_labels_are_suggested(hri, spoken: Path, tmp_path: Path):
+    dataset = Dataset.load(spoken, "speech")
+    with pytest.raises(ValueError, match="no person 'hihg' in this data set; did you mean 'high'"):
+        dataset.select(persons=["hihg"])
+    model = tmp_path / "words.hri"
+    paths = [sample.path for sample in dataset]
+    names = [{"1": "forward", "2": "backward"}[sample.label] for sample in dataset]
+    WordRecognizer(noise_copies=0, num_warps=1).fit(paths, names, background=[]).save(model)
+    result = hri("remove-word", "--model", model, "--label", "forwrad")
+    assert result.code == 3 and "no word 'forwrad'; did you mean 'forward'" in result.err
+    result = hri("adapt", "--model", model, "--label", "backwards", "-o", tmp_path / "a.hri", paths[0])
+    assert result.code == 3 and "did you mean 'backward'" in result.err
+
+
+def test_files_of_another_kind_are_said_to_be_what_they_are(hri, spoken: Path, signed: Path, tmp_path: Path):
+    words, word, sign = tmp_path / "words.hri", spoken / "1_low_0.wav", next(signed.glob("*/*.jpg"))
+    assert hri("train", "speech", "--data", spoken, "--out", words, "--no-background").code == 0
+    for arguments, code, message in (
+        (("recognise", words), 2, "words.hri is a model, not a recording: give it as --speech-model"),
+        (("recognise", "--speech", words, "--speech-model", words), 3, "words.hri is a model, not a recording"),
+        (("recognise", "--gesture", sign, "--gesture-model", words), 3, "words.hri is a word recogniser"),
+        (("recognise", "--speech", word, "--speech-model", word), 3, "1_low_0.wav is a sound file, not a model"),
+        (("recognise", "--speech", sign, "--speech-model", words), 3, "is a picture or video"),
+        (("recognise", word, spoken / "2_low_0.wav"), 2, "are both words: one at a time"),
+    ):
+        result = hri(*arguments)
+        assert (result.code, result.out) == (code, ""), arguments
+        assert message in result.err, result.err
+
+
+def test_recordings_need_no_option_where_their_suffix_says_it_all(hri, spoken: Path, signed: Path, tmp_path: Path):
+    words, signs = tmp_path / "words.hri", tmp_path / "signs.hri"
+    assert hri("train", "speech", "--data", spoken, "--out", words, "--no-background").code == 0
+    assert hri("train", "gesture", "--data", signed, "--out", signs).code == 0
+    models = ("--speech-model", words, "--gesture-model", signs)
+    word, sign = spoken / "1_low_0.wav", sorted((signed / "1").iterdir())[0]
+    short = hri("recognise", word, sign, *models)
+    assert short.code == 0 and short.out == hri("recognise", "--speech", word, "--gesture", sign, *models).out
+
+
+def test_quiet_and_verbose_change_what_is_said_and_not_the_result(hri, spoken: Path, tmp_path: Path):
+    model = tmp_path / "words.hri"
+    command = ("train", "speech", "--data", spoken, "--out", model, "--no-background")
+    plain, quiet, verbose = hri(*command), hri("-q", *command), hri("-v", *command)
+    assert plain.out == quiet.out == verbose.out
+    assert quiet.err == "" and "18 recordings" in plain.err
+    assert "hri.recognition" in verbose.err and "hri.recognition" not in plain.err
+    assert hri("-q", "nonsense").err.startswith("hri: error: ")
+    assert hri("-q", "-v", "info").code == 2
+
+
+def test_the_library_is_silent_unless_somebody_listens(spoken: Path, caplog: pytest.LogCaptureFixture):
+    code = (
+        "import hri, logging, sys; "
+        "assert any(isinstance(h, logging.NullHandler) for h in logging.getLogger('hri').handlers); "
+        f"hri.Dataset.load({str(spoken)!r})"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    logger = logging.getLogger("hri")
+    propagated, level = logger.propagate, logger.level
+    logger.propagate = True
+    try:
+        with caplog.at_level(logging.INFO, "hri"):
+            Dataset.load(spoken, "speech")
+    finally:
+        logger.propagate = propagated
+        logger.setLevel(level)
+    assert any(record.name == "hri.datasets.dataset" and "18" in record.getMessage() for record in caplog.records)
+
+
+def commands(group: click.Group, name: str) -> Iterator[tuple[str, click.Command]]:
+    context = click.Context(group)
+    for entry in group.list_commands(context):
+        command = group.get_command(context, entry)
+        assert command is not None
+        if isinstance(command, click.Group):
+            yield from commands(command, f"{name} {entry}")
+        yield f"{name} {entry}", command
+
+
+def test_every_command_has_help_with_an_example_of_itself():
+    missing = []
+    for name, command in commands(root, "hri"):
+        text = command.get_help(click.Context(command, info_name=name))
+        if "Example" not in text or f"\n      {name}" not in text.replace("    hri", "      hri"):
+            missing.append(name)
+    assert missing == []
