@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from hri.core.display import short_repr
 from hri.datasets import Dataset
 from hri.synthetic.signer import make_gesture_corpus
 from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
@@ -23,18 +24,23 @@ WORDS = {
 
 @dataclass(frozen=True)
 class CorpusSize:
-    """How much is made."""
+    """How much is made.
 
-    num_speakers: int = 6
+    Many voices once each teach more than few voices twice: a word of a voice never heard differs from those heard in
+    throat and pitch, not from take to take.
+    """
+
+    num_speakers: int = 9
     num_signers: int = 10
-    takes: int = 2
+    takes: int = 1
 
 
 FULL = CorpusSize()
-QUICK = CorpusSize(num_speakers=3, num_signers=4, takes=1)
+QUICK = CorpusSize(num_speakers=4, num_signers=4)
 
 
 @dataclass(frozen=True)
+@short_repr
 class Corpus:
     """Spoken words and still signs, each of several made-up people."""
 

@@ -32,7 +32,7 @@ STOPPED = "stop"
 
 
 def robot_moves(decision: FusedDecision) -> bool:
-    """Whether the robot answers this decision by moving; on unknown, no input and stop it rests."""
+    """Whether the robot answers this decision by moving; on unknown, no input, ask and stop it rests."""
     return decision.status == RECOGNISED and decision.label != STOPPED
 
 

@@ -34,7 +34,7 @@ def make_page(scenes: list[Scene], trained: Trained, film: Path, facts: dict[str
     words, signs = trained.words_result, trained.signs_result
     confusions = _embedded("image/png", plot_confusions(words, signs))
     progress("drawing plots", len(scenes) + 1, len(scenes) + 1)
-    right = sum(scene.decision.label == scene.script.word for scene in scenes)
+    right = sum(scene.succeeded for scene in scenes)
     template = Template(files("hri.demo").joinpath("page.html").read_text(encoding="utf-8"))
     return template.substitute(
         film=_embedded("video/webm", film.read_bytes()),
@@ -69,22 +69,25 @@ def _commands(directory: Path) -> str:
 def _section(number: int, scene: Scene, plot: str) -> str:
     decision = scene.decision
     rows = [
-        ("heard", _told(decision.speech)),
-        ("seen", _told(decision.gesture)),
+        ("heard", _decided(decision.speech)),
+        ("seen", _decided(decision.gesture)),
         ("rule", html.escape(decision.rule)),
-        ("other rules", ", ".join(f"{name}: {_told(d)}" for name, d in scene.by_rule.items() if name != "table_6_9")),
+        (
+            "other rules",
+            ", ".join(f"{name}: {_decided(d)}" for name, d in scene.by_rule.items() if name != "table_6_9"),
+        ),
         ("robot", _robot(scene)),
     ]
     table = "".join(f"<tr><th>{name}</th><td>{text}</td></tr>" for name, text in rows)
     return (
         f"<h2>{number + 1}. {html.escape(scene.script.title)}</h2>"
         f'<p>{scene.script.text} <audio controls src="{_embedded("audio/wav", _wav(scene.audio))}"></audio></p>'
-        f'<p class="answer">Decided: {_told(decision)}</p><div class="scroll"><table>{table}</table></div>'
+        f'<p class="answer">Decided: {_decided(decision)}</p><div class="scroll"><table>{table}</table></div>'
         f'<figure><img alt="what was heard and seen, and the candidates" src="{plot}"></figure>'
     )
 
 
-def _told(decision: Any) -> str:
+def _decided(decision: Any) -> str:
     if decision is None:
         return "nothing"
     return f"{html.escape(decision.label)} ({100 * decision.confidence:.1f} %)"

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.demo.corpus import WORDS
+from hri.core.display import short_repr
+from hri.demo.corpus import FULL, WORDS
 from hri.evaluation import make_noise, mix_noise
 from hri.fusion import RULES, FusedDecision, fuse
 from hri.media import Audio
@@ -20,8 +21,10 @@ from hri.synthetic.drawing.signer import make_signer
 from hri.synthetic.signer import CLIP_FPS, draw_clip
 from hri.synthetic.speech import make_speaker, speak
 
-UNSEEN = 40
-"""Number of the first voice and signer that the scenes take: far beyond those trained on."""
+UNSEEN_VOICE = FULL.num_speakers
+"""Number of the first voice of the scenes. Those of the corpus come before it; like them, these have plain throats."""
+UNSEEN_SIGNER = 40
+"""Number of the first signer of the scenes, far beyond those trained on."""
 CLIP_SIZE_PX = (320, 240)
 _NUM_FRAMES = 30
 _SNR_DB = 0.0
@@ -74,6 +77,7 @@ SCRIPTS = (
 
 
 @dataclass(frozen=True)
+@short_repr
 class Scene:
     """A script as played: what was heard and seen, and all decisions."""
 
@@ -84,6 +88,11 @@ class Scene:
     decision: FusedDecision
     by_rule: dict[str, FusedDecision]
 
+    @property
+    def succeeded(self) -> bool:
+        """Whether the decision is what the script asks for."""
+        return self.decision.label == self.script.word
+
     def to_dict(self) -> dict[str, Any]:
         """As plain values that can be written as JSON."""
         return {
@@ -91,6 +100,7 @@ class Scene:
             "said": self.script.word,
             "language": self.script.language,
             "signed": self.script.sign,
+            "succeeded": self.succeeded,
             "noise": f"white, {_SNR_DB:g} dB" if self.script.noisy else None,
             "decision": self.decision.to_dict(),
             "other_rules": {name: {"label": d.label, "confidence": d.confidence} for name, d in self.by_rule.items()},
@@ -99,14 +109,14 @@ class Scene:
 
 def play(number: int, script: Script, words: WordRecognizer, signs: GestureRecognizer, seed: int) -> Scene:
     """Speak and draw `script` by people of its own, and decide."""
-    person = UNSEEN + number
-    audio = speak(WORDS[script.language][script.word], script.language, make_speaker(person, seed), seed=seed)
+    voice, signer = make_speaker(UNSEEN_VOICE + number, seed), make_signer(UNSEEN_SIGNER + number, seed)
+    audio = speak(WORDS[script.language][script.word], script.language, voice, seed=seed)
     if script.noisy:
         noise = make_noise("white", len(audio.samples), audio.sample_rate_hz, np.random.default_rng(seed))
         samples = mix_noise(audio.samples, noise, _SNR_DB, audio.sample_rate_hz)
         audio = Audio(samples / np.abs(samples).max(), audio.sample_rate_hz, audio.notes)
-    frames = draw_clip(make_signer(person, seed), script.sign, seed=seed, size_px=CLIP_SIZE_PX, num_frames=_NUM_FRAMES)
-    heard = words.recognise(audio.samples, audio.sample_rate_hz)
+    frames = draw_clip(signer, script.sign, seed=seed, size_px=CLIP_SIZE_PX, num_frames=_NUM_FRAMES)
+    heard = words.recognise(audio)
     seen = signs.recognise(frames)
     by_rule = {rule: fuse(heard, seen, rule=rule) for rule in RULES}
     return Scene(script, audio, frames, CLIP_FPS, by_rule[RULES[0]], by_rule)

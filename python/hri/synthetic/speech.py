@@ -8,9 +8,11 @@ how well.
 
 from __future__ import annotations
 
+import os
 import subprocess
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -245,16 +247,26 @@ def make_speech_corpus(
     root = start_corpus(directory, dict.fromkeys(label for label, _, _ in spoken))
     rows = []
     total = num_speakers * takes * len(spoken)
-    for index in range(num_speakers):
-        speaker = make_speaker(index, seed)
-        for label, language, text in spoken:
-            for take in range(takes):
-                audio = speak(text, language, speaker, take, seed)
-                name = f"{label}/{speaker.name}_{language}{take + 1}.wav"
-                _native.write_wav_pcm16(str(root / name), audio.samples, audio.sample_rate_hz)
-                rows.append(SampleRow(name, label, speaker.name, f"{language}{take + 1}"))
+    speakers = [make_speaker(index, seed) for index in range(num_speakers)]
+    jobs = [(speaker, *word, take) for speaker in speakers for word in spoken for take in range(takes)]
+
+    def record(job: tuple[Speaker, str, str, str, int]) -> SampleRow:
+        speaker, label, language, text, take = job
+        audio = speak(text, language, speaker, take, seed)
+        name = f"{label}/{speaker.name}_{language}{take + 1}.wav"
+        _native.write_wav_pcm16(str(root / name), audio.samples, audio.sample_rate_hz)
+        return SampleRow(name, label, speaker.name, f"{language}{take + 1}")
+
+    with ThreadPoolExecutor(os.cpu_count()) as executor:  # the synthesiser is a process of its own
+        pending = [executor.submit(record, job) for job in jobs]
+        try:
+            for future in pending:
+                rows.append(future.result())
                 if progress is not None:
                     progress(len(rows), total)
+        except BaseException:
+            executor.shutdown(cancel_futures=True)
+            raise
     return finish_corpus(
         root,
         "speech",
