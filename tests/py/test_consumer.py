@@ -13,7 +13,7 @@ import pytest
 
 import hri
 from hri import _native
-from hri.synthetic.speech import make_speech_corpus
+from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("HRI_BUILD_DIR")
@@ -79,6 +79,22 @@ def test_cpp_gives_the_scores_of_python_to_the_bit(programs: Path, spoken: Path,
         label, confidence = run(programs / "recognise_word", model, sample.path).split()
         decision = recognizer.recognise(audio.samples, audio.sample_rate_hz)
         assert (label, float(confidence)) == (decision.label, pytest.approx(decision.confidence, abs=1e-5))
+
+
+def test_words_in_a_stream_are_found_and_recognised(programs: Path, spoken: Path, tmp_path: Path) -> None:
+    """The tutorial's program, on two words with a second of quiet room around each."""
+    words = hri.train(hri.Dataset.load(spoken))
+    assert isinstance(words, hri.WordRecognizer)
+    words.save(tmp_path / "words.hri")
+    clips = [speak(word, "en", make_speaker(20)) for word in ("one", "three")]
+    rate_hz = clips[0].sample_rate_hz
+    room = 1e-4 * np.random.default_rng(0).standard_normal(rate_hz).astype(np.float32)
+    stream = np.concatenate([room, clips[0].samples, room, clips[1].samples, room])
+    _native.write_wav_pcm16(str(tmp_path / "stream.wav"), stream, rate_hz)
+    lines = run(programs / "stream_words", tmp_path / "words.hri", tmp_path / "stream.wav").splitlines()
+    assert [line.split("\t")[1] for line in lines] == ["one", "three"]
+    begins_ms = [int(line.split()[0]) for line in lines]
+    assert 1000 <= begins_ms[0] < 1200 and begins_ms[1] > 2000 + 1000 * len(clips[0].samples) / rate_hz
 
 
 def test_core_knows_no_opencv(installed: Path) -> None:
@@ -155,3 +171,7 @@ def test_core_reports_errors_without_exceptions(tmp_path: Path) -> None:
     run("g++", "-std=c++17", "-fno-exceptions", "-fno-rtti", source, "-o", program, *flags)
     done = subprocess.run([str(program)], capture_output=True, text=True)
     assert done.returncode == 7 and "empty.hri" in done.stderr
+    stream_words = ROOT / "examples" / "consumer" / "stream_words.cpp"
+    run("g++", "-std=c++17", "-fno-exceptions", "-fno-rtti", stream_words, "-o", program, *flags)
+    done = subprocess.run([str(program), "missing.hri", "missing.wav"], capture_output=True, text=True)
+    assert done.returncode == 3 and "missing.hri" in done.stderr
