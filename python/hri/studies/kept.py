@@ -98,7 +98,7 @@ def _quick(study: Study, only: Only) -> dict[str, list[str]]:
 def compare(name: str, kept: Row, fresh: Row) -> None:
     """Raise InvalidArgument unless every measured value of `fresh` is one of `kept`, to the last digit kept."""
     digits = kept.get("rounded_to")
-    old, new = dict(fold_values(kept)), dict(fold_values(fresh, digits))
+    old, new = dict(fold_values(kept, digits)), dict(fold_values(fresh, digits))
     if digits is not None:  # what was never kept cannot be compared
         new = {place: value for place, value in new.items() if place in old}
     if not new:
