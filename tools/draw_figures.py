@@ -107,13 +107,14 @@ def draw_structures(path: Path) -> None:
 def draw_parity(path: Path, study: dict[str, Any]) -> None:
     """Accuracy of each form on every data set, with its spread over held-out persons."""
     figure, axes = plt.subplots(figsize=(9, 3.4))
-    names = list(study["data_sets"])
+    rows = {(row["data"], row["method"]): row for row in study["rows"]}
+    names = list(dict.fromkeys(row["data"] for row in study["rows"]))
     width = 0.8 / len(METHODS)
     for m, (method, (label, color)) in enumerate(METHODS.items()):
-        found = [study["data_sets"][name]["methods"][method] for name in names]
+        found = [rows[name, method] for name in names]
         x = np.arange(len(names)) + (m - (len(METHODS) - 1) / 2) * width
         axes.bar(x, [100 * f["accuracy_mean"] for f in found], width, color=color, label=label)
-        spread = [100 * f["accuracy_std"] for f in found]
+        spread = [100 * f.get("accuracy_std", 0.0) for f in found]
         axes.errorbar(x, [100 * f["accuracy_mean"] for f in found], spread, fmt="none", ecolor="#333", elinewidth=0.7)
     axes.set(xticks=range(len(names)), xticklabels=names, ylabel="% right", ylim=(0, 100))
     axes.legend(fontsize=8, frameon=False, ncols=3, loc="upper center", bbox_to_anchor=(0.5, 1.22))
@@ -122,7 +123,7 @@ def draw_parity(path: Path, study: dict[str, Any]) -> None:
 
 def draw_scaling(path: Path, bench: list[dict[str, Any]]) -> None:
     """Cost of 1000 frames under one model against its number of states."""
-    details = {entry["name"]: entry["details"] for entry in bench}
+    details = {entry["name"]: entry["details"] for entry in bench["benches"]}
     figure, axes = plt.subplots(figsize=(6.5, 4))
     lines = (
         ("ptbhmm_scaling", "hmm_dense_us", "HMM, dense", GREY),

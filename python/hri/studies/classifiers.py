@@ -90,6 +90,6 @@ STUDIES = (
             "python/studies/word_classifiers.py",
         ),
         folds=True,
-        quick={"data": ("hindi-words",), "features": ("hfcc",)},
+        quick={"data": ("hindi-words",), "features": ("hfcc",), "classifier": ("bayes", "hmm", "ptbhmm")},
     ),
 )

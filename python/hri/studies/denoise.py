@@ -93,6 +93,6 @@ STUDIES = (
         Layout(columns="noise", panel="noise", measure="gain_db", percent=False),
         {"threshold": tuple(RULES), "noise": tuple(RECORDED)},
         sources=("cpp/signal", "python/signal", "python/evaluation"),
-        quick={"noise": ("white",)},
+        quick={"noise": ("white",), "threshold": ("bayes",)},
     ),
 )

@@ -100,6 +100,6 @@ STUDIES = (
             "python/studies/word_classifiers.py",
         ),
         folds=True,
-        quick={"data": ("hindi-words",)},
+        quick={"data": ("hindi-words",), "classifier": ("euclidean",)},
     ),
 )
