@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "hri/core/simd.hpp"
+#include "core/simd.hpp"
 
 namespace hri {
 

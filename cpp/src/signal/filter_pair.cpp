@@ -4,40 +4,11 @@
 
 #include "hri/core/error.hpp"
 
-// A fused multiply-add rounds once where others round twice, and compilers fuse unless told.
-#if defined(__clang__)
-#pragma STDC FP_CONTRACT OFF
-#elif defined(__GNUC__)
-#pragma GCC optimize("fp-contract=off")
-#endif
+#define HRI_KERNEL_FILE "signal/filter_pair_kernel.inc"
+#include "core/foreach_instruction_set.inc"
 
 namespace hri::detail {
 namespace {
-
-namespace baseline {
-constexpr int kBytes = 16;
-constexpr int kGroup = 4;
-#include "signal/filter_pair_kernel.inc"
-}  // namespace baseline
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#pragma GCC push_options
-#pragma GCC target("arch=haswell")
-namespace avx2 {
-constexpr int kBytes = 32;
-constexpr int kGroup = 4;
-#include "signal/filter_pair_kernel.inc"
-}  // namespace avx2
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("arch=skylake-avx512,prefer-vector-width=512")
-namespace avx512 {
-constexpr int kBytes = 64;
-constexpr int kGroup = 8;
-#include "signal/filter_pair_kernel.inc"
-}  // namespace avx512
-#pragma GCC pop_options
-#endif
 
 void require_filters(const Wavelet& w) {
   const std::size_t size = w.dec_lo.size();
@@ -48,27 +19,16 @@ void require_filters(const Wavelet& w) {
 
 }  // namespace
 
-// A table and no vector: streams ask in the middle of a signal, where nothing may be allocated.
 template <class T>
 Span<const NamedPairLoops<T>> all_pair_loops() {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  static constexpr NamedPairLoops<T> kAll[] = {
-      {"baseline", baseline::kLoops<T>}, {"avx2", avx2::kLoops<T>}, {"avx512", avx512::kLoops<T>}};
-  const bool avx2 = __builtin_cpu_supports("avx2");
-  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
-                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-                      __builtin_cpu_supports("avx512dq");
-  return {kAll, avx512 ? 3U : avx2 ? 2U : 1U};
-#else
-  static constexpr NamedPairLoops<T> kAll[] = {{"baseline", baseline::kLoops<T>}};
-  return {kAll, 1};
-#endif
+  static constexpr NamedPairLoops<T> kAll[] = {HRI_EVERY_SET(, kLoops<T>)};
+  return runnable(kAll);
 }
 
 template <class T>
 const PairLoops<T>& pair_loops() {
-  static const Span<const NamedPairLoops<T>> all = all_pair_loops<T>();
-  return all[all.size() - 1].loops;
+  static const PairLoops<T>& best = widest(all_pair_loops<T>()).loops;
+  return best;
 }
 
 template <class T>

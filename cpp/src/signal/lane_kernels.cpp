@@ -8,40 +8,11 @@
 #include "hri/core/error.hpp"
 #include "hri/signal/lanes.hpp"
 
-// A fused multiply-add rounds once where others round twice, and compilers fuse unless told.
-#if defined(__clang__)
-#pragma STDC FP_CONTRACT OFF
-#elif defined(__GNUC__)
-#pragma GCC optimize("fp-contract=off")
-#endif
+#define HRI_KERNEL_FILE "signal/lane_kernels.inc"
+#include "core/foreach_instruction_set.inc"
 
 namespace hri::detail {
 namespace {
-
-namespace baseline {
-constexpr const char* kName = "baseline";
-constexpr int kLanes = 4;
-#include "signal/lane_kernels.inc"
-}  // namespace baseline
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#pragma GCC push_options
-#pragma GCC target("arch=haswell")
-namespace avx2 {
-constexpr const char* kName = "avx2";
-constexpr int kLanes = 8;
-#include "signal/lane_kernels.inc"
-}  // namespace avx2
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("arch=skylake-avx512,prefer-vector-width=512")
-namespace avx512 {
-constexpr const char* kName = "avx512";
-constexpr int kLanes = 16;
-#include "signal/lane_kernels.inc"
-}  // namespace avx512
-#pragma GCC pop_options
-#endif
 
 constexpr double kTwoPi = 6.283185307179586476925;
 
@@ -74,21 +45,13 @@ LaneFftPlan::LaneFftPlan(int size) : half(size / 2), order(static_cast<std::size
   place_bins(0, half, 0, 1, &order);
 }
 
-std::vector<const LaneKernels*> all_lane_kernels() {
-  std::vector<const LaneKernels*> all{&baseline::kKernels};
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    all.push_back(&avx2::kKernels);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
-    all.push_back(&avx512::kKernels);
-  }
-#endif
-  return all;
+Span<const LaneKernels* const> all_lane_kernels() {
+  static constexpr const LaneKernels* kAll[] = {HRI_EVERY_SET(&, kKernels)};
+  return runnable(kAll);
 }
 
 const LaneKernels& lane_kernels() {
-  static const LaneKernels& kernels = *all_lane_kernels().back();
+  static const LaneKernels& kernels = *widest(all_lane_kernels());
   return kernels;
 }
 

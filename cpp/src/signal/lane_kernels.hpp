@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/types.hpp"
+
 namespace hri::detail {
 
 /// Tables of a real FFT of 2 * half values, half a power of two.
@@ -43,6 +45,6 @@ struct LaneKernels {
 const LaneKernels& lane_kernels();
 
 /// Those of all instruction sets it has, for tests.
-std::vector<const LaneKernels*> all_lane_kernels();
+Span<const LaneKernels* const> all_lane_kernels();
 
 }  // namespace hri::detail

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/simd.hpp"
 #include "hri/core/error.hpp"
-#include "hri/core/simd.hpp"
 
 namespace hri {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
-#include "hri/core/simd.hpp"
+#include "core/simd.hpp"
 #include "vision/pictures.hpp"
 
 namespace hri::detail {

@@ -59,7 +59,7 @@ std::vector<std::vector<float>> spectra(const detail::LaneKernels& kernels,
 TEST(LaneKernels, GiveTheBitsOfEachOther) {
   for (const std::size_t size : {2U, 4U, 8U, 16U, 32U, 64U, 128U, 256U, 512U, 2048U}) {
     const auto signals = noises(16, size);
-    const auto expected = spectra(*detail::all_lane_kernels().front(), signals);
+    const auto expected = spectra(*detail::all_lane_kernels()[0], signals);
     for (const detail::LaneKernels* kernels : detail::all_lane_kernels())
       EXPECT_EQ(spectra(*kernels, signals), expected) << kernels->name << ", " << size;
   }

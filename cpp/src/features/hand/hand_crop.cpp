@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/simd.hpp"
 #include "hri/core/error.hpp"
-#include "hri/core/simd.hpp"
 
 namespace hri {
 namespace {

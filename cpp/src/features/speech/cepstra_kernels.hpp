@@ -7,7 +7,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+
+#include "hri/core/types.hpp"
 
 namespace hri::detail {
 
@@ -52,6 +53,6 @@ struct CepstraKernels {
 const CepstraKernels& cepstra_kernels();
 
 /// Those of all instruction sets it has, for tests.
-std::vector<const CepstraKernels*> all_cepstra_kernels();
+Span<const CepstraKernels* const> all_cepstra_kernels();
 
 }  // namespace hri::detail

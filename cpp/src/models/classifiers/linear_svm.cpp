@@ -8,10 +8,10 @@
 #include <numeric>
 #include <vector>
 
+#include "core/simd.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 #include "hri/core/random.hpp"
-#include "hri/core/simd.hpp"
 #include "hri/models/row_checks.hpp"
 
 namespace hri {

@@ -6,14 +6,7 @@
 #include <cfloat>
 #include <limits>
 
-#include "hri/core/simd.hpp"
-
-// A fused multiply-add rounds once where others round twice, and compilers fuse unless told.
-#if defined(__clang__)
-#pragma STDC FP_CONTRACT OFF
-#elif defined(__GNUC__)
-#pragma GCC optimize("fp-contract=off")
-#endif
+#include "core/simd.hpp"
 
 namespace hri::detail {
 namespace {
@@ -23,33 +16,16 @@ constexpr int kBlock = 32;    // codewords at a time against a few rows
 constexpr int kGroup = 8;     // codewords at a time against a block of rows
 constexpr int kWidest = 512;  // columns of rows searched by blocks; wider ones go one by one
 
-namespace baseline {
-constexpr int kLanes = 4;
-#include "models/codebook/nearest_codeword_kernel.inc"
-}  // namespace baseline
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#pragma GCC push_options
-#pragma GCC target("arch=haswell")
-namespace avx2 {
-constexpr int kLanes = 8;
-#include "models/codebook/nearest_codeword_kernel.inc"
-}  // namespace avx2
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("arch=skylake-avx512,prefer-vector-width=512")
-namespace avx512 {
-constexpr int kLanes = 16;
-#include "models/codebook/nearest_codeword_kernel.inc"
-}  // namespace avx512
-#pragma GCC pop_options
-#endif
-
 }  // namespace
+}  // namespace hri::detail
+
+#define HRI_KERNEL_FILE "models/codebook/nearest_codeword_kernel.inc"
+#include "core/foreach_instruction_set.inc"
+
+namespace hri::detail {
 
 CodewordTable::CodewordTable(const MatrixF& centroids)
     : middle_(centroids.cast<double>().colwise().mean().transpose().cast<float>()) {
-  find_nearest();  // the processor is asked now, so that no search allocates
   const Eigen::Index size = centroids.rows();
   const Eigen::Index dim = centroids.cols();
   const Eigen::Index num_blocks = (size + kBlock - 1) / kBlock;
@@ -86,21 +62,13 @@ CodewordLayout CodewordTable::layout() const {
   return layout;
 }
 
-std::vector<NamedSearch> searches() {
-  std::vector<NamedSearch> found = {{"baseline", &baseline::search_rows}};
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    found.push_back({"avx2", &avx2::search_rows});
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
-    found.push_back({"avx512", &avx512::search_rows});
-  }
-#endif
-  return found;
+Span<const NamedSearch> searches() {
+  static constexpr NamedSearch kAll[] = {HRI_EVERY_SET(, kSearch)};
+  return runnable(kAll);
 }
 
 Search find_nearest() {
-  static const Search best = searches().back().search;
+  static const Search best = widest(searches()).search;
   return best;
 }
 
@@ -113,9 +81,12 @@ float squared_distance(const float* a, const float* b, int dim) {
   return sum;
 }
 
+namespace {
+
+// With internal linkage: GCC exports clones of a hidden function.
 HRI_SIMD_CLONES
-void add_to_cells(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
-                  const MatrixF& centroids, const std::int32_t* cells, CellSums* sums) {
+void add_rows(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
+              const MatrixF& centroids, const std::int32_t* cells, CellSums* sums) {
   const auto dim = static_cast<int>(centroids.cols());
   const float* all_centroids = centroids.data();
   double* all_sums = sums->sums.data();
@@ -135,6 +106,13 @@ void add_to_cells(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_r
     counts[cell] += 1;
     distortions[cell] += static_cast<double>(distance);
   }
+}
+
+}  // namespace
+
+void add_to_cells(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
+                  const MatrixF& centroids, const std::int32_t* cells, CellSums* sums) {
+  add_rows(rows, stride, num_rows, centroids, cells, sums);
 }
 
 }  // namespace hri::detail

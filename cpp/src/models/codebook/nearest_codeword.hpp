@@ -57,7 +57,7 @@ struct NamedSearch {
   Search search;
 };
 /// The searches that this machine can run, the best one last.
-std::vector<NamedSearch> searches();
+Span<const NamedSearch> searches();
 
 float squared_distance(const float* a, const float* b, int dim);
 

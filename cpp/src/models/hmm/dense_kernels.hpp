@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/markov_chain.hpp"
@@ -44,6 +43,6 @@ struct DenseKernels {
 const DenseKernels& dense_kernels();
 
 /// Those of all instruction sets it has, for tests.
-std::vector<const DenseKernels*> all_dense_kernels();
+Span<const DenseKernels* const> all_dense_kernels();
 
 }  // namespace hri::detail

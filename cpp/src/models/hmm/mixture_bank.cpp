@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/simd.hpp"
 #include "hri/core/error.hpp"
-#include "hri/core/simd.hpp"
 #include "hri/models/row_checks.hpp"
 
 namespace hri {

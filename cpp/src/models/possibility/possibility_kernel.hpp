@@ -10,7 +10,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "hri/core/types.hpp"
 
 namespace hri::detail {
 
@@ -102,24 +103,48 @@ struct FrameTable {
   const std::int32_t* index = nullptr;
 };
 
-/// Advances by `num_frames` frames. `start` (size) is joined with the first frame's emissions.
-template <class T>
-void advance(const ChainBlock<T>& block, const ChainRule<T>& rule, const T* start,
-             const FrameTable<T>& frames, std::ptrdiff_t num_frames, ChainState<T>* state);
-
-/// The best of phi + ends of every lane, -inf where nothing is possible (`floor` as in the rule).
-template <class T>
-void best_of_lanes(const T* phi, const T* ends, int num_rows, int num_lanes, T floor, T* best);
-
-/// The two functions above for one instruction set.
+/// The loops for one instruction set.
 template <class T>
 struct ChainKernels {
   const char* name;
-  decltype(&detail::advance<T>) advance;
-  decltype(&detail::best_of_lanes<T>) best_of_lanes;
+  /// Advances by `num_frames` frames. `start` (size) is joined with the first frame's emissions.
+  /// Integers know the product alone.
+  void (*advance)(const ChainBlock<T>& block, const ChainRule<T>& rule, const T* start,
+                  const FrameTable<T>& frames, std::ptrdiff_t num_frames, ChainState<T>* state);
+  /// The best of phi + ends of every lane, -inf where nothing is possible (`floor` as in the rule).
+  void (*best_of_lanes)(const T* phi, const T* ends, int num_rows, int num_lanes, T floor, T* best);
 };
-/// Those that this machine can run, the best one last; all give the same bits.
+
+/// Those that this machine can run, the best one last; all give the same bits. T is float, double
+/// or std::int16_t.
 template <class T>
-std::vector<ChainKernels<T>> chain_kernels();
+Span<const ChainKernels<T>> chain_kernels();
+/// The one to use.
+template <class T>
+const ChainKernels<T>& best_chain_kernels();
+
+template <>
+Span<const ChainKernels<float>> chain_kernels<float>();
+template <>
+Span<const ChainKernels<double>> chain_kernels<double>();
+template <>
+Span<const ChainKernels<std::int16_t>> chain_kernels<std::int16_t>();
+template <>
+const ChainKernels<float>& best_chain_kernels<float>();
+template <>
+const ChainKernels<double>& best_chain_kernels<double>();
+template <>
+const ChainKernels<std::int16_t>& best_chain_kernels<std::int16_t>();
+
+template <class T>
+void advance(const ChainBlock<T>& block, const ChainRule<T>& rule, const T* start,
+             const FrameTable<T>& frames, std::ptrdiff_t num_frames, ChainState<T>* state) {
+  best_chain_kernels<T>().advance(block, rule, start, frames, num_frames, state);
+}
+
+template <class T>
+void best_of_lanes(const T* phi, const T* ends, int num_rows, int num_lanes, T floor, T* best) {
+  best_chain_kernels<T>().best_of_lanes(phi, ends, num_rows, num_lanes, floor, best);
+}
 
 }  // namespace hri::detail

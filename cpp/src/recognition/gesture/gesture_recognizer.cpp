@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/simd.hpp"
 #include "hri/core/error.hpp"
-#include "hri/core/simd.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
 #include "recognition/gesture/gesture_verifier.hpp"
 

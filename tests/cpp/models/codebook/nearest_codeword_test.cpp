@@ -59,7 +59,7 @@ std::int32_t by_definition(const MatrixF& centroids, const float* row) {
 
 TEST(NearestCodeword, IsTheSameByEveryInstructionSet) {
   ASSERT_FALSE(searches().empty());
-  EXPECT_EQ(find_nearest(), searches().back().search);
+  EXPECT_EQ(find_nearest(), searches()[searches().size() - 1].search);
   for (const int size : {1, 7, 8, 33, 100}) {
     for (const int dim : {1, 13, 39, 512, 513}) {
       for (const Case& c : cases(size, dim)) {

@@ -83,7 +83,7 @@ TEST(DenseKernels, FindTheLowestOfEqualSums) {
 }
 
 TEST(DenseKernels, StepAndEmitAlikeOnEveryInstructionSet) {
-  const std::vector<const DenseKernels*> all = all_dense_kernels();
+  const Span<const DenseKernels* const> all = all_dense_kernels();
   for (const int n : kSizes) {
     const AlignedVector x = random_values(n, 1);
     const AlignedVector b = random_values(n, 2);
@@ -92,7 +92,7 @@ TEST(DenseKernels, StepAndEmitAlikeOnEveryInstructionSet) {
     go[0] = 0;
     const std::ptrdiff_t count = padded(n);
     AlignedVector first = x;
-    const Spread emitted = all.front()->emit(b.data(), count, first.data());
+    const Spread emitted = all[0]->emit(b.data(), count, first.data());
     double sum = 0;
     double smallest = kInfinity;
     for (int j = 0; j < n; ++j) {
@@ -105,7 +105,7 @@ TEST(DenseKernels, StepAndEmitAlikeOnEveryInstructionSet) {
     EXPECT_EQ(emitted.smallest, smallest);
     AlignedVector stepped(x.size());
     const Spread after =
-        all.front()->step_by_one(x.data(), go.data(), stay.data(), b.data(), count, stepped.data());
+        all[0]->step_by_one(x.data(), go.data(), stay.data(), b.data(), count, stepped.data());
     for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {
       const volatile double went = j == 0 ? 0.0 : x[j - 1] * go[j];
       const volatile double stayed = x[j] * stay[j];
@@ -158,11 +158,11 @@ TEST(DenseKernels, TakeExponentialsAndLogarithmsToTheLastPlaces) {
     logs[i] = reach * (2 * random.uniform() - 1);
     values[i] = i % 2 == 0 ? std::exp(-600 * random.uniform()) : 0.5 + random.uniform();
   }
-  const std::vector<const DenseKernels*> all = all_dense_kernels();
+  const Span<const DenseKernels* const> all = all_dense_kernels();
   AlignedVector exponentials(kCount);
   AlignedVector logarithms(kCount);
-  all.front()->exponentials(logs.data(), 0, kCount, exponentials.data());
-  all.front()->logarithms(values.data(), 0, kCount, logarithms.data());
+  all[0]->exponentials(logs.data(), 0, kCount, exponentials.data());
+  all[0]->logarithms(values.data(), 0, kCount, logarithms.data());
   for (std::size_t i = 0; i < kCount; ++i) {
     ASSERT_NEAR(exponentials[i] / std::exp(logs[i]), 1.0, 5e-16);
     ASSERT_NEAR(logarithms[i], std::log(values[i]), 5e-16 * std::abs(std::log(values[i])));
