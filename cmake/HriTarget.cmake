@@ -1,5 +1,29 @@
 # Compiler settings, attached to our own targets only and never to whoever links us.
-function(hri_target_settings target)
+
+# What the sources of libhri see of HRI_SIMD (cpp/src/core/simd.hpp).
+set(hri_simd_definitions)
+if(HRI_SIMD STREQUAL "OFF")
+  set(hri_simd_sets)
+elseif(HRI_SIMD STREQUAL "ON")
+  set(hri_simd_sets avx2 avx512)
+else()
+  set(hri_simd_sets ${HRI_SIMD})
+endif()
+foreach(set IN LISTS hri_simd_sets)
+  if(NOT set MATCHES "^(avx2|avx512)$")
+    message(FATAL_ERROR "HRI_SIMD=${HRI_SIMD}: ${set} is not ON, OFF, avx2 or avx512")
+  endif()
+endforeach()
+foreach(set avx2 avx512)
+  if(NOT set IN_LIST hri_simd_sets)
+    string(TOUPPER ${set} name)
+    list(APPEND hri_simd_definitions HRI_NO_${name})
+  endif()
+endforeach()
+
+# hri_target_settings(target OPTIMISATION): the option of Release builds. Loops over samples, frames and pixels take
+# -O3; what only calls them compiles faster with less, and is no slower.
+function(hri_target_settings target optimisation)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(
     ${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
@@ -12,7 +36,17 @@ function(hri_target_settings target)
     if(NOT HRI_EXCEPTIONS)
       target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti)
     endif()
-    # Optimised builds use -O3; no -ffast-math: NaN checks and bit-equal scores depend on IEEE arithmetic.
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
+    if(HRI_INFERENCE_ONLY)
+      target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections)
+    endif()
+    # No -ffast-math: NaN checks and bit-equal scores depend on IEEE arithmetic.
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimisation}>)
+  endif()
+endfunction()
+
+# Headers that most sources of a target include are parsed once.
+function(hri_precompile target)
+  if(HRI_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
