@@ -67,17 +67,40 @@ void bind_decision(py::module_& m) {
       .def_readonly("class_threshold", &hri::Decision::class_threshold)
       .def_readonly("nbest", &hri::Decision::nbest)
       .def_readonly("notes", &hri::Decision::notes);
+  py::class_<hri::UtteranceDecision>(m, "UtteranceDecision",
+                                     "The decision on one utterance of a longer recording.")
+      .def_readonly("first_s", &hri::UtteranceDecision::first_s)
+      .def_readonly("last_s", &hri::UtteranceDecision::last_s)
+      .def_readonly("decision", &hri::UtteranceDecision::decision);
+}
+
+// Errors name recording i as "list[i]", after the caller's own argument.
+std::vector<hri::WordSample> as_word_samples(const std::vector<FloatArray>& samples,
+                                             const std::vector<int>& sample_rates_hz,
+                                             const std::vector<std::string>& labels,
+                                             const std::vector<std::string>& groups,
+                                             const std::string& list) {
+  const bool fits = samples.size() == labels.size() && samples.size() == sample_rates_hz.size() &&
+                    (groups.empty() || samples.size() == groups.size());
+  if (!fits) {
+    hri::fail(hri::ErrorKind::invalid_argument,
+              list + ", sample_rate_hz, labels and groups differ in length");
+  }
+  std::vector<hri::WordSample> words;
+  words.reserve(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::string name = list + "[" + std::to_string(i) + "]";
+    words.push_back({as_span(samples[i], name.c_str()), sample_rates_hz[i], labels[i],
+                     groups.empty() ? "" : groups[i], name});
+  }
+  return words;
 }
 
 hri::WordRecognizer with_word(const hri::WordRecognizer& self, const std::string& label,
-                              const std::vector<FloatArray>& samples,
+                              const std::vector<FloatArray>& clips,
                               const std::vector<int>& sample_rates_hz) {
-  hri::require(samples.size() == sample_rates_hz.size(),
-               "samples and sample_rates_hz differ in length");
-  std::vector<hri::WordSample> words;
-  words.reserve(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    words.push_back({as_span(samples[i], "samples"), sample_rates_hz[i], label, ""});
+  const auto words = as_word_samples(clips, sample_rates_hz,
+                                     std::vector<std::string>(clips.size(), label), {}, "clips");
   const py::gil_scoped_release release;
   return self.with_word(words, python_wants_to_stop);
 }
@@ -86,25 +109,10 @@ hri::WordRecognizer train_words(
     const std::vector<FloatArray>& samples, const std::vector<int>& sample_rates_hz,
     const std::vector<std::string>& labels, const std::vector<std::string>& groups,
     const hri::WordRecognizerOptions& options, const std::function<void(int, int)>& progress,
-    const std::vector<FloatArray>& background, const std::vector<int>& background_rates_hz,
-    const std::vector<std::string>& background_labels) {
-  hri::require(background.size() == background_rates_hz.size() &&
-                   background.size() == background_labels.size(),
-               "background, background_rates_hz and background_labels differ in length");
-  hri::require(samples.size() == labels.size() && samples.size() == groups.size() &&
-                   samples.size() == sample_rates_hz.size(),
-               "samples, sample_rates_hz, labels and groups differ in length");
-  std::vector<hri::WordSample> words;
-  words.reserve(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    words.push_back({as_span(samples[i], "samples"), sample_rates_hz[i], labels[i], groups[i]});
-  }
-  std::vector<hri::WordSample> others;
-  others.reserve(background.size());
-  for (std::size_t i = 0; i < background.size(); ++i) {
-    others.push_back(
-        {as_span(background[i], "background"), background_rates_hz[i], background_labels[i], ""});
-  }
+    const std::vector<FloatArray>& fillers, const std::vector<int>& filler_rates_hz,
+    const std::vector<std::string>& filler_labels) {
+  const auto words = as_word_samples(samples, sample_rates_hz, labels, groups, "X");
+  const auto others = as_word_samples(fillers, filler_rates_hz, filler_labels, {}, "fillers");
   const py::gil_scoped_release release;
   return hri::WordRecognizer::train(words, options, with_gil(progress), python_wants_to_stop,
                                     others);
@@ -146,11 +154,10 @@ void bind_words(py::module_& m) {
                                   "Isolated words; hri.WordRecognizer wraps it.")
       .def_static("train", &train_words, py::arg("samples"), py::arg("sample_rates_hz"),
                   py::arg("labels"), py::arg("groups"), py::arg("options"),
-                  py::arg("progress") = nullptr, py::arg("background") = std::vector<FloatArray>{},
-                  py::arg("background_rates_hz") = std::vector<int>{},
-                  py::arg("background_labels") = std::vector<std::string>{})
-      .def("with_word", &with_word, py::arg("label"), py::arg("samples"),
-           py::arg("sample_rates_hz"))
+                  py::arg("progress") = nullptr, py::arg("fillers") = std::vector<FloatArray>{},
+                  py::arg("filler_rates_hz") = std::vector<int>{},
+                  py::arg("filler_labels") = std::vector<std::string>{})
+      .def("with_word", &with_word, py::arg("label"), py::arg("clips"), py::arg("sample_rates_hz"))
       .def("without_word", &hri::WordRecognizer::without_word, py::arg("label"))
       .def_static("load", &hri::WordRecognizer::load, py::arg("path"),
                   py::call_guard<py::gil_scoped_release>())
@@ -158,24 +165,32 @@ void bind_words(py::module_& m) {
            py::call_guard<py::gil_scoped_release>())
       .def(
           "recognise",
-          [](const hri::WordRecognizer& self, const FloatArray& samples, int sample_rate_hz) {
-            const auto audio = as_span(samples, "samples");
+          [](const hri::WordRecognizer& self, const FloatArray& audio, int sample_rate_hz) {
+            const auto samples = as_span(audio, "audio");
             const py::gil_scoped_release release;
-            return self.recognise(audio, sample_rate_hz);
+            return self.recognise(samples, sample_rate_hz);
           },
-          py::arg("samples"), py::arg("sample_rate_hz"))
+          py::arg("audio"), py::arg("sample_rate_hz"))
+      .def(
+          "recognise_utterances",
+          [](const hri::WordRecognizer& self, const FloatArray& audio, int sample_rate_hz) {
+            const auto samples = as_span(audio, "audio");
+            const py::gil_scoped_release release;
+            return self.recognise_utterances(samples, sample_rate_hz);
+          },
+          py::arg("audio"), py::arg("sample_rate_hz"))
       .def(
           "scores",
-          [](const hri::WordRecognizer& self, const FloatArray& samples, int sample_rate_hz) {
-            const auto audio = as_span(samples, "samples");
+          [](const hri::WordRecognizer& self, const FloatArray& audio, int sample_rate_hz) {
+            const auto samples = as_span(audio, "audio");
             hri::VectorF scores;
             {
               const py::gil_scoped_release release;
-              scores = self.scores(audio, sample_rate_hz);
+              scores = self.scores(samples, sample_rate_hz);
             }
             return hri_bind::to_array(scores);
           },
-          py::arg("samples"), py::arg("sample_rate_hz"))
+          py::arg("audio"), py::arg("sample_rate_hz"))
       .def_property_readonly("labels", &hri::WordRecognizer::labels)
       .def_property_readonly(
           "threshold",

@@ -36,27 +36,26 @@ void bind_speaker_adapter(py::module_& m) {
       .field("trusted_share", &hri::SpeakerAdapterOptions::trusted_share)
       .field("max_words", &hri::SpeakerAdapterOptions::max_words);
 
-  py::class_<hri::SpeakerAdapter>(m, "SpeakerAdapter",
-                                  "A word recogniser that gets used to a speaker.")
+  py::class_<hri::SpeakerAdapter>(m, "SpeakerAdapter", "Adapts a word recogniser to a speaker.")
       .def(py::init<hri::WordRecognizer, const hri::SpeakerAdapterOptions&>(),
            py::arg("recognizer"), py::arg("options") = hri::SpeakerAdapterOptions{})
       .def(
           "recognise",
-          [](hri::SpeakerAdapter& self, const FloatArray& samples, int sample_rate_hz) {
-            const auto audio = as_span(samples, "samples");
+          [](hri::SpeakerAdapter& self, const FloatArray& audio, int sample_rate_hz) {
+            const auto samples = as_span(audio, "audio");
             const py::gil_scoped_release release;
-            return self.recognise(audio, sample_rate_hz);
+            return self.recognise(samples, sample_rate_hz);
           },
-          py::arg("samples"), py::arg("sample_rate_hz"))
+          py::arg("audio"), py::arg("sample_rate_hz"))
       .def(
           "learn",
-          [](hri::SpeakerAdapter& self, const FloatArray& samples, int sample_rate_hz,
+          [](hri::SpeakerAdapter& self, const FloatArray& audio, int sample_rate_hz,
              const std::string& label) {
-            const auto audio = as_span(samples, "samples");
+            const auto samples = as_span(audio, "audio");
             const py::gil_scoped_release release;
-            self.learn(audio, sample_rate_hz, label);
+            self.learn(samples, sample_rate_hz, label);
           },
-          py::arg("samples"), py::arg("sample_rate_hz"), py::arg("label"))
+          py::arg("audio"), py::arg("sample_rate_hz"), py::arg("label"))
       .def(
           "update", [](hri::SpeakerAdapter& self) { self.update(python_wants_to_stop); },
           py::call_guard<py::gil_scoped_release>())

@@ -60,20 +60,20 @@ def test_what_cannot_be_added_is_named_and_changes_nothing(words: hri_package.Wo
     broken[77] = np.nan
     silence = np.zeros(8000, "f4")
     for label, clips, message in (
-        ("1", THREE, "'1'.*has this word"),
+        ("1", THREE, "'1' is in the vocabulary already"),
         ("unknown", THREE, "'unknown'"),
         ("", THREE, "empty"),
         ("0", [], "at least one recording"),
-        ("0", [THREE[0], silence], "sample 1: nobody speaks"),
-        ("0", [THREE[0], broken], "sample 1: .*index 77"),
-        ("0", [THREE[0][:10]], "sample 0: audio is too short"),
+        ("0", [THREE[0], silence], r"clips\[1\]: audio has no speech"),
+        ("0", [THREE[0], broken], r"clips\[1\]: .*index 77"),
+        ("0", [THREE[0][:10]], r"clips\[0\]: audio is too short"),
         ("0", [THREE[0].reshape(2, -1)], r"clips\[0\] must be one-dimensional"),
     ):
         with pytest.raises(InvalidArgument, match=message):
             words.add_word(label, clips, RATE_HZ)
     with pytest.raises(InvalidArgument, match="differ in length"):
         words.add_word("0", THREE, [RATE_HZ])
-    with pytest.raises(InvalidArgument, match="no such word"):
+    with pytest.raises(InvalidArgument, match="no word '0'"):
         words.remove_word("0")
     with pytest.raises(InvalidArgument, match="at least 2 words"):
         words.remove_word("1")
@@ -95,7 +95,7 @@ def test_the_command_line_adds_and_removes_words(hri, spoken: Path, tmp_path: Pa
     assert json.loads(heard.out)["speech"]["nbest"][0]["label"] == "0"
 
     again = hri("add-word", "--model", more, "--label", "0", *files)
-    assert again.code == 3 and "has this word" in again.err
+    assert again.code == 3 and "in the vocabulary already" in again.err
     removed = hri("remove-word", "--model", more, "--label", "0")  # in place
     assert (removed.code, removed.out) == (0, f"{more}\n")
     assert more.read_bytes() == model.read_bytes()

@@ -100,9 +100,9 @@ def test_bad_audio_is_refused_with_its_place(words: hri.WordRecognizer, clips: C
     x, y, _ = clips
     broken = x[0].copy()
     broken[77] = np.nan
-    with pytest.raises(InvalidArgument, match="sample 77"):
+    with pytest.raises(InvalidArgument, match=r"^audio is not finite at sample 77"):
         words.recognise(broken, RATE_HZ)
-    with pytest.raises(InvalidArgument, match="77"):
+    with pytest.raises(InvalidArgument, match=r"^X\[1\]: .*index 77"):
         hri.WordRecognizer().fit([x[1], broken], ["a", "b"], sample_rate_hz=RATE_HZ)
     with pytest.raises(InvalidArgument, match="too short"):
         words.recognise(x[0][:10], RATE_HZ)

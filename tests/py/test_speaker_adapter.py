@@ -107,10 +107,10 @@ def test_command_learns_the_words_of_one_person_by_their_names(
     done = hri("adapt", *place, "--data", spoken, "--person", "low", "--json", "-")
     assert done.code == 0 and "from 6 of 6 words" in done.err, done.err
     told = json.loads(done.out)
-    assert sorted(told["heard"].values()) == ["1", "1", "1", "2", "2", "2"]
-    assert all(f"{label}_low_" in file for file, label in told["heard"].items())
+    assert sorted(told["learned"].values()) == ["1", "1", "1", "2", "2", "2"]
+    assert all(f"{label}_low_" in file for file, label in told["learned"].items())
     adapter = package.SpeakerAdapter(words)
-    for file, label in told["heard"].items():
+    for file, label in told["learned"].items():
         adapter.learn(file, label)
     adapter.update()
     clip = strange(800.0, 9)

@@ -70,7 +70,10 @@ float add_voicing(float sum, const ActivityFrame& frame, float low_excess_db) {
 WordFinder::WordFinder(const ActivityMeter& meter, const ActivityOptions& options)
     : meter_(&meter), options_(options) {}
 
-void WordFinder::reserve(std::size_t num_frames) { sorted_.reserve(num_frames); }
+void WordFinder::reserve(std::size_t num_frames) {
+  sorted_.reserve(num_frames);
+  excess_.reserve(num_frames);
+}
 
 void WordFinder::measure_noise(Span<const ActivityFrame> frames) {
   sorted_.resize(frames.size());
@@ -96,6 +99,8 @@ WordFrames WordFinder::find(Span<const ActivityFrame> frames) {
   WordFrames word;
   if (frames.empty()) return word;
   measure_noise(frames);
+  excess_.clear();
+  for (const ActivityFrame& frame : frames) excess_.push_back(excess(frame, noise_, *meter_));
 
   // Speech is where voicing adds up; its level is that of its voiced frames.
   float voiced = 0;
@@ -104,10 +109,9 @@ WordFrames WordFinder::find(Span<const ActivityFrame> frames) {
   std::size_t first_voiced = frames.size();
   std::size_t last_voiced = 0;
   for (std::size_t t = 0; t < frames.size(); ++t) {
-    const Excess over = excess(frames[t], noise_, *meter_);
     const float sum = frames[t].level_db < static_cast<float>(options_.silence_dbfs)
                           ? 0
-                          : add_voicing(voiced, frames[t], over.low_db);
+                          : add_voicing(voiced, frames[t], excess_[t].low_db);
     if (voiced == 0) begin = t;
     if (sum > voiced && sum >= static_cast<float>(options_.min_voicing)) {
       first_voiced = std::min(first_voiced, begin);
@@ -123,8 +127,7 @@ WordFrames WordFinder::find(Span<const ActivityFrame> frames) {
   const float lowest_db = std::max(static_cast<float>(options_.silence_dbfs),
                                    peak_db - static_cast<float>(options_.max_depth_db));
   const auto gain = [&](std::size_t t) {
-    const Excess over = excess(frames[t], noise_, *meter_);
-    const float above = std::min(over.all_db - static_cast<float>(options_.margin_db),
+    const float above = std::min(excess_[t].all_db - static_cast<float>(options_.margin_db),
                                  frames[t].level_db - lowest_db);
     return std::max(-kGapCostDb, std::min(kSoundGainDb, above));
   };
@@ -145,7 +148,36 @@ WordFrames WordFinder::find(Span<const ActivityFrame> frames) {
     sum = std::min(sum, 0.0F);
   }
   word.found = true;
+  word.num_utterances = count_utterances(frames, word, lowest_db);
   return word;
+}
+
+// An utterance has voicing enough of its own; max_gap_ms of silence, but for clicks of one frame,
+// ends it.
+int WordFinder::count_utterances(Span<const ActivityFrame> frames, const WordFrames& word,
+                                 float lowest_db) const {
+  const auto max_gap = static_cast<std::size_t>(options_.max_gap_ms / options_.shift_ms);
+  int count = 0;
+  std::size_t loud = 0;
+  std::size_t quiet = 0;
+  float voiced = 0;
+  bool counted = false;
+  for (std::size_t t = word.first; t < word.last; ++t) {
+    const bool active = excess_[t].all_db > static_cast<float>(options_.margin_db) &&
+                        frames[t].level_db > lowest_db;
+    loud = active ? loud + 1 : 0;
+    quiet = loud >= 2 ? 0 : quiet + 1;
+    if (quiet > max_gap) {
+      voiced = 0;
+      counted = false;
+      continue;
+    }
+    voiced = add_voicing(voiced, frames[t], excess_[t].low_db);
+    if (counted || voiced < static_cast<float>(options_.min_voicing)) continue;
+    counted = true;
+    ++count;
+  }
+  return std::max(1, count);
 }
 
 SpeechBounds to_samples(const WordFrames& word, const ActivityMeter& meter,
@@ -160,6 +192,7 @@ SpeechBounds to_samples(const WordFrames& word, const ActivityMeter& meter,
   bounds.first = first > padding ? first - padding : 0;
   bounds.last = std::min(num_samples, last + padding);
   bounds.found = true;
+  bounds.num_utterances = word.num_utterances;
   return bounds;
 }
 

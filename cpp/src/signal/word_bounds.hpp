@@ -26,7 +26,7 @@ struct Excess {
 };
 Excess excess(const ActivityFrame& frame, const NoiseFloor& noise, const ActivityMeter& meter);
 
-/// Adds up how long and how clearly a sound is voiced; noise leads it back to zero.
+/// Accumulates how long and how clearly a sound is voiced; noise leads it back to zero.
 float add_voicing(float sum, const ActivityFrame& frame, float low_excess_db);
 
 /// Frames [first, last) hold the word.
@@ -34,6 +34,7 @@ struct WordFrames {
   std::size_t first = 0;
   std::size_t last = 0;
   bool found = false;
+  int num_utterances = 0;
 };
 
 /// Decides; keeps its work space, so that it allocates only where a clip is longer than any before.
@@ -46,11 +47,14 @@ class WordFinder {
 
  private:
   void measure_noise(Span<const ActivityFrame> frames);
+  [[nodiscard]] int count_utterances(Span<const ActivityFrame> frames, const WordFrames& word,
+                                     float lowest_db) const;
 
   const ActivityMeter* meter_;
   ActivityOptions options_;
   NoiseFloor noise_{};
   std::vector<float> sorted_;
+  std::vector<Excess> excess_;  // of every frame
 };
 
 /// Samples around `word`, with padding, within a clip of `num_samples`.

@@ -22,10 +22,13 @@ _file = click.Path(exists=True, dir_okay=False)
 @click.command()
 @click.argument("files", type=_file, nargs=-1, metavar="[FILE]...")
 @click.option("--model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user.")
-@click.option("-o", "--output", required=True, type=OutputFile(), help="Where the adapted model goes.")
-@click.option("--label", help="What is said in every FILE; without it, FILES are learned as what they are heard as.")
+@click.option("-o", "--output", required=True, type=OutputFile(), help="File of the adapted model.")
+@click.option(
+    "--label",
+    help="The word in every FILE (supervised); without it, it is unsupervised, by what FILES are recognised as.",
+)
 @click.option("--data", type=click.Path(exists=True, file_okay=False), help="A folder of recordings with their labels.")
-@click.option("--person", help="Learn only from this person of the folder.")
+@click.option("--person", help="Adapt only to this person of the folder.")
 @pattern_option
 @json_option
 def adapt(
@@ -38,10 +41,10 @@ def adapt(
     pattern: str | None,
     json_path: str | None,
 ) -> None:
-    """Let a model get used to a speaker, a microphone or a room, from recordings of single words.
+    """Adapt a model to a speaker, a microphone or a room, from recordings of single words.
 
-    Prints what each recording was learned as. Five words already help, named ones more; from five a label on, every
-    word's own model is adapted too. The model given stays as it is.
+    Prints the label that each recording was learned as. Five words already help, more so with labels; from five a
+    label on, every word's own model is adapted too. The model given stays as it is.
 
     \b
     Examples:
@@ -61,22 +64,22 @@ def adapt(
         words += [(sample.path, sample.label) for sample in dataset]
     adapter = SpeakerAdapter(WordRecognizer.load(model or kept_model("speech")))
     with progress_bars() as progress:
-        heard = []
-        for done, (path, said) in enumerate(_learned(adapter, words)):
-            heard.append((path, said))
-            progress("listening", done + 1, len(words))
+        learned = []
+        for done, (path, word) in enumerate(_learned(adapter, words)):
+            learned.append((path, word))
+            progress("recognising", done + 1, len(words))
     adapter.update()
     Path(output).parent.mkdir(parents=True, exist_ok=True)
     adapter.recognizer.save(output)
-    for path, said in heard:
-        say(f"{said}\t{path}", json_path)
+    for path, word in learned:
+        say(f"{word}\t{path}", json_path)
     counts = {"num_words": adapter.num_words, "num_learned": adapter.num_learned}
     note(f"learned from {adapter.num_learned} of {adapter.num_words} words: {output}")
-    write_json(json_path, {"model": output, **counts, "heard": {str(path): said for path, said in heard}})
+    write_json(json_path, {"model": output, **counts, "learned": {str(path): word for path, word in learned}})
 
 
 def _learned(adapter: SpeakerAdapter, words: list[tuple[Path, str | None]]) -> Iterator[tuple[Path, str]]:
-    """Every recording with what it is learned as: its name if it has one, else what it is heard as."""
+    """Every recording with its label, or else what it is recognised as."""
     for path, label in words:
         audio = read_audio(path)
         if label is not None:

@@ -66,7 +66,7 @@ def listen(
 ) -> None:
     """Recognise words as they are spoken, from a microphone or from recordings played as a stream.
 
-    On a terminal: level, start and end of speech, and what was understood. Otherwise, or with --json, one JSON
+    On a terminal: level, start and end of speech, and every decision. Otherwise, or with --json, one JSON
     object a line.
 
     \b
@@ -101,11 +101,11 @@ def _list_devices(as_json: bool) -> None:
             mark = "*" if one.is_default else " "
             click.echo(f"{mark} {one.index}\t{one.name}\t{one.sample_rate_hz} Hz")
     if not microphones:
-        click.echo("there is no microphone", err=True)
+        click.echo("no microphone found", err=True)
 
 
 def describe(event: Event, top: int) -> str:
-    """One line for people; "" for what they need not read."""
+    """One line of text; "" for events that are not shown."""
     if event.event == "wake":
         return f"{event.time:8.2f} s  listening for a command"
     if event.decision is None:

@@ -131,6 +131,8 @@ def _describe(decision: Decision, path: str, top: int) -> None:
     note(f"{decision.mode}: {decision.label} ({best or decision.status}) {path}")
     for text in decision.notes:
         note(f"{decision.mode}: note: {text}")
+        if "utterances" in text:
+            note(f"{decision.mode}: 'hri listen {path}' recognises each of them")
 
 
 def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool) -> dict[str, Any]:

@@ -41,7 +41,7 @@ def record() -> None:
 @record.command()
 @click.argument("labels", nargs=-1, required=True, metavar="WORD...")
 @click.option("--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to add to.")
-@click.option("--person", required=True, help="Who speaks.")
+@click.option("--person", required=True, help="The speaker.")
 @click.option("--takes", default=5, show_default=True, type=click.IntRange(1, 10000), help="Recordings of every word.")
 @click.option(
     "--from",
@@ -49,7 +49,7 @@ def record() -> None:
     multiple=True,
     type=click.Path(exists=True, dir_okay=False),
     metavar="FILE",
-    help="Listen to this recording of the words, in the order they are asked for, instead of a microphone.",
+    help="Take this recording of the words, in the order of the prompts, instead of a microphone.",
 )
 @device_option
 @stall_option
@@ -66,8 +66,8 @@ def word(
 ) -> None:
     """Record words from the microphone, label by label, into a folder that 'hri train speech' reads.
 
-    Asks for one word after the other and finds where it begins and ends. What is in the folder already stays and is
-    not asked for again: after Ctrl-C the same command goes on. To record a take anew, delete its file.
+    Prompts for one word after the other and endpoints each. Recordings in the folder are kept and not prompted for:
+    after Ctrl-C the same command resumes. To record a take anew, delete its file.
 
     \b
     Examples:
@@ -81,7 +81,7 @@ def word(
         sources = (microphone(device, stall_s) for _ in range(1))
     for source in sources:
         tell(recorder.record(source), as_json, describe)
-    _tell_done(recorder, person, out, files)
+    _summarise(recorder, person, out, files)
 
 
 @record.command()
@@ -139,10 +139,10 @@ def gesture(
     for source in sources:
         with SightScreen(None, source.fps, show, 1) as screen:
             tell(recorder.record(source, partial(screen.draw, decision=None)), as_json, describe)
-    _tell_done(recorder, person, out, files)
+    _summarise(recorder, person, out, files)
 
 
-def _tell_done(recorder: WordRecorder | GestureRecorder, person: str, out: str, files: tuple[str, ...]) -> None:
+def _summarise(recorder: WordRecorder | GestureRecorder, person: str, out: str, files: tuple[str, ...]) -> None:
     missing = recorder.missing()
     done = f"{recorder.num_takes - len(missing)} of {recorder.num_takes} recordings by {person} are in {out}"
     note(done)
@@ -151,7 +151,7 @@ def _tell_done(recorder: WordRecorder | GestureRecorder, person: str, out: str, 
 
 
 def describe(event: Event) -> str:
-    """One line for people; "" for what they need not read."""
+    """One line of text; "" for events that are not shown."""
     fields = event.fields
     if event.event == "prompt":
         what = "show" if event.mode == "gesture" else "say"

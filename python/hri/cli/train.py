@@ -19,9 +19,9 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
-from hri.evaluation.training import background_of
+from hri.evaluation.training import fillers_of
 from hri.evaluation.training import train as train_recognizer
-from hri.recognition import BackgroundWord
+from hri.recognition import FillerWord
 
 
 @click.command()
@@ -31,13 +31,12 @@ from hri.recognition import BackgroundWord
 @click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
 @options_option
 @click.option(
-    "--background",
+    "--fillers",
     type=click.Path(exists=True, file_okay=False),
     metavar="DIR",
-    help="Of words: a folder of recordings of other words, to tell them from the vocabulary, in place of the synthetic "
-    "ones that come with hri.",
+    help="Speech only: a folder of words outside the vocabulary, for rejection, in place of the synthetic ones of hri.",
 )
-@click.option("--no-background", is_flag=True, help="Of words: without any; training and recognition are faster.")
+@click.option("--no-fillers", is_flag=True, help="Speech only: no filler words; training and recognition are faster.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train(
@@ -46,8 +45,8 @@ def train(
     pattern: str | None,
     out: str | None,
     options: tuple[str, ...],
-    background: str | None,
-    no_background: bool,
+    fillers: str | None,
+    no_fillers: bool,
     seed: int,
     json_path: str | None,
 ) -> None:
@@ -59,19 +58,19 @@ def train(
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
       hri train speech --data spoken/ --out digits.hri --option models.model=ptbhmm
     """
-    if mode != "speech" and (background or no_background):
-        raise click.UsageError("--background and --no-background are for speech")
-    if background and no_background:
-        raise click.UsageError("--background and --no-background exclude each other")
+    if mode != "speech" and (fillers or no_fillers):
+        raise click.UsageError("--fillers and --no-fillers are for speech")
+    if fillers and no_fillers:
+        raise click.UsageError("--fillers and --no-fillers exclude each other")
     make = recognizer_factory(mode, options, seed)
-    others: list[BackgroundWord] | None = [] if no_background else None
-    if background is not None:
-        others = background_of(load_dataset(background, mode, None))
+    others: list[FillerWord] | None = [] if no_fillers else None
+    if fillers is not None:
+        others = fillers_of(load_dataset(fillers, mode, None))
     dataset = load_dataset(data, mode, pattern)
     path = default_model(mode) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
-        recognizer = train_recognizer(dataset, make(), background=others, progress=progress)
+        recognizer = train_recognizer(dataset, make(), fillers=others, progress=progress)
     recognizer.save(path)
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""

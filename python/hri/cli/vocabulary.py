@@ -35,9 +35,9 @@ _out_option = click.option(
 def add_word(
     model_path: str | None, label: str, files: tuple[str, ...], out: str | None, json_path: str | None
 ) -> None:
-    """Teach a trained recogniser one word more, from few recordings of it: three do.
+    """Add a word to a trained recogniser, from few recordings of it: three suffice.
 
-    The words it knows stay as they are; nothing is trained again.
+    The models of the other words stay as they are; nothing is trained again.
 
     \b
     Examples:
@@ -52,11 +52,11 @@ def add_word(
 
 @click.command("remove-word")
 @_model_option
-@click.option("--label", required=True, help="The word to forget.")
+@click.option("--label", required=True, help="The word to remove.")
 @_out_option
 @json_option
 def remove_word(model_path: str | None, label: str, out: str | None, json_path: str | None) -> None:
-    """Let a trained recogniser forget a word.
+    """Remove a word from a trained recogniser.
 
     \b
     Examples:

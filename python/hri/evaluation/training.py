@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
 from hri.media import read_audio, read_frames
-from hri.recognition import BackgroundWord, GestureRecognizer, WordRecognizer
+from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
 
 Progress = Callable[[str, int, int], None]
 
@@ -18,7 +18,7 @@ def train(
     dataset: Dataset,
     recognizer: WordRecognizer | GestureRecognizer | None = None,
     *,
-    background: Sequence[BackgroundWord] | None = None,
+    fillers: Sequence[FillerWord] | None = None,
     progress: Progress | None = None,
 ) -> WordRecognizer | GestureRecognizer:
     """Train on every recording of `dataset`.
@@ -29,8 +29,8 @@ def train(
         Its kind decides what is trained; its persons are held out in turn to calibrate confidences.
     recognizer : WordRecognizer or GestureRecognizer, optional
         One with options of its own, trained in place; default options otherwise.
-    background : sequence of BackgroundWord, optional
-        Of words: what else people say, as of `WordRecognizer.fit`.
+    fillers : sequence of FillerWord, optional
+        Words outside the vocabulary, as of `WordRecognizer.fit`.
     progress : callable, optional
         Called with (what is being done, steps done, steps in all).
 
@@ -53,21 +53,21 @@ def train(
         )
     report = progress or (lambda what, done, total: None)
     if isinstance(recognizer, WordRecognizer):
-        return _train_words(dataset, recognizer, background, report)
+        return _train_words(dataset, recognizer, fillers, report)
     return _train_gestures(dataset, recognizer, report)
 
 
-def background_of(dataset: Dataset) -> list[BackgroundWord]:
-    """The recordings of a data set of speech as background words."""
+def fillers_of(dataset: Dataset) -> list[FillerWord]:
+    """The recordings of a data set of speech as filler words."""
     words = []
     for sample in dataset.samples:
         audio = read_audio(sample.path)
-        words.append(BackgroundWord(audio.samples, audio.sample_rate_hz, sample.label))
+        words.append(FillerWord(audio.samples, audio.sample_rate_hz, sample.label))
     return words
 
 
 def _train_words(
-    dataset: Dataset, recognizer: WordRecognizer, background: Sequence[BackgroundWord] | None, progress: Progress
+    dataset: Dataset, recognizer: WordRecognizer, fillers: Sequence[FillerWord] | None, progress: Progress
 ) -> WordRecognizer:
     clips, rates = [], []
     for done, sample in enumerate(dataset.samples):
@@ -80,7 +80,7 @@ def _train_words(
         [s.label for s in dataset.samples],
         sample_rate_hz=rates,
         groups=[s.person for s in dataset.samples],
-        background=background,
+        fillers=fillers,
         progress=lambda done, total: progress("training", done, total),
     )
 

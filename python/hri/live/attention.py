@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What of all that is heard is meant for the listener: sure enough, and said after the wake word where there is one."""
+"""Which utterances are commands: above a threshold and, with a wake word, said right after it."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ IGNORED = "ignored"
 
 @dataclass(frozen=True)
 class Attention:
-    """When a word counts.
+    """When an utterance is a command.
 
     Attributes
     ----------
     wake : str
-        A word of the vocabulary that has to be said before every command; "" takes every word for a command.
+        A word of the vocabulary that precedes every command; "" makes every word a command.
     within_s : float
-        A command begins at most so long after the wake word has ended. It is the first utterance after it: anything
-        else that is said in between ends the listener's attention, or conversations would be full of commands.
+        Longest time from the end of the wake word to the beginning of the command, which is the first utterance after
+        it: any other utterance in between ends the attention, since conversations would otherwise hold many commands.
     always : tuple of str
-        Words that are commands at any moment, without the wake word: whoever shouts "stop" is heard.
+        Words that are commands at any moment, without the wake word, for safety.
     min_score : float, optional
-        What wake word and command need (``Decision.score``) in place of the model's own threshold.
+        Threshold on ``Decision.score`` of wake word and command, in place of the model's own.
     """
 
     wake: str = ""
@@ -45,7 +45,7 @@ class Attention:
 
 
 class AttentionTracker:
-    """Follows one stream: tells of every utterance whether it wakes, is a command, or is not for the listener."""
+    """Classifies every utterance of one stream as wake word, command or ignored."""
 
     def __init__(self, attention: Attention) -> None:
         self._attention = attention

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Decisions on the words of a stream."""
+"""Live recognition of the words in an audio stream."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hri.recognition import WordRecognizer
 
 
 class Listener:
-    """Recognises every word in a stream.
+    """Recognises every utterance of a stream.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class Listener:
     attention : Attention, optional
         Which utterances are commands: by default every one, with the model's own threshold.
     level_interval_s : float
-        How often the level is told.
+        Interval between level events.
     locale : str
         Language of the vocabulary, such as "hi" or "en"; passed on with decisions.
     model_id : str
@@ -39,7 +39,7 @@ class Listener:
     Raises
     ------
     InvalidArgument
-        For a wake word that the recogniser does not know (lists those it knows).
+        For a wake word outside the vocabulary (lists the vocabulary).
     """
 
     def __init__(
@@ -71,8 +71,8 @@ class Listener:
             When the source gives no more samples, after an event that says so.
         """
         tracker = AttentionTracker(self._attention)
-        with closing(self._finder.hear(source, model=self._model_id)) as heard:
-            for event, utterance in heard:
+        with closing(self._finder.process(source, model=self._model_id)) as results:
+            for event, utterance in results:
                 yield event
                 if utterance is not None:
                     yield self._decide(event, utterance, source.sample_rate_hz, tracker)
@@ -87,5 +87,5 @@ class Listener:
         fields |= decision_fields(decision, self._locale, self._model_id) | {"compute_ms": round(compute_ms, 3)}
         if meant == COMMAND:
             return Event(event.time, events.DECISION, fields, decision)
-        # Without a decision: whoever acts on decisions must not act on these.
+        # Without a decision, so that callers who act on decisions do not act on these.
         return Event(event.time, events.WAKE if meant == WAKE else events.IGNORED, fields | {"final": ""})

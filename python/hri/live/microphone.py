@@ -34,10 +34,10 @@ class Microphone:
 
 def _sounddevice() -> Any:
     try:
-        return import_optional("sounddevice", "live", "to hear a microphone")
+        return import_optional("sounddevice", "live", "to use a microphone")
     except OSError as error:  # the Python package is there, the library behind it is not
         raise IoError(
-            "to hear a microphone the library PortAudio is needed: install the package libportaudio2 "
+            "to use a microphone the library PortAudio is needed: install the package libportaudio2 "
             f"(apt install libportaudio2, dnf install portaudio, brew install portaudio) ({error})"
         ) from error
 
@@ -58,7 +58,7 @@ def list_microphones() -> list[Microphone]:
 
 
 class MicrophoneSource:
-    """A microphone as a stream, watched: one that is unplugged ends in `Stalled`, not in silence.
+    """A microphone as a stream, with a watchdog: unplugging it raises `Stalled` rather than giving silence.
 
     Parameters
     ----------
@@ -67,9 +67,9 @@ class MicrophoneSource:
     sample_rate_hz : int, optional
         The device's usual rate by default.
     stall_s : float
-        How long no sample may come.
+        Longest time without a sample.
     buffer_s : float
-        How far the reader may fall behind before samples are lost (and counted).
+        Size of the buffer; a reader that falls further behind loses samples, which are counted.
 
     Raises
     ------
@@ -103,7 +103,7 @@ class MicrophoneSource:
                 channels=1,
                 dtype="float32",
                 blocksize=self._block,
-                callback=self._hear,
+                callback=self._receive,
             )
             self._stream.start()
         except (sounddevice.PortAudioError, ValueError) as error:
@@ -114,7 +114,7 @@ class MicrophoneSource:
         """Samples lost because the reader was late, or by the sound card itself."""
         return self._ring.num_lost
 
-    def _hear(self, samples: NDArray[np.float32], count: int, _time: Any, status: Any) -> None:
+    def _receive(self, samples: NDArray[np.float32], count: int, _time: Any, status: Any) -> None:
         # In the sound card's thread: copy and go.
         if status and getattr(status, "input_overflow", False):
             self._ring.count_lost(count)  # the card does not say how many; a block at least
@@ -132,7 +132,7 @@ class MicrophoneSource:
         return None
 
     def close(self) -> None:
-        """Give the microphone back; a device that is gone cannot make this wait for long."""
+        """Release the microphone; returns in time even if the device is gone."""
         if self._closed:
             return
         self._closed = True

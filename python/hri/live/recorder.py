@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A data set of words, made from a microphone: asks for one word after the other and keeps what is said."""
+"""Recording of a data set of words: prompts for one word after the other and keeps each utterance."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from hri.live.utterances import Samples, UtteranceFinder
 
 PATTERN = "{label}/{person}_{take}.wav"
 CLIPPED = 0.999
-"""Of full scale: what reaches it may have been louder."""
+"""Share of full scale from which a sample counts as clipped."""
 MAX_CLIPPED = 3
-"""Samples of an utterance that may."""
+"""Clipped samples that an utterance may have."""
 
 
 class WordRecorder:
     """Records words, label by label, into a data set that `hri.Dataset.load` reads.
 
-    Every label is asked for once, then every label again, as words said in a row sound alike. What is there already
-    stays as it is and is not asked for again: a recorder of the same folder, person and labels goes on where the last
-    one stopped, and a recording that was deleted is made anew.
+    Prompts go through all labels once per take, since repetitions in a row sound alike. Existing recordings are kept
+    and not prompted for: a recorder of the same folder, person and labels resumes where the last one stopped, and
+    records deleted files anew.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class WordRecorder:
     options : EndpointerOptions, optional
         When a word begins and ends; by default as `Listener` has it for a recogniser's default options.
     level_interval_s : float
-        How often the level is told.
+        Interval between level events.
     """
 
     def __init__(
@@ -57,25 +57,25 @@ class WordRecorder:
 
     @property
     def num_takes(self) -> int:
-        """Recordings that are wanted in all."""
+        """Recordings wanted in all."""
         return len(self._takes)
 
     def missing(self) -> list[tuple[str, int]]:
-        """Label and take of every recording that is not there yet, in the order in which they are asked for."""
+        """Label and take of every missing recording, in the order of the prompts."""
         return self._takes.missing()
 
     def record(self, source: AudioSource) -> Iterator[Event]:
         """Ask, listen and keep until nothing is missing or the source ends, which is closed then.
 
-        Beside what a listener tells of a stream, "prompt" says what to say next, "recorded" where it was kept, and
-        "refused" why it was not; then the prompt comes again.
+        Beside the events of a listener, "prompt" names the next word, "recorded" the file it was written to, and
+        "refused" the reason why it was not; then the prompt comes again.
 
         Raises
         ------
         Stalled
             When the source gives no more samples.
         IoError
-            When a recording cannot be written, or somebody else wrote it meanwhile.
+            When a recording cannot be written, or the file exists by then.
         """
         missing = self.missing()
         if not missing:
@@ -83,8 +83,8 @@ class WordRecorder:
             return
         self._takes.begin()
         num_lost = source.num_lost
-        with closing(self._finder.hear(source, folder=str(self._takes.folder))) as heard:
-            for event, utterance in heard:
+        with closing(self._finder.process(source, folder=str(self._takes.folder))) as results:
+            for event, utterance in results:
                 yield event
                 if event.event == events.LISTENING:
                     yield self._takes.prompt(0.0, missing)
@@ -92,9 +92,9 @@ class WordRecorder:
                     continue
                 lost, num_lost = source.num_lost - num_lost, source.num_lost
                 reason = _fault(utterance, bool(event.fields["cut"]), lost)
-                told = {"label": missing[0][0], "take": missing[0][1]}
+                metadata = {"label": missing[0][0], "take": missing[0][1]}
                 if reason:
-                    yield Event(event.time, events.REFUSED, {**told, "reason": reason})
+                    yield Event(event.time, events.REFUSED, {**metadata, "reason": reason})
                 else:
                     path = self._takes.keep(
                         *missing.pop(0),
@@ -106,14 +106,14 @@ class WordRecorder:
                         "duration_s": round(len(utterance) / source.sample_rate_hz, 4),
                         "peak_db": round(20 * float(np.log10(max(1e-6, np.abs(utterance).max()))), 1),
                     }
-                    yield Event(event.time, events.RECORDED, {**told, "path": str(path), **measured})
+                    yield Event(event.time, events.RECORDED, {**metadata, "path": str(path), **measured})
                 if not missing:
                     return
                 yield self._takes.prompt(event.time, missing)
 
 
 def _fault(utterance: Samples, cut: bool, num_lost: int) -> str:
-    """What is wrong with a recording; "" if nothing."""
+    """Why a recording is refused; "" if it is not."""
     if cut:
         return "too long for a word"
     if num_lost:

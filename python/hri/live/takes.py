@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Which recordings of a person a data set is to have, which are missing, and how one is added to it."""
+"""Recordings of one person that a data set is to hold: which are missing, and how one is added."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Takes:
     folder : path-like
         Made with the first recording. A manifest in it must have the pattern.
     labels : sequence of str
-        In the order in which they are asked for.
+        In the order of the prompts.
     person : str
         No "_" in it, which ends the person in a file's name.
     takes : int
@@ -51,7 +51,7 @@ class Takes:
         for label in labels:
             _require_name("label", label)
             if label in (UNKNOWN, NO_INPUT):
-                raise InvalidArgument(f"label '{label}' is what recognisers answer when none was given")
+                raise InvalidArgument(f"label '{label}' is reserved for decisions")
             if list(labels).count(label) > 1:
                 raise InvalidArgument(f"label '{label}' is there twice")
         _require_name("person", person)
@@ -69,16 +69,16 @@ class Takes:
         return self._takes * len(self._labels)
 
     def missing(self) -> list[tuple[str, int]]:
-        """Label and take of every recording that is not there yet: every label once, then every label again."""
+        """Label and take of every missing recording: every label once, then every label again."""
         wanted = [(label, take) for take in range(1, self._takes + 1) for label in self._labels]
         return [place for place in wanted if not self.path(*place).exists()]
 
     def path(self, label: str, take: int) -> Path:
-        """Where a recording belongs."""
+        """The path of a recording."""
         return self.folder / self._pattern.format(label=label, person=self._person, take=take)
 
     def prompt(self, time_s: float, missing: Sequence[tuple[str, int]]) -> Event:
-        """Asks for the next of the missing ones."""
+        """The prompt for the first of the missing ones."""
         label, take = missing[0]
         done = len(self) - len(missing)
         fields = {"label": label, "take": take, "done": done, "total": len(self)}

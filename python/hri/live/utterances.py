@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""From a stream of sound to its utterances: the same path for a microphone and for a recording."""
+"""Endpointing of an audio stream: the same for a microphone and for a recording."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from hri.live.events import Event
 from hri.live.sources import AudioSource, Stalled, require_positive
 
 Samples = NDArray[np.float32]
-Heard = tuple[Event, Samples | None]
-"""What happened; with the end of speech, the utterance and the noise around it."""
+StreamResult = tuple[Event, Samples | None]
+"""An event; with the end of speech, also the utterance and the noise around it."""
 
 _KINDS = {
     _native.EndpointKind.speech_start: events.SPEECH_START,
@@ -34,7 +34,7 @@ class UtteranceFinder:
     options : EndpointerOptions
         When an utterance begins and ends.
     level_interval_s : float
-        How often the level is told.
+        Interval between level events.
     """
 
     def __init__(self, options: _native.EndpointerOptions, level_interval_s: float) -> None:
@@ -42,13 +42,13 @@ class UtteranceFinder:
         self._options = options
         self._level_interval_s = level_interval_s
 
-    def hear(self, source: AudioSource, **told: Any) -> Generator[Heard, None, None]:
-        """What happens until the source ends; it is closed then, and also when the caller stops early.
+    def process(self, source: AudioSource, **metadata: Any) -> Generator[StreamResult, None, None]:
+        """Events until the source ends; it is closed then, and also when the caller stops early.
 
         Parameters
         ----------
         source : AudioSource
-        **told
+        **metadata
             Fields of the first event, beside the name and the rate of the source.
 
         Raises
@@ -59,17 +59,17 @@ class UtteranceFinder:
         rate = source.sample_rate_hz
         endpointer = _native.Endpointer(rate, self._options)
         kept_s = (self._options.max_utterance_ms + self._options.context_ms) / 1000
-        heard = _History(round(kept_s * rate) + 2 * rate)
+        history = _History(round(kept_s * rate) + 2 * rate)
         next_level_s, num_lost = 0.0, 0
-        yield Event(0.0, events.LISTENING, {"source": source.name, "sample_rate_hz": rate, **told}), None
+        yield Event(0.0, events.LISTENING, {"source": source.name, "sample_rate_hz": rate, **metadata}), None
         try:
             while (block := source.read()) is not None:
                 for begin in range(0, len(block), rate):  # longer blocks would outrun what is kept
                     part = block[begin : begin + rate]
-                    heard.append(part)
+                    history.append(part)
                     for endpoint in endpointer.push(part):
-                        yield _told(endpoint, heard, rate)
-                time_s = heard.num_samples / rate
+                        yield _result(endpoint, history, rate)
+                time_s = history.num_samples / rate
                 if source.num_lost > num_lost:
                     yield Event(time_s, events.OVERFLOW, {"lost_samples": source.num_lost - num_lost}), None
                     num_lost = source.num_lost
@@ -77,16 +77,16 @@ class UtteranceFinder:
                     next_level_s = time_s + self._level_interval_s
                     yield _level(endpointer, time_s), None
             for endpoint in endpointer.finish():
-                yield _told(endpoint, heard, rate)
-            yield Event(heard.num_samples / rate, events.ENDED, {"lost_samples": source.num_lost}), None
+                yield _result(endpoint, history, rate)
+            yield Event(history.num_samples / rate, events.ENDED, {"lost_samples": source.num_lost}), None
         except Stalled as error:
-            yield Event(heard.num_samples / rate, events.STALL, {"message": str(error)}), None
+            yield Event(history.num_samples / rate, events.STALL, {"message": str(error)}), None
             raise
         finally:
             source.close()
 
 
-def _told(endpoint: _native.Endpoint, heard: _History, rate: int) -> Heard:
+def _result(endpoint: _native.Endpoint, history: _History, rate: int) -> StreamResult:
     fields = {"first_s": round(endpoint.first / rate, 4), "last_s": round(endpoint.last / rate, 4)}
     event = Event(endpoint.at / rate, _KINDS[endpoint.kind], fields)
     if endpoint.kind == _native.EndpointKind.speech_start:
@@ -94,7 +94,7 @@ def _told(endpoint: _native.Endpoint, heard: _History, rate: int) -> Heard:
     if endpoint.kind != _native.EndpointKind.speech_end:
         return event, None
     fields["cut"] = endpoint.cut
-    return event, heard.between(endpoint.segment_first, endpoint.segment_last)
+    return event, history.between(endpoint.segment_first, endpoint.segment_last)
 
 
 def _level(endpointer: _native.Endpointer, time_s: float) -> Event:

@@ -4,14 +4,15 @@
 
 from hri.recognition.decision import Decision, NBest
 from hri.recognition.gesture import GestureRecognizer
-from hri.recognition.word import BackgroundWord, SpeakerAdapter, WordRecognizer, background_words
+from hri.recognition.word import FillerWord, SpeakerAdapter, Utterance, WordRecognizer, filler_words
 
 __all__ = [
-    "BackgroundWord",
     "Decision",
+    "FillerWord",
     "GestureRecognizer",
     "NBest",
     "SpeakerAdapter",
+    "Utterance",
     "WordRecognizer",
-    "background_words",
+    "filler_words",
 ]

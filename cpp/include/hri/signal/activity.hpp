@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where somebody speaks in a clip. Speech is voiced sound, sustained for a few frames, above the
-// noise of its band; a word reaches from there as far as anything stands out of the noise. Neither
-// the level nor stationary noise matters, and noise alone is no speech however loud it is.
+// Endpointing of a clip. Speech is voiced sound, sustained for a few frames, above the noise floor
+// of its band; a word extends from there as far as any sound stands out of the noise. Neither the
+// level nor stationary noise matters, and noise alone is no speech however loud it is.
 #pragma once
 
 #include <cstddef>
@@ -24,11 +24,13 @@ struct ActivityOptions {
   double padding_ms = 30;     ///< kept before and after, 0..1000
 };
 
-/// Samples [first, last) hold the word; `found` is false where nobody speaks.
+/// Samples [first, last) hold the speech; `found` is false where there is none.
 struct SpeechBounds {
   std::size_t first = 0;
   std::size_t last = 0;
   bool found = false;
+  /// Stretches of speech with more than max_gap_ms of silence between them: 1 for a word.
+  int num_utterances = 0;
 };
 
 /// Throws InvalidArgument for options out of range, a sample that is not finite (names it), and

@@ -6,7 +6,7 @@
 #include "hri/core/error.hpp"
 #include "hri/features/speech/cepstra.hpp"
 #include "hri/models/classifiers/pca.hpp"
-#include "hri/recognition/sequence_models.hpp"
+#include "hri/models/sequence_scorer.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
 
 namespace hri {
@@ -42,25 +42,25 @@ SequenceModelOptions model_options(const GestureRecognizerOptions& options) {
 
 class MovementScorer : public GestureScorer {
  public:
-  MovementScorer(Pca pca, SequenceModels models)
+  MovementScorer(Pca pca, std::shared_ptr<const SequenceScorer> models)
       : pca_(std::move(pca)), models_(std::move(models)) {}
 
   [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
-    return models_.scores(movement_rows(rows, pca_));
+    return models_->scores(movement_rows(rows, pca_));
   }
   [[nodiscard]] float verification_score(ConstMatrixRefF rows,
                                          const VectorF& scores) const override {
-    return (scores.maxCoeff() - models_.garbage_score(movement_rows(rows, pca_))) /
+    return (scores.maxCoeff() - models_->garbage_score(movement_rows(rows, pca_))) /
            static_cast<float>(rows.rows());
   }
   void write(ModelFile& file) const override {
     pca_.write(file, "pca.");
-    models_.write(file, "movement.");
+    models_->write(file, "movement.");
   }
 
  private:
   Pca pca_;
-  SequenceModels models_;
+  std::shared_ptr<const SequenceScorer> models_;
 };
 
 }  // namespace
@@ -78,8 +78,7 @@ std::shared_ptr<const GestureScorer> train_movement_scorer(
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     for (const MatrixF& g : per_class[c]) movements[c].push_back(movement_rows(g, pca));
   }
-  SequenceModels models(model_options(options));
-  models.train(movements, should_stop);
+  auto models = train_sequence_scorer(movements, model_options(options), should_stop);
   return std::make_shared<MovementScorer>(std::move(pca), std::move(models));
 }
 
@@ -87,8 +86,8 @@ std::shared_ptr<const GestureScorer> read_movement_scorer(const ModelFile& file,
                                                           const GestureRecognizerOptions& options,
                                                           int num_classes) {
   Pca pca = Pca::read(file, "pca.");
-  SequenceModels models(model_options(options));
-  models.read(file, "movement.", num_classes, 2 * (pca.num_components() + kNumTrackColumns));
+  auto models = read_sequence_scorer(file, "movement.", model_options(options), num_classes,
+                                     2 * (pca.num_components() + kNumTrackColumns));
   return std::make_shared<MovementScorer>(std::move(pca), std::move(models));
 }
 

@@ -13,7 +13,7 @@ namespace hri {
 namespace {
 
 constexpr int kUpdateShare = 8;  // an update is due when one word in so many is new
-constexpr int kNotTrusted = -1;
+constexpr int kNoLabel = -1;
 
 void check(const SpeakerAdapterOptions& o) {
   require(o.words_per_label >= 0 && o.words_per_label <= 1000,
@@ -41,26 +41,25 @@ float margin_of(const VectorF& scores, Eigen::Index best) {
 SpeakerAdapter::SpeakerAdapter(WordRecognizer recognizer, const SpeakerAdapterOptions& options)
     : options_(options), base_(std::move(recognizer)), adapted_(base_) {
   check(options);
-  require(base_.options().models.model == SequenceModelKind::hmm,
+  require(base_.scorer().kind() == SequenceModelKind::hmm,
           "only recognisers of the model hmm adapt, this one is ptbhmm");
 }
 
-Decision SpeakerAdapter::recognise(Span<const float> samples, int sample_rate_hz) {
-  std::vector<MatrixF> frames;
-  Decision decision = adapted_.recognise(samples, sample_rate_hz, &frames);
-  if (!frames.empty()) remember({std::move(frames), kNotTrusted});
+Decision SpeakerAdapter::recognise(Span<const float> audio, int sample_rate_hz) {
+  WordFeatures word = adapted_.front_end().process(audio, sample_rate_hz);
+  Decision decision = adapted_.decide(word);
+  if (word.has_speech()) remember({std::move(word.streams), kNoLabel});
   return decision;
 }
 
-void SpeakerAdapter::learn(Span<const float> samples, int sample_rate_hz,
-                           const std::string& label) {
+void SpeakerAdapter::learn(Span<const float> audio, int sample_rate_hz, const std::string& label) {
   const std::vector<std::string>& labels = base_.labels();
   const auto found = std::lower_bound(labels.begin(), labels.end(), label);
   if (found == labels.end() || *found != label)
-    fail(ErrorKind::invalid_argument, "the recogniser has no word '" + label + "'");
-  const std::vector<float> word = base_.locate(samples, sample_rate_hz, nullptr);
-  if (word.empty()) fail(ErrorKind::invalid_argument, "no speech found in the audio");
-  remember({base_.frames(word), static_cast<int>(found - labels.begin())});
+    fail(ErrorKind::invalid_argument, "label '" + label + "' is not in the vocabulary");
+  WordFeatures word = base_.front_end().process(audio, sample_rate_hz);
+  if (!word.has_speech()) fail(ErrorKind::invalid_argument, "audio has no speech in it");
+  remember({std::move(word.streams), static_cast<int>(found - labels.begin())});
 }
 
 void SpeakerAdapter::remember(Word word) {
@@ -73,60 +72,55 @@ bool SpeakerAdapter::update_due() const {
   return num_new_ * kUpdateShare >= std::max(1, num_words());
 }
 
-// What every word is learned as: the name it was given, or what it is recognised as now if it is
-// accepted and among the clearest.
+// The adapted recogniser's label of a word without one, and its margin a frame; no label where it
+// is rejected.
+SpeakerAdapter::Guess SpeakerAdapter::guess(const Word& word) const {
+  const VectorF scores = adapted_.scorer().scores(word.frames);
+  Eigen::Index best = 0;
+  scores.maxCoeff(&best);
+  const bool accepted = adapted_.verification_score(word.frames, scores) >=
+                        static_cast<float>(base_.calibration().threshold());
+  return {accepted ? static_cast<int>(best) : kNoLabel,
+          margin_of(scores, best) / static_cast<float>(word.frames.front().rows())};
+}
+
+// What every word is learned as: its label, or what it is recognised as if its margin is among the
+// largest.
 std::vector<int> SpeakerAdapter::trusted_labels() const {
-  std::vector<int> labels;
-  std::vector<float> margins;  // a frame; of words not named
-  std::vector<float> sorted;
+  std::vector<Guess> guesses;
+  std::vector<float> margins;  // of words without a label, falling
   for (const Word& word : words_) {
-    int label = word.label;
-    float margin = 0;
-    if (label < 0) {
-      const VectorF scores = adapted_.score(word.frames);
-      Eigen::Index best = 0;
-      scores.maxCoeff(&best);
-      const bool accepted = adapted_.verification_score(word.frames, scores) >=
-                            static_cast<float>(base_.calibration().threshold());
-      label = accepted ? static_cast<int>(best) : kNotTrusted;
-      margin = margin_of(scores, best) / static_cast<float>(word.frames.front().rows());
-      sorted.push_back(margin);
-    }
-    labels.push_back(label);
-    margins.push_back(margin);
+    guesses.push_back(word.label == kNoLabel ? guess(word) : Guess{word.label, 0});
+    if (word.label == kNoLabel) margins.push_back(guesses.back().margin);
   }
-  if (sorted.empty()) return labels;
-  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  std::sort(margins.begin(), margins.end(), std::greater<>());
   const auto num_trusted = static_cast<std::size_t>(
-      std::lround(options_.trusted_share * static_cast<double>(sorted.size())));
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    const bool named = words_[i].label >= 0;
-    if (!named && (num_trusted == 0 || margins[i] < sorted[num_trusted - 1]))
-      labels[i] = kNotTrusted;
+      std::lround(options_.trusted_share * static_cast<double>(margins.size())));
+  std::vector<int> labels;
+  for (std::size_t i = 0; i < guesses.size(); ++i) {
+    const bool trusted = words_[i].label != kNoLabel ||
+                         (num_trusted > 0 && guesses[i].margin >= margins[num_trusted - 1]);
+    labels.push_back(trusted ? guesses[i].label : kNoLabel);
   }
   return labels;
 }
 
 void SpeakerAdapter::update(const StopCheck& should_stop) {
   const std::vector<int> labels = trusted_labels();
-  // Models adapted to a word or two each, beside others that heard none, are worse than before.
-  const bool each_word = static_cast<double>(words_.size()) >=
-                         options_.words_per_label * static_cast<double>(base_.labels().size());
-  const AdaptationOptions adaptation{options_.shared_frames, options_.prior_frames,
-                                     options_.num_iterations, each_word, should_stop};
-  WordRecognizer next = base_;
-  for (std::size_t s = 0; s < next.streams_.size(); ++s) {
-    std::vector<std::vector<MatrixF>> per_label(base_.labels().size());
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (labels[i] >= 0)
-        per_label[static_cast<std::size_t>(labels[i])].push_back(words_[i].frames[s]);
-    }
-    next.streams_[s].models = base_.streams_[s].models.adapted(per_label, adaptation);
+  ClassStreams sequences(base_.labels().size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != kNoLabel)
+      sequences[static_cast<std::size_t>(labels[i])].push_back(&words_[i].frames);
   }
-  adapted_ = std::move(next);
+  // Models adapted to a word or two each, beside others that saw none, are worse than before.
+  const bool each_class = static_cast<double>(words_.size()) >=
+                          options_.words_per_label * static_cast<double>(base_.labels().size());
+  const AdaptationOptions adaptation{options_.shared_frames, options_.prior_frames,
+                                     options_.num_iterations, each_class, should_stop};
+  adapted_ = base_.with_scorer(base_.scorer().adapted(sequences, adaptation));
   num_new_ = 0;
   num_learned_ = static_cast<int>(
-      std::count_if(labels.begin(), labels.end(), [](int label) { return label != kNotTrusted; }));
+      std::count_if(labels.begin(), labels.end(), [](int label) { return label != kNoLabel; }));
 }
 
 void SpeakerAdapter::reset() {

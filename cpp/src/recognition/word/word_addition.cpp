@@ -1,76 +1,78 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Words added to a trained WordRecognizer, and taken away.
+// Words added to a trained WordRecognizer, and removed.
 #include <algorithm>
 #include <utility>
 
 #include "hri/core/error.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
-#include "recognition/word/word_frames.hpp"
+#include "recognition/word/word_augmentation.hpp"
 
 namespace hri {
 namespace {
 
-// The label of the new word, which is no label yet.
+using detail::sample_name;
+
+// The label that all samples share, checked to be new.
 std::string new_label(const std::vector<std::string>& labels,
                       const std::vector<WordSample>& samples) {
   require(!samples.empty(), "a new word needs at least one recording");
   const std::string& label = samples.front().label;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (samples[i].label == label) continue;
-    fail(ErrorKind::invalid_argument, "sample " + std::to_string(i) + ": label '" +
-                                          samples[i].label + "' is another word than '" + label +
-                                          "'");
+    fail(ErrorKind::invalid_argument, sample_name(samples[i], "samples", i) + ": label '" +
+                                          samples[i].label + "' differs from '" + label + "'");
   }
   if (std::binary_search(labels.begin(), labels.end(), label))
-    fail(ErrorKind::invalid_argument, "label '" + label + "': the recogniser has this word");
+    fail(ErrorKind::invalid_argument, "label '" + label + "' is in the vocabulary already");
   return label;
+}
+
+// The frames of every sample and of its augmented copies.
+std::vector<StreamFrames> augmented(const std::vector<WordSample>& samples,
+                                    const WordRecognizerOptions& options,
+                                    const StopCheck& should_stop) {
+  const detail::WordAugmentation augmentation(options);
+  std::vector<StreamFrames> result;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    poll(should_stop);
+    const std::string name = sample_name(samples[i], "samples", i);
+    const std::vector<float> word = augmentation.trim(samples[i], name);
+    // Of three recordings none may be dropped silently.
+    if (word.empty()) fail(ErrorKind::invalid_argument, name + ": audio has no speech in it");
+    for (StreamFrames& copy : augmentation.copies(word, i)) result.push_back(std::move(copy));
+  }
+  return result;
 }
 
 }  // namespace
 
 WordRecognizer WordRecognizer::with_word(const std::vector<WordSample>& samples,
                                          const StopCheck& should_stop) const {
+  const std::string label = new_label(labels_, samples);
   std::vector<std::string> labels = labels_;
-  labels.push_back(new_label(labels_, samples));
-  const std::string label = labels.back();
-  WordRecognizer result = *this;
-  result.labels_ = sorted_labels(labels);
-  const int index = label_index(result.labels_, label);
-  result.calibration_ = calibration_.with_class(index);
-
-  const WordFrames frames(*this);
-  std::vector<std::vector<MatrixF>> per_stream(streams_.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    poll(should_stop);
-    const std::vector<float> word = frames.locate(samples[i], "sample " + std::to_string(i));
-    // Of three recordings none may be lost without a word.
-    if (word.empty())
-      fail(ErrorKind::invalid_argument, "sample " + std::to_string(i) + ": nobody speaks in it");
-    for (std::vector<MatrixF>& streams : frames.of(word, i)) {
-      for (std::size_t s = 0; s < per_stream.size(); ++s)
-        per_stream[s].push_back(std::move(streams[s]));
-    }
-  }
-  for (std::size_t s = 0; s < per_stream.size(); ++s) {
-    result.streams_[s].models = streams_[s].models.with_class(
-        index, per_stream[s], static_cast<int>(samples.size()), should_stop);
-  }
-  return result;
+  labels.push_back(label);
+  labels = sorted_labels(labels);
+  const std::vector<StreamFrames> frames = augmented(samples, options_, should_stop);
+  std::vector<const StreamFrames*> sequences;
+  sequences.reserve(frames.size());
+  for (const StreamFrames& copy : frames) sequences.push_back(&copy);
+  MultiStreamScorer scorer = scorer_.with_class(label_index(labels, label), sequences,
+                                                static_cast<int>(samples.size()), should_stop);
+  return {options_, std::move(labels), std::move(scorer), verifier_, calibration_};
 }
 
 WordRecognizer WordRecognizer::without_word(const std::string& label) const {
   if (!std::binary_search(labels_.begin(), labels_.end(), label))
-    fail(ErrorKind::invalid_argument, "label '" + label + "': the recogniser has no such word");
+    fail(ErrorKind::invalid_argument, "label '" + label + "' is not in the vocabulary");
   require(labels_.size() > 2,
           "labels: a recogniser needs at least 2 words, so none can be removed");
   const int index = label_index(labels_, label);
-  WordRecognizer result = *this;
-  result.labels_.erase(result.labels_.begin() + index);
-  result.calibration_ = calibration_.without_class(index);
-  for (WordStream& stream : result.streams_) stream.models = stream.models.without_class(index);
-  return result;
+  std::vector<std::string> labels = labels_;
+  labels.erase(labels.begin() + index);
+  return {options_, std::move(labels), scorer_.without_class(index), verifier_,
+          calibration_.without_class(index)};
 }
 
 }  // namespace hri

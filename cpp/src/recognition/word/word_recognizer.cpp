@@ -5,92 +5,76 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
-#include "hri/signal/resample.hpp"
-#include "recognition/word/word_cut.hpp"
+#include "hri/signal/endpointer.hpp"
 
 namespace hri {
 
 WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
-                               std::vector<std::string> labels)
-    : options_(options), labels_(std::move(labels)) {
-  streams_.push_back({CepstraComputer(options.cepstra), SequenceModels(options.models)});
-  if (options.level_stream) {
-    CepstraOptions level = options.cepstra;
-    level.normalisation = Normalisation::level;
-    streams_.push_back({CepstraComputer(level), SequenceModels(options.models)});
-  }
+                               std::vector<std::string> labels, MultiStreamScorer scorer,
+                               WordVerifier verifier, const Calibration& calibration)
+    : options_(options),
+      labels_(std::move(labels)),
+      front_end_(options),
+      scorer_(std::move(scorer)),
+      verifier_(std::move(verifier)),
+      calibration_(calibration) {
+  require(labels_ == sorted_labels(labels_), "labels are not sorted");
+  require(static_cast<std::size_t>(scorer_.num_classes()) == labels_.size(),
+          "labels and the scorer's classes differ in number");
+  require(scorer_.streams().size() == static_cast<std::size_t>(front_end_.num_streams()),
+          "the scorer and the front end differ in their streams");
 }
 
-std::vector<float> WordRecognizer::locate(Span<const float> samples, int sample_rate_hz,
-                                          std::vector<std::string>* notes) const {
-  const int rate = options_.cepstra.sample_rate_hz;
-  std::vector<float> word;
-  if (sample_rate_hz == rate) {
-    word.assign(samples.begin(), samples.end());
-  } else {
-    word = resample(samples, sample_rate_hz, rate);
-    if (notes != nullptr) {
-      notes->push_back("resampled from " + std::to_string(sample_rate_hz) + " to " +
-                       std::to_string(rate) + " Hz");
-    }
-  }
-  if (!options_.trim) {
-    if (!find_speech(word, rate, options_.activity).found) word.clear();
-    return word;
-  }
-  return detail::cut_word(word, rate, options_.activity, options_.floor_db);
+WordRecognizer WordRecognizer::with_scorer(MultiStreamScorer scorer) const {
+  return {options_, labels_, std::move(scorer), verifier_, calibration_};
 }
 
-std::vector<MatrixF> WordRecognizer::frames(Span<const float> word) const {
-  std::vector<MatrixF> result;
-  result.reserve(streams_.size());
-  for (const WordStream& stream : streams_) result.push_back(stream.cepstra.compute(word));
+Decision WordRecognizer::recognise(Span<const float> audio, int sample_rate_hz) const {
+  return decide(front_end_.process(audio, sample_rate_hz));
+}
+
+Decision WordRecognizer::decide(const WordFeatures& word) const {
+  Decision decision;
+  if (word.has_speech()) {
+    const VectorF scores = scorer_.scores(word.streams);
+    decision = calibration_.decide(scores, verification_score(word.streams, scores), labels_);
+  }
+  decision.notes = word.notes;
+  return decision;
+}
+
+std::vector<UtteranceDecision> WordRecognizer::recognise_utterances(Span<const float> audio,
+                                                                    int sample_rate_hz) const {
+  EndpointerOptions options;
+  options.activity = options_.activity;
+  Endpointer endpointer(sample_rate_hz, options);
+  std::vector<UtteranceDecision> result;
+  const auto add = [&](const Endpoint& event) {
+    if (event.kind != EndpointKind::speech_end) return;
+    // With the noise around it, from which the front end finds the end points as in training.
+    const auto segment =
+        audio.subspan(event.segment_first, event.segment_last - event.segment_first);
+    result.push_back({static_cast<double>(event.first) / sample_rate_hz,
+                      static_cast<double>(event.last) / sample_rate_hz,
+                      recognise(segment, sample_rate_hz)});
+  };
+  Endpoint event;
+  for (std::size_t at = 0; at < audio.size();) {
+    at += endpointer.consume(audio.subspan(at, audio.size() - at), &event);
+    add(event);
+  }
+  while ((event = endpointer.finish()).kind != EndpointKind::none) add(event);
   return result;
 }
 
-VectorF WordRecognizer::score(const std::vector<MatrixF>& frames) const {
-  VectorF sum = streams_.front().models.scores(frames.front());
-  for (std::size_t s = 1; s < streams_.size(); ++s) sum += streams_[s].models.scores(frames[s]);
-  return sum;
+VectorF WordRecognizer::scores(Span<const float> audio, int sample_rate_hz) const {
+  const WordFeatures word = front_end_.process(audio, sample_rate_hz);
+  if (!word.has_speech()) fail(ErrorKind::invalid_argument, "audio has no speech in it");
+  return scorer_.scores(word.streams);
 }
 
-VectorD WordRecognizer::features(const std::vector<MatrixF>& frames, const VectorF& scores,
-                                 int left_out) const {
-  std::vector<const SequenceModels*> models;
-  models.reserve(streams_.size());
-  for (const WordStream& stream : streams_) models.push_back(&stream.models);
-  return WordVerifier::features(models, frames, scores, left_out);
-}
-
-float WordRecognizer::verification_score(const std::vector<MatrixF>& frames,
-                                         const VectorF& scores) const {
-  return verifier_.verification_score(features(frames, scores));
-}
-
-VectorF WordRecognizer::scores(Span<const float> samples, int sample_rate_hz) const {
-  const std::vector<float> word = locate(samples, sample_rate_hz, nullptr);
-  if (word.empty()) fail(ErrorKind::invalid_argument, "no speech found in the audio");
-  return score(frames(word));
-}
-
-Decision WordRecognizer::recognise(Span<const float> samples, int sample_rate_hz) const {
-  std::vector<MatrixF> word_frames;
-  return recognise(samples, sample_rate_hz, &word_frames);
-}
-
-Decision WordRecognizer::recognise(Span<const float> samples, int sample_rate_hz,
-                                   std::vector<MatrixF>* word_frames) const {
-  Decision decision;
-  std::vector<std::string> notes;
-  const std::vector<float> word = locate(samples, sample_rate_hz, &notes);
-  if (!word.empty()) {
-    *word_frames = frames(word);
-    const VectorF word_scores = score(*word_frames);
-    decision =
-        calibration_.decide(word_scores, verification_score(*word_frames, word_scores), labels_);
-  }
-  decision.notes = std::move(notes);
-  return decision;
+float WordRecognizer::verification_score(const StreamFrames& frames, const VectorF& scores) const {
+  return verifier_.verification_score(WordVerifier::features(scorer_, frames, scores));
 }
 
 void WordRecognizer::save(const std::string& path) const { to_model_file().write(path); }

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Training of WordRecognizer: frames of every sample and of its copies, models without each fold of
-// speakers for the calibration, then the models that are kept.
+// Training of WordRecognizer: features of every sample and of its augmented copies, models without
+// each fold of speakers for verifier and calibration, then the models that are kept.
 #include <algorithm>
 #include <utility>
 
 #include "hri/core/error.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "recognition/word/non_words.hpp"
-#include "recognition/word/word_frames.hpp"
+#include "recognition/word/word_augmentation.hpp"
 
 namespace hri {
 namespace {
@@ -17,6 +17,7 @@ namespace {
 constexpr int kMaxFolds = 4;
 constexpr std::size_t kNonWordSources = 300;  // samples from which non-words are made, at most
 constexpr int kDefaultRateHz = 16000;
+constexpr int kNoFold = -1;
 
 int training_rate_hz(const std::vector<WordSample>& samples, int wanted_hz) {
   if (wanted_hz != 0) return wanted_hz;
@@ -25,110 +26,124 @@ int training_rate_hz(const std::vector<WordSample>& samples, int wanted_hz) {
   return rate;
 }
 
-std::vector<std::string> labels_of(const std::vector<WordSample>& samples) {
-  std::vector<std::string> names;
-  names.reserve(samples.size());
-  for (const WordSample& s : samples) names.push_back(s.label);
-  return sorted_labels(names);
+std::vector<std::string> words_of(const std::vector<WordSample>& samples) {
+  std::vector<std::string> words;
+  words.reserve(samples.size());
+  for (const WordSample& s : samples) words.push_back(s.label);
+  return words;
 }
 
-}  // namespace
+// A sound that the verifier learns to reject.
+struct NonWord {
+  VerifierExample::Kind kind;
+  StreamFrames frames;
+};
+
+// The features of one sample.
+struct PreparedSample {
+  int label = 0;
+  int fold = 0;
+  std::string group;
+  std::vector<StreamFrames> copies;  // the sample itself first
+  std::vector<NonWord> non_words;
+};
+
+// Decisions on held-out folds, and what the verifier learns from them.
+struct HeldOutFolds {
+  std::vector<HeldOut> decisions;
+  std::vector<VectorD> features;  // of each decision
+  std::vector<VerifierExample> examples;
+};
 
 class WordTrainer {
  public:
   WordTrainer(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
               StopCheck should_stop)
-      : result_(options, labels_of(samples)),
-        frames_(result_),
+      : options_(options),
+        labels_(sorted_labels(words_of(samples))),
+        augmentation_(options),
         non_words_(options.cepstra.sample_rate_hz, options.models.seed),
         source_step_(1 + samples.size() / kNonWordSources),
         should_stop_(std::move(should_stop)) {}
 
-  // Before `run`; words in which nobody is heard are left out.
-  void learn_background(const std::vector<WordSample>& background) {
-    if (background.empty() || result_.options_.models.model == SequenceModelKind::ptbhmm) return;
-    std::vector<std::string> words;
-    words.reserve(background.size());
-    for (const WordSample& s : background) words.push_back(s.label);
-    std::sort(words.begin(), words.end());
-    words.erase(std::unique(words.begin(), words.end()), words.end());
-    std::vector<std::vector<std::vector<MatrixF>>> per_stream(
-        result_.streams_.size(), std::vector<std::vector<MatrixF>>(words.size()));
-    for (std::size_t i = 0; i < background.size(); ++i) {
-      poll(should_stop_);
-      const std::vector<float> word =
-          frames_.locate(background[i], "background word " + std::to_string(i));
-      if (word.empty()) continue;
-      const auto index = static_cast<std::size_t>(label_index(words, background[i].label));
-      // Copies as those of the vocabulary, so that none of the two fits noise or a voice better.
-      for (std::vector<MatrixF>& frames : frames_.of(word, i)) {
-        for (std::size_t s = 0; s < frames.size(); ++s)
-          per_stream[s][index].push_back(std::move(frames[s]));
-      }
-    }
-    for (std::size_t s = 0; s < per_stream.size(); ++s) {
-      auto& words_heard = per_stream[s];
-      words_heard.erase(std::remove_if(words_heard.begin(), words_heard.end(),
-                                       [](const auto& list) { return list.empty(); }),
-                        words_heard.end());
-      result_.streams_[s].models.train_background(words_heard, should_stop_);
-    }
-  }
-
-  WordRecognizer run(const std::vector<WordSample>& samples, const TrainingProgress& progress) {
+  WordRecognizer run(const std::vector<WordSample>& samples, const std::vector<WordSample>& fillers,
+                     const TrainingProgress& progress) {
+    train_fillers(fillers);
     for (std::size_t i = 0; i < samples.size(); ++i) prepare(samples[i], i);
     const int num_folds = assign_folds();
     const int num_steps = num_folds + 2;
+    int step = 0;
+    const auto report = [&] {
+      if (progress) progress(++step, num_steps);
+    };
     HeldOutFolds held_out;
     for (int fold = 0; fold < num_folds; ++fold) {
-      if (progress) progress(fold + 1, num_steps);
+      report();
       score_fold(fold, &held_out);
     }
-    if (progress) progress(num_folds + 1, num_steps);
-    train_without(-1);
-    calibrate(std::move(held_out));
-    if (progress) progress(num_steps, num_steps);
-    return std::move(result_);
+    report();
+    WordRecognizer result = assemble(train_without(kNoFold), std::move(held_out));
+    report();
+    return result;
   }
 
  private:
-  // What is kept of one sample: the frames of every stream, first as it is, then of each copy.
-  struct Prepared {
-    int label = 0;
-    int fold = 0;
-    std::string group;
-    std::vector<std::vector<MatrixF>> variants;
-    std::vector<std::pair<TrialKind, std::vector<MatrixF>>> non_words;  // frames of every stream
-  };
+  // Words without speech are left out.
+  void train_fillers(const std::vector<WordSample>& fillers) {
+    if (fillers.empty() || options_.models.model == SequenceModelKind::ptbhmm) return;
+    std::vector<std::string> words = words_of(fillers);
+    std::sort(words.begin(), words.end());
+    words.erase(std::unique(words.begin(), words.end()), words.end());
+    std::vector<std::vector<StreamFrames>> copies(words.size());
+    for (std::size_t i = 0; i < fillers.size(); ++i) {
+      poll(should_stop_);
+      const std::vector<float> word =
+          augmentation_.trim(fillers[i], detail::sample_name(fillers[i], "fillers", i));
+      if (word.empty()) continue;
+      auto& list = copies[static_cast<std::size_t>(label_index(words, fillers[i].label))];
+      // Augmented as the vocabulary is, so that neither of the two fits noise or a voice better.
+      for (StreamFrames& copy : augmentation_.copies(word, i)) list.push_back(std::move(copy));
+    }
+    ClassStreams sequences;
+    for (const auto& list : copies) {
+      if (list.empty()) continue;
+      sequences.emplace_back();
+      for (const StreamFrames& copy : list) sequences.back().push_back(&copy);
+    }
+    fillers_ = hri::train_fillers(sequences, augmentation_.front_end().num_streams(),
+                                  options_.models, should_stop_);
+  }
 
+  // Samples without speech are left out; train_without() refuses a label that has no other.
   void prepare(const WordSample& sample, std::size_t index) {
-    if (should_stop_ && should_stop_()) fail(ErrorKind::interrupted, "training interrupted");
-    const std::vector<float> word = frames_.locate(sample, "sample " + std::to_string(index));
-    if (word.empty())
-      return;  // nobody speaks; a label without any word is refused in train_without
-    Prepared p;
-    p.label = label_index(result_.labels_, sample.label);
+    poll(should_stop_);
+    const std::vector<float> word =
+        augmentation_.trim(sample, detail::sample_name(sample, "samples", index));
+    if (word.empty()) return;
+    PreparedSample p;
+    p.label = label_index(labels_, sample.label);
     p.group = sample.group;
-    p.variants = frames_.of(word, index);
+    p.copies = augmentation_.copies(word, index);
     if (index % source_step_ == 0) {
-      add_non_words(non_words_.sounds(word), TrialKind::sound, &p);
-      add_non_words(non_words_.speech(word, sample.label, sample.group), TrialKind::other_word, &p);
+      add_non_words(non_words_.sounds(word), VerifierExample::Kind::sound, &p);
+      add_non_words(non_words_.speech(word, sample.label, sample.group),
+                    VerifierExample::Kind::other_word, &p);
     }
     prepared_.push_back(std::move(p));
   }
 
-  void add_non_words(const std::vector<std::vector<float>>& audio, TrialKind kind,
-                     Prepared* p) const {
+  void add_non_words(const std::vector<std::vector<float>>& audio, VerifierExample::Kind kind,
+                     PreparedSample* p) const {
+    const WordFrontEnd& front_end = augmentation_.front_end();
     for (const std::vector<float>& a : audio) {
-      if (result_.streams_.front().cepstra.num_frames(a.size()) > 0)
-        p->non_words.emplace_back(kind, result_.frames(a));
+      if (front_end.num_frames(a.size()) > 0) p->non_words.push_back({kind, front_end.frames(a)});
     }
   }
 
   int assign_folds() {
     std::vector<int> classes;
     std::vector<std::string> groups;
-    for (const Prepared& p : prepared_) {
+    for (const PreparedSample& p : prepared_) {
       classes.push_back(p.label);
       groups.push_back(p.group);
     }
@@ -141,82 +156,95 @@ class WordTrainer {
     return num_folds;
   }
 
-  // Trains every stream on all folds but `left_out` (-1 leaves nothing out). False when a class
-  // would be empty.
-  bool train_without(int left_out) {
-    for (std::size_t s = 0; s < result_.streams_.size(); ++s) {
-      std::vector<std::vector<MatrixF>> per_label(result_.labels_.size());
-      for (const Prepared& p : prepared_) {
-        if (p.fold == left_out) continue;
-        for (const auto& streams : p.variants)
-          per_label[static_cast<std::size_t>(p.label)].push_back(streams[s]);
-      }
-      for (std::size_t c = 0; c < per_label.size(); ++c) {
-        if (!per_label[c].empty()) continue;
-        if (left_out >= 0) return false;
+  [[nodiscard]] ClassStreams sequences_without(int fold) const {
+    ClassStreams sequences(labels_.size());
+    for (const PreparedSample& p : prepared_) {
+      if (p.fold == fold) continue;
+      auto& list = sequences[static_cast<std::size_t>(p.label)];
+      for (const StreamFrames& copy : p.copies) list.push_back(&copy);
+    }
+    return sequences;
+  }
+
+  [[nodiscard]] MultiStreamScorer train_without(int fold) const {
+    const ClassStreams sequences = sequences_without(fold);
+    for (std::size_t c = 0; c < sequences.size(); ++c) {
+      if (sequences[c].empty()) {
         fail(ErrorKind::invalid_argument,
-             "label '" + result_.labels_[c] + "': no sample with speech in it");
+             "label '" + labels_[c] + "': no sample with speech in it");
       }
-      result_.streams_[s].models.train(per_label, should_stop_);
     }
-    return true;
+    return MultiStreamScorer::train(sequences, options_.models, fillers_, should_stop_);
   }
 
-  // What the folds left: decisions, what each of them tells the verifier, and its other trials.
-  struct HeldOutFolds {
-    std::vector<HeldOut> decisions;
-    std::vector<VectorD> features;
-    std::vector<VerifierTrial> trials;
-  };
+  [[nodiscard]] bool has_every_class_without(int fold) const {
+    const ClassStreams sequences = sequences_without(fold);
+    return std::none_of(sequences.begin(), sequences.end(),
+                        [](const auto& list) { return list.empty(); });
+  }
 
-  void score_fold(int fold, HeldOutFolds* held_out) {
-    if (!train_without(fold)) return;  // without every class there is nothing to calibrate on
-    for (const Prepared& p : prepared_) {
+  void score_fold(int fold, HeldOutFolds* held_out) const {
+    if (!has_every_class_without(fold)) return;  // there is nothing to calibrate on
+    const MultiStreamScorer scorer = train_without(fold);
+    for (const PreparedSample& p : prepared_) {
       if (p.fold != fold) continue;
-      if (should_stop_ && should_stop_()) fail(ErrorKind::interrupted, "training interrupted");
-      const std::vector<MatrixF>& frames = p.variants.front();
-      const VectorF scores = result_.score(frames);
-      Eigen::Index best = 0;
-      scores.maxCoeff(&best);
-      held_out->decisions.push_back({scores, p.label, 0});
-      held_out->features.push_back(result_.features(frames, scores));
-      if (best == p.label) held_out->trials.push_back({held_out->features.back(), TrialKind::word});
-      if (scores.size() > 2) {
-        held_out->trials.push_back(
-            {result_.features(frames, scores, p.label), TrialKind::other_word});
-      }
-      for (const auto& [kind, heard] : p.non_words)
-        held_out->trials.push_back({result_.features(heard, result_.score(heard)), kind});
+      poll(should_stop_);
+      score_sample(p, scorer, held_out);
     }
   }
 
-  void calibrate(HeldOutFolds held_out) {
-    result_.verifier_ =
-        WordVerifier::fit(held_out.trials, result_.streams_.front().models.num_background() > 0);
-    for (std::size_t i = 0; i < held_out.decisions.size(); ++i)
-      held_out.decisions[i].score = result_.verifier_.verification_score(held_out.features[i]);
-    result_.calibration_ = Calibration::fit(held_out.decisions, result_.options_.false_reject_rate);
+  static void score_sample(const PreparedSample& p, const MultiStreamScorer& scorer,
+                           HeldOutFolds* held_out) {
+    using Kind = VerifierExample::Kind;
+    const StreamFrames& frames = p.copies.front();
+    const VectorF scores = scorer.scores(frames);
+    Eigen::Index best = 0;
+    scores.maxCoeff(&best);
+    const VectorD features = WordVerifier::features(scorer, frames, scores);
+    held_out->decisions.push_back({scores, p.label, 0});
+    held_out->features.push_back(features);
+    if (best == p.label) held_out->examples.push_back({features, Kind::word});
+    if (scores.size() > 2) {
+      held_out->examples.push_back(
+          {WordVerifier::features(scorer, frames, scores, p.label), Kind::other_word});
+    }
+    for (const NonWord& n : p.non_words) {
+      held_out->examples.push_back(
+          {WordVerifier::features(scorer, n.frames, scorer.scores(n.frames)), n.kind});
+    }
   }
 
-  WordRecognizer result_;
-  WordFrames frames_;
+  [[nodiscard]] WordRecognizer assemble(MultiStreamScorer scorer, HeldOutFolds held_out) const {
+    WordVerifier verifier = WordVerifier::fit(held_out.examples, scorer.num_fillers() > 0);
+    for (std::size_t i = 0; i < held_out.decisions.size(); ++i)
+      held_out.decisions[i].score = verifier.verification_score(held_out.features[i]);
+    const Calibration calibration =
+        Calibration::fit(held_out.decisions, options_.false_reject_rate);
+    return {options_, labels_, std::move(scorer), std::move(verifier), calibration};
+  }
+
+  WordRecognizerOptions options_;
+  std::vector<std::string> labels_;
+  detail::WordAugmentation augmentation_;
   detail::NonWords non_words_;
   std::size_t source_step_;
   StopCheck should_stop_;
-  std::vector<Prepared> prepared_;
+  std::vector<FillerModels> fillers_;  // of every stream
+  std::vector<PreparedSample> prepared_;
 };
+
+}  // namespace
 
 WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
                                      const WordRecognizerOptions& options,
                                      const TrainingProgress& progress, const StopCheck& should_stop,
-                                     const std::vector<WordSample>& background) {
+                                     const std::vector<WordSample>& fillers) {
   require(options.false_reject_rate >= 0 && options.false_reject_rate <= 0.5,
           "false_reject_rate must lie in 0..0.5");
+  check(options.models);
   WordRecognizerOptions used = options;
   used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);
-  WordTrainer trainer(samples, used, should_stop);
-  trainer.learn_background(background);
-  return trainer.run(samples, progress);
+  return WordTrainer(samples, used, should_stop).run(samples, fillers, progress);
 }
 
 }  // namespace hri

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Isolated words: training, recognition, adaptation to a speaker."""
 
-from hri.recognition.word.background import BackgroundWord, background_words
-from hri.recognition.word.recognizer import WordRecognizer
+from hri.recognition.word.fillers import FillerWord, filler_words
+from hri.recognition.word.recognizer import Utterance, WordRecognizer
 from hri.recognition.word.speaker import SpeakerAdapter
 
-__all__ = ["BackgroundWord", "SpeakerAdapter", "WordRecognizer", "background_words"]
+__all__ = ["FillerWord", "SpeakerAdapter", "Utterance", "WordRecognizer", "filler_words"]

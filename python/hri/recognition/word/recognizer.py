@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from os import PathLike
 
 import numpy as np
@@ -18,9 +18,25 @@ from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio, as_audios
 from hri.recognition.loading import load_native
-from hri.recognition.word.background import BackgroundWord, background_words
+from hri.recognition.word.fillers import FillerWord, filler_words
 
 _log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Utterance:
+    """The decision on one utterance of a longer recording.
+
+    Attributes
+    ----------
+    first_s, last_s : float
+        Its end points from the beginning of the recording.
+    decision : Decision
+    """
+
+    first_s: float
+    last_s: float
+    decision: Decision
 
 
 class WordRecognizer(Recognizer):
@@ -59,7 +75,7 @@ class WordRecognizer(Recognizer):
         *,
         sample_rate_hz: int | Sequence[int] | None = None,
         groups: Sequence[str] | None = None,
-        background: Sequence[BackgroundWord] | None = None,
+        fillers: Sequence[FillerWord] | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> WordRecognizer:
         """Train one model a label.
@@ -74,17 +90,18 @@ class WordRecognizer(Recognizer):
             Of arrays: one rate for all, or one for each.
         groups : sequence of str, optional
             The speaker of each clip; calibration then holds out whole speakers.
-        background : sequence of BackgroundWord, optional
-            Words outside the vocabulary, which the model "hmm" learns to tell `unknown` by. By default those that come
-            with the package (`background_words`); an empty sequence turns them off. They may sound like a word of the
-            vocabulary, but should not be one.
+        fillers : sequence of FillerWord, optional
+            Words outside the vocabulary, whose models the model "hmm" compares with to reject others of their kind. By
+            default those that come with the package (`filler_words`); an empty sequence turns them off. They may sound
+            like a word of the vocabulary, but should not be one.
         progress : callable, optional
             Called with (done, total) training steps.
 
         Raises
         ------
         InvalidArgument
-            For lengths that differ, audio with NaN (names the clip and the sample), or a label without speech.
+            For lengths that differ, a clip that is not finite or too short (names it, as in ``X[3]``), or a label
+            without speech.
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
@@ -93,7 +110,7 @@ class WordRecognizer(Recognizer):
             raise _native.InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
-        others = background_words() if background is None else background
+        others = filler_words() if fillers is None else fillers
         self._native = self._native_class.train(
             [clip.samples for clip in clips],
             [clip.sample_rate_hz for clip in clips],
@@ -110,14 +127,14 @@ class WordRecognizer(Recognizer):
     def add_word(
         self, label: str, clips: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None
     ) -> WordRecognizer:
-        """Learn one word more from few recordings; three do. The models of the other words stay as they are.
+        """Add a word from few recordings; three suffice. The models of the other words stay as they are.
 
-        How far a word varies is taken from the words that the recogniser knows; so is the rejection threshold.
+        The variances of its model lean on those of the words in the vocabulary; the rejection threshold stays.
 
         Parameters
         ----------
         label : str
-            A word that the recogniser does not have.
+            A word that is not in the vocabulary.
         clips : sequence of paths, Audio, or arrays of shape (num_samples,)
             Recordings of the word, one or more, each with speech in it.
         sample_rate_hz : int or sequence of int, optional
@@ -126,8 +143,8 @@ class WordRecognizer(Recognizer):
         Raises
         ------
         InvalidArgument
-            For a label that is there already, no clip, or one that is silent or broken (names it); the recogniser
-            is left as it was.
+            For a label that is in the vocabulary already, no clip, or one without speech, too short or not finite
+            (names it, as in ``clips[0]``); the recogniser is left as it was.
         """
         read = as_audios(clips, sample_rate_hz, "clips")
         self._native = self._trained.with_word(
@@ -136,7 +153,7 @@ class WordRecognizer(Recognizer):
         return self
 
     def remove_word(self, label: str) -> WordRecognizer:
-        """Forget a word. Raises InvalidArgument for one that is not known, or where fewer than two would be left."""
+        """Remove a word. Raises InvalidArgument for one outside the vocabulary, or if fewer than two would remain."""
         if label not in self.classes_:
             raise _native.InvalidArgument(f"no word {label!r}; {did_you_mean(label, self.classes_, 'it has')}")
         self._native = self._trained.without_word(label)
@@ -150,12 +167,18 @@ class WordRecognizer(Recognizer):
         audio : path, Audio, or array of shape (num_samples,)
             A recording; what `hri.read_audio` gives; or mono samples, floats in -1..1 or int16.
         sample_rate_hz : int, optional
-            Of an array. Another rate than the model's is resampled, and said so in ``Decision.notes``.
+            Of an array. Audio of another rate than the model's is resampled.
+
+        Returns
+        -------
+        Decision
+            Its ``notes`` report resampling, and audio that holds several utterances: it is then recognised as one
+            word, and `recognise_utterances` recognises each.
 
         Raises
         ------
         InvalidArgument
-            For an array without a rate, or of several channels; names the argument, and says what would work.
+            For an array without a rate, of several channels, not finite or shorter than one frame; names the argument.
         FormatError, IoError
             For a file that is no recording.
 
@@ -164,14 +187,37 @@ class WordRecognizer(Recognizer):
         >>> words.recognise("seven.wav").label     # doctest: +SKIP
         >>> words.recognise(samples, 16000).label  # doctest: +SKIP
         """
-        heard = as_audio(audio, sample_rate_hz)
-        decision = Decision.from_native(self.mode, self._trained.recognise(heard.samples, heard.sample_rate_hz))
-        return replace(decision, notes=(*heard.notes, *decision.notes)) if heard.notes else decision
+        clip = as_audio(audio, sample_rate_hz)
+        decision = Decision.from_native(self.mode, self._trained.recognise(clip.samples, clip.sample_rate_hz))
+        return replace(decision, notes=(*clip.notes, *decision.notes)) if clip.notes else decision
+
+    def recognise_utterances(self, audio: AudioInput, sample_rate_hz: int | None = None) -> list[Utterance]:
+        """Recognise every utterance of a recording by itself, as `hri listen` does with a stream.
+
+        Parameters
+        ----------
+        audio : path, Audio, or array of shape (num_samples,)
+        sample_rate_hz : int, optional
+            Of an array; as for `recognise`.
+
+        Returns
+        -------
+        list of Utterance
+            In the order they were said; empty without speech.
+
+        Raises
+        ------
+        InvalidArgument, FormatError, IoError
+            As of `recognise`.
+        """
+        clip = as_audio(audio, sample_rate_hz)
+        found = self._trained.recognise_utterances(clip.samples, clip.sample_rate_hz)
+        return [Utterance(u.first_s, u.last_s, Decision.from_native(self.mode, u.decision)) for u in found]
 
     def scores(self, audio: AudioInput, sample_rate_hz: int | None = None) -> NDArray[np.float32]:
         """Raw score of every class (natural log), shape (num_classes,), in the order of `classes_`."""
-        heard = as_audio(audio, sample_rate_hz)
-        return np.asarray(self._trained.scores(heard.samples, heard.sample_rate_hz))
+        clip = as_audio(audio, sample_rate_hz)
+        return np.asarray(self._trained.scores(clip.samples, clip.sample_rate_hz))
 
     def decide(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""

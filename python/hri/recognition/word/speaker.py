@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A word recogniser that gets used to who speaks, and where."""
+"""Adaptation of a word recogniser to a speaker, a microphone or a room."""
 
 from __future__ import annotations
 
@@ -15,13 +15,12 @@ from hri.recognition.word.recognizer import WordRecognizer
 
 
 class SpeakerAdapter:
-    """Recognise words and learn from them, named or not.
+    """Recognise words and adapt to them, supervised (with labels) or unsupervised.
 
-    Every word is decided by what was learned before it. The models are adapted in two steps: one linear change of all
-    means and variances together (Leggetter and Woodland 1995, diagonal), for the voice, the microphone and the room;
-    then, once `words_per_label` words a label were heard, each word's model by maximum a posteriori estimation
-    (Gauvain and Lee 1994). Words that nobody named count as what they are recognised as, if they are accepted and among
-    the clearest.
+    Every decision uses the models adapted to the words before it, in two steps: one linear transform of all means and
+    variances (Leggetter and Woodland 1995, diagonal), for the voice, the microphone and the room; then, from
+    `words_per_label` words a label on, maximum a posteriori estimation of each word's model (Gauvain and Lee 1994).
+    Without a label, a word counts as what it is recognised as, if it is accepted and its margin is among the largest.
 
     Parameters
     ----------
@@ -49,7 +48,7 @@ class SpeakerAdapter:
         self._native = _native.SpeakerAdapter(recognizer._trained, self.options)
 
     def recognise(self, audio: AudioInput, sample_rate_hz: int | None = None, *, update: bool = True) -> Decision:
-        """Recognise one clip, then learn from it.
+        """Recognise one clip, then adapt to it.
 
         Parameters
         ----------
@@ -57,32 +56,32 @@ class SpeakerAdapter:
         sample_rate_hz : int, optional
             Of an array; as for `WordRecognizer.recognise`.
         update : bool
-            False leaves the learning to a call of `update`, for whoever has to answer at once.
+            False leaves adaptation to a call of `update`, where the answer must not wait for it.
         """
-        heard = as_audio(audio, sample_rate_hz)
-        decision = Decision.from_native("speech", self._native.recognise(heard.samples, heard.sample_rate_hz))
-        if heard.notes:
-            decision = replace(decision, notes=(*heard.notes, *decision.notes))
+        clip = as_audio(audio, sample_rate_hz)
+        decision = Decision.from_native("speech", self._native.recognise(clip.samples, clip.sample_rate_hz))
+        if clip.notes:
+            decision = replace(decision, notes=(*clip.notes, *decision.notes))
         if update and self.update_due:
             self.update()
         return decision
 
     def learn(self, audio: AudioInput, label: str, sample_rate_hz: int | None = None) -> None:
-        """Remember a word that somebody named; `update` learns from it.
+        """Remember a word with its label (supervised); `update` learns from it.
 
         Raises
         ------
         InvalidArgument
-            For a label that the recogniser does not have, or audio in which nobody speaks.
+            For a label that is not in the vocabulary, or audio without speech.
         """
-        heard = as_audio(audio, sample_rate_hz)
+        clip = as_audio(audio, sample_rate_hz)
         if label not in self._labels:
             raise _native.InvalidArgument(f"no word {label!r}; {did_you_mean(label, self._labels, 'it has')}")
-        self._native.learn(heard.samples, heard.sample_rate_hz, label)
+        self._native.learn(clip.samples, clip.sample_rate_hz, label)
 
     @property
     def update_due(self) -> bool:
-        """Whether enough new words were heard since the last update: one in eight."""
+        """Whether one remembered word in eight is newer than the last update."""
         return bool(self._native.update_due)
 
     def update(self) -> None:
@@ -100,7 +99,7 @@ class SpeakerAdapter:
 
     @property
     def num_learned(self) -> int:
-        """Words that the last update learned from: those named, and those trusted."""
+        """Words that the last update learned from: those with a label, and those trusted."""
         return int(self._native.num_learned)
 
     @property

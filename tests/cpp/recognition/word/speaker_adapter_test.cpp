@@ -36,7 +36,7 @@ TEST(SpeakerAdapter, BeginsAsTheRecogniser) {
   EXPECT_EQ(adapter.num_words(), 1);
 }
 
-TEST(SpeakerAdapter, LearnsWordsThatWereNamed) {
+TEST(SpeakerAdapter, AdaptsSupervised) {
   SpeakerAdapterOptions options;
   options.words_per_label = 0;
   SpeakerAdapter adapter(trained(), options);
@@ -57,7 +57,7 @@ TEST(SpeakerAdapter, LearnsWordsThatWereNamed) {
   EXPECT_GT(margin(adapter.recognizer(), false), margin(before, false));
 }
 
-TEST(SpeakerAdapter, RaisesTheScoreOfAVoiceNobodyNamed) {
+TEST(SpeakerAdapter, AdaptsUnsupervised) {
   SpeakerAdapterOptions options;
   options.trusted_share = 1;
   WordRecognizerOptions lax;
@@ -86,7 +86,7 @@ TEST(SpeakerAdapter, RemembersSoManyWordsOnly) {
   EXPECT_EQ(adapter.num_words(), 3);
 }
 
-TEST(SpeakerAdapter, RemembersNothingWhereNobodySpeaks) {
+TEST(SpeakerAdapter, RemembersNothingWithoutSpeech) {
   SpeakerAdapter adapter(trained());
   const std::vector<float> silence(kRateHz, 0.0F);
   EXPECT_EQ(adapter.recognise(silence, kRateHz).status, DecisionStatus::no_input);
@@ -106,7 +106,7 @@ TEST(SpeakerAdapter, AdaptedModelsAreKeptInTheFile) {
   EXPECT_EQ(again.scores(clip, kRateHz), adapter.recognizer().scores(clip, kRateHz));
 }
 
-TEST(SpeakerAdapter, StopsWhenToldAndStaysAsItWas) {
+TEST(SpeakerAdapter, StopsWhenAskedAndStaysAsItWas) {
   SpeakerAdapter adapter(trained());
   adapter.learn(strange(true, 1), kRateHz, "rise");
   const std::vector<float> clip = strange(false, 2);

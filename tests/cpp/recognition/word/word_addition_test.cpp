@@ -139,7 +139,7 @@ TEST(WordAdditionOf, BadRecordingsIsRefusedByName) {
 
   std::vector<WordSample> samples = flat.samples;
   samples[1].label = "other";
-  EXPECT_TRUE(has(what_of(recognizer, samples), "sample 1: label 'other'"));
+  EXPECT_TRUE(has(what_of(recognizer, samples), "samples[1]: label 'other'"));
   for (const char* label : {"rise", "unknown", ""}) {
     for (WordSample& s : samples) s.label = label;
     EXPECT_TRUE(has(what_of(recognizer, samples), "label")) << label;
@@ -148,13 +148,14 @@ TEST(WordAdditionOf, BadRecordingsIsRefusedByName) {
   samples = flat.samples;
   const std::vector<float> silence(8000, 0.0F);
   samples[2].samples = silence;
-  EXPECT_TRUE(has(what_of(recognizer, samples), "sample 2: nobody speaks"));
+  EXPECT_TRUE(has(what_of(recognizer, samples), "samples[2]: audio has no speech"));
   samples[2].samples = samples[2].samples.subspan(0, 20);
-  EXPECT_TRUE(has(what_of(recognizer, samples), "sample 2: audio is too short"));
+  EXPECT_TRUE(has(what_of(recognizer, samples), "samples[2]: audio is too short"));
   std::vector<float> broken = flat.audio[0];
   broken[123] = std::numeric_limits<float>::quiet_NaN();
   samples[2].samples = broken;
-  EXPECT_TRUE(has(what_of(recognizer, samples), "sample 2: audio is not finite at index 123"));
+  samples[2].name = "dance_3.wav";
+  EXPECT_TRUE(has(what_of(recognizer, samples), "dance_3.wav: audio is not finite at index 123"));
 }
 
 TEST(WordAdditionOf, ModelFilesWithWildCopiesIsRefused) {

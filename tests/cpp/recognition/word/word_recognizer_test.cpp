@@ -28,7 +28,7 @@ class WordRecognizerOf : public ::testing::TestWithParam<SequenceModelKind> {
   }
 };
 
-TEST_P(WordRecognizerOf, RecognisesSomebodyItHasNotHeard) {
+TEST_P(WordRecognizerOf, RecognisesASpeakerItWasNotTrainedOn) {
   const Clips all = tone_clips();
   std::vector<WordSample> train;
   for (const WordSample& s : all.samples) {
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Models, WordRecognizerOf,
                          ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm),
                          model_name);
 
-TEST(WordRecognizer, HearsNothingInSilence) {
+TEST(WordRecognizer, ReportsNoInputForSilence) {
   const Clips all = tone_clips();
   const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});
   for (const float level : {0.0F, 0.3F}) {
@@ -101,7 +101,7 @@ TEST(WordRecognizer, RefusesBadAudioAndBadSets) {
     WordRecognizer::train(with_click, {});
     FAIL();
   } catch (const InvalidArgument& error) {
-    EXPECT_NE(std::string(error.what()).find("sample 4: audio is too short"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("samples[4]: audio is too short"), std::string::npos);
   }
   std::vector<WordSample> with_silence = all.samples;
   const std::vector<float> silence(8000, 0.0F);

@@ -10,6 +10,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
+#include "hri/models/hmm/gaussian_mixture.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 
 namespace hri {
@@ -58,20 +59,22 @@ Clips clips() {
   return result;
 }
 
-std::vector<VerifierTrial> trials(double distance) {
+using Kind = VerifierExample::Kind;
+
+std::vector<VerifierExample> examples(double distance) {
   Random random(2);
-  std::vector<VerifierTrial> result;
+  std::vector<VerifierExample> result;
   for (int i = 0; i < 300; ++i) {
-    const auto kind = static_cast<TrialKind>(i % 3);
+    const auto kind = static_cast<Kind>(i % 3);
     VectorD features(2);
-    features << random.normal() + (kind == TrialKind::word ? distance : 0), random.normal();
+    features << random.normal() + (kind == Kind::word ? distance : 0), random.normal();
     result.push_back({features, kind});
   }
   return result;
 }
 
-TEST(WordVerifier, WeighsWhatTellsWordsFromTheRest) {
-  const WordVerifier verifier = WordVerifier::fit(trials(3), false);
+TEST(WordVerifier, WeighsTheFeatureThatSeparatesWords) {
+  const WordVerifier verifier = WordVerifier::fit(examples(3), false);
   EXPECT_GT(verifier.word_weights()[0], 1);
   EXPECT_NEAR(verifier.word_weights()[1], 0, 0.3);
   EXPECT_GT(verifier.sound_weights()[0], 1);
@@ -82,24 +85,14 @@ TEST(WordVerifier, WeighsWhatTellsWordsFromTheRest) {
   EXPECT_LT(verifier.verification_score(features), 0);
 }
 
-TEST(WordVerifier, TakesTheRatioWhereNothingWasLearned) {
+TEST(WordVerifier, TakesTheRatioWhenUntrained) {
   VectorD features(2);
   features << 0.25, 9;
-  EXPECT_EQ(WordVerifier().score(features), 0.25F);
-  std::vector<VerifierTrial> words_only = trials(3);
-  for (VerifierTrial& t : words_only) t.kind = TrialKind::word;
+  EXPECT_EQ(WordVerifier().verification_score(features), 0.25F);
+  std::vector<VerifierExample> words_only = examples(3);
+  for (VerifierExample& e : words_only) e.kind = Kind::word;
   EXPECT_EQ(WordVerifier::fit(words_only, false).word_weights().size(), 0);
-  EXPECT_EQ(WordVerifier::fit({}, false).score(features), 0.25F);
-}
-
-TEST(WordVerifier, FilesBelongToAKindOfModels) {
-  const WordVerifier verifier = WordVerifier::fit(trials(3), false);
-  ModelFile file;
-  verifier.write(file, SequenceModelKind::ptbhmm, false);
-  EXPECT_EQ(WordVerifier::read(file, SequenceModelKind::ptbhmm, false).word_weights(),
-            verifier.word_weights());
-  EXPECT_THROW(WordVerifier::read(file, SequenceModelKind::hmm, false), FormatError);
-  EXPECT_EQ(WordVerifier::read(ModelFile(), SequenceModelKind::hmm, true).word_weights().size(), 0);
+  EXPECT_EQ(WordVerifier::fit({}, false).verification_score(features), 0.25F);
 }
 
 // A model with two states, of frames near 0 and then near 5, and one of frames near 5 and then 0.
@@ -120,11 +113,36 @@ std::vector<GaussianMixtureHmm> steps() {
   return result;
 }
 
+TEST(WordVerifier, FilesBelongToAKindOfModels) {
+  const WordVerifier verifier = WordVerifier::fit(examples(3), false);
+  SequenceModelOptions options;
+  options.num_states = 2;
+  options.num_codewords = 2;
+  options.garbage_mixtures = 1;
+  const auto scorer_of = [&](SequenceModelKind kind, const FillerModels& fillers = {}) {
+    options.model = kind;
+    const ClassSequences sequences{{MatrixF::Random(8, 1)}, {MatrixF::Random(8, 1)}};
+    return MultiStreamScorer({train_sequence_scorer(sequences, options, {}, fillers)});
+  };
+  const MultiStreamScorer ptbhmm = scorer_of(SequenceModelKind::ptbhmm);
+  ModelFile file;
+  verifier.write(file, ptbhmm);
+  EXPECT_EQ(WordVerifier::read(file, ptbhmm).word_weights(), verifier.word_weights());
+  const MultiStreamScorer hmm = scorer_of(SequenceModelKind::hmm);
+  EXPECT_THROW(WordVerifier::read(file, hmm), FormatError);
+  const MultiStreamScorer with_fillers = scorer_of(SequenceModelKind::hmm, steps());
+  EXPECT_EQ(WordVerifier::read(ModelFile(), with_fillers).word_weights().size(), 0);
+  // The names in files stay those of format version 1.
+  ModelFile names;
+  WordVerifier::fit(examples(3), true).write(names, with_fillers);
+  EXPECT_EQ(names.text_list("verifier.features").back(), "background");
+  EXPECT_EQ(WordVerifier::feature_names(SequenceModelKind::hmm, true).back(), "fillers");
+}
+
 // As features() finds them from a file of such models, of frames that fit the first one.
 VectorD features_of(int first_frames, int second_frames, int left_out) {
   SequenceModelOptions options;
   options.num_states = 2;
-  SequenceModels models(options);
   ModelFile file;
   const auto hmms = steps();
   for (std::size_t c = 0; c < 2; ++c) hmms[c].write(file, "hmm." + std::to_string(c) + ".");
@@ -134,11 +152,11 @@ VectorD features_of(int first_frames, int second_frames, int left_out) {
   spread << 0, 5, 1, 4;
   GaussianMixture::train(spread, garbage).write(file, "garbage.");
   file.set_integer("num_background", 0);
-  models.read(file, "", 2, 1);
+  const MultiStreamScorer scorer({read_sequence_scorer(file, "", options, 2, 1)});
   MatrixF frames(first_frames + second_frames, 1);
   frames.topRows(first_frames).setZero();
   frames.bottomRows(second_frames).setConstant(5);
-  return WordVerifier::features({&models}, {frames}, models.scores(frames), left_out);
+  return WordVerifier::features(scorer, {frames}, scorer.scores({frames}), left_out);
 }
 
 TEST(WordVerifier, FeaturesAreThoseOfTheAlignment) {
@@ -163,7 +181,7 @@ TEST(WordVerifier, FeaturesAreThoseOfTheAlignment) {
   EXPECT_LT(without[2], usual[2]);
 }
 
-TEST(WordRecognizer, TurnsDownWordsItWasNotTaughtAndBurstsOfNoise) {
+TEST(WordRecognizer, RejectsWordsOutsideTheVocabularyAndBurstsOfNoise) {
   const Clips all = clips();
   std::vector<WordSample> train;
   for (const WordSample& s : all.samples) {
@@ -184,7 +202,7 @@ TEST(WordRecognizer, TurnsDownWordsItWasNotTaughtAndBurstsOfNoise) {
       accepted += yes && d.label == s.label ? 1 : 0;
     }
   }
-  EXPECT_GT(2 * accepted, words);  // taught by two persons, spoken by a third
+  EXPECT_GT(2 * accepted, words);  // trained on two speakers, spoken by a third
   EXPECT_LE(strangers_accepted, 1);
   Random random(9);
   for (int i = 0; i < 10; ++i) {

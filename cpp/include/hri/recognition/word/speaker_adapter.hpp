@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A word recogniser that gets used to who speaks, and where: it learns from the words it hears,
-// named or not, by linear and maximum a posteriori adaptation of its models (sequence_models.hpp).
-// Words nobody named are learned as what they were recognised as, if clearly so.
+// Speaker adaptation of a word recogniser, supervised (with labels) and unsupervised, by linear and
+// maximum a posteriori adaptation of its models (sequence_scorer.hpp). Words without a label are
+// learned as what they were recognised as, if by a clear margin.
 #pragma once
 
 #include <deque>
@@ -24,8 +24,9 @@ struct SpeakerAdapterOptions {
   double shared_frames = 400;  ///< imagined frames that hold back what changes all words, > 0
   double prior_frames = 5;     ///< frames a state that weigh as much as the training, > 0
   int num_iterations = 3;      ///< EM iterations of an update, 1..1000
-  double trusted_share = 1;  ///< share of the words not named, clearest first, to learn from, 0..1
-  int max_words = 300;       ///< words remembered; the oldest goes first, 1..100000
+  double trusted_share = 1;    ///< share of the words without a label to learn from, those of the
+                             ///< largest margins first, 0..1
+  int max_words = 300;  ///< words remembered; the oldest goes first, 1..100000
 };
 
 /// Not safe from several threads at once. Invariant: recognizer() is the recogniser it was made
@@ -38,16 +39,15 @@ class HRI_API SpeakerAdapter {
 
   /// Recognises as WordRecognizer does, by what was learned up to the last update, and remembers
   /// the word.
-  Decision recognise(Span<const float> samples, int sample_rate_hz);
+  Decision recognise(Span<const float> audio, int sample_rate_hz);
 
-  /// Remembers a word that somebody named. Throws InvalidArgument for a label that the recogniser
-  /// does not have and for audio in which nobody speaks.
-  void learn(Span<const float> samples, int sample_rate_hz, const std::string& label);
+  /// Remembers a word with its label (supervised). Throws InvalidArgument for a label that is not
+  /// in the vocabulary and for audio without speech.
+  void learn(Span<const float> audio, int sample_rate_hz, const std::string& label);
 
-  /// Whether words enough were remembered since the last update for another to be worth its time:
-  /// one in eight.
+  /// Whether one word in eight is newer than the last update.
   [[nodiscard]] bool update_due() const;
-  /// Adapts to the words remembered. Takes some milliseconds a word: call it when nobody speaks.
+  /// Adapts to the words remembered. Takes some milliseconds a word: call it between utterances.
   /// Throws Interrupted when `should_stop` says so, and is then as it was.
   void update(const StopCheck& should_stop = {});
   /// Forgets the speaker.
@@ -55,16 +55,21 @@ class HRI_API SpeakerAdapter {
 
   [[nodiscard]] const WordRecognizer& recognizer() const { return adapted_; }
   [[nodiscard]] int num_words() const { return static_cast<int>(words_.size()); }
-  /// Words that the last update learned from: those named, and those trusted.
+  /// Words that the last update learned from: those with a label, and those trusted.
   [[nodiscard]] int num_learned() const { return num_learned_; }
   [[nodiscard]] const SpeakerAdapterOptions& options() const { return options_; }
 
  private:
   struct Word {
-    std::vector<MatrixF> frames;  // of every stream
-    int label = -1;               // -1: nobody named it
+    StreamFrames frames;
+    int label = -1;  // -1: unsupervised
+  };
+  struct Guess {
+    int label = -1;
+    float margin = 0;
   };
   void remember(Word word);
+  [[nodiscard]] Guess guess(const Word& word) const;
   [[nodiscard]] std::vector<int> trusted_labels() const;
 
   SpeakerAdapterOptions options_;

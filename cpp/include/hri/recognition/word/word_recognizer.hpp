@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Isolated words: audio -> end points -> cepstra -> one sequence model a word -> Decision (thesis
-// section 6.2).
+// Isolated words: audio -> endpointing -> cepstra -> one sequence model a word -> rejection ->
+// Decision (thesis section 6.2).
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,12 @@
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/multi_stream_scorer.hpp"
+#include "hri/models/sequence_scorer.hpp"
 #include "hri/recognition/calibration.hpp"
 #include "hri/recognition/decision.hpp"
-#include "hri/recognition/sequence_models.hpp"
 #include "hri/recognition/training.hpp"
+#include "hri/recognition/word/word_front_end.hpp"
 #include "hri/recognition/word/word_verifier.hpp"
 #include "hri/signal/activity.hpp"
 
@@ -45,88 +47,90 @@ struct WordRecognizerOptions {
       0.02;  ///< share of correct held-out words that the threshold may reject, 0..0.5
 };
 
-/// A front end and the models trained on it; several vote by adding their log scores.
-struct WordStream {
-  CepstraComputer cepstra;
-  SequenceModels models;
-};
-
 /// One training word. `group` is the speaker: calibration holds whole groups out.
 struct WordSample {
   Span<const float> samples;  ///< mono, -1..1, at `sample_rate_hz`
   int sample_rate_hz = 16000;
   std::string label;
   std::string group;
+  std::string name = {};  ///< what errors call it, such as a file; by default "samples[i]"
 };
 
-/// Immutable once made; const calls are safe from several threads.
+/// The decision on one utterance of a longer recording.
+struct UtteranceDecision {
+  double first_s = 0;  ///< end points from the beginning of the recording
+  double last_s = 0;
+  Decision decision;
+};
+
+/// Front end, scorer, verifier and calibration. Immutable; const calls are safe from several
+/// threads. Copies share their models.
 class HRI_API WordRecognizer {
  public:
-  /// Trains one model a label. `background` are words outside the vocabulary, of any speakers: they
-  /// are learned as what else may be said, for rejection alone (models of the kind hmm; ptbhmm
-  /// leaves them aside). Throws InvalidArgument for NaN (with sample index), audio without a
-  /// word, a label with no usable sample; Interrupted when `should_stop` says so. Labels are kept
+  /// From trained parts. Throws InvalidArgument for labels that are not sorted or do not fit the
+  /// scorer, and for options out of range.
+  WordRecognizer(const WordRecognizerOptions& options, std::vector<std::string> labels,
+                 MultiStreamScorer scorer, WordVerifier verifier, const Calibration& calibration);
+
+  /// Trains one model a label. `fillers` are words outside the vocabulary, of any speakers: their
+  /// models serve rejection alone (kind hmm; ptbhmm leaves them aside). Throws InvalidArgument for
+  /// a recording that is not finite (with its index) or too short, naming it, and for a label
+  /// without a recording that holds speech; Interrupted when `should_stop` says so. Labels are kept
   /// in sorted order.
   static WordRecognizer train(const std::vector<WordSample>& samples,
                               const WordRecognizerOptions& options,
                               const TrainingProgress& progress = {},
                               const StopCheck& should_stop = {},
-                              const std::vector<WordSample>& background = {});
+                              const std::vector<WordSample>& fillers = {});
 
-  /// This recogniser with one word more, learned from few recordings (from one on, all of one
-  /// label) and from what the words it has tell of words. Their models stay as they are, to the
-  /// bit, and so does the calibration. Throws InvalidArgument for no recording, one without speech
-  /// (names it), labels that differ or that the recogniser has already; Interrupted.
+  /// This recogniser with one word more, trained on few recordings (from one on, all of one label)
+  /// and on the statistics of the words it has. Their models stay as they are, to the bit, and so
+  /// does the calibration. Throws InvalidArgument for no recording, one without speech (names it),
+  /// labels that differ or that the recogniser has already; Interrupted.
   [[nodiscard]] WordRecognizer with_word(const std::vector<WordSample>& samples,
                                          const StopCheck& should_stop = {}) const;
   /// The same without a word. Throws InvalidArgument for a label that it does not have, or where
   /// fewer than two would be left.
   [[nodiscard]] WordRecognizer without_word(const std::string& label) const;
+  /// The same with another scorer of the same labels, such as an adapted one.
+  [[nodiscard]] WordRecognizer with_scorer(MultiStreamScorer scorer) const;
 
   static WordRecognizer load(const std::string& path);
   void save(const std::string& path) const;
   [[nodiscard]] ModelFile to_model_file() const;
   static WordRecognizer from_model_file(const ModelFile& file);
 
-  /// Recognises one utterance; other sample rates are resampled and said so in Decision::notes.
-  /// Score is the log odds that a word of the vocabulary was said (word_verifier.hpp).
-  [[nodiscard]] Decision recognise(Span<const float> samples, int sample_rate_hz) const;
+  /// Recognises one utterance; notes report resampling, and more than one utterance in the audio.
+  /// Decision::score is the log odds that a word of the vocabulary was said (word_verifier.hpp).
+  /// Throws InvalidArgument as WordFrontEnd::trim() does.
+  [[nodiscard]] Decision recognise(Span<const float> audio, int sample_rate_hz) const;
+  /// Recognises every utterance of a recording by itself, as a stream does: endpointed by
+  /// Endpointer with its default options and the recogniser's `activity`.
+  [[nodiscard]] std::vector<UtteranceDecision> recognise_utterances(Span<const float> audio,
+                                                                    int sample_rate_hz) const;
+  /// The decision for what front_end() made of an utterance.
+  [[nodiscard]] Decision decide(const WordFeatures& word) const;
 
-  /// Raw score of every label for one utterance (log-likelihood or log-possibility), without end
-  /// points or rejection beyond `trim`. Throws InvalidArgument "too short" for less than one frame.
-  [[nodiscard]] VectorF scores(Span<const float> samples, int sample_rate_hz) const;
+  /// Raw score of every label for one utterance (log-likelihood or log-possibility), without
+  /// rejection. Throws InvalidArgument as recognise() does, and for audio without speech.
+  [[nodiscard]] VectorF scores(Span<const float> audio, int sample_rate_hz) const;
+  /// The score for rejection of an utterance whose raw scores are `scores`.
+  [[nodiscard]] float verification_score(const StreamFrames& frames, const VectorF& scores) const;
 
   [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
   [[nodiscard]] const WordRecognizerOptions& options() const { return options_; }
-  [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  [[nodiscard]] const WordFrontEnd& front_end() const { return front_end_; }
+  [[nodiscard]] const MultiStreamScorer& scorer() const { return scorer_; }
   [[nodiscard]] const WordVerifier& verifier() const { return verifier_; }
+  [[nodiscard]] const Calibration& calibration() const { return calibration_; }
 
  private:
-  WordRecognizer(const WordRecognizerOptions& options, std::vector<std::string> labels);
   static WordRecognizer read(const ModelFile& file);
-
-  /// The word in the clip at the model's rate; empty when nobody speaks.
-  [[nodiscard]] std::vector<float> locate(Span<const float> samples, int sample_rate_hz,
-                                          std::vector<std::string>* notes) const;
-  /// Recognises, and tells the frames of every stream; none where nobody speaks.
-  [[nodiscard]] Decision recognise(Span<const float> samples, int sample_rate_hz,
-                                   std::vector<MatrixF>* frames) const;
-  /// The frames of `word` for every stream.
-  [[nodiscard]] std::vector<MatrixF> frames(Span<const float> word) const;
-  [[nodiscard]] VectorF score(const std::vector<MatrixF>& frames) const;
-  [[nodiscard]] float verification_score(const std::vector<MatrixF>& frames,
-                                         const VectorF& scores) const;
-  /// What the verifier weighs; as if there were no class `left_out` (-1: none).
-  [[nodiscard]] VectorD features(const std::vector<MatrixF>& frames, const VectorF& scores,
-                                 int left_out = -1) const;
-
-  friend class SpeakerAdapter;
-  friend class WordFrames;
-  friend class WordTrainer;
 
   WordRecognizerOptions options_;
   std::vector<std::string> labels_;
-  std::vector<WordStream> streams_;
+  WordFrontEnd front_end_;
+  MultiStreamScorer scorer_;
   WordVerifier verifier_;
   Calibration calibration_;
 };

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Was that one of the words at all? What the best word's alignment tells (how far it is ahead of a
-// garbage model, of its rivals, of background words and of the states that fit best frame by frame,
-// and whether its states last as long as they should) is weighed by logistic regressions, learned
-// on held-out decisions: one against other words, one against sounds that are no speech.
+// Verification: was that a word of the vocabulary at all? Confidence features of the best word (its
+// score against a garbage model, its rivals, filler words and the best states frame by frame, and
+// the durations of its states) are weighed by two logistic regressions, trained on held-out
+// decisions: one against other words, one against sounds that are no speech.
 #pragma once
 
 #include <cstdint>
@@ -15,58 +15,55 @@
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/classifiers/logistic_regression.hpp"
-#include "hri/recognition/sequence_models.hpp"
+#include "hri/models/multi_stream_scorer.hpp"
 
 namespace hri {
 
-/// What was heard in a trial that a verifier learns from.
-enum class TrialKind : std::uint8_t {
-  word,        ///< a word that was recognised
-  other_word,  ///< speech outside the vocabulary, such as a word decided upon without its own model
-  sound,       ///< a sound that is no speech
-};
+/// What a verifier is trained on.
+struct VerifierExample {
+  enum class Kind : std::uint8_t {
+    word,        ///< a word that was recognised
+    other_word,  ///< speech outside the vocabulary, such as a word scored without its own model
+    sound,       ///< a sound that is no speech
+  };
 
-struct VerifierTrial {
   VectorD features;
-  TrialKind kind = TrialKind::word;
+  Kind kind = Kind::word;
 };
 
-/// Immutable; const calls are safe from several threads. One that has learned nothing takes the
-/// first feature for the score.
+/// Immutable; const calls are safe from several threads. An untrained one takes the first feature
+/// for the score.
 class HRI_API WordVerifier {
  public:
   WordVerifier() = default;
 
   /// The features, in their order: "ratio", "rivals"; of hidden Markov models also "states",
-  /// "length" and "pace"; where there are background words, "background".
-  static std::vector<std::string> feature_names(SequenceModelKind kind, bool background);
+  /// "length" and "pace"; where there are filler words, "fillers".
+  static std::vector<std::string> feature_names(SequenceModelKind kind, bool fillers);
 
-  /// Features of the best word by `scores`. `streams` are the models that voted, `frames` what each
-  /// heard. The class `left_out` (-1: none) is treated as if there were no such word.
-  static VectorD features(const std::vector<const SequenceModels*>& streams,
-                          const std::vector<MatrixF>& frames, const VectorF& scores,
-                          int left_out = -1);
+  /// Features of the best word by `scores`, as if there were no class `left_out` (-1: none).
+  static VectorD features(const MultiStreamScorer& scorer, const StreamFrames& frames,
+                          const VectorF& scores, int left_out = -1);
 
-  /// Learns from held-out trials: words against other words, and words against sounds, each as
-  /// often as the other. With `background` the last feature alone tells other words: few words are
-  /// left out in training, and what tells those apart holds for others less well. Without trials of
-  /// a kind nothing is learned about it.
-  static WordVerifier fit(const std::vector<VerifierTrial>& trials, bool background);
+  /// Trains on held-out examples: words against other words, and words against sounds, both kinds
+  /// of equal weight. With `fillers` the last feature alone decides against other words: few words
+  /// are left out in training, and what separates those holds for others less well. Without
+  /// examples of a kind that regression stays untrained.
+  static WordVerifier fit(const std::vector<VerifierExample>& examples, bool fillers);
 
-  /// Log odds that a word of the vocabulary was said, and neither another word nor a mere sound;
-  /// higher is surer.
+  /// Log odds that a word of the vocabulary was said, and neither another word nor a mere sound.
   [[nodiscard]] float verification_score(const VectorD& features) const;
 
-  /// Weights of the features against other words (with background words: of the last one); empty
-  /// where nothing was learned.
+  /// Weights of the features against other words (with fillers: of the last one); empty if
+  /// untrained.
   [[nodiscard]] const VectorD& word_weights() const { return words_.weights(); }
-  /// Weights of all features against sounds; empty where nothing was learned.
+  /// Weights of all features against sounds; empty if untrained.
   [[nodiscard]] const VectorD& sound_weights() const { return sounds_.weights(); }
 
-  void write(ModelFile& file, SequenceModelKind kind, bool background) const;
-  /// Throws FormatError where the weights do not belong to these features. A file without
-  /// a verifier gives one that has learned nothing.
-  static WordVerifier read(const ModelFile& file, SequenceModelKind kind, bool background);
+  void write(ModelFile& file, const MultiStreamScorer& scorer) const;
+  /// Throws FormatError where the weights do not belong to the features of `scorer`. A file without
+  /// a verifier gives an untrained one.
+  static WordVerifier read(const ModelFile& file, const MultiStreamScorer& scorer);
 
  private:
   LogisticRegression words_;

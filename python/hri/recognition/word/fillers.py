@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Words that are in nobody's vocabulary: what a recogniser compares with before it says that it knows a word."""
+"""Filler words: words outside the vocabulary, whose models a recogniser compares with before it accepts a word."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from hri.core.display import summary
 from hri.core.errors import FormatError
 
 RATE_HZ = 16000
-_FILE = "background_words.npz"
+_FILE = "filler_words.npz"
 _MU = 255.0
 
 
 @dataclass(frozen=True)
-class BackgroundWord:
-    """A recording of a word that is not to be recognised.
+class FillerWord:
+    """A recording of a word outside the vocabulary.
 
     Attributes
     ----------
@@ -47,18 +47,18 @@ def compress(samples: NDArray[np.float32]) -> NDArray[np.uint8]:
 
 
 def expand(codes: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """What `compress` was given, to its precision."""
+    """Invert `compress`, to its precision."""
     curve = codes.astype(np.float64) / 127.5 - 1.0
     return (np.sign(curve) * np.expm1(np.abs(curve) * np.log1p(_MU)) / _MU).astype(np.float32)
 
 
 @cache
-def background_words() -> tuple[BackgroundWord, ...]:
-    """The words that come with the package: synthetic voices, English and Hindi, at 16 kHz.
+def filler_words() -> tuple[FillerWord, ...]:
+    """The filler words that come with the package: synthetic voices, English and Hindi, at 16 kHz.
 
     Returns
     -------
-    tuple of BackgroundWord
+    tuple of FillerWord
 
     Raises
     ------
@@ -67,7 +67,7 @@ def background_words() -> tuple[BackgroundWord, ...]:
 
     Examples
     --------
-    >>> words = background_words()
+    >>> words = filler_words()
     >>> len({word.label for word in words})
     48
     """
@@ -80,4 +80,4 @@ def background_words() -> tuple[BackgroundWord, ...]:
     if ends.ndim != 1 or ends.shape != labels.shape or np.any(np.diff(ends, prepend=0) <= 0) or ends[-1] != codes.size:
         raise FormatError(f"{_FILE}: the lengths do not fit the samples")
     pieces = np.split(expand(codes), ends[:-1])
-    return tuple(BackgroundWord(p, RATE_HZ, str(label)) for p, label in zip(pieces, labels, strict=True))
+    return tuple(FillerWord(p, RATE_HZ, str(label)) for p, label in zip(pieces, labels, strict=True))

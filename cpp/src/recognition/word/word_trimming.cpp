@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "recognition/word/word_cut.hpp"
+#include "recognition/word/word_trimming.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace hri::detail {
 namespace {
 
-constexpr double kMarginMs = 100;  // beyond the padding, for the detector to hear the floor in
+constexpr double kMarginMs =
+    100;  // beyond the padding, in which the detector measures the noise floor
 
 // Samples [bounds.first - margin, bounds.last + margin), zero where there are none.
 std::vector<float> around(Span<const float> audio, const SpeechBounds& bounds, std::size_t margin) {
@@ -24,8 +25,8 @@ std::vector<float> around(Span<const float> audio, const SpeechBounds& bounds, s
   return result;
 }
 
-// White noise of this deviation, the same every time.
-void add_floor(double deviation, std::vector<float>* audio) {
+// White noise of this standard deviation, the same every time.
+void add_noise_floor(double deviation, std::vector<float>* audio) {
   constexpr std::uint64_t kSeed = 1;
   constexpr double kRangeOfUnitPower = 3.4641016151377544;  // sqrt(12)
   Random random(kSeed);
@@ -35,24 +36,21 @@ void add_floor(double deviation, std::vector<float>* audio) {
 
 }  // namespace
 
-std::vector<float> cut_word(Span<const float> audio, int sample_rate_hz,
-                            const ActivityOptions& activity, double floor_db) {
-  ActivityOptions bare = activity;
-  bare.padding_ms = 0;
-  const SpeechBounds speech = find_speech(audio, sample_rate_hz, bare);
-  if (!speech.found) return {};
+std::vector<float> trim_to_word(Span<const float> audio, const SpeechBounds& speech,
+                                int sample_rate_hz, const ActivityOptions& activity,
+                                double floor_db) {
   float peak = 0;
   for (std::size_t i = speech.first; i < speech.last; ++i)
     peak = std::max(peak, std::abs(audio[i]));
   const auto margin =
       static_cast<std::size_t>((activity.padding_ms + kMarginMs) * sample_rate_hz / 1000);
   std::vector<float> word = around(audio, speech, margin);
-  add_floor(static_cast<double>(peak) * std::pow(10.0, -floor_db / 20), &word);
-  // Where a word begins and ends depends on the noise around it, which is the floor now.
-  SpeechBounds cut = find_speech(word, sample_rate_hz, activity);
-  if (!cut.found) cut = {margin, word.size() - margin, true};
-  word.erase(word.begin() + static_cast<std::ptrdiff_t>(cut.last), word.end());
-  word.erase(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(cut.first));
+  add_noise_floor(static_cast<double>(peak) * std::pow(10.0, -floor_db / 20), &word);
+  // End points depend on the noise around the word, which is the noise floor from here on.
+  SpeechBounds bounds = find_speech(word, sample_rate_hz, activity);
+  if (!bounds.found) bounds = {margin, word.size() - margin, true, 1};
+  word.erase(word.begin() + static_cast<std::ptrdiff_t>(bounds.last), word.end());
+  word.erase(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(bounds.first));
   return word;
 }
 

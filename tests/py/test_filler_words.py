@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Words outside every vocabulary, as they come with the package and as users bring their own."""
+"""Filler words, as they come with the package and as users bring their own."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ import pytest
 from conftest import tone_word
 from hri import _native
 from hri.core.errors import FormatError, InvalidArgument
-from hri.recognition import WordRecognizer, background
-from hri.recognition.word.background import BackgroundWord, background_words, compress, expand
+from hri.recognition import WordRecognizer
+from hri.recognition.word import fillers
+from hri.recognition.word.fillers import FillerWord, compress, expand, filler_words
 
 
 def test_words_of_the_package_are_speech():
-    words = background_words()
+    words = filler_words()
     labels = {word.label for word in words}
     assert len(labels) == 48 and len(words) == 4 * len(labels)
     for word in words:
@@ -33,7 +34,7 @@ def test_compression_keeps_quiet_and_loud_samples_alike():
     assert expand(compress(np.array([-1.0, 1.0], np.float32))).tolist() == [-1.0, 1.0]
 
 
-def test_a_damaged_file_is_told(tmp_path, monkeypatch):
+def test_a_damaged_file_is_reported(tmp_path, monkeypatch):
     stored = {"codes": np.zeros(10, np.uint8), "ends": np.array([4, 9]), "labels": np.array(["a", "b"])}
     for name, change in {
         "short.npz": {},
@@ -41,18 +42,18 @@ def test_a_damaged_file_is_told(tmp_path, monkeypatch):
         "order.npz": {"ends": np.array([10, 9])},
     }.items():
         np.savez(tmp_path / name, **{**stored, **change})
-        monkeypatch.setattr(background, "files", lambda package: tmp_path)
-        monkeypatch.setattr(background, "_FILE", name)
-        background_words.cache_clear()
+        monkeypatch.setattr(fillers, "files", lambda package: tmp_path)
+        monkeypatch.setattr(fillers, "_FILE", name)
+        filler_words.cache_clear()
         with pytest.raises(FormatError, match=name):
-            background_words()
+            filler_words()
     (tmp_path / "text.npz").write_text("nothing")
-    monkeypatch.setattr(background, "_FILE", "text.npz")
+    monkeypatch.setattr(fillers, "_FILE", "text.npz")
     with pytest.raises(FormatError, match=r"text\.npz"):
-        background_words()
+        filler_words()
     monkeypatch.undo()
-    background_words.cache_clear()
-    assert background_words()
+    filler_words.cache_clear()
+    assert filler_words()
 
 
 def test_users_bring_their_own_or_none():
@@ -60,16 +61,16 @@ def test_users_bring_their_own_or_none():
     labels = 2 * (3 * ["rise"] + 3 * ["fall"])
 
     def train(others):
-        return WordRecognizer().fit(clips, labels, sample_rate_hz=16000, background=others)
+        return WordRecognizer().fit(clips, labels, sample_rate_hz=16000, fillers=others)
 
-    own = [BackgroundWord(tone_word(700.0, 0.0, take), 16000, "flat") for take in range(3)]
+    own = [FillerWord(tone_word(700.0, 0.0, take), 16000, "flat") for take in range(3)]
     none, shipped, mine = train(()), train(None), train(own)
     score = [words.recognise(clips[0], 16000).score for words in (none, shipped, mine)]
     assert len(set(score)) == 3
     for words in (shipped, mine):
         np.testing.assert_array_equal(words.scores(clips[0], 16000), none.scores(clips[0], 16000))
-    with pytest.raises(InvalidArgument, match=r"background\[0\].samples"):
-        train([BackgroundWord(np.zeros((2, 2), np.float32), 16000, "flat")])
+    with pytest.raises(InvalidArgument, match=r"fillers\[0\].samples"):
+        train([FillerWord(np.zeros((2, 2), np.float32), 16000, "flat")])
 
 
 def test_the_command_takes_a_folder_of_other_words(hri, spoken, tmp_path):
@@ -81,14 +82,14 @@ def test_the_command_takes_a_folder_of_other_words(hri, spoken, tmp_path):
     score = {}
     for name, options in {
         "package": (),
-        "own": ("--background", str(folder)),
-        "none": ("--no-background",),
+        "own": ("--fillers", str(folder)),
+        "none": ("--no-fillers",),
     }.items():
         model = tmp_path / f"{name}.hri"
         assert hri("train", "speech", "--data", str(spoken), "--out", str(model), *options).code == 0
         score[name] = WordRecognizer.load(model).recognise(tone_word(540.0, 800.0, 5), 16000).score
     assert len(set(score.values())) == 3
-    both = hri("train", "speech", "--data", str(spoken), "--background", str(folder), "--no-background")
+    both = hri("train", "speech", "--data", str(spoken), "--fillers", str(folder), "--no-fillers")
     assert both.code == 2 and "exclude" in both.err
-    signs = hri("train", "gesture", "--data", str(spoken), "--no-background")
+    signs = hri("train", "gesture", "--data", str(spoken), "--no-fillers")
     assert signs.code == 2 and "for speech" in signs.err

@@ -8,7 +8,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
-#include "tone_words.hpp"
+#include "recognition/tone_words.hpp"
 
 namespace hri {
 namespace {
@@ -20,14 +20,14 @@ using testing_data::tone_clips;
 constexpr double kFlat = 0;      // Hz a second
 constexpr double kSteep = 2500;  // far steeper than the words of the vocabulary
 
-struct Background {
+struct Fillers {
   std::vector<std::vector<float>> audio;
   std::vector<WordSample> words;
 };
 
-// Two words nobody wants recognised, by another voice than any in the training.
-Background background() {
-  Background result;
+// Two words outside the vocabulary, by another voice than any in the training.
+Fillers fillers() {
+  Fillers result;
   result.audio.reserve(6);
   for (std::uint64_t take = 0; take < 3; ++take) {
     for (const double slope : {kFlat, kSteep}) {
@@ -46,8 +46,8 @@ WordRecognizer trained(const std::vector<WordSample>& others,
   return WordRecognizer::train(tone_clips().samples, options, {}, {}, others);
 }
 
-TEST(BackgroundWords, TakeOverWhatTheySoundLike) {
-  const Background others = background();
+TEST(FillerWords, RejectWordsOutsideTheVocabulary) {
+  const Fillers others = fillers();
   const WordRecognizer with = trained(others.words);
   const WordRecognizer without = trained({});
   ASSERT_EQ(with.verifier().word_weights().size(), 1);
@@ -55,7 +55,7 @@ TEST(BackgroundWords, TakeOverWhatTheySoundLike) {
   for (const double slope : {kFlat, kSteep}) {
     const std::vector<float> strange = tone(590, slope, 90);
     EXPECT_EQ(with.recognise(strange, kRateHz).status, DecisionStatus::unknown) << slope;
-    // The scores of the vocabulary are what they were: only the score knows of other words.
+    // The scores of the vocabulary are what they were: only rejection uses fillers.
     EXPECT_EQ(with.scores(strange, kRateHz), without.scores(strange, kRateHz));
   }
   const Decision known = with.recognise(tone(560, 800, 91), kRateHz);
@@ -63,8 +63,8 @@ TEST(BackgroundWords, TakeOverWhatTheySoundLike) {
   EXPECT_GT(known.score, 0);
 }
 
-TEST(BackgroundWords, AreKeptInTheFile) {
-  const Background others = background();
+TEST(FillerWords, AreSavedInTheFile) {
+  const Fillers others = fillers();
   const WordRecognizer before = trained(others.words);
   ModelFile file = before.to_model_file();
   EXPECT_EQ(file.integer("stream.0.num_background"), 2);
@@ -77,11 +77,10 @@ TEST(BackgroundWords, AreKeptInTheFile) {
   }
 }
 
-TEST(BackgroundWords, FollowTheSpeakerAsTheVocabularyDoes) {
+TEST(FillerWords, AdaptToTheSpeakerAsTheVocabularyDoes) {
   SequenceModelOptions options;
   options.num_states = 2;
   options.garbage_mixtures = 2;
-  SequenceModels models(options);
   Random random(3);
   const auto near = [&](double mean) {
     std::vector<MatrixF> sequences(3, MatrixF(8, 2));
@@ -91,40 +90,43 @@ TEST(BackgroundWords, FollowTheSpeakerAsTheVocabularyDoes) {
     }
     return sequences;
   };
-  models.train({near(0), near(4)}, {});
-  models.train_background({near(8)}, {});
-  ASSERT_EQ(models.num_background(), 1);
+  const FillerModels fillers = train_fillers(ClassSequences{near(8)}, options, {});
+  const auto scorer = train_sequence_scorer({near(0), near(4)}, options, {}, fillers);
+  ASSERT_EQ(scorer->num_fillers(), 1);
   AdaptationOptions adaptation;
   adaptation.shared_frames = 1;
-  adaptation.each_word = false;
-  // Everything of this speaker lies two higher, the word nobody taught too.
-  const SequenceModels adapted = models.adapted({near(2), near(6)}, adaptation);
+  adaptation.each_class = false;
+  // Everything of this speaker lies two higher, the word outside the vocabulary too.
+  const auto adapted = scorer->adapted({near(2), near(6)}, adaptation);
   const MatrixF strange = near(10).front();
-  EXPECT_GT(adapted.background_scores(strange)[0], models.background_scores(strange)[0] + 5);
+  EXPECT_GT(adapted->filler_scores(strange)[0], scorer->filler_scores(strange)[0] + 5);
 }
 
-TEST(BackgroundWords, AreLeftAsideByThePossibilityTheory) {
-  const Background others = background();
+TEST(FillerWords, AreIgnoredByPossibilityTheory) {
+  const Fillers others = fillers();
   const WordRecognizer with = trained(others.words, SequenceModelKind::ptbhmm);
   const WordRecognizer without = trained({}, SequenceModelKind::ptbhmm);
   const std::vector<float> clip = tone(560, 800, 93);
   EXPECT_EQ(with.recognise(clip, kRateHz).score, without.recognise(clip, kRateHz).score);
   SequenceModelOptions options;
   options.model = SequenceModelKind::ptbhmm;
-  EXPECT_THROW(SequenceModels(options).train_background({}, {}), InvalidArgument);
+  const ClassSequences sequences{{MatrixF::Zero(8, 2)}, {MatrixF::Ones(8, 2)}};
+  const FillerModels fillers = train_fillers(sequences, {}, {});
+  EXPECT_THROW(train_sequence_scorer(sequences, options, {}, fillers), InvalidArgument);
 }
 
-TEST(BackgroundWords, RefuseWhatIsNoSound) {
-  Background others = background();
+TEST(FillerWords, RefuseAudioThatIsNotFinite) {
+  Fillers others = fillers();
   others.audio[1][5] = std::numeric_limits<float>::quiet_NaN();
   try {
     trained(others.words);
     FAIL() << "took a sample that is not a number";
   } catch (const InvalidArgument& error) {
-    EXPECT_NE(std::string(error.what()).find("background word 1"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("fillers[1]: audio is not finite at index 5"),
+              std::string::npos)
         << error.what();
   }
-  // Silence has no word in it and is left out.
+  // A filler without speech is left out.
   const std::vector<float> silence(kRateHz, 0.0F);
   const WordRecognizer silent = trained({{silence, kRateHz, "nothing", ""}});
   EXPECT_EQ(silent.to_model_file().integer("stream.0.num_background"), 0);

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Make python/hri/recognition/background_words.npz: words by synthetic voices (espeak-ng), nobody's recordings.
+"""Make python/hri/recognition/word/filler_words.npz: words by synthetic voices (espeak-ng).
 
 None of them is a digit or a command of the demo. Run it again only to change the words: another version of espeak-ng
 gives other samples.
@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from hri import _native
-from hri.recognition.word.background import RATE_HZ, compress
+from hri.recognition.word.fillers import RATE_HZ, compress
 from hri.synthetic.speech import make_speaker, speak
 
-OUTPUT = Path(__file__).parents[1] / "python" / "hri" / "recognition" / "word" / "background_words.npz"
+OUTPUT = Path(__file__).parents[1] / "python" / "hri" / "recognition" / "word" / "filler_words.npz"
 NUM_VOICES = 4
 NUM_SPEAKERS = 48
 ENGLISH = (

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Streams of features that vote: one SequenceScorer a stream, whose log scores add up.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hri/core/export.hpp"
+#include "hri/models/sequence_scorer.hpp"
+
+namespace hri {
+
+/// The frames of one sequence, one matrix a stream.
+using StreamFrames = std::vector<MatrixF>;
+
+/// Training sequences of every class; pointers, since folds share them.
+using ClassStreams = std::vector<std::vector<const StreamFrames*>>;
+
+/// Immutable; const calls are safe from several threads. Copies share their models.
+class HRI_API MultiStreamScorer {
+ public:
+  /// Throws InvalidArgument for no stream, and for streams that differ in kind, classes or fillers.
+  explicit MultiStreamScorer(std::vector<std::shared_ptr<const SequenceScorer>> streams);
+
+  /// Trains every stream, as train_sequence_scorer() does; `fillers` holds the models of each
+  /// stream, or nothing.
+  static MultiStreamScorer train(const ClassStreams& sequences, const SequenceModelOptions& options,
+                                 const std::vector<FillerModels>& fillers,
+                                 const StopCheck& should_stop);
+
+  /// The sums over streams of what SequenceScorer gives.
+  [[nodiscard]] VectorF scores(const StreamFrames& frames) const;
+  [[nodiscard]] double garbage_score(const StreamFrames& frames) const;
+  [[nodiscard]] VectorF filler_scores(const StreamFrames& frames) const;
+
+  [[nodiscard]] MultiStreamScorer adapted(const ClassStreams& sequences,
+                                          const AdaptationOptions& options) const;
+  [[nodiscard]] MultiStreamScorer with_class(int index,
+                                             const std::vector<const StreamFrames*>& sequences,
+                                             int num_recordings,
+                                             const StopCheck& should_stop) const;
+  [[nodiscard]] MultiStreamScorer without_class(int index) const;
+
+  [[nodiscard]] const std::vector<std::shared_ptr<const SequenceScorer>>& streams() const {
+    return streams_;
+  }
+  [[nodiscard]] SequenceModelKind kind() const { return streams_.front()->kind(); }
+  [[nodiscard]] int num_classes() const { return streams_.front()->num_classes(); }
+  [[nodiscard]] int num_fillers() const { return streams_.front()->num_fillers(); }
+
+  void write(ModelFile& file) const;
+  /// Throws FormatError as read_sequence_scorer() does, and for streams that differ.
+  static MultiStreamScorer read(const ModelFile& file, const SequenceModelOptions& options,
+                                int num_streams, int num_classes, int dim);
+
+ private:
+  std::vector<std::shared_ptr<const SequenceScorer>> streams_;
+};
+
+/// Trains the fillers of every stream, as train_fillers() does.
+HRI_API std::vector<FillerModels> train_fillers(const ClassStreams& sequences, int num_streams,
+                                                const SequenceModelOptions& options,
+                                                const StopCheck& should_stop);
+
+}  // namespace hri

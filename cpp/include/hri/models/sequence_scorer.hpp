@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scores a sequence of feature frames against one sequence model a class: Gaussian-mixture hidden
+// Markov models or possibility-theory HMMs behind one interface, for words and for gestures.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hri/core/export.hpp"
+#include "hri/core/stop_check.hpp"
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/models/hmm/gaussian_mixture_hmm.hpp"
+
+namespace hri {
+
+enum class SequenceModelKind : std::uint8_t {
+  hmm,     ///< Gaussian-mixture HMM a class, forward score
+  ptbhmm,  ///< vector quantisation and the possibility-theory HMM set, product conjunction
+};
+
+struct SequenceModelOptions {
+  SequenceModelKind model = SequenceModelKind::hmm;
+  int num_states = 8;       ///< left-right states a class, 1..64
+  int num_mixtures = 1;     ///< Gaussians a state (hmm), 1..64
+  int num_codewords = 128;  ///< codebook size (ptbhmm), 2..4096
+  int garbage_mixtures =
+      16;  ///< Gaussians of the garbage model that rejection compares with (hmm), 1..256
+  int max_iterations = 12;  ///< Baum-Welch iterations, 1..1000
+  std::uint64_t seed = 0;
+};
+
+/// Adaptation to a speaker, a microphone or a room: first one linear transform of all models
+/// (linear_adaptation.hpp), then maximum a posteriori estimation of each (map_adaptation.hpp).
+struct AdaptationOptions {
+  double shared_frames = 400;  ///< prior weight of the unchanged models in frames, > 0
+  double prior_frames = 5;     ///< prior weight of each state in frames, > 0
+  int num_iterations = 3;      ///< EM iterations of the second step, 1..1000
+  bool each_class = true;      ///< false leaves the second step out
+  StopCheck should_stop;
+};
+
+/// How the best path of one class explains a sequence.
+struct PathFit {
+  /// Sum over frames of the log density in the aligned state, less the mean of the densities in
+  /// the best states of all classes.
+  double state_margin = 0;
+  double log_duration_ratio =
+      0;  ///< log of the duration before the last state over its expectation
+  double duration_deviation = 0;  ///< sum over states of |log of the duration over its expectation|
+  int num_states = 0;             ///< states in that sum
+};
+
+/// Training sequences of every class: `sequences[c]` holds the frames of the samples of class c.
+using ClassSequences = std::vector<std::vector<MatrixF>>;
+
+/// HMMs of words outside the vocabulary, one a word, for rejection.
+using FillerModels = std::vector<GaussianMixtureHmm>;
+
+/// Immutable; const calls are safe from several threads.
+class HRI_API SequenceScorer {
+ public:
+  SequenceScorer() = default;
+  SequenceScorer(const SequenceScorer&) = delete;
+  SequenceScorer& operator=(const SequenceScorer&) = delete;
+  virtual ~SequenceScorer() = default;
+
+  [[nodiscard]] virtual SequenceModelKind kind() const = 0;
+  [[nodiscard]] virtual int num_classes() const = 0;
+
+  /// Log score of every class (natural log; -1e30 for impossible), shape (num_classes,).
+  [[nodiscard]] virtual VectorF scores(ConstMatrixRefF frames) const = 0;
+  /// Score of the garbage model, in the unit of scores().
+  [[nodiscard]] virtual float garbage_score(ConstMatrixRefF frames) const = 0;
+  /// Log score of every filler model, shape (num_fillers,).
+  [[nodiscard]] virtual VectorF filler_scores(ConstMatrixRefF /*frames*/) const { return {}; }
+  [[nodiscard]] virtual int num_fillers() const { return 0; }
+
+  /// Whether the models align frames with states, so that path_fit() can be called.
+  [[nodiscard]] virtual bool has_paths() const { return false; }
+  /// How the best path of class `index` fits, as if there were no class `left_out` (-1: none).
+  /// Throws InvalidArgument for models without paths.
+  [[nodiscard]] virtual PathFit path_fit(ConstMatrixRefF frames, int index, int left_out) const;
+
+  /// A scorer adapted to `sequences`, of which a class may have none. The garbage model and the
+  /// fillers follow, so that ratios to them stay comparable. Throws InvalidArgument for models that
+  /// cannot adapt (ptbhmm).
+  [[nodiscard]] virtual std::shared_ptr<const SequenceScorer> adapted(
+      const ClassSequences& sequences, const AdaptationOptions& options) const;
+  /// A scorer with one class more, of number `index`, from the frames of few recordings and their
+  /// augmented copies (few_samples.hpp). Everything else stays as it is, to the bit.
+  [[nodiscard]] virtual std::shared_ptr<const SequenceScorer> with_class(
+      int index, const std::vector<MatrixF>& sequences, int num_recordings,
+      const StopCheck& should_stop) const = 0;
+  /// A scorer without class `index`, of two or more.
+  [[nodiscard]] virtual std::shared_ptr<const SequenceScorer> without_class(int index) const = 0;
+
+  virtual void write(ModelFile& file, const std::string& prefix) const = 0;
+};
+
+/// Throws InvalidArgument that names the field out of range.
+HRI_API void check(const SequenceModelOptions& options);
+
+/// Trains one model a class, no class empty. Throws InvalidArgument for options out of range and
+/// for fillers where the kind is ptbhmm, which cannot compare with them; Interrupted.
+HRI_API std::shared_ptr<const SequenceScorer> train_sequence_scorer(
+    const ClassSequences& sequences, const SequenceModelOptions& options,
+    const StopCheck& should_stop, const FillerModels& fillers = {});
+
+/// Trains one filler model a word; `sequences[w]` holds the frames of word w.
+HRI_API FillerModels train_fillers(const ClassSequences& sequences,
+                                   const SequenceModelOptions& options,
+                                   const StopCheck& should_stop);
+
+/// Throws FormatError where the models do not fit `num_classes` or frames of `dim` columns.
+HRI_API std::shared_ptr<const SequenceScorer> read_sequence_scorer(
+    const ModelFile& file, const std::string& prefix, const SequenceModelOptions& options,
+    int num_classes, int dim);
+
+}  // namespace hri

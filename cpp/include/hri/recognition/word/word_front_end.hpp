@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a recording of one word to the frames of every stream: resampling, endpointing, trimming to
+// the word over a noise floor, cepstra (thesis section 6.2).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hri/core/export.hpp"
+#include "hri/core/types.hpp"
+#include "hri/features/speech/cepstra.hpp"
+#include "hri/models/multi_stream_scorer.hpp"
+#include "hri/signal/activity.hpp"
+
+namespace hri {
+
+struct WordRecognizerOptions;
+
+/// A word trimmed out of a recording, at the rate of the front end.
+struct TrimmedWord {
+  std::vector<float> samples;      ///< empty without speech
+  std::vector<std::string> notes;  ///< what was converted or assumed on the way
+
+  [[nodiscard]] bool has_speech() const { return !samples.empty(); }
+};
+
+/// What a recogniser scores.
+struct WordFeatures {
+  StreamFrames streams;            ///< frames of every stream; empty without speech
+  std::vector<std::string> notes;  ///< as of TrimmedWord
+
+  [[nodiscard]] bool has_speech() const { return !streams.empty(); }
+};
+
+/// Immutable; const calls are safe from several threads.
+class HRI_API WordFrontEnd {
+ public:
+  /// Every filter bank has its frequency axis warped by `warp_factor`, on top of
+  /// options.cepstra.warp. Throws InvalidArgument naming the option that is out of range.
+  explicit WordFrontEnd(const WordRecognizerOptions& options, double warp_factor = 1);
+
+  /// trim(), then frames().
+  [[nodiscard]] WordFeatures process(Span<const float> audio, int sample_rate_hz) const;
+
+  /// Finds the word in `audio` and trims to it; other sample rates are resampled, which a note
+  /// says, as one does of several utterances. Throws InvalidArgument for a sample that is not
+  /// finite, for audio shorter than one frame and for a sample rate out of range.
+  [[nodiscard]] TrimmedWord trim(Span<const float> audio, int sample_rate_hz) const;
+
+  /// The cepstra of every stream of a trimmed word.
+  [[nodiscard]] StreamFrames frames(Span<const float> word) const;
+  /// How many frames a word of so many samples has.
+  [[nodiscard]] int num_frames(std::size_t num_samples) const;
+
+  [[nodiscard]] int sample_rate_hz() const { return sample_rate_hz_; }
+  [[nodiscard]] int num_streams() const { return static_cast<int>(streams_.size()); }
+  [[nodiscard]] int num_features() const { return streams_.front().num_features(); }
+
+ private:
+  int sample_rate_hz_;
+  ActivityOptions activity_;
+  bool trim_;
+  double floor_db_;
+  std::vector<CepstraComputer> streams_;
+};
+
+}  // namespace hri

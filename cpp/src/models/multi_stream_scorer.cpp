@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/multi_stream_scorer.hpp"
+
+#include <string>
+#include <utility>
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+using Streams = std::vector<std::shared_ptr<const SequenceScorer>>;
+
+std::string prefix_of(std::size_t stream) { return "stream." + std::to_string(stream) + "."; }
+
+std::vector<MatrixF> of_stream(const std::vector<const StreamFrames*>& sequences,
+                               std::size_t stream) {
+  std::vector<MatrixF> result;
+  result.reserve(sequences.size());
+  for (const StreamFrames* frames : sequences) result.push_back((*frames)[stream]);
+  return result;
+}
+
+ClassSequences of_stream(const ClassStreams& sequences, std::size_t stream) {
+  ClassSequences result;
+  result.reserve(sequences.size());
+  for (const auto& list : sequences) result.push_back(of_stream(list, stream));
+  return result;
+}
+
+std::size_t num_streams_of(const ClassStreams& sequences) {
+  for (const auto& list : sequences) {
+    if (!list.empty()) return list.front()->size();
+  }
+  fail(ErrorKind::invalid_argument, "training needs at least one sequence");
+}
+
+}  // namespace
+
+MultiStreamScorer::MultiStreamScorer(Streams streams) : streams_(std::move(streams)) {
+  require(!streams_.empty(), "a scorer needs at least one stream");
+  for (const auto& stream : streams_) {
+    require(stream->kind() == kind() && stream->num_classes() == num_classes(),
+            "streams differ in their models");
+    require(stream->num_fillers() == num_fillers(), "streams differ in their filler words");
+  }
+}
+
+MultiStreamScorer MultiStreamScorer::train(const ClassStreams& sequences,
+                                           const SequenceModelOptions& options,
+                                           const std::vector<FillerModels>& fillers,
+                                           const StopCheck& should_stop) {
+  const std::size_t num_streams = num_streams_of(sequences);
+  require(fillers.empty() || fillers.size() == num_streams, "fillers needs one list a stream");
+  Streams streams;
+  for (std::size_t s = 0; s < num_streams; ++s) {
+    streams.push_back(train_sequence_scorer(of_stream(sequences, s), options, should_stop,
+                                            fillers.empty() ? FillerModels{} : fillers[s]));
+  }
+  return MultiStreamScorer(std::move(streams));
+}
+
+VectorF MultiStreamScorer::scores(const StreamFrames& frames) const {
+  VectorF sum = streams_.front()->scores(frames.front());
+  for (std::size_t s = 1; s < streams_.size(); ++s) sum += streams_[s]->scores(frames[s]);
+  return sum;
+}
+
+double MultiStreamScorer::garbage_score(const StreamFrames& frames) const {
+  double sum = 0;
+  for (std::size_t s = 0; s < streams_.size(); ++s)
+    sum += static_cast<double>(streams_[s]->garbage_score(frames[s]));
+  return sum;
+}
+
+VectorF MultiStreamScorer::filler_scores(const StreamFrames& frames) const {
+  VectorF sum = streams_.front()->filler_scores(frames.front());
+  for (std::size_t s = 1; s < streams_.size(); ++s) sum += streams_[s]->filler_scores(frames[s]);
+  return sum;
+}
+
+MultiStreamScorer MultiStreamScorer::adapted(const ClassStreams& sequences,
+                                             const AdaptationOptions& options) const {
+  Streams streams;
+  for (std::size_t s = 0; s < streams_.size(); ++s)
+    streams.push_back(streams_[s]->adapted(of_stream(sequences, s), options));
+  return MultiStreamScorer(std::move(streams));
+}
+
+MultiStreamScorer MultiStreamScorer::with_class(int index,
+                                                const std::vector<const StreamFrames*>& sequences,
+                                                int num_recordings,
+                                                const StopCheck& should_stop) const {
+  Streams streams;
+  for (std::size_t s = 0; s < streams_.size(); ++s) {
+    streams.push_back(
+        streams_[s]->with_class(index, of_stream(sequences, s), num_recordings, should_stop));
+  }
+  return MultiStreamScorer(std::move(streams));
+}
+
+MultiStreamScorer MultiStreamScorer::without_class(int index) const {
+  Streams streams;
+  for (const auto& stream : streams_) streams.push_back(stream->without_class(index));
+  return MultiStreamScorer(std::move(streams));
+}
+
+void MultiStreamScorer::write(ModelFile& file) const {
+  for (std::size_t s = 0; s < streams_.size(); ++s) streams_[s]->write(file, prefix_of(s));
+}
+
+MultiStreamScorer MultiStreamScorer::read(const ModelFile& file,
+                                          const SequenceModelOptions& options, int num_streams,
+                                          int num_classes, int dim) {
+  Streams streams;
+  for (int s = 0; s < num_streams; ++s) {
+    streams.push_back(read_sequence_scorer(file, prefix_of(static_cast<std::size_t>(s)), options,
+                                           num_classes, dim));
+    if (streams.back()->num_fillers() != streams.front()->num_fillers())
+      fail(ErrorKind::format, file.name() + ": streams differ in their filler words");
+  }
+  return MultiStreamScorer(std::move(streams));
+}
+
+std::vector<FillerModels> train_fillers(const ClassStreams& sequences, int num_streams,
+                                        const SequenceModelOptions& options,
+                                        const StopCheck& should_stop) {
+  std::vector<FillerModels> result;
+  for (int s = 0; s < num_streams; ++s) {
+    result.push_back(
+        train_fillers(of_stream(sequences, static_cast<std::size_t>(s)), options, should_stop));
+  }
+  return result;
+}
+
+}  // namespace hri

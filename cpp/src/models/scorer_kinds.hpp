@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The kinds of SequenceScorer, and what they share.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hri/models/sequence_scorer.hpp"
+
+namespace hri::detail {
+
+constexpr float kImpossible = -1e30F;  // stands for log 0, so that differences stay finite
+
+/// One HMM a class.
+std::vector<GaussianMixtureHmm> train_hmms(const ClassSequences& sequences,
+                                           const SequenceModelOptions& options,
+                                           const StopCheck& should_stop);
+
+std::shared_ptr<const SequenceScorer> train_hmm_scorer(const ClassSequences& sequences,
+                                                       const SequenceModelOptions& options,
+                                                       const StopCheck& should_stop,
+                                                       const FillerModels& fillers);
+std::shared_ptr<const SequenceScorer> read_hmm_scorer(const ModelFile& file,
+                                                      const std::string& prefix,
+                                                      const SequenceModelOptions& options,
+                                                      int num_classes, int dim);
+
+std::shared_ptr<const SequenceScorer> train_ptbhmm_scorer(const ClassSequences& sequences,
+                                                          const SequenceModelOptions& options,
+                                                          const StopCheck& should_stop);
+std::shared_ptr<const SequenceScorer> read_ptbhmm_scorer(const ModelFile& file,
+                                                         const std::string& prefix,
+                                                         const SequenceModelOptions& options,
+                                                         int num_classes, int dim);
+
+/// All frames of all classes, one below the other.
+MatrixF stack_frames(const ClassSequences& sequences);
+
+Topology left_right(int num_states);
+
+/// Throws FormatError that names the field where `width` is not `dim`.
+void check_width(const ModelFile& file, const std::string& field, Eigen::Index width, int dim);
+
+}  // namespace hri::detail

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/models/sequence_scorer.hpp"
+
+#include "hri/core/error.hpp"
+#include "models/scorer_kinds.hpp"
+
+namespace hri {
+
+PathFit SequenceScorer::path_fit(ConstMatrixRefF /*frames*/, int /*index*/,
+                                 int /*left_out*/) const {
+  fail(ErrorKind::invalid_argument, "these models do not align frames with states");
+}
+
+std::shared_ptr<const SequenceScorer> SequenceScorer::adapted(
+    const ClassSequences& /*sequences*/, const AdaptationOptions& /*options*/) const {
+  fail(ErrorKind::invalid_argument, "only models of the kind hmm adapt, these are ptbhmm");
+}
+
+void check(const SequenceModelOptions& options) {
+  require(options.num_states >= 1 && options.num_states <= 64, "num_states must lie in 1..64");
+  require(options.num_mixtures >= 1 && options.num_mixtures <= 64,
+          "num_mixtures must lie in 1..64");
+  require(options.num_codewords >= 2 && options.num_codewords <= 4096,
+          "num_codewords must lie in 2..4096");
+  require(options.garbage_mixtures >= 1 && options.garbage_mixtures <= 256,
+          "garbage_mixtures must lie in 1..256");
+  require(options.max_iterations >= 1 && options.max_iterations <= 1000,
+          "max_iterations must lie in 1..1000");
+}
+
+std::shared_ptr<const SequenceScorer> train_sequence_scorer(const ClassSequences& sequences,
+                                                            const SequenceModelOptions& options,
+                                                            const StopCheck& should_stop,
+                                                            const FillerModels& fillers) {
+  check(options);
+  if (options.model == SequenceModelKind::hmm)
+    return detail::train_hmm_scorer(sequences, options, should_stop, fillers);
+  require(fillers.empty(), "only models of the kind hmm compare with fillers, these are ptbhmm");
+  return detail::train_ptbhmm_scorer(sequences, options, should_stop);
+}
+
+FillerModels train_fillers(const ClassSequences& sequences, const SequenceModelOptions& options,
+                           const StopCheck& should_stop) {
+  check(options);
+  return detail::train_hmms(sequences, options, should_stop);
+}
+
+std::shared_ptr<const SequenceScorer> read_sequence_scorer(const ModelFile& file,
+                                                           const std::string& prefix,
+                                                           const SequenceModelOptions& options,
+                                                           int num_classes, int dim) {
+  check(options);
+  return options.model == SequenceModelKind::hmm
+             ? detail::read_hmm_scorer(file, prefix, options, num_classes, dim)
+             : detail::read_ptbhmm_scorer(file, prefix, options, num_classes, dim);
+}
+
+namespace detail {
+
+MatrixF stack_frames(const ClassSequences& sequences) {
+  Eigen::Index rows = 0;
+  for (const auto& list : sequences) {
+    for (const MatrixF& m : list) rows += m.rows();
+  }
+  MatrixF all(rows, sequences.front().front().cols());
+  Eigen::Index at = 0;
+  for (const auto& list : sequences) {
+    for (const MatrixF& m : list) {
+      all.middleRows(at, m.rows()) = m;
+      at += m.rows();
+    }
+  }
+  return all;
+}
+
+Topology left_right(int num_states) {
+  Topology topology;
+  topology.kind = Topology::Kind::left_right;
+  topology.num_states = num_states;
+  return topology;
+}
+
+void check_width(const ModelFile& file, const std::string& field, Eigen::Index width, int dim) {
+  if (width == dim) return;
+  fail(ErrorKind::format, file.name() + ": field '" + field + "': has " + std::to_string(width) +
+                              " features, the front end gives " + std::to_string(dim));
+}
+
+}  // namespace detail
+}  // namespace hri

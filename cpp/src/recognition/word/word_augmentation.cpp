@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "recognition/word/word_augmentation.hpp"
+
+#include <algorithm>
+
+#include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
+#include "hri/core/random.hpp"
+#include "recognition/word/training_noise.hpp"
+
+namespace hri::detail {
+namespace {
+
+// 1, 1 - step, 1 + step, 1 - 2 step, 1 + 2 step: as many as asked for.
+std::vector<double> warp_factors(const WordRecognizerOptions& options) {
+  std::vector<double> factors{1.0};
+  for (int i = 1; static_cast<int>(factors.size()) < options.num_warps; ++i) {
+    factors.push_back(1.0 - i * options.warp_step);
+    factors.push_back(1.0 + i * options.warp_step);
+  }
+  return factors;
+}
+
+// Also those of loaded recognisers, whose files may hold any number here.
+void check(const WordRecognizerOptions& options) {
+  require(options.num_warps == 1 || options.num_warps == 3 || options.num_warps == 5,
+          "num_warps must be 1, 3 or 5");
+  require(options.noise_copies >= 0 && options.noise_copies <= 10,
+          "noise_copies must lie in 0..10");
+  require(options.noise_low_db >= -20 && options.noise_low_db <= options.noise_high_db &&
+              options.noise_high_db <= 100,
+          "noise_low_db and noise_high_db must lie in -20..100, in this order");
+  require(options.floor_db >= 20 && options.floor_db <= 120, "floor_db must lie in 20..120");
+  require(options.warp_step >= 0 && options.warp_step <= 0.2, "warp_step must lie in 0..0.2");
+}
+
+void check(const WordSample& sample, const std::string& name, double frame_ms) {
+  const std::size_t bad = first_not_finite(sample.samples.data(), sample.samples.size());
+  if (bad < sample.samples.size()) {
+    fail(ErrorKind::invalid_argument,
+         name + ": audio is not finite at index " + std::to_string(bad));
+  }
+  const double duration_ms =
+      1000.0 * static_cast<double>(sample.samples.size()) / std::max(1, sample.sample_rate_hz);
+  if (duration_ms < frame_ms) {
+    fail(ErrorKind::invalid_argument, name + ": audio is too short: " +
+                                          std::to_string(duration_ms) + " ms, less than one frame");
+  }
+}
+
+}  // namespace
+
+WordAugmentation::WordAugmentation(const WordRecognizerOptions& options) : options_(options) {
+  check(options);
+  for (const double factor : warp_factors(options)) front_ends_.emplace_back(options, factor);
+}
+
+std::vector<float> WordAugmentation::trim(const WordSample& sample, const std::string& name) const {
+  check(sample, name, std::max(options_.activity.frame_ms, options_.cepstra.frame_length_ms));
+  return front_end().trim(sample.samples, sample.sample_rate_hz).samples;
+}
+
+std::vector<StreamFrames> WordAugmentation::copies(Span<const float> word,
+                                                   std::size_t index) const {
+  std::vector<StreamFrames> result;
+  result.reserve(front_ends_.size());
+  for (const WordFrontEnd& front_end : front_ends_) result.push_back(front_end.frames(word));
+  Random random(options_.models.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
+  for (int copy = 0; copy < options_.noise_copies; ++copy) {
+    const double snr_db =
+        options_.noise_low_db + random.uniform() * (options_.noise_high_db - options_.noise_low_db);
+    const std::vector<float> noisy = with_noise(word, snr_db, &random);
+    const std::size_t warp = (index + static_cast<std::size_t>(copy)) % front_ends_.size();
+    result.push_back(front_ends_[warp].frames(noisy));
+  }
+  return result;
+}
+
+std::string sample_name(const WordSample& sample, const char* list, std::size_t index) {
+  return sample.name.empty() ? std::string(list) + "[" + std::to_string(index) + "]" : sample.name;
+}
+
+}  // namespace hri::detail

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The training frames of a recording: its own and those of its augmented copies, by vocal-tract-
+// length perturbation (a warped frequency axis) and added noise.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hri/recognition/word/word_front_end.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
+
+namespace hri::detail {
+
+class WordAugmentation {
+ public:
+  /// Throws InvalidArgument naming the option of warps or noise that is out of range.
+  explicit WordAugmentation(const WordRecognizerOptions& options);
+
+  /// The front end without warp.
+  [[nodiscard]] const WordFrontEnd& front_end() const { return front_ends_.front(); }
+
+  /// The trimmed word of a recording; empty without speech. Throws InvalidArgument for audio that
+  /// is not finite or too short, naming the sample or, if it has no name, `name`.
+  [[nodiscard]] std::vector<float> trim(const WordSample& sample, const std::string& name) const;
+
+  /// The frames of the word as it is, at every warp and of every noisy copy. The noise depends on
+  /// the seed of the models and on `index` alone.
+  [[nodiscard]] std::vector<StreamFrames> copies(Span<const float> word, std::size_t index) const;
+
+ private:
+  WordRecognizerOptions options_;
+  std::vector<WordFrontEnd> front_ends_;  // one a warp
+};
+
+/// What errors call recording `index` of the argument `list`: its own name, or "list[index]".
+std::string sample_name(const WordSample& sample, const char* list, std::size_t index);
+
+}  // namespace hri::detail

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/word/word_front_end.hpp"
+
+#include <utility>
+
+#include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
+#include "hri/signal/resample.hpp"
+#include "recognition/word/word_trimming.hpp"
+
+namespace hri {
+namespace {
+
+std::string resampling_note(int from_hz, int to_hz) {
+  return "resampled from " + std::to_string(from_hz) + " to " + std::to_string(to_hz) + " Hz";
+}
+
+std::string utterances_note(int count) {
+  return std::to_string(count) + " utterances, recognised as one word";
+}
+
+// Before resampling, after which neither the index nor the rate would be the caller's.
+void check(Span<const float> audio, int sample_rate_hz) {
+  if (sample_rate_hz < 1000 || sample_rate_hz > 384000) {
+    fail(ErrorKind::invalid_argument,
+         "sample_rate_hz is " + std::to_string(sample_rate_hz) + ", must lie in 1000..384000");
+  }
+  const std::size_t bad = first_not_finite(audio.data(), audio.size());
+  if (bad < audio.size())
+    fail(ErrorKind::invalid_argument, "audio is not finite at sample " + std::to_string(bad));
+}
+
+}  // namespace
+
+WordFrontEnd::WordFrontEnd(const WordRecognizerOptions& options, double warp_factor)
+    : sample_rate_hz_(options.cepstra.sample_rate_hz),
+      activity_(options.activity),
+      trim_(options.trim),
+      floor_db_(options.floor_db) {
+  CepstraOptions cepstra = options.cepstra;
+  cepstra.warp *= warp_factor;
+  streams_.emplace_back(cepstra);
+  if (!options.level_stream) return;
+  cepstra.normalisation = Normalisation::level;
+  streams_.emplace_back(cepstra);
+}
+
+WordFeatures WordFrontEnd::process(Span<const float> audio, int sample_rate_hz) const {
+  TrimmedWord word = trim(audio, sample_rate_hz);
+  WordFeatures features;
+  if (word.has_speech()) features.streams = frames(word.samples);
+  features.notes = std::move(word.notes);
+  return features;
+}
+
+TrimmedWord WordFrontEnd::trim(Span<const float> audio, int sample_rate_hz) const {
+  TrimmedWord word;
+  std::vector<float> resampled;
+  if (sample_rate_hz != sample_rate_hz_) {
+    check(audio, sample_rate_hz);
+    resampled = resample(audio, sample_rate_hz, sample_rate_hz_);
+    audio = resampled;
+    word.notes.push_back(resampling_note(sample_rate_hz, sample_rate_hz_));
+  }
+  ActivityOptions unpadded = activity_;
+  unpadded.padding_ms = 0;
+  const SpeechBounds speech = find_speech(audio, sample_rate_hz_, unpadded);
+  if (!speech.found) return word;
+  if (speech.num_utterances > 1) word.notes.push_back(utterances_note(speech.num_utterances));
+  if (trim_) {
+    word.samples = detail::trim_to_word(audio, speech, sample_rate_hz_, activity_, floor_db_);
+  } else {
+    word.samples.assign(audio.begin(), audio.end());
+  }
+  return word;
+}
+
+StreamFrames WordFrontEnd::frames(Span<const float> word) const {
+  StreamFrames result;
+  result.reserve(streams_.size());
+  for (const CepstraComputer& stream : streams_) result.push_back(stream.compute(word));
+  return result;
+}
+
+int WordFrontEnd::num_frames(std::size_t num_samples) const {
+  return static_cast<int>(streams_.front().num_frames(num_samples));
+}
+
+}  // namespace hri
