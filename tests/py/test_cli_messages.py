@@ -60,7 +60,7 @@ def test_labels_are_suggested(hri, spoken: Path, tmp_path: Path):
 
 def test_files_of_another_kind_are_said_to_be_what_they_are(hri, spoken: Path, signed: Path, tmp_path: Path):
     words, word, sign = tmp_path / "words.hri", spoken / "1_low_0.wav", next(signed.glob("*/*.jpg"))
-    assert hri("train", "speech", "--data", spoken, "--out", words, "--no-background").code == 0
+    assert hri("train", "speech", "--data", spoken, "--out", words, "--no-fillers").code == 0
     for arguments, code, message in (
         (("recognise", words), 2, "words.hri is a model, not a recording: give it as --speech-model"),
         (("recognise", "--speech", words, "--speech-model", words), 3, "words.hri is a model, not a recording"),
@@ -76,7 +76,7 @@ def test_files_of_another_kind_are_said_to_be_what_they_are(hri, spoken: Path, s
 
 def test_recordings_need_no_option_where_their_suffix_says_it_all(hri, spoken: Path, signed: Path, tmp_path: Path):
     words, signs = tmp_path / "words.hri", tmp_path / "signs.hri"
-    assert hri("train", "speech", "--data", spoken, "--out", words, "--no-background").code == 0
+    assert hri("train", "speech", "--data", spoken, "--out", words, "--no-fillers").code == 0
     assert hri("train", "gesture", "--data", signed, "--out", signs).code == 0
     models = ("--speech-model", words, "--gesture-model", signs)
     word, sign = spoken / "1_low_0.wav", sorted((signed / "1").iterdir())[0]
@@ -86,7 +86,7 @@ def test_recordings_need_no_option_where_their_suffix_says_it_all(hri, spoken: P
 
 def test_quiet_and_verbose_change_what_is_said_and_not_the_result(hri, spoken: Path, tmp_path: Path):
     model = tmp_path / "words.hri"
-    command = ("train", "speech", "--data", spoken, "--out", model, "--no-background")
+    command = ("train", "speech", "--data", spoken, "--out", model, "--no-fillers")
     plain, quiet, verbose = hri(*command), hri("-q", *command), hri("-v", *command)
     assert plain.out == quiet.out == verbose.out
     assert quiet.err == "" and "18 recordings" in plain.err

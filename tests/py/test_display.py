@@ -17,7 +17,7 @@ from hri.datasets import Dataset
 from hri.evaluation import EvaluationItem, EvaluationResult, FoldResult
 from hri.fusion import fuse
 from hri.media import Audio, Clip
-from hri.recognition import Decision, NBest, background_words
+from hri.recognition import Decision, NBest, filler_words
 from hri.robot import HOAP2, NAO, gesture_trajectory, load_gestures
 from hri.robot.motion.plots import plot_trajectory
 
@@ -54,7 +54,7 @@ def shown(root: Path) -> list[Any]:
         evaluated,
         evaluated.folds[0],
         evaluated.items[0],
-        background_words()[0],
+        filler_words()[0],
         Audio(np.zeros(160000, np.float32), 16000, ["averaged 2 channels to mono"] * 20),
         Clip([np.zeros((480, 640, 3), np.uint8)] * 90, [i / 30 for i in range(90)], root / "clip.mp4"),
         gesture_trajectory("7"),

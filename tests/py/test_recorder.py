@@ -124,7 +124,7 @@ def test_what_cannot_be_recorded_is_said_before(tmp_path: Path) -> None:
     for labels, person, takes, message in (
         ([], "asha", 1, "there is none to record"),
         (["go", "go"], "asha", 1, "'go' is there twice"),
-        (["unknown"], "asha", 1, "when none was given"),
+        (["unknown"], "asha", 1, "reserved for decisions"),
         (["left/right"], "asha", 1, "label 'left/right' cannot be the name of a file: '/'"),
         (["go\n"], "asha", 1, "cannot be the name"),
         ([".go"], "asha", 1, "cannot be the name"),

@@ -37,7 +37,7 @@ class FillerWord:
     label: str
 
     def __repr__(self) -> str:
-        return summary("BackgroundWord", repr(self.label), f"{len(self.samples)} samples", f"{self.sample_rate_hz} Hz")
+        return summary("FillerWord", repr(self.label), f"{len(self.samples)} samples", f"{self.sample_rate_hz} Hz")
 
 
 def compress(samples: NDArray[np.float32]) -> NDArray[np.uint8]:
