@@ -36,6 +36,19 @@ std::shared_ptr<const SequenceScorer> read_ptbhmm_scorer(const ModelFile& file,
                                                          const SequenceModelOptions& options,
                                                          int num_classes, int dim);
 
+/// SequenceScorer::adapted() and with_class() of a scorer of that kind.
+std::shared_ptr<const SequenceScorer> adapt_hmm_scorer(const SequenceScorer& scorer,
+                                                       const ClassSequences& sequences,
+                                                       const AdaptationOptions& options);
+std::shared_ptr<const SequenceScorer> extend_hmm_scorer(const SequenceScorer& scorer, int index,
+                                                        const std::vector<MatrixF>& sequences,
+                                                        int num_recordings,
+                                                        const StopCheck& should_stop);
+std::shared_ptr<const SequenceScorer> extend_ptbhmm_scorer(const SequenceScorer& scorer, int index,
+                                                           const std::vector<MatrixF>& sequences,
+                                                           int num_recordings,
+                                                           const StopCheck& should_stop);
+
 /// All frames of all classes, one below the other.
 MatrixF stack_frames(const ClassSequences& sequences);
 

@@ -13,8 +13,17 @@ PathFit SequenceScorer::path_fit(ConstMatrixRefF /*frames*/, int /*index*/,
 }
 
 std::shared_ptr<const SequenceScorer> SequenceScorer::adapted(
-    const ClassSequences& /*sequences*/, const AdaptationOptions& /*options*/) const {
-  fail(ErrorKind::invalid_argument, "only models of the kind hmm adapt, these are ptbhmm");
+    const ClassSequences& sequences, const AdaptationOptions& options) const {
+  require(kind() == SequenceModelKind::hmm, "only models of the kind hmm adapt, these are ptbhmm");
+  return detail::adapt_hmm_scorer(*this, sequences, options);
+}
+
+std::shared_ptr<const SequenceScorer> SequenceScorer::with_class(
+    int index, const std::vector<MatrixF>& sequences, int num_recordings,
+    const StopCheck& should_stop) const {
+  const auto extend =
+      kind() == SequenceModelKind::hmm ? detail::extend_hmm_scorer : detail::extend_ptbhmm_scorer;
+  return extend(*this, index, sequences, num_recordings, should_stop);
 }
 
 void check(const SequenceModelOptions& options) {

@@ -86,16 +86,18 @@ class HRI_API SequenceScorer {
   /// Throws InvalidArgument for models without paths.
   [[nodiscard]] virtual PathFit path_fit(ConstMatrixRefF frames, int index, int left_out) const;
 
+  // What trains is not virtual, so that a program that only recognises does not link it.
+
   /// A scorer adapted to `sequences`, of which a class may have none. The garbage model and the
   /// fillers follow, so that ratios to them stay comparable. Throws InvalidArgument for models that
   /// cannot adapt (ptbhmm).
-  [[nodiscard]] virtual std::shared_ptr<const SequenceScorer> adapted(
+  [[nodiscard]] std::shared_ptr<const SequenceScorer> adapted(
       const ClassSequences& sequences, const AdaptationOptions& options) const;
   /// A scorer with one class more, of number `index`, from the frames of few recordings and their
   /// augmented copies (few_samples.hpp). Everything else stays as it is, to the bit.
-  [[nodiscard]] virtual std::shared_ptr<const SequenceScorer> with_class(
+  [[nodiscard]] std::shared_ptr<const SequenceScorer> with_class(
       int index, const std::vector<MatrixF>& sequences, int num_recordings,
-      const StopCheck& should_stop) const = 0;
+      const StopCheck& should_stop) const;
   /// A scorer without class `index`, of two or more.
   [[nodiscard]] virtual std::shared_ptr<const SequenceScorer> without_class(int index) const = 0;
 

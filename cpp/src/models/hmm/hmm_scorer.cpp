@@ -55,8 +55,8 @@ class HmmScorer final : public SequenceScorer {
     return fit_path(hmms_, frames, static_cast<std::size_t>(index), left_out);
   }
 
-  [[nodiscard]] std::shared_ptr<const SequenceScorer> adapted(
-      const ClassSequences& sequences, const AdaptationOptions& options) const override {
+  [[nodiscard]] std::shared_ptr<const SequenceScorer> adapt(
+      const ClassSequences& sequences, const AdaptationOptions& options) const {
     require(sequences.size() == hmms_.size(), "sequences needs one list a class");
     std::vector<MatrixF> all;
     for (const auto& list : sequences) all.insert(all.end(), list.begin(), list.end());
@@ -67,9 +67,10 @@ class HmmScorer final : public SequenceScorer {
     return result;
   }
 
-  [[nodiscard]] std::shared_ptr<const SequenceScorer> with_class(
-      int index, const std::vector<MatrixF>& sequences, int num_recordings,
-      const StopCheck& should_stop) const override {
+  [[nodiscard]] std::shared_ptr<const SequenceScorer> extend(int index,
+                                                             const std::vector<MatrixF>& sequences,
+                                                             int num_recordings,
+                                                             const StopCheck& should_stop) const {
     auto result = std::make_shared<HmmScorer>(max_iterations_, hmms_, garbage_, fillers_);
     result->hmms_.insert(
         result->hmms_.begin() + index,
@@ -183,6 +184,20 @@ std::shared_ptr<const SequenceScorer> read_hmm_scorer(const ModelFile& file,
   check_width(file, prefix + "garbage", garbage.dim(), dim);
   return std::make_shared<HmmScorer>(options.max_iterations, std::move(hmms), std::move(garbage),
                                      std::move(fillers));
+}
+
+std::shared_ptr<const SequenceScorer> adapt_hmm_scorer(const SequenceScorer& scorer,
+                                                       const ClassSequences& sequences,
+                                                       const AdaptationOptions& options) {
+  return static_cast<const HmmScorer&>(scorer).adapt(sequences, options);
+}
+
+std::shared_ptr<const SequenceScorer> extend_hmm_scorer(const SequenceScorer& scorer, int index,
+                                                        const std::vector<MatrixF>& sequences,
+                                                        int num_recordings,
+                                                        const StopCheck& should_stop) {
+  return static_cast<const HmmScorer&>(scorer).extend(index, sequences, num_recordings,
+                                                      should_stop);
 }
 
 }  // namespace hri::detail

@@ -39,9 +39,10 @@ class PtbhmmScorer final : public SequenceScorer {
   // A log-possibility is already a ratio to the best explanation of every symbol (thesis eq. 5.14).
   [[nodiscard]] float garbage_score(ConstMatrixRefF /*frames*/) const override { return 0; }
 
-  [[nodiscard]] std::shared_ptr<const SequenceScorer> with_class(
-      int index, const std::vector<MatrixF>& sequences, int num_recordings,
-      const StopCheck& should_stop) const override {
+  [[nodiscard]] std::shared_ptr<const SequenceScorer> extend(int index,
+                                                             const std::vector<MatrixF>& sequences,
+                                                             int num_recordings,
+                                                             const StopCheck& should_stop) const {
     std::vector<DiscreteHmm> models = models_.models();
     models.insert(
         models.begin() + index,
@@ -107,6 +108,14 @@ std::shared_ptr<const SequenceScorer> read_ptbhmm_scorer(const ModelFile& file,
     fail(ErrorKind::format, prefix + "ptbhmm: does not fit the labels or the codebook");
   return std::make_shared<PtbhmmScorer>(options.max_iterations, std::move(codebook),
                                         std::move(models));
+}
+
+std::shared_ptr<const SequenceScorer> extend_ptbhmm_scorer(const SequenceScorer& scorer, int index,
+                                                           const std::vector<MatrixF>& sequences,
+                                                           int num_recordings,
+                                                           const StopCheck& should_stop) {
+  return static_cast<const PtbhmmScorer&>(scorer).extend(index, sequences, num_recordings,
+                                                         should_stop);
 }
 
 }  // namespace hri::detail
