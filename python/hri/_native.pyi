@@ -3280,6 +3280,17 @@ class Decision:
     @property
     def status(self) -> DecisionStatus: ...
 
+class UtteranceDecision:
+    """
+    The decision on one utterance of a longer recording.
+    """
+    @property
+    def decision(self) -> Decision: ...
+    @property
+    def first_s(self) -> float: ...
+    @property
+    def last_s(self) -> float: ...
+
 class SequenceModelKind:
     """
     Members:
@@ -3407,25 +3418,30 @@ class WordRecognizer:
         groups: collections.abc.Sequence[str],
         options: WordRecognizerOptions,
         progress: collections.abc.Callable[[int, int], None] | None = None,
-        background: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = [],
-        background_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
-        background_labels: collections.abc.Sequence[str] = [],
+        fillers: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = [],
+        filler_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        filler_labels: collections.abc.Sequence[str] = [],
     ) -> WordRecognizer: ...
     def recognise(
         self,
-        samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
     ) -> Decision: ...
+    def recognise_utterances(
+        self,
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    ) -> list[UtteranceDecision]: ...
     def save(self, path: str) -> None: ...
     def scores(
         self,
-        samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def with_word(
         self,
         label: str,
-        samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        clips: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
         sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
     ) -> WordRecognizer: ...
     def without_word(self, label: str) -> WordRecognizer: ...
@@ -3648,18 +3664,18 @@ class SpeakerAdapterOptions:
 
 class SpeakerAdapter:
     """
-    A word recogniser that gets used to a speaker.
+    Adapts a word recogniser to a speaker.
     """
     def __init__(self, recognizer: WordRecognizer, options: SpeakerAdapterOptions = ...) -> None: ...
     def learn(
         self,
-        samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
         label: str,
     ) -> None: ...
     def recognise(
         self,
-        samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
     ) -> Decision: ...
     def reset(self) -> None: ...
