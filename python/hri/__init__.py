@@ -83,7 +83,11 @@ logging.getLogger(__name__).addHandler(logging.NullHandler())
 def __getattr__(name: str) -> Any:
     if name in _HOMES:
         return getattr(import_module(_HOMES[name]), name)
-    raise AttributeError(f"module 'hri' has no attribute {name!r}")
+    from hri.core.suggest import nearest
+
+    alike = nearest(name, __all__)
+    hint = f"; did you mean {' or '.join(repr(entry) for entry in alike)}?" if alike else ""
+    raise AttributeError(f"module 'hri' has no attribute {name!r}{hint}")
 
 
 def __dir__() -> list[str]:

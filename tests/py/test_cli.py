@@ -116,7 +116,7 @@ def test_bad_data_ends_with_3_and_one_line(hri, tmp_path: Path, spoken: Path):
         (("train", "speech", "--data", spoken, "--option", "models.num_stats=4"), "num_states"),
         (("train", "speech", "--data", spoken, "--option", "models.num_states=few"), "num_states"),
         (("train", "speech", "--data", spoken, "--option", "models.num_states"), "NAME=VALUE"),
-        (("study", "nonsense"), "fusion-digits"),
+        (("study", "nonsense"), "no study 'nonsense'; there are: fsdd"),
         (("study", "fsdd"), "HRI_DATA"),
         (("study", "fsdd", "--data", tmp_path), "fsdd/recordings"),
         (("study", "fsdd", "--data", tmp_path, "--only", "noise=pink"), "there are: none"),

@@ -91,8 +91,8 @@ def test_a_sign_is_recognised_from_whatever_holds_it(
         ),
         (lambda p: as_audio(None, 16000), InvalidArgument, "^audio must be a path, an Audio"),
         (lambda p: as_audio(np.zeros(800, np.float32), "16000"), InvalidArgument, "^sample_rate_hz must be an integer"),
-        (lambda p: as_audio("sign.jpg", None), FormatError, "audio: sign.jpg is a picture.*GestureRecognizer"),
-        (lambda p: as_audio("words.hri", None), FormatError, "audio: words.hri is a model"),
+        (lambda p: as_audio("sign.jpg", None), FormatError, "sign.jpg is a picture, and a sound file is needed"),
+        (lambda p: as_audio("words.hri", None), FormatError, "words.hri is a model, and a sound file is needed"),
         (lambda p: as_audio(p / "none.wav", None), IoError, "none.wav"),
         (lambda p: as_audio(Audio(np.zeros(8, np.float32), 8000), 16000), InvalidArgument, "audio has 8000 Hz"),
     ],
@@ -116,8 +116,8 @@ def test_what_is_no_utterance_is_refused_by_name(
         ),
         (["a.jpg", "b.jpg"], InvalidArgument, r"^clip\[0\] must be a picture.*predict takes several"),
         (7, InvalidArgument, "^clip must be a path, a Clip, a picture or a sequence of them, got int"),
-        ("word.wav", FormatError, "clip: word.wav is a sound file: a WordRecognizer"),
-        ("nowhere.jpg", IoError, "clip: nowhere.jpg: no such file"),
+        ("word.wav", FormatError, "word.wav is a sound file, and a picture or video is needed"),
+        ("nowhere.jpg", IoError, "nowhere.jpg: No such file"),
     ],
 )
 def test_what_is_no_sign_is_refused_by_name(given: Any, error: type[Exception], message: str) -> None:
@@ -135,6 +135,44 @@ def test_one_utterance_in_place_of_several_is_refused(words: hri.WordRecognizer,
         words.predict([np.zeros(800, np.float32)] * 2, sample_rate_hz=[16000])
 
 
+def test_samples_of_a_data_set_and_several_signs(
+    words: hri.WordRecognizer, signs: hri.GestureRecognizer, spoken: Path, signed: Path
+) -> None:
+    dataset = hri.Dataset.load(spoken, "speech")
+    assert words.recognise(dataset.samples[0]) == words.recognise(dataset.samples[0].path)
+    assert words.score(dataset, [sample.label for sample in dataset]) == 1.0
+    stills = hri.Dataset.load(signed, "gesture")
+    assert list(signs.predict(stills)) == list(signs.predict([sample.path for sample in stills]))
+    for one in (stills.samples[0].path, read_frames(stills.samples[0].path), read_image(stills.samples[0].path)):
+        with pytest.raises(InvalidArgument, match="X must be a sequence of signs, got one"):
+            signs.predict(one)
+    with pytest.raises(InvalidArgument, match="got Clip: a GestureRecognizer recognises it"):
+        words.recognise(read_frames(stills.samples[0].path))
+    with pytest.raises(InvalidArgument, match="got Audio: a WordRecognizer recognises it"):
+        signs.recognise(read_audio(dataset.samples[0].path))
+
+
+def test_training_and_evaluation_take_what_says_enough(signed: Path) -> None:
+    trained = hri.train(signed)
+    assert isinstance(trained, hri.GestureRecognizer)
+    assert repr(trained).startswith("GestureRecognizer(2 labels: 1 2")
+    stills = hri.Dataset.load(signed, "gesture")
+    by_class = hri.cross_validate(stills, hri.GestureRecognizer)
+    assert hri.cross_validate(stills, hri.GestureRecognizer()).to_dict() == by_class.to_dict()
+
+
+def test_unfitted_recognisers_show_what_differs_from_the_defaults() -> None:
+    assert repr(hri.GestureRecognizer()) == "GestureRecognizer(not trained)"
+    assert repr(hri.WordRecognizer(num_warps=1)) == "WordRecognizer(not trained, num_warps=1)"
+
+
+def test_a_misspelt_name_of_the_package_is_answered() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'WordRecogniser'; did you mean 'WordRecognizer'"):
+        _ = hri.WordRecogniser
+    with pytest.raises(InvalidArgument, match="no rule 'produkt'; did you mean 'product'"):
+        hri.fuse(None, None, rule="produkt")
+
+
 def test_a_model_of_the_other_kind_is_said_to_be_one(
     words: hri.WordRecognizer, signs: hri.GestureRecognizer, spoken: Path, tmp_path: Path
 ) -> None:
@@ -144,7 +182,7 @@ def test_a_model_of_the_other_kind_is_said_to_be_one(
         hri.GestureRecognizer.load(tmp_path / "words.hri")
     with pytest.raises(FormatError, match=r"signs\.hri is a gesture recogniser, and a word recogniser is needed"):
         hri.WordRecognizer.load(tmp_path / "signs.hri")
-    with pytest.raises(FormatError, match=r"1_low_0\.wav is a sound file, not a model"):
+    with pytest.raises(FormatError, match=r"1_low_0\.wav is a sound file, and a word recogniser is needed"):
         hri.WordRecognizer.load(spoken / "1_low_0.wav")
 
 

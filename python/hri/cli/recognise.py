@@ -16,10 +16,9 @@ from hri.cli.recognizers import kept_model
 from hri.core.errors import Error, InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.fusion import RULES, FusedDecision, fuse
-from hri.media import AUDIO_SUFFIXES, IMAGE_SUFFIXES, VIDEO_SUFFIXES, write_image
+from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, kind_of_file, write_image
 from hri.recognition import Decision, GestureRecognizer, WordRecognizer
 from hri.recognition.decision import RECOGNISED
-from hri.recognition.inputs import MODEL_SUFFIX
 
 _file = click.Path(exists=True, dir_okay=False)
 
@@ -109,14 +108,12 @@ def recognise(
 
 
 def _is_sound(file: str) -> bool:
-    suffix = Path(file).suffix.lower()
-    if suffix in AUDIO_SUFFIXES:
-        return True
-    if suffix in (*IMAGE_SUFFIXES, *VIDEO_SUFFIXES) or Path(file).is_dir():
-        return False
-    if suffix == MODEL_SUFFIX:
+    kind = kind_of_file(Path(file))
+    if kind == "a model":
         raise click.UsageError(f"{file} is a model, not a recording: give it as --speech-model or --gesture-model")
-    raise click.UsageError(f"{file} is neither sound, picture nor video by its suffix: say --speech or --gesture")
+    if not kind:
+        raise click.UsageError(f"{file} is neither sound, picture nor video by its suffix: say --speech or --gesture")
+    return kind == "a sound file"
 
 
 def _only_one(before: str | None, file: str, what: str) -> str:

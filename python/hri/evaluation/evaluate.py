@@ -25,7 +25,7 @@ Recognizer = WordRecognizer | GestureRecognizer
 
 def cross_validate(
     dataset: Dataset,
-    make_recognizer: Callable[[], Recognizer],
+    make_recognizer: Callable[[], Recognizer] | Recognizer,
     *,
     num_folds: int | None = None,
     max_folds: int | None = None,
@@ -43,8 +43,8 @@ def cross_validate(
     Parameters
     ----------
     dataset : Dataset
-    make_recognizer : callable
-        Gives a new, untrained recogniser for every fold.
+    make_recognizer : callable or recogniser
+        Gives a new, untrained recogniser for every fold: a class, a function, or a recogniser whose options are taken.
     num_folds : int, optional
         Folds by person; None holds out one person at a time (for gestures with more than 10 persons: 5 folds). Where
         persons are not known, folds are stratified by label, and the result says so.
@@ -93,7 +93,7 @@ def cross_validate(
 def evaluate_split(
     train: Dataset,
     test: Dataset,
-    make_recognizer: Callable[[], Recognizer],
+    make_recognizer: Callable[[], Recognizer] | Recognizer,
     *,
     seed: int = 0,
     noise: str | None = None,
@@ -117,8 +117,16 @@ def evaluate_split(
     conditions = _conditions(train.kind, seed, noise, snr_db, train_noise, exposure)
     both = Dataset(train.root, train.kind, [*train.samples, *test.samples])
     fold = Fold(str(test.root.name), list(range(len(train))), list(range(len(train), len(both))))
-    run = _runner(both, make_recognizer, conditions, progress)
+    run = _runner(both, _factory(make_recognizer), conditions, progress)
     return EvaluationResult(train.labels, [run(fold)], conditions)
+
+
+def _factory(recognizer: Callable[[], Recognizer] | Recognizer) -> Callable[[], Recognizer]:
+    """Makes untrained recognisers with the options of `recognizer`, if it is one."""
+    if not isinstance(recognizer, WordRecognizer | GestureRecognizer):
+        return recognizer
+    options = recognizer.get_params(deep=False)
+    return lambda: type(recognizer)(**options)
 
 
 def _with_fewer_persons(fold: Fold, dataset: Dataset, num_persons: int, seed: int) -> Fold:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from os import PathLike
 
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
@@ -15,7 +16,7 @@ Progress = Callable[[str, int, int], None]
 
 
 def train(
-    dataset: Dataset,
+    dataset: Dataset | str | PathLike[str],
     recognizer: WordRecognizer | GestureRecognizer | None = None,
     *,
     fillers: Sequence[FillerWord] | None = None,
@@ -25,8 +26,9 @@ def train(
 
     Parameters
     ----------
-    dataset : Dataset
-        Its kind decides what is trained; its persons are held out in turn to calibrate confidences.
+    dataset : Dataset or path-like
+        Or the folder of one, as `Dataset.load` reads it. Its kind decides what is trained; its persons are held out in
+        turn to calibrate confidences.
     recognizer : WordRecognizer or GestureRecognizer, optional
         One with options of its own, trained in place; default options otherwise.
     fillers : sequence of FillerWord, optional
@@ -45,6 +47,8 @@ def train(
     FormatError, IoError
         For a recording that cannot be read; the message names the file.
     """
+    if isinstance(dataset, str | PathLike):
+        dataset = Dataset.load(dataset, None if recognizer is None else recognizer.mode)
     if recognizer is None:
         recognizer = WordRecognizer() if dataset.kind == "speech" else GestureRecognizer()
     if recognizer.mode != dataset.kind:

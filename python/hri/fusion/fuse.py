@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from hri.core.errors import InvalidArgument
+from hri.core.suggest import did_you_mean
 from hri.fusion import vectors
 from hri.fusion.options import RULES, FusedDecision, FusionOptions
 from hri.fusion.stop import decide_stop
@@ -49,7 +50,7 @@ def fuse(
         For an argument that is no decision; names it, and says what would work.
     """
     if rule not in RULES:
-        raise InvalidArgument(f"rule is {rule!r}, must be one of {', '.join(RULES)}")
+        raise InvalidArgument(f"no rule {rule!r}; {did_you_mean(rule, RULES)}")
     _require_mode(speech, "speech")
     _require_mode(gesture, "gesture")
     if options is not None and not isinstance(options, FusionOptions):

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sound, pictures and video in and out of files."""
 
-from hri.media.audio import AUDIO_SUFFIXES, Audio, read_audio
+from hri.media.audio import Audio, read_audio
 from hri.media.order import natural_key
+from hri.media.suffixes import AUDIO_SUFFIXES, IMAGE_SUFFIXES, MODEL_SUFFIX, VIDEO_SUFFIXES, kind_of_file
 from hri.media.video import (
     DEFAULT_FPS,
-    IMAGE_SUFFIXES,
-    VIDEO_SUFFIXES,
     Clip,
     frame_rate,
     iterate_frames,
@@ -22,12 +21,14 @@ __all__ = [
     "AUDIO_SUFFIXES",
     "DEFAULT_FPS",
     "IMAGE_SUFFIXES",
+    "MODEL_SUFFIX",
     "VIDEO_SUFFIXES",
     "Audio",
     "Clip",
     "VideoWriter",
     "frame_rate",
     "iterate_frames",
+    "kind_of_file",
     "natural_key",
     "read_audio",
     "read_frames",

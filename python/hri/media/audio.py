@@ -16,10 +16,9 @@ from hri import _native
 from hri.core.display import summary
 from hri.core.errors import FormatError, IoError
 from hri.core.optional import import_optional
+from hri.media.suffixes import kind_of_file
 
 _log = logging.getLogger(__name__)
-
-AUDIO_SUFFIXES = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aiff", ".aif")
 
 
 @dataclass(frozen=True)
@@ -73,6 +72,9 @@ def read_audio(path: str | PathLike[str]) -> Audio:
         For a file other than WAV when soundfile is not installed.
     """
     path = Path(path)
+    kind = kind_of_file(path)
+    if kind not in ("", "a sound file"):
+        raise FormatError(f"{path} is {kind}, and a sound file is needed here")
     if path.suffix.lower() == ".wav":
         wav = _native.read_wav(str(path))
         samples = np.asarray(wav.samples, dtype=np.float32)

@@ -19,9 +19,8 @@ from hri.core.display import count, short_path, summary
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.core.optional import import_opencv
 from hri.media.order import natural_key
+from hri.media.suffixes import IMAGE_SUFFIXES, kind_of_file
 
-IMAGE_SUFFIXES = (".jpg", ".jpeg", ".png", ".bmp")
-VIDEO_SUFFIXES = (".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm")
 DEFAULT_FPS = 25.0
 Frame = NDArray[np.uint8]
 
@@ -124,12 +123,12 @@ def _captured(capture: Any, path: Path, time_property: int) -> Iterator[tuple[Fr
 
 
 def read_frames(path: str | PathLike[str], max_frames: int | None = None) -> Clip:
-    """Read a clip, or a picture as a clip of one frame.
+    """Read a clip, a picture as a clip of one frame, or the pictures of a folder as a clip of 25 frames a second.
 
     Parameters
     ----------
     path : path-like
-        A picture (.jpg, .png, .bmp) or a video (.mp4, .m4v, .avi, .mkv, .webm, ...).
+        A picture (.jpg, .png, .bmp), a video (.mp4, .m4v, .avi, .mkv, .webm, ...), or a folder, see `read_pictures`.
     max_frames : int, optional
         Stop after so many frames, at least 1; all by default.
 
@@ -145,7 +144,13 @@ def read_frames(path: str | PathLike[str], max_frames: int | None = None) -> Cli
     path = Path(path)
     if max_frames is not None and max_frames < 1:
         raise InvalidArgument(f"max_frames is {max_frames}, must be at least 1")
-    if path.suffix.lower() in IMAGE_SUFFIXES:
+    kind = kind_of_file(path)
+    if kind in ("a sound file", "a model"):
+        raise FormatError(f"{path} is {kind}, and a picture or video is needed here")
+    if kind == "a folder":
+        clip = read_pictures(path)
+        return Clip(clip.frames[:max_frames], clip.times_s[:max_frames], path)
+    if kind == "a picture":
         return Clip([read_image(path)], [0.0], path)
     timed = list(islice(iterate_frames(path), max_frames))
     return Clip([frame for frame, _ in timed], [time_s for _, time_s in timed], path)

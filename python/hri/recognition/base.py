@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.core.display import short_list, summary
 from hri.recognition.decision import Decision
 
 _log = logging.getLogger(__name__)
@@ -38,6 +39,12 @@ class Recognizer:
         recognizer.options = native.options
         recognizer._native = native
         return recognizer
+
+    def __repr__(self) -> str:
+        defaults = _flat(self._options_class().as_dict())
+        changed = [f"{k}={v!r}" for k, v in _flat(self.options.as_dict()).items() if v != defaults.get(k)]
+        labels = "" if self._native is None else f"{len(self.classes_)} labels: {short_list(self.classes_)}"
+        return summary(type(self).__name__, labels or "not trained", *changed)
 
     @property
     def _trained(self) -> Any:
@@ -80,3 +87,10 @@ class Recognizer:
     def score(self, X: Sequence[Any], y: Sequence[str], *args: Any, **kwargs: Any) -> float:
         """Share of items whose best label is right, 0..1."""
         return float(np.mean(self.predict(X, *args, **kwargs) == np.asarray(y)))
+
+
+def _flat(options: dict[str, Any], prefix: str = "") -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for name, value in options.items():
+        flat |= _flat(value, f"{prefix}{name}.") if isinstance(value, dict) else {f"{prefix}{name}": value}
+    return flat

@@ -7,31 +7,29 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hri.core.errors import FormatError, InvalidArgument, IoError
-from hri.media import (
-    AUDIO_SUFFIXES,
-    IMAGE_SUFFIXES,
-    VIDEO_SUFFIXES,
-    Audio,
-    Clip,
-    read_audio,
-    read_frames,
-    read_pictures,
-)
+from hri.core.errors import InvalidArgument
+from hri.media import Audio, Clip, read_audio, read_frames
 
 Samples = NDArray[np.float32]
 Frame = NDArray[np.uint8]
-AudioInput = str | PathLike[str] | Audio | ArrayLike
-"""One utterance: a path, an `hri.media.Audio`, or samples whose rate is given beside them."""
-ClipInput = str | PathLike[str] | Clip | Frame | Iterable[Frame]
-"""One sign: a path (picture, video, folder of pictures), an `hri.media.Clip`, a picture or a sequence of pictures."""
 
-MODEL_SUFFIX = ".hri"
+
+class _HasPath(Protocol):
+    @property
+    def path(self) -> Path: ...
+
+
+AudioInput = str | PathLike[str] | _HasPath | Audio | ArrayLike
+"""One utterance: a path, a `Sample` of a data set, an `hri.media.Audio`, or samples whose rate is given beside them."""
+ClipInput = str | PathLike[str] | _HasPath | Clip | Frame | Iterable[Frame]
+"""One sign: a path (picture, video, folder of pictures), a `Sample` of a data set, an `hri.media.Clip`, a picture or a
+sequence of pictures."""
+
 _PCM16_FULL_SCALE = 32768.0
 
 
@@ -59,10 +57,11 @@ def as_audio(value: AudioInput, sample_rate_hz: int | None, name: str = "audio")
         if sample_rate_hz not in (None, value.sample_rate_hz):
             raise InvalidArgument(f"sample_rate_hz is {sample_rate_hz}, but {name} has {value.sample_rate_hz} Hz")
         return value
-    if isinstance(value, str | PathLike):
+    path = _path_of(value)
+    if path is not None:
         if sample_rate_hz is not None:
             raise InvalidArgument(f"sample_rate_hz is for arrays: {name} is a file, which knows its own")
-        return _read_sound(Path(value), name)
+        return read_audio(path)
     samples, notes = _as_samples(value, name)
     if sample_rate_hz is None:
         raise InvalidArgument(f"{name} is an array, whose rate is not known: give sample_rate_hz, such as 16000")
@@ -111,8 +110,9 @@ def as_frames(value: ClipInput, name: str = "clip") -> list[Frame]:
     """
     if isinstance(value, Clip):
         return value.frames
-    if isinstance(value, str | PathLike):
-        return _read_pictures(Path(value), name)
+    path = _path_of(value)
+    if path is not None:
+        return read_frames(path).frames
     if isinstance(value, np.ndarray) and value.ndim in (2, 3):
         return [_as_frame(value, name)]
     if not isinstance(value, Iterable):
@@ -120,25 +120,26 @@ def as_frames(value: ClipInput, name: str = "clip") -> list[Frame]:
     return [_as_frame(frame, f"{name}[{i}]") for i, frame in enumerate(value)]
 
 
-def _read_sound(path: Path, name: str) -> Audio:
-    if path.suffix.lower() in (*IMAGE_SUFFIXES, *VIDEO_SUFFIXES):
-        raise FormatError(f"{name}: {path} is a picture or video: a GestureRecognizer recognises it")
-    _require_no_model(path, name)
-    return read_audio(path)
+def as_clips(values: Sequence[ClipInput], name: str = "X") -> list[list[Frame]]:
+    """Several signs.
+
+    Raises
+    ------
+    InvalidArgument
+        As `as_frames`, naming the item; for one sign in place of several.
+    """
+    given: object = values  # whatever the annotation says
+    if isinstance(given, str | PathLike | Clip) or (isinstance(given, np.ndarray) and given.ndim <= 3):
+        raise InvalidArgument(f"{name} must be a sequence of signs, got one: write [{name}], or call recognise")
+    return [as_frames(value, f"{name}[{i}]") for i, value in enumerate(values)]
 
 
-def _require_no_model(path: Path, name: str) -> None:
-    if path.suffix.lower() == MODEL_SUFFIX:
-        raise FormatError(f"{name}: {path} is a model, not a recording: load reads it")
-
-
-def _read_pictures(path: Path, name: str) -> list[Frame]:
-    if path.suffix.lower() in AUDIO_SUFFIXES:
-        raise FormatError(f"{name}: {path} is a sound file: a WordRecognizer recognises it")
-    if not path.exists():
-        raise IoError(f"{name}: {path}: no such file or folder")
-    _require_no_model(path, name)
-    return (read_pictures(path) if path.is_dir() else read_frames(path)).frames
+def _path_of(value: object) -> Path | None:
+    """The file that `value` names, or that a `Sample` of a data set is about."""
+    path = getattr(value, "path", None) if not isinstance(value, Audio | Clip) else None
+    if isinstance(value, str | PathLike):
+        path = value
+    return None if path is None else Path(path)
 
 
 def _as_samples(value: Any, name: str) -> tuple[Samples, list[str]]:
@@ -171,5 +172,7 @@ def _as_frame(value: Any, name: str) -> Frame:
 
 
 def _kind(value: object) -> str:
-    dtype = f" of {value.dtype}" if isinstance(value, np.ndarray) else ""
-    return f"{type(value).__name__}{dtype}"
+    if isinstance(value, np.ndarray):
+        return f"ndarray of {value.dtype}"
+    other = {Audio: ": a WordRecognizer recognises it", Clip: ": a GestureRecognizer recognises it"}
+    return f"{type(value).__name__}{other.get(type(value), '')}"

@@ -11,7 +11,7 @@ from typing import Any
 
 from hri import _native
 from hri.core.errors import FormatError
-from hri.media import AUDIO_SUFFIXES, IMAGE_SUFFIXES, VIDEO_SUFFIXES
+from hri.media import kind_of_file
 
 _log = logging.getLogger(__name__)
 
@@ -19,7 +19,6 @@ _KINDS = {
     "word_recognizer": ("word recogniser", "WordRecognizer.load and --speech-model take it"),
     "gesture_recognizer": ("gesture recogniser", "GestureRecognizer.load and --gesture-model take it"),
 }
-_MEDIA = {"sound file": AUDIO_SUFFIXES, "picture": IMAGE_SUFFIXES, "video": VIDEO_SUFFIXES}
 
 
 def load_native(native_class: Any, path: str | PathLike[str], kind: str) -> Any:
@@ -34,9 +33,9 @@ def load_native(native_class: Any, path: str | PathLike[str], kind: str) -> Any:
     """
     text = fspath(path)
     wanted = _KINDS[kind][0]
-    for name, suffixes in _MEDIA.items():
-        if Path(text).suffix.lower() in suffixes:
-            raise FormatError(f"{text} is a {name}, not a model: a {wanted} from training is needed here")
+    kind_of_path = kind_of_file(Path(text))
+    if kind_of_path not in ("", "a model"):
+        raise FormatError(f"{text} is {kind_of_path}, and a {wanted} is needed here: train makes one, save writes it")
     try:
         recognizer = native_class.load(text)
         _log.info("%s: a %s of %d labels", text, wanted, len(recognizer.labels))

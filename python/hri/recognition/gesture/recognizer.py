@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hri import _native
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
-from hri.recognition.inputs import ClipInput, as_frames
+from hri.recognition.inputs import ClipInput, as_clips, as_frames
 from hri.recognition.loading import load_native
 from hri.vision.hands import LEAST_QUALITY, find_landmarks, find_silhouettes, landmark_features
 
@@ -130,7 +130,7 @@ class GestureRecognizer(Recognizer):
         if len(X) != len(y):
             raise _native.InvalidArgument(f"X and y differ in length: {len(X)}, {len(y)}")
         rows = []
-        for done, clip in enumerate(X):
+        for done, clip in enumerate(as_clips(X)):
             rows.append(self.features(clip))
             if progress is not None:
                 progress(done + 1, len(X))
@@ -185,7 +185,7 @@ class GestureRecognizer(Recognizer):
 
     def decide(self, X: Sequence[ClipInput]) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
-        return [self.recognise(clip) for clip in X]
+        return [self.recognise(clip) for clip in as_clips(X)]
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:
