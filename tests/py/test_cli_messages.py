@@ -66,13 +66,13 @@ def test_files_of_another_kind_are_said_to_be_what_they_are(hri, spoken: Path, s
         (
             ("recognise", "--speech", words, "--speech-model", words),
             3,
-            "words.hri is a model, and a sound file is needed",
+            "words.hri is a model, and a sound",
         ),
         (("recognise", "--gesture", sign, "--gesture-model", words), 3, "words.hri is a word recogniser"),
         (
             ("recognise", "--speech", word, "--speech-model", word),
             3,
-            "1_low_0.wav is a sound file, and a word recogniser",
+            "1_low_0.wav is a sound file, and a word",
         ),
         (("recognise", "--speech", sign, "--speech-model", words), 3, "is a picture, and a sound file is needed"),
         (("recognise", word, spoken / "2_low_0.wav"), 2, "are both words: one at a time"),

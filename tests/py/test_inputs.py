@@ -91,8 +91,16 @@ def test_a_sign_is_recognised_from_whatever_holds_it(
         ),
         (lambda p: as_audio(None, 16000), InvalidArgument, "^audio must be a path, an Audio"),
         (lambda p: as_audio(np.zeros(800, np.float32), "16000"), InvalidArgument, "^sample_rate_hz must be an integer"),
-        (lambda p: as_audio("sign.jpg", None), FormatError, "sign.jpg is a picture, and a sound file is needed"),
-        (lambda p: as_audio("words.hri", None), FormatError, "words.hri is a model, and a sound file is needed"),
+        (
+            lambda p: as_audio(p.parent / "sign.jpg", None),
+            FormatError,
+            "sign.jpg is a picture, and a sound file is needed",
+        ),
+        (
+            lambda p: as_audio(p.parent / "words.hri", None),
+            FormatError,
+            "words.hri is a model, and a sound file is needed",
+        ),
         (lambda p: as_audio(p / "none.wav", None), IoError, "none.wav"),
         (lambda p: as_audio(Audio(np.zeros(8, np.float32), 8000), 16000), InvalidArgument, "audio has 8000 Hz"),
     ],
@@ -100,6 +108,8 @@ def test_a_sign_is_recognised_from_whatever_holds_it(
 def test_what_is_no_utterance_is_refused_by_name(
     spoken: Path, make: Callable[[Path], Any], error: type[Exception], message: str
 ) -> None:
+    for name in ("sign.jpg", "words.hri"):
+        (spoken.parent / name).touch()
     with pytest.raises(error, match=message):
         make(spoken)
 
@@ -120,7 +130,11 @@ def test_what_is_no_utterance_is_refused_by_name(
         ("nowhere.jpg", IoError, "nowhere.jpg: No such file"),
     ],
 )
-def test_what_is_no_sign_is_refused_by_name(given: Any, error: type[Exception], message: str) -> None:
+def test_what_is_no_sign_is_refused_by_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: Any, error: type[Exception], message: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("word.wav").touch()
     with pytest.raises(error, match=message):
         as_frames(given)
 

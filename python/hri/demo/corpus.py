@@ -31,7 +31,7 @@ class CorpusSize:
     """
 
     num_speakers: int = 9
-    num_signers: int = 10
+    num_signers: int = 14
     takes: int = 1
 
 

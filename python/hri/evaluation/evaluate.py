@@ -86,7 +86,7 @@ def cross_validate(
     else:
         folds = dataset.folds_stratified(num_folds or 5, seed)
         conditions["folds"] = "stratified by label: persons are not known, so test people may have been met"
-    run = _runner(dataset, make_recognizer, conditions, progress)
+    run = _runner(dataset, _factory(make_recognizer), conditions, progress)
     return EvaluationResult(dataset.labels, [run(fold) for fold in folds[:max_folds]], conditions)
 
 

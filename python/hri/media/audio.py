@@ -73,7 +73,7 @@ def read_audio(path: str | PathLike[str]) -> Audio:
     """
     path = Path(path)
     kind = kind_of_file(path)
-    if kind not in ("", "a sound file"):
+    if kind not in ("", "a sound file") and path.exists():
         raise FormatError(f"{path} is {kind}, and a sound file is needed here")
     if path.suffix.lower() == ".wav":
         wav = _native.read_wav(str(path))

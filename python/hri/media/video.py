@@ -145,7 +145,7 @@ def read_frames(path: str | PathLike[str], max_frames: int | None = None) -> Cli
     if max_frames is not None and max_frames < 1:
         raise InvalidArgument(f"max_frames is {max_frames}, must be at least 1")
     kind = kind_of_file(path)
-    if kind in ("a sound file", "a model"):
+    if kind in ("a sound file", "a model") and path.exists():
         raise FormatError(f"{path} is {kind}, and a picture or video is needed here")
     if kind == "a folder":
         clip = read_pictures(path)
