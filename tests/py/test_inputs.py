@@ -21,7 +21,7 @@ from hri.recognition.inputs import as_audio, as_frames
 @pytest.fixture(scope="module")
 def words(spoken: Path) -> hri.WordRecognizer:
     paths = sorted(spoken.glob("*.wav"))
-    return hri.WordRecognizer(noise_copies=0, num_warps=1).fit(paths, [p.name[0] for p in paths], background=[])
+    return hri.WordRecognizer(noise_copies=0, num_warps=1).fit(paths, [p.name[0] for p in paths], fillers=[])
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_training_takes_files_and_arrays_alike(spoken: Path) -> None:
     audios = [read_audio(path) for path in paths]
 
     def fitted(clips: list[Any], **rate: int) -> hri.WordRecognizer:
-        return hri.WordRecognizer(noise_copies=0, num_warps=1).fit(clips, labels, background=[], **rate)
+        return hri.WordRecognizer(noise_copies=0, num_warps=1).fit(clips, labels, fillers=[], **rate)
 
     by_path = fitted(list(paths))
     by_array = fitted([audio.samples for audio in audios], sample_rate_hz=audios[0].sample_rate_hz)
