@@ -27,7 +27,7 @@ UNSEEN_SIGNER = 40
 """Number of the first signer of the scenes, far beyond those trained on."""
 CLIP_SIZE_PX = (320, 240)
 _NUM_FRAMES = 30
-_SNR_DB = 10.0
+_SNR_DB = 20.0
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Script:
     sign : str
         Label of the signed digit.
     noisy : bool
-        White noise 10 dB below the voice.
+        White noise 20 dB below the voice.
     """
 
     title: str
@@ -64,7 +64,7 @@ SCRIPTS = (
     ),
     Script(
         "Noise",
-        "White noise lies 10 dB below the voice (SNR 10 dB). The sign is clear.",
+        "White noise lies 20 dB below the voice (SNR 20 dB).",
         *("3", "en", "3"),
         noisy=True,
     ),
