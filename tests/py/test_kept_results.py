@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -59,6 +60,7 @@ def root(monkeypatch: pytest.MonkeyPatch) -> Path:
     """The made-up study stands in a file of the package; a tree without git, as in an archive, has a commit too."""
     monkeypatch.setattr(provenance, "rooms_of", lambda study: study.sources)
     monkeypatch.setattr(kept, "source_root", lambda: ROOT)
+    monkeypatch.setattr(kept, "newer_than_build", lambda root: [])
     monkeypatch.setattr(kept, "describe_code", lambda root: {"version": "1.0", "commit": "0123456789"})
     return ROOT
 
@@ -103,6 +105,22 @@ def test_other_recordings_verify_nothing(data_dir: Path) -> None:
     (data_dir / "clips" / "b.wav").write_bytes(b"d")
     with pytest.raises(InvalidArgument, match="not those that were measured"):
         kept.verify(study(), found, data_dir, lambda *progress: None)
+
+
+def test_modules_that_are_not_compiled_anew_verify_nothing(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = measure(data_dir)
+    monkeypatch.setattr(kept, "newer_than_build", lambda root: [root / "cpp" / "src" / "signal" / "dwt.cpp"])
+    with pytest.raises(InvalidArgument, match=r"cpp/src/signal/dwt\.cpp is newer than the compiled modules"):
+        kept.verify(study(), found, data_dir, lambda *progress: None)
+
+
+def test_a_source_that_is_written_after_the_module_is_newer(tmp_path: Path) -> None:
+    (tmp_path / "cpp").mkdir()
+    source = tmp_path / "cpp" / "a.cpp"
+    source.write_text("")
+    assert provenance.newer_than_build(tmp_path) == [source]
+    os.utime(source, (0, 0))
+    assert provenance.newer_than_build(tmp_path) == []
 
 
 def test_rounded_results_are_compared_as_rounded(data_dir: Path) -> None:

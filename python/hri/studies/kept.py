@@ -17,7 +17,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from hri.core.errors import InvalidArgument
-from hri.studies.provenance import describe_code, describe_data, hash_rooms, source_root
+from hri.studies.provenance import describe_code, describe_data, hash_rooms, newer_than_build, source_root
 from hri.studies.registry import Progress, Study, find_data, run_study
 from hri.studies.tables import Row, axes_of
 
@@ -71,11 +71,14 @@ def verify(study: Study, kept: Row, directory: str | os.PathLike[str] | None, pr
     Raises
     ------
     InvalidArgument
-        For other data, a value that differs (names the first), or an installed package instead of a checkout.
+        For other data, a value that differs (names the first), compiled modules that are older than their sources, or
+        an installed package instead of a checkout.
     """
     root = source_root()
     if root is None:
         raise InvalidArgument("results are verified in a checkout of the sources")
+    if newer := newer_than_build(root):
+        raise InvalidArgument(f"{newer[0].relative_to(root)} is newer than the compiled modules; run ./run build")
     data = describe_data(find_data(directory), study)
     if data != kept["data"]:
         raise InvalidArgument(f"{study.name}: the recordings are not those that were measured: {data}")

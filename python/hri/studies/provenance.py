@@ -14,6 +14,7 @@ import ast
 import hashlib
 import re
 import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -100,13 +101,21 @@ def _is_text(statement: ast.AST) -> bool:
     )
 
 
+def newer_than_build(root: Path) -> list[Path]:
+    """The C++ files that changed after the compiled module was written."""
+    module = sys.modules[InvalidArgument.__module__]
+    built = Path(str(module.__file__)).stat().st_mtime
+    files = [path for top in ("cpp", "bindings") for path in (root / top).rglob("*") if path.suffix in (".cpp", ".hpp")]
+    return sorted(path for path in files if path.stat().st_mtime > built)
+
+
 def describe_code(root: Path | None) -> dict[str, Any]:
-    """Version and commit; a ``+`` after the commit stands for changes that are not committed."""
+    """Version and commit; a ``+`` after the commit stands for changes that are not committed, or not compiled."""
     found: dict[str, Any] = {"version": __version__}
     if root is not None:
         commit = _git(root, "rev-parse", "--short=10", "HEAD")
         changed = _git(root, "status", "--porcelain", "--", "cpp", "bindings", "python")
-        found["commit"] = commit + ("+" if changed else "")
+        found["commit"] = commit + ("+" if changed or newer_than_build(root) else "")
     return found
 
 
