@@ -133,7 +133,7 @@ def gesture_latency() -> Timed:
     movement, which comes on top. Hands are found by colours learned from the stream.
     """
     named = [(name, person) for name in hand_pictures.MOVEMENTS for person in range(SIGNERS)]
-    signs = GestureRecognizer(model="path").fit(
+    signs = GestureRecognizer(model="trajectory").fit(
         [hand_pictures.hand_clip(name, person) for name, person in named],
         [name for name, _ in named],
         groups=[str(person) for _, person in named],

@@ -20,12 +20,14 @@ void bind_speech_features(py::module_& m);
 void bind_hand_shapes(py::module_& m);
 void bind_hand_pair(py::module_& m);
 void bind_hand_features(py::module_& m);
+void bind_hand_sources(py::module_& m);
 void bind_codebook(py::module_& m);
 void bind_classifiers(py::module_& m);
 void bind_hmm(py::module_& m);
 void bind_possibilistic(py::module_& m);
 void bind_recognition(py::module_& m);
 void bind_speaker_adapter(py::module_& m);
+void bind_gesture_segments(py::module_& m);
 
 namespace {
 
@@ -93,10 +95,12 @@ PYBIND11_MODULE(_native, m) {
   bind_hand_shapes(m);
   bind_hand_pair(m);
   bind_hand_features(m);
+  bind_hand_sources(m);
   bind_codebook(m);
   bind_classifiers(m);
   bind_hmm(m);
   bind_possibilistic(m);
   bind_recognition(m);
   bind_speaker_adapter(m);
+  bind_gesture_segments(m);
 }

@@ -237,7 +237,7 @@ void bind_gestures(py::module_& m) {
       .value("knn", hri::GestureModel::knn)
       .value("hmm", hri::GestureModel::hmm)
       .value("ptbhmm", hri::GestureModel::ptbhmm)
-      .value("path", hri::GestureModel::path)
+      .value("trajectory", hri::GestureModel::trajectory)
       .value("rbf", hri::GestureModel::rbf)
       .value("automatic", hri::GestureModel::automatic);
 
@@ -245,6 +245,8 @@ void bind_gestures(py::module_& m) {
                                                     "Options of GestureRecognizer.");
   hri_bind::options(options)
       .field("source", &hri::GestureRecognizerOptions::source)
+      .field("hands", &hri::GestureRecognizerOptions::hands)
+      .field("min_quality", &hri::GestureRecognizerOptions::min_quality)
       .field("features", &hri::GestureRecognizerOptions::features)
       .field("model", &hri::GestureRecognizerOptions::model)
       .field("svm_cost", &hri::GestureRecognizerOptions::svm_cost)
@@ -258,6 +260,24 @@ void bind_gestures(py::module_& m) {
       .field("false_reject_rate", &hri::GestureRecognizerOptions::false_reject_rate)
       .field("seed", &hri::GestureRecognizerOptions::seed);
 
+  py::class_<hri::GestureFeatureComputer>(m, "GestureFeatureComputer",
+                                          "Rows of features, one a frame that shows a hand.")
+      .def(py::init<const hri::HandFeatureOptions&, double>(),
+           py::arg("options") = hri::HandFeatureOptions{}, py::arg("min_quality") = 0.0)
+      .def_property_readonly("num_features", &hri::GestureFeatureComputer::num_features)
+      .def(
+          "compute",
+          [](const hri::GestureFeatureComputer& self,
+             const std::vector<hri::HandObservation>& hands) {
+            hri::MatrixF rows;
+            {
+              const py::gil_scoped_release release;
+              rows = self.compute(hri::Span<const hri::HandObservation>(hands));
+            }
+            return hri_bind::to_array(rows);
+          },
+          py::arg("hands"), "float32, shape (num_hands, num_features).");
+
   py::class_<hri::GestureRecognizer>(m, "GestureRecognizer",
                                      "Signs and gestures; hri.GestureRecognizer wraps it.")
       .def_static("train", &train_gestures, py::arg("features"), py::arg("labels"),
@@ -268,6 +288,14 @@ void bind_gestures(py::module_& m) {
                   py::call_guard<py::gil_scoped_release>())
       .def("save", &hri::GestureRecognizer::save, py::arg("path"),
            py::call_guard<py::gil_scoped_release>())
+      .def(
+          "recognise",
+          [](const hri::GestureRecognizer& self, const std::vector<hri::HandObservation>& hands) {
+            const py::gil_scoped_release release;
+            return self.recognise(hands);
+          },
+          py::arg("hands"))
+      .def_property_readonly("is_dynamic", &hri::GestureRecognizer::is_dynamic)
       .def_property_readonly("starts_at_rest", &hri::GestureRecognizer::starts_at_rest)
       .def_property_readonly("pauses", &hri::GestureRecognizer::pauses)
       .def(

@@ -9,6 +9,8 @@
 namespace py = pybind11;
 
 void bind_vision(py::module_& m);
+void bind_vision_hands(py::module_& m);
+void bind_vision_gestures(py::module_& m);
 
 PYBIND11_MODULE(_native_vision, m) {
   m.doc() = "libhri's vision part: silhouettes of hands in colour pictures.";
@@ -23,4 +25,6 @@ PYBIND11_MODULE(_native_vision, m) {
     }
   });
   bind_vision(m);
+  bind_vision_hands(m);
+  bind_vision_gestures(m);
 }

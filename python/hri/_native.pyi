@@ -24,6 +24,7 @@ __all__: list[str] = [
     "Codebook",
     "CodebookOptions",
     "CodebookReport",
+    "ColourLearning",
     "Conjunction",
     "CovarianceKind",
     "Decision",
@@ -54,13 +55,22 @@ __all__: list[str] = [
     "GaussianMixtureHmmOptions",
     "GaussianMixtureHmmStream",
     "GaussianMixtureOptions",
+    "GestureFeatureComputer",
     "GestureModel",
     "GestureRecognizer",
     "GestureRecognizerOptions",
+    "GestureSegment",
+    "GestureSegmentKind",
+    "GestureSegmentReason",
+    "GestureSegmenter",
+    "GestureSegmenterOptions",
     "GestureSource",
     "HAND_TRACK_COLUMNS",
+    "HandColourOptions",
     "HandFeatureComputer",
     "HandFeatureOptions",
+    "HandFinderOptions",
+    "HandObservation",
     "HandPairOptions",
     "HandPairTracker",
     "HandTrackComputer",
@@ -70,15 +80,18 @@ __all__: list[str] = [
     "IoError",
     "Knn",
     "KnnOptions",
+    "LEARNED_STILL_CHANGE",
     "Lda",
     "LdaOptions",
     "LinearSvm",
     "LinearSvmOptions",
     "MarkovChain",
+    "MaskSmoothingOptions",
     "MelScale",
     "ModelFile",
     "MultiStreamCodebook",
     "NBest",
+    "NUM_LANDMARKS",
     "NoiseEstimate",
     "Normalisation",
     "OrientationHistogramOptions",
@@ -98,6 +111,8 @@ __all__: list[str] = [
     "ShrinkageOptions",
     "SilhouetteCepstrumComputer",
     "SilhouetteCepstrumOptions",
+    "SilhouetteMethod",
+    "SilhouetteOptions",
     "SpeakerAdapter",
     "SpeakerAdapterOptions",
     "StateChoice",
@@ -131,12 +146,15 @@ __all__: list[str] = [
     "filter_edges",
     "find_speech",
     "frequency_order",
+    "hand_place",
     "hu_features",
     "hu_moments",
     "idwt",
     "idwt2",
     "initial_start",
     "initial_transition",
+    "landmark_column_names",
+    "landmark_features",
     "linear_prediction",
     "lpc_cepstrum",
     "max_dwt_level",
@@ -1620,6 +1638,246 @@ class HandFeatureComputer:
         """
     @property
     def num_features(self) -> int: ...
+
+class SilhouetteMethod:
+    """
+    Members:
+
+      chroma_otsu
+
+      hsv
+
+      grey_otsu
+    """
+
+    __members__: typing.ClassVar[dict[str, SilhouetteMethod]]
+    chroma_otsu: typing.ClassVar[SilhouetteMethod]
+    grey_otsu: typing.ClassVar[SilhouetteMethod]
+    hsv: typing.ClassVar[SilhouetteMethod]
+    @typing.overload
+    def __eq__(self, other: SilhouetteMethod) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: SilhouetteMethod) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class SilhouetteOptions:
+    """
+    How the hand is found in a picture.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    method: SilhouetteMethod
+    remove_face: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def blur_px(self) -> int: ...
+    @blur_px.setter
+    def blur_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_area(self) -> float: ...
+    @max_area.setter
+    def max_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_hands(self) -> int: ...
+    @max_hands.setter
+    def max_hands(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_side_px(self) -> int: ...
+    @max_side_px.setter
+    def max_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def min_area(self) -> float: ...
+    @min_area.setter
+    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_contrast(self) -> float: ...
+    @min_contrast.setter
+    def min_contrast(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_quality(self) -> float: ...
+    @min_quality.setter
+    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def sure_contrast(self) -> float: ...
+    @sure_contrast.setter
+    def sure_contrast(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class MaskSmoothingOptions:
+    """
+    Which masks of a clip are repaired.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_gap(self) -> int: ...
+    @max_gap.setter
+    def max_gap(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_overlap(self) -> float: ...
+    @max_overlap.setter
+    def max_overlap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_agreement(self) -> float: ...
+    @min_agreement.setter
+    def min_agreement(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class HandColourOptions:
+    """
+    How the colours of hand and background are learned from a clip.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    remove_still: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def fit_side_px(self) -> int: ...
+    @fit_side_px.setter
+    def fit_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_area(self) -> float: ...
+    @max_area.setter
+    def max_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_hands(self) -> int: ...
+    @max_hands.setter
+    def max_hands(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_side_px(self) -> int: ...
+    @max_side_px.setter
+    def max_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def min_area(self) -> float: ...
+    @min_area.setter
+    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_quality(self) -> float: ...
+    @min_quality.setter
+    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def num_fit_frames(self) -> int: ...
+    @num_fit_frames.setter
+    def num_fit_frames(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def num_rounds(self) -> int: ...
+    @num_rounds.setter
+    def num_rounds(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class ColourLearning:
+    """
+    Members:
+
+      automatic
+
+      never
+    """
+
+    __members__: typing.ClassVar[dict[str, ColourLearning]]
+    automatic: typing.ClassVar[ColourLearning]
+    never: typing.ClassVar[ColourLearning]
+    @typing.overload
+    def __eq__(self, other: ColourLearning) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: ColourLearning) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class HandFinderOptions:
+    """
+    How hands are found in clips and streams.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    colours: HandColourOptions
+    learning: ColourLearning
+    silhouette: SilhouetteOptions
+    smooth: bool
+    smoothing: MaskSmoothingOptions
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def min_frames(self) -> int: ...
+    @min_frames.setter
+    def min_frames(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class HandObservation:
+    """
+    What was found in one picture.
+    """
+    def __init__(
+        self,
+        grey: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
+        mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
+        quality: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None:
+        """
+        Of a hand that was found in another way; uint8 arrays of one size, 255 is hand.
+        """
+    @property
+    def grey(self) -> numpy.typing.NDArray[numpy.uint8]:
+        """
+        uint8, read-only, at the working size.
+        """
+    @property
+    def mask(self) -> numpy.typing.NDArray[numpy.uint8]:
+        """
+        uint8, read-only: 255 is hand; all 0 without one.
+        """
+    @property
+    def quality(self) -> float:
+        """
+        0 (no hand) .. 1: how far the mask can be trusted.
+        """
+    @property
+    def repaired(self) -> bool:
+        """
+        The frames around it made the mask, because it jumped: see smooth_masks.
+        """
+    @property
+    def touching(self) -> bool:
+        """
+        Of one of two hands: one region holds both, the border is a guess.
+        """
 
 class CodebookOptions:
     """
@@ -3502,7 +3760,7 @@ class GestureModel:
 
       ptbhmm
 
-      path
+      trajectory
 
       rbf
 
@@ -3514,10 +3772,10 @@ class GestureModel:
     bayes: typing.ClassVar[GestureModel]
     hmm: typing.ClassVar[GestureModel]
     knn: typing.ClassVar[GestureModel]
-    path: typing.ClassVar[GestureModel]
     ptbhmm: typing.ClassVar[GestureModel]
     rbf: typing.ClassVar[GestureModel]
     svm: typing.ClassVar[GestureModel]
+    trajectory: typing.ClassVar[GestureModel]
     @typing.overload
     def __eq__(self, other: GestureModel) -> bool: ...
     @typing.overload
@@ -3546,6 +3804,7 @@ class GestureRecognizerOptions:
 
     __hash__: typing.ClassVar[None] = None
     features: HandFeatureOptions
+    hands: HandFinderOptions
     model: GestureModel
     source: GestureSource
     def __eq__(self, arg0: typing.Any) -> bool: ...
@@ -3560,6 +3819,10 @@ class GestureRecognizerOptions:
     def max_iterations(self) -> int: ...
     @max_iterations.setter
     def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def min_quality(self) -> float: ...
+    @min_quality.setter
+    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def num_codewords(self) -> int: ...
     @num_codewords.setter
@@ -3593,6 +3856,20 @@ class GestureRecognizerOptions:
     @svm_cost.setter
     def svm_cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
+class GestureFeatureComputer:
+    """
+    Rows of features, one a frame that shows a hand.
+    """
+    def __init__(
+        self, options: HandFeatureOptions = ..., min_quality: typing.SupportsFloat | typing.SupportsIndex = 0.0
+    ) -> None: ...
+    def compute(self, hands: collections.abc.Sequence[HandObservation]) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_hands, num_features).
+        """
+    @property
+    def num_features(self) -> int: ...
+
 class GestureRecognizer:
     """
     Signs and gestures; hri.GestureRecognizer wraps it.
@@ -3613,11 +3890,14 @@ class GestureRecognizer:
         options: GestureRecognizerOptions,
         progress: collections.abc.Callable[[int, int], None] | None = None,
     ) -> GestureRecognizer: ...
+    def recognise(self, hands: collections.abc.Sequence[HandObservation]) -> Decision: ...
     def recognise_features(self, features: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> Decision: ...
     def save(self, path: str) -> None: ...
     def scores(
         self, features: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def is_dynamic(self) -> bool: ...
     @property
     def labels(self) -> list[str]: ...
     @property
@@ -3688,6 +3968,199 @@ class SpeakerAdapter:
     def recognizer(self) -> WordRecognizer: ...
     @property
     def update_due(self) -> bool: ...
+
+class GestureSegmenterOptions:
+    """
+    When a gesture begins and ends; times in seconds.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    arrivals: bool
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def appear_s(self) -> float: ...
+    @appear_s.setter
+    def appear_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def compare_s(self) -> float: ...
+    @compare_s.setter
+    def compare_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def context_s(self) -> float: ...
+    @context_s.setter
+    def context_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def leave_s(self) -> float: ...
+    @leave_s.setter
+    def leave_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_gesture_s(self) -> float: ...
+    @max_gesture_s.setter
+    def max_gesture_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_gesture_s(self) -> float: ...
+    @min_gesture_s.setter
+    def min_gesture_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def rest_s(self) -> float: ...
+    @rest_s.setter
+    def rest_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def still_change(self) -> float: ...
+    @still_change.setter
+    def still_change(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def take_away_s(self) -> float: ...
+    @take_away_s.setter
+    def take_away_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class GestureSegmentKind:
+    """
+    Members:
+
+      none
+
+      start
+
+      end
+
+      dropped
+    """
+
+    __members__: typing.ClassVar[dict[str, GestureSegmentKind]]
+    dropped: typing.ClassVar[GestureSegmentKind]
+    end: typing.ClassVar[GestureSegmentKind]
+    none: typing.ClassVar[GestureSegmentKind]
+    start: typing.ClassVar[GestureSegmentKind]
+    @typing.overload
+    def __eq__(self, other: GestureSegmentKind) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: GestureSegmentKind) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class GestureSegmentReason:
+    """
+    Members:
+
+      none
+
+      rested
+
+      left
+
+      cut
+
+      ended
+
+      arrived
+
+      stalled
+    """
+
+    __members__: typing.ClassVar[dict[str, GestureSegmentReason]]
+    arrived: typing.ClassVar[GestureSegmentReason]
+    cut: typing.ClassVar[GestureSegmentReason]
+    ended: typing.ClassVar[GestureSegmentReason]
+    left: typing.ClassVar[GestureSegmentReason]
+    none: typing.ClassVar[GestureSegmentReason]
+    rested: typing.ClassVar[GestureSegmentReason]
+    stalled: typing.ClassVar[GestureSegmentReason]
+    @typing.overload
+    def __eq__(self, other: GestureSegmentReason) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: GestureSegmentReason) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class GestureSegment:
+    """
+    An event in a stream of masks.
+    """
+    @property
+    def first_s(self) -> float: ...
+    @property
+    def from_rest(self) -> bool:
+        """
+        The hand rested in view before it.
+        """
+    @property
+    def kind(self) -> typing.Any:
+        """
+        'none', 'start', 'end' or 'dropped'.
+        """
+    @property
+    def last_s(self) -> float: ...
+    @property
+    def reason(self) -> typing.Any:
+        """
+        Why it ended: 'rested', 'left', 'cut', 'ended', 'arrived', 'stalled'.
+        """
+
+class GestureSegmenter:
+    """
+    Finds when gestures begin and end, from masks of the hand.
+    """
+    def __init__(self, options: GestureSegmenterOptions = ...) -> None: ...
+    def finish(self) -> GestureSegment:
+        """
+        The stream has ended.
+        """
+    def interrupt(self) -> GestureSegment:
+        """
+        Forgets everything; what had begun is dropped.
+        """
+    def push(
+        self,
+        mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
+        time_s: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> GestureSegment:
+        """
+        The next mask (0 is background) and its time.
+        """
+    def replace_outlines(self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> None:
+        """
+        The hand of now looks like this, as it is found in another way.
+        """
+    @property
+    def hand_away(self) -> bool: ...
+    @property
+    def in_gesture(self) -> bool: ...
+    @property
+    def may_have_begun_s(self) -> float | None: ...
+    @property
+    def options(self) -> GestureSegmenterOptions: ...
 
 def activity_frames(
     audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
@@ -3867,6 +4340,11 @@ def frequency_order(level: typing.SupportsInt | typing.SupportsIndex) -> list[in
     Natural indices of a level's nodes by rising frequency.
     """
 
+def hand_place(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> typing.Any:
+    """
+    x, y and area of the hand in shares of the picture; None without one.
+    """
+
 def hu_features(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> numpy.typing.NDArray[numpy.float32]:
     """
     The root of each of Hu's invariants by its degree, float32.
@@ -3937,6 +4415,20 @@ def initial_transition(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Row-stochastic start values without jumps, shape (num_states, num_states).
+    """
+
+def landmark_column_names() -> list[str]:
+    """
+    Names of the columns of landmark_features; joints are numbered as MediaPipe's are.
+    """
+
+def landmark_features(
+    points: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    width_px: typing.SupportsInt | typing.SupportsIndex,
+    height_px: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    float32, shape (85,), of joints in pixels, shape (21, 2).
     """
 
 def linear_prediction(
@@ -4252,4 +4744,6 @@ def write_wav_pcm16(
 ) -> None: ...
 
 HAND_TRACK_COLUMNS: tuple = ("x", "y", "log_area", "axis_cosine", "axis_sine", "speed", "move_cosine", "move_sine")
+LEARNED_STILL_CHANGE: float = 0.12
+NUM_LANDMARKS: int = 21
 __version__: str = "0.1.0"

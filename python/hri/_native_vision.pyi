@@ -7,140 +7,37 @@ libhri's vision part: silhouettes of hands in colour pictures.
 
 from __future__ import annotations
 import collections.abc
+import hri._native
+from hri._native import HandColourOptions
+from hri._native import HandFinderOptions
+from hri._native import HandObservation
+from hri._native import MaskSmoothingOptions
+from hri._native import SilhouetteMethod
+from hri._native import SilhouetteOptions
 import numpy
 import numpy.typing
 import typing
 
 __all__: list[str] = [
+    "GestureEvent",
+    "GestureSpotter",
+    "GestureStream",
+    "GestureStreamOptions",
     "HandColourOptions",
     "HandColours",
+    "HandFinder",
+    "HandFinderOptions",
+    "HandObservation",
+    "HandStream",
     "MaskSmoothingOptions",
-    "Silhouette",
     "SilhouetteExtractor",
     "SilhouetteMethod",
     "SilhouetteOptions",
+    "background_of",
+    "gesture_features",
+    "recognise_gesture",
     "smooth_masks",
 ]
-
-class SilhouetteMethod:
-    """
-    Members:
-
-      chroma_otsu
-
-      hsv
-
-      grey_otsu
-    """
-
-    __members__: typing.ClassVar[dict[str, SilhouetteMethod]]
-    chroma_otsu: typing.ClassVar[SilhouetteMethod]
-    grey_otsu: typing.ClassVar[SilhouetteMethod]
-    hsv: typing.ClassVar[SilhouetteMethod]
-    @typing.overload
-    def __eq__(self, other: SilhouetteMethod) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: SilhouetteMethod) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class SilhouetteOptions:
-    """
-    How the hand is found in a picture.
-    """
-
-    __hash__: typing.ClassVar[None] = None
-    method: SilhouetteMethod
-    remove_face: bool
-    def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
-    def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
-    @property
-    def blur_px(self) -> int: ...
-    @blur_px.setter
-    def blur_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def max_area(self) -> float: ...
-    @max_area.setter
-    def max_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def max_hands(self) -> int: ...
-    @max_hands.setter
-    def max_hands(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def max_side_px(self) -> int: ...
-    @max_side_px.setter
-    def max_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def min_area(self) -> float: ...
-    @min_area.setter
-    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def min_contrast(self) -> float: ...
-    @min_contrast.setter
-    def min_contrast(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def min_quality(self) -> float: ...
-    @min_quality.setter
-    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def sure_contrast(self) -> float: ...
-    @sure_contrast.setter
-    def sure_contrast(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-
-class Silhouette:
-    """
-    What was found in one picture.
-    """
-    @property
-    def grey(self) -> numpy.typing.NDArray[numpy.uint8]: ...
-    @property
-    def mask(self) -> numpy.typing.NDArray[numpy.uint8]: ...
-    @property
-    def quality(self) -> float: ...
-    @property
-    def repaired(self) -> bool:
-        """
-        The frames around it made the mask, because it jumped: see smooth_masks.
-        """
-
-class MaskSmoothingOptions:
-    """
-    Which masks of a clip are repaired.
-    """
-
-    __hash__: typing.ClassVar[None] = None
-    def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
-    def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
-    @property
-    def max_gap(self) -> int: ...
-    @max_gap.setter
-    def max_gap(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def max_overlap(self) -> float: ...
-    @max_overlap.setter
-    def max_overlap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def min_agreement(self) -> float: ...
-    @min_agreement.setter
-    def min_agreement(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class SilhouetteExtractor:
     """
@@ -148,60 +45,16 @@ class SilhouetteExtractor:
     """
     def __init__(
         self,
-        options: SilhouetteOptions = ...,
+        options: hri._native.SilhouetteOptions = ...,
         background: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8] | None = None,
     ) -> None:
         """
         background: uint8, shape (height, width, 3), the place without a person.
         """
-    def extract(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> Silhouette:
+    def extract(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> hri._native.HandObservation:
         """
         bgr: uint8, shape (height, width, 3).
         """
-
-class HandColourOptions:
-    """
-    How the colours of hand and background are learned from a clip.
-    """
-
-    __hash__: typing.ClassVar[None] = None
-    remove_still: bool
-    def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
-    def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
-    @property
-    def fit_side_px(self) -> int: ...
-    @fit_side_px.setter
-    def fit_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def max_area(self) -> float: ...
-    @max_area.setter
-    def max_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def max_hands(self) -> int: ...
-    @max_hands.setter
-    def max_hands(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def max_side_px(self) -> int: ...
-    @max_side_px.setter
-    def max_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def min_area(self) -> float: ...
-    @min_area.setter
-    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def min_quality(self) -> float: ...
-    @min_quality.setter
-    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def num_fit_frames(self) -> int: ...
-    @num_fit_frames.setter
-    def num_fit_frames(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    @property
-    def num_rounds(self) -> int: ...
-    @num_rounds.setter
-    def num_rounds(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
 
 class HandColours:
     """
@@ -210,21 +63,196 @@ class HandColours:
     @staticmethod
     def learn(
         frames: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
-        options: HandColourOptions = ...,
+        options: hri._native.HandColourOptions = ...,
     ) -> HandColours | None:
         """
         frames: uint8, each of shape (height, width, 3), BGR. None where no hand stands out.
         """
-    def extract(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> Silhouette:
+    def extract(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> hri._native.HandObservation:
         """
         bgr: uint8, shape (height, width, 3).
         """
     @property
     def quality(self) -> float: ...
 
+class HandStream:
+    """
+    The hand in one stream of pictures.
+    """
+    def push(
+        self,
+        bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
+        time_s: typing.SupportsFloat | typing.SupportsIndex,
+        in_gesture: bool = False,
+    ) -> hri._native.HandObservation:
+        """
+        The HandObservation of the next picture.
+        """
+    @property
+    def renewed(self) -> bool:
+        """
+        Hands are found in another way since the last picture.
+        """
+
+class HandFinder:
+    """
+    Finds hands in clips and streams.
+    """
+    def __init__(
+        self,
+        options: hri._native.HandFinderOptions = ...,
+        background: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8] | None = None,
+    ) -> None:
+        """
+        background: uint8, shape (height, width, 3), the place without a person.
+        """
+    def find(
+        self,
+        clip: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
+        progress: collections.abc.Callable[[int, int], None] | None = None,
+    ) -> list[hri._native.HandObservation]:
+        """
+        A HandObservation for every frame.
+        """
+    def find_pair(
+        self,
+        clip: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
+        progress: collections.abc.Callable[[int, int], None] | None = None,
+    ) -> typing.Annotated[list[list[hri._native.HandObservation]], "FixedSize(2)"]:
+        """
+        The observations of the left hand of the picture, and those of the right one.
+        """
+    def stream(self, dynamic: bool = True) -> HandStream: ...
+    @property
+    def options(self) -> hri._native.HandFinderOptions: ...
+
+class GestureSpotter:
+    """
+    Gesture segments in a stream of pictures.
+    """
+    def __init__(
+        self, hands: HandFinder, dynamic: bool = True, options: hri._native.GestureSegmenterOptions = ...
+    ) -> None: ...
+    def finish(self) -> hri._native.GestureSegment: ...
+    def interrupt(self) -> hri._native.GestureSegment: ...
+    def push(
+        self,
+        bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
+        time_s: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> hri._native.GestureSegment:
+        """
+        The GestureSegment event of the next picture.
+        """
+    @property
+    def hand(self) -> hri._native.HandObservation: ...
+    @property
+    def in_gesture(self) -> bool: ...
+    @property
+    def kept_since_s(self) -> float:
+        """
+        Pictures from then on may belong to a gesture.
+        """
+    @property
+    def place(self) -> typing.Any:
+        """
+        x, y and area in shares; None without a hand.
+        """
+
+class GestureStreamOptions:
+    """
+    How the gestures of a stream are decided on.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    segmenter: hri._native.GestureSegmenterOptions
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_pause_s(self) -> float: ...
+    @max_pause_s.setter
+    def max_pause_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def partial_interval_s(self) -> float: ...
+    @partial_interval_s.setter
+    def partial_interval_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class GestureEvent:
+    """
+    What happened with a picture of a stream.
+    """
+    @property
+    def decision(self) -> hri._native.Decision: ...
+    @property
+    def kind(self) -> str:
+        """
+        'segment', 'partial', 'preliminary' or 'decision'.
+        """
+    @property
+    def segment(self) -> hri._native.GestureSegment: ...
+
+class GestureStream:
+    """
+    Decides on the gestures of a stream.
+    """
+    @staticmethod
+    def options_for(recognizer: hri._native.GestureRecognizer) -> GestureStreamOptions: ...
+    def __init__(
+        self, recognizer: hri._native.GestureRecognizer, options: GestureStreamOptions | None = None
+    ) -> None: ...
+    def finish(self) -> list[GestureEvent]:
+        """
+        The stream has ended: preliminary decisions settle.
+        """
+    def interrupt(self) -> list[GestureEvent]:
+        """
+        What was shown and has not settled is forgotten.
+        """
+    def push(
+        self,
+        bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
+        time_s: typing.SupportsFloat | typing.SupportsIndex,
+        landmarks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+    ) -> list[GestureEvent]:
+        """
+        The events of the next picture; landmarks in pixels, float32, shape (21, 2).
+        """
+    @property
+    def hand(self) -> hri._native.HandObservation: ...
+    @property
+    def in_gesture(self) -> bool: ...
+    @property
+    def options(self) -> GestureStreamOptions: ...
+    @property
+    def place(self) -> typing.Any: ...
+
+def background_of(
+    clip: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    Every pixel's median over up to 25 frames spread over the clip.
+    """
+
+def gesture_features(
+    clip: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
+    options: hri._native.GestureRecognizerOptions,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Rows of features of a clip, float32.
+    """
+
+def recognise_gesture(
+    recognizer: hri._native.GestureRecognizer,
+    clip: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
+) -> hri._native.Decision:
+    """
+    The Decision on a clip of BGR frames.
+    """
+
 def smooth_masks(
-    silhouettes: collections.abc.Sequence[Silhouette], options: MaskSmoothingOptions = ...
-) -> list[Silhouette]:
+    silhouettes: collections.abc.Sequence[hri._native.HandObservation], options: hri._native.MaskSmoothingOptions = ...
+) -> list[hri._native.HandObservation]:
     """
     Silhouettes of a clip, with masks repaired that jump for a frame or two between frames that agree, and have less quality than these.
     """

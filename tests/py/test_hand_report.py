@@ -15,7 +15,7 @@ import drawn_hands
 from hri.core.errors import FormatError, InvalidArgument
 from hri.features.hand import hand_column_names, hand_features
 from hri.media import Clip, read_frames, read_pictures, write_image, write_video
-from hri.recognition import hands
+from hri.vision import hands, landmarks
 from hri.vision.film import HandFilm, film_hands
 from hri.vision.hands import find_silhouettes
 from hri.vision.report import inspect_hands
@@ -92,7 +92,7 @@ def test_one_picture_and_odd_sizes_are_filmed(tmp_path: Path) -> None:
 
 
 def test_landmarks_are_reported_too(clip: Clip, monkeypatch: pytest.MonkeyPatch) -> None:
-    joints = np.random.default_rng(0).uniform(20, 90, (hands.NUM_LANDMARKS, 2)).astype(np.float32)
+    joints = np.random.default_rng(0).uniform(20, 90, (21, 2)).astype(np.float32)
     half_out = joints - np.float32([55.0, 0.0])
 
     class Tracker:
@@ -114,7 +114,7 @@ def test_landmarks_are_reported_too(clip: Clip, monkeypatch: pytest.MonkeyPatch)
             return SimpleNamespace(multi_hand_landmarks=[SimpleNamespace(landmark=points)])
 
     mediapipe = SimpleNamespace(solutions=SimpleNamespace(hands=SimpleNamespace(Hands=Tracker)))
-    monkeypatch.setattr(hands, "import_optional", lambda *_: mediapipe)
+    monkeypatch.setattr(landmarks, "import_optional", lambda *_: mediapipe)
     short = Clip(clip.frames[:3], clip.times_s[:3], clip.path)
     report = inspect_hands(short, "landmarks")
     assert [hand.found for hand in report.hands["hand"]] == [False, True, True]

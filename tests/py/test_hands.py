@@ -17,9 +17,9 @@ from hri import _native, _native_vision
 from hri.core.errors import InvalidArgument
 from hri.evaluation import expose, gamma, tint
 from hri.media import write_video
-from hri.recognition import hands
 from hri.studies import webcam
 from hri.synthetic.signer import draw_clip, make_signer
+from hri.vision import hands, landmarks
 
 Frame = NDArray[np.uint8]
 DARK_CLOTH, DIM_SKIN = (14, 20, 15), (70, 45, 80)
@@ -72,7 +72,7 @@ def test_movements_are_told_apart_and_the_model_chosen(tmp_path: Path) -> None:
     clips = [film(right, take) for take in range(4) for right in (True, False)]
     labels = ["right", "down"] * 4
     signs = hri.GestureRecognizer().fit(clips, labels)
-    assert signs._trained.options.model == _native.GestureModel.path
+    assert signs._trained.options.model == _native.GestureModel.trajectory
     slow = [frame for frame in film(True, 9) for _ in range(2)]
     assert list(signs.predict([slow, film(False, 9)])) == ["right", "down"]
     signs.save(tmp_path / "signs.hri")
@@ -94,20 +94,20 @@ def test_landmarks_feed_the_same_recognisers() -> None:
 
     def rows(way: float, take: int) -> NDArray[np.float32]:
         joints = [hand_at(300 + take, 300, 0.2, way * t / 12) for t in range(12)]
-        return hands.landmark_features(joints, size)
+        return landmarks.landmark_features(joints, size)
 
     x = [rows(way, take) for take in range(4) for way in (0.8, -0.8)]
     signs = hri.GestureRecognizer(source="landmarks").fit_features(x, ["clockwise", "back"] * 4)
     assert signs.recognise_features(rows(0.8, 9)).nbest[0].label == "clockwise"
     assert signs.recognise_features(rows(-0.8, 9)).nbest[0].label == "back"
-    none = hands.landmark_features([None, None], size)
+    none = landmarks.landmark_features([None, None], size)
     assert none.shape == (0, x[0].shape[1]) and signs.recognise_features(none).status == "no_input"
 
 
 def test_the_shape_of_landmarks_does_not_depend_on_place_and_size() -> None:
-    one = hands.landmark_features([hand_at(300, 300, 0.2)], (640, 480))[0]
-    other = hands.landmark_features([2 * hand_at(150, 200, 0.2)], (1280, 960))[0]
-    np.testing.assert_allclose(one[: -hands.NUM_TRACK_COLUMNS], other[: -hands.NUM_TRACK_COLUMNS], atol=1e-5)
+    one = landmarks.landmark_features([hand_at(300, 300, 0.2)], (640, 480))[0]
+    other = landmarks.landmark_features([2 * hand_at(150, 200, 0.2)], (1280, 960))[0]
+    np.testing.assert_allclose(one[:-3], other[:-3], atol=1e-5)
     assert one[-3] != other[-3]
 
 
@@ -115,6 +115,35 @@ def test_a_tracker_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setitem(__import__("sys").modules, "mediapipe", None)
     with pytest.raises(ImportError, match=r"libhri\[mediapipe\]"):
         hri.GestureRecognizer(source="landmarks").features(film(True))
+
+
+def test_how_hands_are_found_is_saved_with_the_model(tmp_path: Path) -> None:
+    """A recogniser that is loaded segments as it was trained to."""
+    clips = [film(right, take) for take in range(3) for right in (True, False)]
+    found = {"learning": "never", "silhouette": {"max_side_px": 64, "blur_px": 3}}
+    signs = hri.GestureRecognizer(hands=found, min_quality=0.0).fit(clips, ["right", "down"] * 3)
+    signs.save(tmp_path / "signs.hri")
+    again = hri.GestureRecognizer.load(tmp_path / "signs.hri")
+    assert again.options.hands == signs.options.hands and again.options.min_quality == 0.0
+    fresh = film(True, 9)
+    np.testing.assert_array_equal(again.features(fresh), signs.features(fresh))
+    assert again.recognise(fresh) == signs.recognise(fresh)
+    assert hri.GestureRecognizer().features(fresh).shape != signs.features(fresh).shape or not np.array_equal(
+        hri.GestureRecognizer().features(fresh), signs.features(fresh)
+    )
+
+
+def test_one_call_gives_what_its_steps_give() -> None:
+    clips = [film(right, take) for take in range(3) for right in (True, False)]
+    signs = hri.GestureRecognizer().fit(clips, ["right", "down"] * 3)
+    fresh = film(False, 9)
+    seen = hands.find_silhouettes(fresh)
+    rows = signs.observation_features(seen)
+    np.testing.assert_array_equal(rows, signs.features(fresh))
+    assert signs.recognise_features(rows) == signs.recognise(fresh)
+    centre = hands.hand_place(seen[3].mask)
+    assert centre is not None
+    np.testing.assert_allclose(rows[3, -3:-1], centre[:2], rtol=1e-6)
 
 
 def test_made_up_light() -> None:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 import hri.studies
 from hri import _native_vision
 from hri.media import write_video
-from hri.recognition import hands
 from hri.studies import mask_quality, webcam
+from hri.vision import landmarks
 
 Frame = NDArray[np.uint8]
 WALL, SKIN = (165, 160, 150), (110, 135, 195)
@@ -76,14 +76,14 @@ class Tracker:
         if not red.any():
             return SimpleNamespace(multi_hand_landmarks=None)
         hull = cv2.convexHull(cv2.findNonZero(red)).reshape(-1, 2)
-        chosen = hull[np.linspace(0, len(hull) - 1, hands.NUM_LANDMARKS).astype(int)]
+        chosen = hull[np.linspace(0, len(hull) - 1, 21).astype(int)]
         points = [SimpleNamespace(x=x / red.shape[1], y=y / red.shape[0]) for x, y in chosen]
         return SimpleNamespace(multi_hand_landmarks=[SimpleNamespace(landmark=points)])
 
 
 def test_the_study_compares_quality_with_joints(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     mediapipe = SimpleNamespace(solutions=SimpleNamespace(hands=SimpleNamespace(Hands=Tracker)))
-    monkeypatch.setattr(hands, "import_optional", lambda *_: mediapipe)
+    monkeypatch.setattr(landmarks, "import_optional", lambda *_: mediapipe)
     monkeypatch.setattr(mask_quality, "_STEP", 2)
     for label in ("swipeLeft", "swipeRight"):
         (tmp_path / webcam.FOLDER / label).mkdir(parents=True)

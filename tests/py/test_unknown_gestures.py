@@ -11,7 +11,6 @@ import pytest
 
 import hri
 import hri.studies
-from hri import _native_vision
 from hri.datasets import Dataset
 from hri.media import read_frames
 from hri.studies import unknown_gestures
@@ -59,6 +58,6 @@ def test_a_wall_is_no_hand(tmp_path: Path) -> None:
     walls = [recognizer.recognise(clip).status for clip in empty_clips(20)]
     assert walls.count("no_input") >= 16 and walls.count("recognised") == 0
     found = [s for clip in empty_clips(20) for s in find_silhouettes(clip) if s.mask.any()]
-    assert found and recognizer.silhouette_features(found).shape[0] < len(found) / 2
-    asked = hri.GestureRecognizer(silhouette=_native_vision.SilhouetteOptions())
-    assert asked.silhouette_features(found).shape[0] == len(found)
+    assert found and recognizer.observation_features(found).shape[0] < len(found) / 2
+    asked = hri.GestureRecognizer(min_quality=0.0)
+    assert asked.observation_features(found).shape[0] == len(found)

@@ -15,17 +15,16 @@ import pytest
 
 import hri
 from drawn_hands import FPS, picture, shown, stills
+from hri import _native
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.live import (
     CameraSource,
     ClipSource,
     FrameQueue,
-    MovementDetector,
-    MovementOptions,
     Stalled,
     VideoSource,
     Watcher,
-    draw_sight,
+    draw_result,
 )
 from hri.media import read_frames, write_video
 
@@ -44,7 +43,7 @@ def test_a_stream_gives_the_decisions_of_its_signs(signs: hri.GestureRecognizer)
     labels = ["tall", "flat", "flat", "tall"]
     events = list(Watcher(signs, locale="en", model_id="hands").watch(ClipSource(shown(labels), FPS)))
     kinds = [e.event for e in events if e.event not in ("hand", "partial")]
-    once = ["movement_start", "movement_end", "decision", "movement_start", "movement_dropped"]
+    once = ["gesture_start", "gesture_end", "decision", "gesture_start", "gesture_dropped"]
     assert kinds == ["watching", *(once * 4), "ended"]
     decided = [e for e in events if e.event == "decision"]
     assert [e.decision.nbest[0].label for e in decided if e.decision] == labels
@@ -82,46 +81,22 @@ def test_a_wall_gives_no_decision_and_a_hand_the_recogniser_does_not_see_no_inpu
     wall = [picture("flat", 3.0, rng) for _ in range(30)]
     assert {e.event for e in Watcher(signs).watch(ClipSource(wall, FPS))} == {"watching", "hand", "ended"}
 
-    class Blind(hri.GestureRecognizer):
-        def silhouette_features(self, silhouettes: Any) -> Any:
-            return super().silhouette_features(silhouettes)[:0]
-
-    blind = Blind._wrap(signs._native)
-    decided = [e for e in Watcher(blind).watch(ClipSource(shown(["flat"]), FPS)) if e.event == "decision"]
+    picky = hri.GestureRecognizer(false_reject_rate=0.0, min_quality=1.0)
+    stills_of = [(stills(sign, seed), sign) for seed in range(3) for sign in ("flat", "tall")]
+    rows = [signs.features(clip) for clip, _ in stills_of]
+    picky.fit_features(rows, [sign for _, sign in stills_of])
+    decided = [e for e in Watcher(picky).watch(ClipSource(shown(["flat"]), FPS)) if e.event == "decision"]
     assert [(e.fields["status"], e.fields["final"], e.fields["rejected"]) for e in decided] == [("no_input", "", True)]
 
 
-def test_movements_by_their_masks() -> None:
-    def mask(at: int) -> np.ndarray:
-        result = np.zeros((40, 40), np.uint8)
-        if at >= 0:
-            result[10:20, at : at + 10] = 255
-        return result
-
-    def told(places: list[int], options: MovementOptions | None = None) -> list[tuple[str, str]]:
-        detector = MovementDetector(options)
-        found = [detector.push(mask(at), index / 20) for index, at in enumerate(places)]
-        return [(m.kind.value, m.reason) for m in [*found, detector.finish()] if m is not None]
-
-    moving = [0, 5, 10, 15, 20, 15, 10, 5]
-    gone = [-1] * 10
-    start, rested, left, ended = ("start", ""), ("end", "rested"), ("end", "left"), ("end", "ended")
-    assert told([*moving * 2, *gone]) == [start, left]
-    assert told([*moving[:4], *gone]) == [start, ("dropped", "left")]
-    assert told([*moving, *[5] * 20, *gone]) == [start, rested]
-    assert told([*moving, *[5] * 20, *moving, *gone]) == [start, rested, start, ("dropped", "left")]
-    assert told([*moving, *[5] * 20, *moving * 4, *gone]) == [start, rested, start, left]
-    assert told(moving * 2) == [start, ended]
-    # A stream that ends takes no hand away, and a hand that comes may be told to have shown nothing yet.
-    assert told([*moving, *[5] * 20, *moving * 2]) == [start, rested, start, ended]
-    still = MovementOptions(arrivals=False)
-    assert told([*moving, *[5] * 20, *moving * 2], still) == [start, ("dropped", "arrived"), start, ended]
-    assert told([*moving * 2, *gone], still) == [start, left]
-    assert told([*moving * 8], MovementOptions(max_movement_s=1.0)) == [start, ("end", "cut")]
-    assert told([0, -1, 5, -1, 10, -1]) == []
-    for fields in ({"rest_s": 0.0}, {"still_change": 1.0}, {"max_movement_s": 0.1}):
+def test_segmenter_options_are_checked_when_they_are_used(signs: hri.GestureRecognizer) -> None:
+    for fields in ({"rest_s": 0.0}, {"still_change": 1.0}, {"max_gesture_s": 0.1}):
         with pytest.raises(InvalidArgument, match=next(iter(fields))):
-            MovementOptions(**fields)
+            Watcher(signs, _native.GestureSegmenterOptions(**fields))
+    with pytest.raises(InvalidArgument, match="max_pause_s"):
+        Watcher(signs, max_pause_s=-1.0)
+    with pytest.raises(InvalidArgument, match="partial_interval_s"):
+        Watcher(signs, partial_interval_s=0.0)
 
 
 def test_time_that_runs_backwards_is_refused(signs: hri.GestureRecognizer) -> None:
@@ -223,7 +198,7 @@ def test_a_camera_that_stays_away_ends_the_watch(camera: type[FakeCapture], sign
         CameraSource(3)
 
 
-def test_a_movement_that_a_stall_interrupts_is_dropped(signs: hri.GestureRecognizer) -> None:
+def test_a_gesture_that_a_stall_interrupts_is_dropped(signs: hri.GestureRecognizer) -> None:
     class Interrupted(ClipSource):
         def read(self) -> Any:
             timed = super().read()
@@ -236,8 +211,8 @@ def test_a_movement_that_a_stall_interrupts_is_dropped(signs: hri.GestureRecogni
         told.extend(iter(Watcher(signs).watch(Interrupted(shown(["flat"])[:16], FPS)).__next__, None))
     assert [e.event for e in told if e.event not in ("hand", "partial")] == [
         "watching",
-        "movement_start",
-        "movement_dropped",
+        "gesture_start",
+        "gesture_dropped",
         "stall",
     ]
 
@@ -254,7 +229,7 @@ def test_a_slow_reader_is_told_what_was_lost(camera: type[FakeCapture], signs: h
 def test_what_is_seen_is_drawn(signs: hri.GestureRecognizer) -> None:
     drawn = []
     frames = shown(["tall"])
-    watcher = Watcher(signs, on_sight=lambda sight, decision: drawn.append((draw_sight(sight, decision), decision)))
+    watcher = Watcher(signs, on_result=lambda result, decision: drawn.append((draw_result(result, decision), decision)))
     list(watcher.watch(ClipSource(frames, FPS)))
     pictures = [one for one, _ in drawn if one is not None]
     assert len(pictures) == len(frames)
@@ -298,7 +273,7 @@ def test_the_screen_tells_hands_signs_and_trouble(signs: hri.GestureRecognizer) 
     lines = [line for line in (describe(event, 2) for event in events) if line]
     assert lines[0].startswith("watching frames") and "tall" in lines[1] and len(lines) == 2
     told = [hand_line(event) for event in events if event.event in ("hand", "partial")]
-    assert any(line.startswith("no hand") for line in told) and any("moving" in line for line in told)
+    assert any(line.startswith("no hand") for line in told) and any("gesture" in line for line in told)
     assert any(line.startswith("so far  ") for line in told)
     assert "12 frames lost" in describe(Event(1.0, "overflow", {"lost_frames": 12}), 1)
     assert "back" in describe(Event(1.0, "reconnected"), 1)

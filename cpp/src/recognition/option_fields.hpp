@@ -140,6 +140,37 @@ void visit_gesture(V&& v, O& o) {
   v("seed", o.seed);
 }
 
+/// Files written before recognisers owned their finder's options have none of these.
+template <class V, class O>
+void visit_hands(V&& v, O& o) {
+  v("min_quality", o.min_quality);
+  v("hands.learning", o.hands.learning);
+  v("hands.min_frames", o.hands.min_frames);
+  v("hands.silhouette.method", o.hands.silhouette.method);
+  v("hands.silhouette.max_side_px", o.hands.silhouette.max_side_px);
+  v("hands.silhouette.blur_px", o.hands.silhouette.blur_px);
+  v("hands.silhouette.min_contrast", o.hands.silhouette.min_contrast);
+  v("hands.silhouette.sure_contrast", o.hands.silhouette.sure_contrast);
+  v("hands.silhouette.min_quality", o.hands.silhouette.min_quality);
+  v("hands.silhouette.min_area", o.hands.silhouette.min_area);
+  v("hands.silhouette.max_area", o.hands.silhouette.max_area);
+  v("hands.silhouette.remove_face", o.hands.silhouette.remove_face);
+  v("hands.silhouette.max_hands", o.hands.silhouette.max_hands);
+  v("hands.colours.max_side_px", o.hands.colours.max_side_px);
+  v("hands.colours.fit_side_px", o.hands.colours.fit_side_px);
+  v("hands.colours.num_fit_frames", o.hands.colours.num_fit_frames);
+  v("hands.colours.num_rounds", o.hands.colours.num_rounds);
+  v("hands.colours.min_area", o.hands.colours.min_area);
+  v("hands.colours.max_area", o.hands.colours.max_area);
+  v("hands.colours.min_quality", o.hands.colours.min_quality);
+  v("hands.colours.remove_still", o.hands.colours.remove_still);
+  v("hands.colours.max_hands", o.hands.colours.max_hands);
+  v("hands.smooth", o.hands.smooth);
+  v("hands.smoothing.max_gap", o.hands.smoothing.max_gap);
+  v("hands.smoothing.min_agreement", o.hands.smoothing.min_agreement);
+  v("hands.smoothing.max_overlap", o.hands.smoothing.max_overlap);
+}
+
 /// Visitor that writes every field into a model file's metadata.
 struct FieldWriter {
   ModelFile& file;

@@ -17,17 +17,6 @@ namespace {
 
 constexpr int kRadius_px = 1;  // of the pixels whose majority counts
 
-void validate(const HandColourOptions& o) {
-  require(o.max_side_px >= 32 && o.max_side_px <= 4096, "max_side_px must lie in 32..4096");
-  require(o.fit_side_px >= 32 && o.fit_side_px <= 4096, "fit_side_px must lie in 32..4096");
-  require(o.num_fit_frames >= 1 && o.num_fit_frames <= 256, "num_fit_frames must lie in 1..256");
-  require(o.num_rounds >= 1 && o.num_rounds <= 100, "num_rounds must lie in 1..100");
-  require(o.min_area >= 0 && o.min_area <= o.max_area && o.max_area <= 1,
-          "min_area and max_area must lie in 0..1, min_area not above max_area");
-  require(o.min_quality >= 0 && o.min_quality <= 1, "min_quality must lie in 0..1");
-  require(o.max_hands >= 1 && o.max_hands <= 2, "max_hands must lie in 1..2");
-}
-
 // Frames spread evenly over the clip.
 std::vector<ImageView> frames_to_fit(const std::vector<ImageView>& frames,
                                      const HandColourOptions& options) {
@@ -79,7 +68,7 @@ std::optional<HandColours> HandColours::learn(const std::vector<ImageView>& fram
   result.scores_ = detail::score_tables(fit->weights);
   if (options.remove_still) {
     std::vector<GreyImage> masks(chosen.size());
-    Silhouette found;
+    HandObservation found;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       result.find_skin(chosen[i], &found);
       masks[i] = found.mask;
@@ -89,14 +78,14 @@ std::optional<HandColours> HandColours::learn(const std::vector<ImageView>& fram
   return result;
 }
 
-Silhouette HandColours::extract(ImageView bgr) const {
-  Silhouette result;
+HandObservation HandColours::extract(ImageView bgr) const {
+  HandObservation result;
   extract(bgr, &result);
   return result;
 }
 
 // Fills the workspace's small picture, and the mask with all that has the hand's colours.
-void HandColours::find_skin(ImageView bgr, Silhouette* out) const {
+void HandColours::find_skin(ImageView bgr, HandObservation* out) const {
   Workspace& w = workspace();
   w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
   detail::to_grey(w.small, &out->grey);
@@ -109,7 +98,7 @@ void HandColours::find_skin(ImageView bgr, Silhouette* out) const {
   detail::majority(w.raw, kRadius_px, &w.counts, &out->mask);
 }
 
-void HandColours::extract(ImageView bgr, Silhouette* out) const {
+void HandColours::extract(ImageView bgr, HandObservation* out) const {
   require(!bgr.empty() && bgr.channels == 3,
           "picture must have three channels and at least one pixel");
   find_skin(bgr, out);

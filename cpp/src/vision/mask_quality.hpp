@@ -47,8 +47,8 @@ struct MaskStatistics {
   int num_runs = 0;   // of set pixels in rows
 };
 
-/// The quality by the statistics (`Silhouette::quality`) of a mask of at most `max_hands` regions;
-/// 0 for an empty one.
+/// The quality by the statistics (`HandObservation::quality`) of a mask of at most `max_hands`
+/// regions; 0 for an empty one.
 double mask_quality(const MaskStatistics& statistics, const GreyImage& mask, int max_hands);
 
 /// The quality of a mask in a picture of the values by which it was found: `value_at(i)` is that of

@@ -45,15 +45,15 @@ double overlap(const GreyImage& a, const GreyImage& b) {
   return counts.either > 0 ? counts.both / static_cast<double>(counts.either) : 0;
 }
 
-bool same_size(const Silhouette& a, const Silhouette& b) {
+bool same_size(const HandObservation& a, const HandObservation& b) {
   return a.mask.width_px == b.mask.width_px && a.mask.height_px == b.mask.height_px;
 }
 
 // Whether all frames between two that agree jump.
-bool all_jump(const MaskSmoothingOptions& options, const std::vector<Silhouette>& clip,
+bool all_jump(const MaskSmoothingOptions& options, const std::vector<HandObservation>& clip,
               std::size_t before, std::size_t after) {
   const double least = std::min(clip[before].quality, clip[after].quality);
-  const auto worse = [&](const Silhouette& s) {
+  const auto worse = [&](const HandObservation& s) {
     return s.quality < least && same_size(s, clip[before]);
   };
   const auto first = clip.begin() + static_cast<std::ptrdiff_t>(before) + 1;
@@ -61,7 +61,7 @@ bool all_jump(const MaskSmoothingOptions& options, const std::vector<Silhouette>
   if (!same_size(clip[before], clip[after]) || !std::all_of(first, last, worse)) return false;
   const double agreement = overlap(clip[before].mask, clip[after].mask);
   if (agreement < options.min_agreement) return false;
-  return std::all_of(first, last, [&](const Silhouette& s) {
+  return std::all_of(first, last, [&](const HandObservation& s) {
     const double most = options.max_overlap * agreement;
     return overlap(s.mask, clip[before].mask) < most && overlap(s.mask, clip[after].mask) < most;
   });
@@ -69,13 +69,11 @@ bool all_jump(const MaskSmoothingOptions& options, const std::vector<Silhouette>
 
 }  // namespace
 
-std::vector<int> smooth_masks(const MaskSmoothingOptions& options, std::vector<Silhouette>* clip) {
-  require(options.max_gap >= 0 && options.max_gap <= 10, "max_gap must lie in 0..10");
-  require(options.min_agreement >= 0 && options.min_agreement <= 1,
-          "min_agreement must lie in 0..1");
-  require(options.max_overlap >= 0 && options.max_overlap <= 1, "max_overlap must lie in 0..1");
+std::vector<int> smooth_masks(const MaskSmoothingOptions& options,
+                              std::vector<HandObservation>* clip) {
+  validate(options);
   std::vector<int> repaired;
-  std::vector<Silhouette>& frames = *clip;
+  std::vector<HandObservation>& frames = *clip;
   for (std::size_t before = 0; before + 2 < frames.size(); ++before) {
     for (int gap = 1; gap <= options.max_gap; ++gap) {
       const std::size_t after = before + static_cast<std::size_t>(gap) + 1;

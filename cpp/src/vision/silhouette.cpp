@@ -240,26 +240,16 @@ SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options, Image
 }
 
 SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options) : options_(options) {
-  require(options.max_side_px >= 32 && options.max_side_px <= 4096,
-          "max_side_px must lie in 32..4096");
-  require(options.blur_px >= 1 && options.blur_px <= 31 && options.blur_px % 2 == 1,
-          "blur_px must be odd, 1..31");
-  require(options.min_contrast >= 0 && options.min_contrast <= options.sure_contrast &&
-              options.sure_contrast <= 255,
-          "min_contrast and sure_contrast must lie in 0..255, min_contrast not above");
-  require(options.min_quality >= 0 && options.min_quality <= 1, "min_quality must lie in 0..1");
-  require(options.max_hands >= 1 && options.max_hands <= 2, "max_hands must lie in 1..2");
-  require(options.min_area >= 0 && options.min_area <= options.max_area && options.max_area <= 1,
-          "min_area and max_area must lie in 0..1, min_area not above max_area");
+  validate(options);
 }
 
-Silhouette SilhouetteExtractor::extract(ImageView bgr) const {
-  Silhouette result;
+HandObservation SilhouetteExtractor::extract(ImageView bgr) const {
+  HandObservation result;
   extract(bgr, &result);
   return result;
 }
 
-void SilhouetteExtractor::extract(ImageView bgr, Silhouette* out) const {
+void SilhouetteExtractor::extract(ImageView bgr, HandObservation* out) const {
   require(!bgr.empty() && bgr.channels == 3,
           "picture must have three channels and at least one pixel");
   if (background_ &&

@@ -53,19 +53,19 @@ def meter(event: Event, width: int = 40) -> str:
     """The level as a bar from -80 to 0 dB."""
     level_db = float(event.fields["level_db"])
     filled = max(0, min(width, round(width * (level_db + 80) / 80)))
-    state = "speech" if event.fields["in_speech"] else "      "
+    state = "speech" if event.fields["in_speech"] else "       "
     return f"{'█' * filled}{'·' * (width - filled)} {level_db:6.1f} dB  {state}  {event.time:7.1f} s"
 
 
 def hand_line(event: Event) -> str:
-    """Where the hand is, or what a movement looks like so far."""
+    """Where the hand is, or what a gesture looks like so far."""
     if event.decision is not None:
         best = ", ".join(f"{entry.label} {entry.probability:.2f}" for entry in event.decision.nbest[:3])
         return f"so far  {best or event.decision.status}  {event.time:7.1f} s"
     fields = event.fields
     if fields["x"] is None:
         return f"no hand  {event.time:7.1f} s"
-    state = "moving" if fields["in_movement"] else "      "
+    state = "gesture" if fields["in_gesture"] else "       "
     return (
         f"hand at {fields['x']:.2f}, {fields['y']:.2f}  quality {fields['quality']:.2f}  {state}  {event.time:7.1f} s"
     )

@@ -22,7 +22,7 @@ from hri.cli.live_screen import (
     tell,
 )
 from hri.cli.messages import note
-from hri.cli.sight_screen import SightScreen
+from hri.cli.result_screen import ResultScreen
 from hri.core.errors import FormatError
 from hri.live import AudioSource, Event, FileSource, FrameSource, GestureRecorder, VideoSource, WordRecorder
 
@@ -137,7 +137,7 @@ def gesture(
     if not files and recorder.missing():
         sources = (camera(device, stall_s) for _ in range(1))
     for source in sources:
-        with SightScreen(None, source.fps, show, 1) as screen:
+        with ResultScreen(None, source.fps, show, 1) as screen:
             tell(recorder.record(source, partial(screen.draw, decision=None)), as_json, describe)
     _summarise(recorder, person, out, files)
 

@@ -14,7 +14,7 @@ import click
 from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, stall_option, tell
 from hri.cli.output import OutputFile
 from hri.cli.recognizers import kept_model
-from hri.cli.sight_screen import SightScreen
+from hri.cli.result_screen import ResultScreen
 from hri.core.errors import InvalidArgument
 from hri.live import Event, FrameSource, VideoSource, Watcher
 from hri.media import VIDEO_SUFFIXES
@@ -82,8 +82,8 @@ def watch(
     if not files:
         sources = (camera(device, stall_s) for _ in range(1))
     for source in sources:
-        with SightScreen(video_path, source.fps, show, top) as screen:
-            watcher = Watcher(signs, reconnect_s=reconnect_s, model_id=model_id, on_sight=screen.draw)
+        with ResultScreen(video_path, source.fps, show, top) as screen:
+            watcher = Watcher(signs, reconnect_s=reconnect_s, model_id=model_id, on_result=screen.draw)
             tell(watcher.watch(source), as_json, partial(describe, top=top))
 
 

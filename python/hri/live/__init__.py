@@ -6,16 +6,15 @@ a watcher that answer to every utterance and gesture, and recorders that keep th
 from hri.live.attention import Attention
 from hri.live.camera import CameraSource, FrameQueue
 from hri.live.events import Event
+from hri.live.frame_results import FrameResult, frame_results
 from hri.live.frames import ClipSource, FrameSource, VideoSource
 from hri.live.gesture_recorder import GestureRecorder
 from hri.live.listener import Listener
 from hri.live.microphone import MicrophoneSource, list_microphones
-from hri.live.movements import MovementDetector, MovementOptions
 from hri.live.recorder import WordRecorder
 from hri.live.ring import SampleRing
 from hri.live.sources import ArraySource, AudioSource, FileSource, Stalled
-from hri.live.stream_hands import HandFinder, PlainHands, StreamHands
-from hri.live.watch_picture import draw_sight
+from hri.live.watch_picture import draw_result
 from hri.live.watcher import Watcher
 
 __all__ = [
@@ -27,20 +26,17 @@ __all__ = [
     "Event",
     "FileSource",
     "FrameQueue",
+    "FrameResult",
     "FrameSource",
     "GestureRecorder",
-    "HandFinder",
     "Listener",
     "MicrophoneSource",
-    "MovementDetector",
-    "MovementOptions",
-    "PlainHands",
     "SampleRing",
     "Stalled",
-    "StreamHands",
     "VideoSource",
     "Watcher",
     "WordRecorder",
-    "draw_sight",
+    "draw_result",
+    "frame_results",
     "list_microphones",
 ]

@@ -17,10 +17,11 @@ SPEECH_END = "speech_end"
 SPEECH_DROPPED = "speech_dropped"
 WATCHING = "watching"
 HAND = "hand"
-MOVEMENT_START = "movement_start"
-MOVEMENT_END = "movement_end"
-MOVEMENT_DROPPED = "movement_dropped"
+GESTURE_START = "gesture_start"
+GESTURE_END = "gesture_end"
+GESTURE_DROPPED = "gesture_dropped"
 PARTIAL = "partial"
+PRELIMINARY = "preliminary"
 RECONNECTED = "reconnected"
 DECISION = "decision"
 WAKE = "wake"
@@ -44,12 +45,12 @@ class Event:
     event : str
         "listening", "level", "speech_start", "speech_end", "speech_dropped" (what seemed to be speech was none),
         "decision", "wake" or "ignored" (said without the wake word), "overflow", "stall" or "ended"; while recording,
-        "prompt", "recorded" and "refused" too. Of pictures "watching", "hand", "movement_start", "movement_end",
-        "movement_dropped", "partial" and "reconnected" take the place of those of speech.
+        "prompt", "recorded" and "refused" too. Of pictures "watching", "hand", "gesture_start", "gesture_end",
+        "gesture_dropped", "partial", "preliminary" and "reconnected" take the place of those of speech.
     fields : dict
         What belongs to this kind of event, see docs/listening.md and docs/watching.md.
     decision : Decision or None
-        Of a "decision" or a "partial".
+        Of a "decision", a "preliminary" or a "partial".
     mode : "speech" or "gesture"
     """
 

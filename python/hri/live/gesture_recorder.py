@@ -5,17 +5,18 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import Any
 
+from hri import _native
 from hri.live import events
 from hri.live.events import Event
-from hri.live.frames import FrameSource, TimedFrame
-from hri.live.movements import LEARNED_STILL_CHANGE, MovementOptions
-from hri.live.sights import GestureEvent, MovementFinder, Sight
+from hri.live.frame_results import FrameResult, GestureEvent, frame_results, segment_event
+from hri.live.frames import Frame, FrameSource, TimedFrame
 from hri.live.sources import require_positive
-from hri.live.stream_hands import StreamHands
 from hri.live.takes import Takes
 from hri.media import write_video
 
@@ -42,15 +43,15 @@ class GestureRecorder:
     ----------
     folder, labels, person, takes
         Where to, which gestures by whom, and how many recordings of each; errors as of `Takes`.
-    options : MovementOptions, optional
+    segmenter : GestureSegmenterOptions, optional
         When a gesture begins and ends.
     held : bool
-        The labels are signs: the hand comes into view and holds one. Otherwise they are movements: the hand rests in
+        The labels are signs: the hand comes into view and holds one. Otherwise they are dynamic: the hand rests in
         view, moves, and rests again, and its coming is not recorded.
     pause_s : float
         From a recording to the next prompt.
     hand_interval_s : float
-        How often the hand's place is told.
+        How often the hand's place is reported.
     """
 
     def __init__(
@@ -59,7 +60,7 @@ class GestureRecorder:
         labels: Sequence[str],
         person: str,
         takes: int = 5,
-        options: MovementOptions | None = None,
+        segmenter: Any = None,
         *,
         held: bool = False,
         pause_s: float = 2.5,
@@ -68,9 +69,10 @@ class GestureRecorder:
         require_positive("pause_s", pause_s)
         require_positive("hand_interval_s", hand_interval_s)
         self._takes = Takes(folder, labels, person, takes, "gesture", PATTERN)
-        chosen = options or MovementOptions(still_change=LEARNED_STILL_CHANGE)
-        before_s = chosen.context_s if held else max(chosen.context_s, REST_S)
-        self._options = replace(chosen, arrivals=held, context_s=before_s)
+        fields = {"still_change": _native.LEARNED_STILL_CHANGE} if segmenter is None else segmenter.as_dict()
+        chosen = _native.GestureSegmenterOptions(**{**fields, "arrivals": held})
+        chosen.context_s = chosen.context_s if held else max(chosen.context_s, REST_S)
+        self._options = chosen
         self._pause_s = pause_s
         self._hand_interval_s = hand_interval_s
 
@@ -83,12 +85,12 @@ class GestureRecorder:
         """Label and take of every recording that is not there yet, in the order in which they are asked for."""
         return self._takes.missing()
 
-    def record(self, source: FrameSource, on_sight: Callable[[Sight], None] | None = None) -> Iterator[Event]:
+    def record(self, source: FrameSource, on_result: Callable[[FrameResult], None] | None = None) -> Iterator[Event]:
         """Ask, watch and keep until nothing is missing or the source ends, which is closed then.
 
-        `on_sight` is called with every `Sight`, for pictures of what is going on.
+        `on_result` is called with every `FrameResult`, for pictures of what is going on.
 
-        Beside what a watcher tells of a stream, "prompt" says what to show next, "recorded" where it was kept and how
+        Beside what a watcher reports of a stream, "prompt" says what to show next, "recorded" where it was kept and how
         well the hand was seen, and "refused" why it was not; then the prompt comes again.
 
         Raises
@@ -103,39 +105,37 @@ class GestureRecorder:
             source.close()
             return
         self._takes.begin()
-        finder = MovementFinder(self._options, StreamHands(), hand_interval_s=self._hand_interval_s)
-        seen = _Seen()
+        stream = _SpottingStream(self._options)
         num_lost = 0
         ready_s = 0.0  # when the next prompt is due
         asked_s: float | None = None
-        with closing(finder.see(source, folder=str(self._takes.folder))) as sights:
-            for sight in sights:
-                yield from sight.events
-                if on_sight is not None:
-                    on_sight(sight)
-                seen.push(sight)
-                if asked_s is None and sight.time_s >= ready_s and not sight.running:
-                    asked_s, num_lost = sight.time_s, source.num_lost
-                    yield self._takes.prompt(sight.time_s, missing)
-                told = next((event for event in sight.events if event.event == events.MOVEMENT_END), None)
-                if told is None or asked_s is None or told.fields["first_s"] < asked_s:
+        results = frame_results(source, stream, hand_interval_s=self._hand_interval_s, folder=str(self._takes.folder))
+        with closing(results):
+            for result in results:
+                yield from result.events
+                if on_result is not None:
+                    on_result(result)
+                if asked_s is None and result.time_s >= ready_s and not result.in_gesture:
+                    asked_s, num_lost = result.time_s, source.num_lost
+                    yield self._takes.prompt(result.time_s, missing)
+                ended = next((event for event in result.events if event.event == events.GESTURE_END), None)
+                if ended is None or asked_s is None or ended.fields["first_s"] < asked_s:
                     continue
-                gesture = seen.between(sight.movement)
-                reason = _fault(gesture, bool(told.fields["cut"]), source.num_lost - num_lost)
-                yield self._keep_or_refuse(sight.time_s, gesture, reason, missing)
+                reason = _fault(stream.gesture, bool(ended.fields["cut"]), source.num_lost - num_lost)
+                yield self._keep_or_refuse(result.time_s, stream.gesture, reason, missing)
                 if not missing:
                     return
-                ready_s, asked_s = sight.time_s + self._pause_s, None
+                ready_s, asked_s = result.time_s + self._pause_s, None
 
     def _keep_or_refuse(self, time_s: float, gesture: _Gesture, reason: str, missing: list[tuple[str, int]]) -> Event:
-        told: dict[str, object] = {"label": missing[0][0], "take": missing[0][1]}
+        fields: dict[str, object] = {"label": missing[0][0], "take": missing[0][1]}
         measured = {"quality": round(gesture.quality, 3), "hand_seen": round(gesture.seen, 3)}
         if reason:
-            return GestureEvent(time_s, events.REFUSED, {**told, "reason": reason, **measured})
+            return GestureEvent(time_s, events.REFUSED, {**fields, "reason": reason, **measured})
         frames = [frame for frame, _ in gesture.frames]
         path = self._takes.keep(*missing.pop(0), lambda part: write_video(part, frames, gesture.fps))
-        told |= {"path": str(path), "duration_s": round(gesture.duration_s, 4), "num_frames": len(frames)}
-        return GestureEvent(time_s, events.RECORDED, {**told, **measured})
+        fields |= {"path": str(path), "duration_s": round(gesture.duration_s, 4), "num_frames": len(frames)}
+        return GestureEvent(time_s, events.RECORDED, {**fields, **measured})
 
 
 @dataclass(frozen=True)
@@ -154,24 +154,47 @@ class _Gesture:
         return (len(self.frames) - 1) / self.duration_s if self.duration_s > 0 else 1.0
 
 
-class _Seen:
-    """How well the hand was seen of late."""
+class _SpottingStream:
+    """Finds gestures, and keeps the pictures of the one that is shown and how well the hand was seen in them."""
 
-    def __init__(self) -> None:
-        self._qualities: list[tuple[float, float]] = []
+    def __init__(self, options: Any) -> None:
+        from hri import _native_vision
 
-    def push(self, sight: Sight) -> None:
-        if sight.mask is None:
-            return
-        if not sight.running and not sight.movement:
-            self._qualities = [one for one in self._qualities if one[0] > sight.time_s - 1.0]
-        self._qualities.append((sight.time_s, sight.quality if sight.mask.any() else 0.0))
+        finder = _native_vision.HandFinder()
+        self.spotter = _native_vision.GestureSpotter(finder, dynamic=True, options=options)
+        self.gesture = _Gesture([], 0.0, 0.0)
+        self._context_s = float(options.context_s)
+        self._kept: deque[tuple[Frame, float, float]] = deque()
+        self._time_s = 0.0
 
-    def between(self, frames: list[TimedFrame]) -> _Gesture:
-        first_s, last_s = frames[0][1], frames[-1][1]
-        inside = [quality for time_s, quality in self._qualities if first_s <= time_s <= last_s]
-        shown = [quality for quality in inside if quality > 0]
-        return _Gesture(frames, sum(shown) / max(1, len(shown)), len(shown) / max(1, len(inside)))
+    def push(self, frame: Frame, time_s: float) -> list[Event]:
+        self._time_s = time_s
+        segment = self.spotter.push(frame, time_s)
+        hand = self.spotter.hand
+        self._kept.append((frame, time_s, float(hand.quality) if hand.mask.any() else 0.0))
+        happened = self._events(segment)
+        while self._kept and self._kept[0][1] < self.spotter.kept_since_s:
+            self._kept.popleft()
+        return happened
+
+    def finish(self) -> list[Event]:
+        return self._events(self.spotter.finish())
+
+    def interrupt(self) -> list[Event]:
+        happened = self._events(self.spotter.interrupt())
+        self._kept.clear()
+        return happened
+
+    def _events(self, segment: Any) -> list[Event]:
+        if segment.kind == "none":
+            return []
+        if segment.kind == "end":
+            first_s = segment.first_s - self._context_s
+            inside = [kept for kept in self._kept if first_s <= kept[1] <= segment.last_s]
+            shown = [quality for _, _, quality in inside if quality > 0]
+            frames = [(frame, time_s) for frame, time_s, _ in inside]
+            self.gesture = _Gesture(frames, sum(shown) / max(1, len(shown)), len(shown) / max(1, len(inside)))
+        return [segment_event(segment, self._time_s)]
 
 
 def _fault(gesture: _Gesture, cut: bool, num_lost: int) -> str:

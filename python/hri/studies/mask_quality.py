@@ -16,7 +16,7 @@ from hri.datasets import Dataset
 from hri.media import read_frames
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.webcam import FOLDER, PATTERN
-from hri.vision.hands import find_landmarks
+from hri.vision.landmarks import find_landmarks
 
 WAYS = ("learned", "chroma_otsu", "hsv", "grey_otsu")
 ALL = "all"

@@ -43,16 +43,19 @@ def _live(data_dir: Path, progress: Progress, *, folds: int | None = None) -> di
         features.append(GestureRecognizer().features(read_frames(sample.path).frames))
         progress("finding hands", done + 1, len(dataset))
     per_fold: dict[str, dict[str, float]] = {"file": {}, "live": {}, "agree": {}}
-    decisions, compute_ms = [], []
+    decisions, wrong, preliminary, compute_ms = [], [], [], []
     for seed in SEEDS:
         for part, fold in enumerate(dataset.folds_stratified(NUM_FOLDS, seed)[:folds]):
             signs = GestureRecognizer().fit_features([features[i] for i in fold.train], [labels[i] for i in fold.train])
             found: dict[str, list[bool]] = {name: [] for name in per_fold}
             for i in fold.test:
                 file = _best(signs.recognise_features(features[i]))
-                events = Watcher(signs).watch(_Filmed(read_frames(dataset.samples[i].path)))
+                events = list(Watcher(signs).watch(_Filmed(read_frames(dataset.samples[i].path))))
                 decided = [event for event in events if event.event == "decision"]
                 decisions.append(len(decided))
+                preliminary.append(sum(event.event == "preliminary" for event in events))
+                obeyed = [event.fields["final"] for event in decided if event.fields["final"]]
+                wrong.append(sum(label != labels[i] for label in obeyed))
                 compute_ms += [event.fields["compute_ms"] for event in decided]
                 live = _best(decided[-1].decision) if decided else ""
                 for name, right in (("file", file == labels[i]), ("live", live == labels[i]), ("agree", live == file)):
@@ -67,6 +70,8 @@ def _live(data_dir: Path, progress: Progress, *, folds: int | None = None) -> di
         "num_folds": NUM_FOLDS,
         "rows": rows,
         "decisions_a_clip": float(np.mean(decisions)),
+        "wrong_decisions_a_clip": float(np.mean(wrong)),
+        "preliminary_a_clip": float(np.mean(preliminary)),
         "median_compute_ms": float(np.median(compute_ms)) if compute_ms else None,
         "passed": bool(gap <= MAX_GAP),
     }

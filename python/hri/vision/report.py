@@ -15,7 +15,8 @@ from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 from hri.features.hand import hand_column_names, hand_features
 from hri.media import Clip
-from hri.vision.hands import find_hands, find_landmarks, landmark_column_names, landmark_features
+from hri.vision.hands import find_hands, hand_place
+from hri.vision.landmarks import find_landmarks, landmark_column_names, landmark_features
 
 Source = Literal["silhouettes", "landmarks"]
 Progress = Callable[[int, int], None]
@@ -139,7 +140,7 @@ def inspect_hands(
         Landmarks need the extra `mediapipe`.
     kind : str
         Of silhouettes, one of `hri.features.hand.HAND_KINDS`; landmarks have but one kind of features, those of
-        `hri.vision.hands.landmark_features`.
+        `hri.vision.landmarks.landmark_features`.
     silhouette : hri._native_vision.SilhouetteOptions, optional
         As for `hri.vision.hands.find_silhouettes`.
     progress : callable, optional
@@ -183,11 +184,11 @@ def inspect_hands(
 
 def _outlined(shape: Any, rows: Any) -> FrameHand:
     grey, mask = np.asarray(shape.grey), np.asarray(shape.mask)
-    if not mask.any():
+    place = hand_place(mask)
+    if place is None:
         return FrameHand(0.0, bool(shape.repaired), grey=grey, mask=mask)
-    down, across = np.nonzero(mask)
-    x, y = (float(across.mean()) + 0.5) / mask.shape[1], (float(down.mean()) + 0.5) / mask.shape[0]
-    return FrameHand(float(shape.quality), bool(shape.repaired), x, y, len(down) / mask.size, next(rows), grey, mask)
+    x, y, area = place
+    return FrameHand(float(shape.quality), bool(shape.repaired), x, y, area, next(rows), grey, mask)
 
 
 def _joints(clip: Clip, progress: Progress | None) -> list[FrameHand]:

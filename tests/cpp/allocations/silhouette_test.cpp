@@ -34,7 +34,7 @@ TEST(HandColours, AllocateNothingFromTheSecondPictureOn) {
     const ImageView view{pixels.data(), side, side, 3, std::ptrdiff_t{3} * side};
     const auto colours = HandColours::learn({view}, options);
     ASSERT_TRUE(colours.has_value());
-    Silhouette found;
+    HandObservation found;
     colours->extract(view, &found);
     EXPECT_GT(found.quality, 0.5);
     EXPECT_EQ(testing_data::allocations_of([&] { colours->extract(view, &found); }), 0) << factor;
@@ -49,7 +49,7 @@ TEST(Silhouette, AllocatesNothingFromTheSecondPictureOn) {
     const std::vector<std::uint8_t> pixels = picture(factor);
     const int side = 200 * factor;
     const ImageView view{pixels.data(), side, side, 3, std::ptrdiff_t{3} * side};
-    Silhouette found;
+    HandObservation found;
     extractor.extract(view, &found);
     EXPECT_GT(found.quality, 0.5);
     EXPECT_EQ(testing_data::allocations_of([&] { extractor.extract(view, &found); }), 0) << factor;

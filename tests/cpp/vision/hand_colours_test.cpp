@@ -163,7 +163,7 @@ TEST(HandColours, LeaveAFrameWithoutAHandEmpty) {
   ASSERT_TRUE(colours.has_value());
   EXPECT_GT(colours->quality(), 0.5);
   const auto bare = frame(scene, 0, false);
-  const Silhouette s = colours->extract({bare.data(), kSide_px, kSide_px, 3, 3 * kSide_px});
+  const HandObservation s = colours->extract({bare.data(), kSide_px, kSide_px, 3, 3 * kSide_px});
   EXPECT_EQ(s.quality, 0.0);
   EXPECT_EQ(std::count(s.mask.pixels.begin(), s.mask.pixels.end(), 0), kSide_px * kSide_px);
 }

@@ -14,8 +14,8 @@ namespace {
 
 using hand_testing::hand;
 
-Silhouette seen(const GreyImage& mask, double quality) {
-  Silhouette s;
+HandObservation seen(const GreyImage& mask, double quality) {
+  HandObservation s;
   s.grey = GreyImage(mask.width_px, mask.height_px);
   s.mask = mask;
   s.quality = quality;
@@ -23,8 +23,8 @@ Silhouette seen(const GreyImage& mask, double quality) {
 }
 
 // A hand that goes right, well seen.
-std::vector<Silhouette> clip(int num_frames = 8) {
-  std::vector<Silhouette> frames;
+std::vector<HandObservation> clip(int num_frames = 8) {
+  std::vector<HandObservation> frames;
   for (int t = 0; t < num_frames; ++t) frames.push_back(seen(hand(4, 80 + t, 120, 0.8), 0.9));
   return frames;
 }
@@ -43,7 +43,7 @@ double overlap(const GreyImage& a, const GreyImage& b) {
 
 TEST(SmoothMasks, MasksThatJumpAreRepaired) {
   for (const int length : {1, 2}) {
-    std::vector<Silhouette> frames = clip();
+    std::vector<HandObservation> frames = clip();
     std::vector<int> expected;
     for (int i = 3; i < 3 + length; ++i) {
       frames[static_cast<std::size_t>(i)] = seen(elsewhere(), 0.4);
@@ -51,7 +51,7 @@ TEST(SmoothMasks, MasksThatJumpAreRepaired) {
     }
     EXPECT_EQ(smooth_masks({}, &frames), expected);
     for (const int i : expected) {
-      const Silhouette& s = frames[static_cast<std::size_t>(i)];
+      const HandObservation& s = frames[static_cast<std::size_t>(i)];
       EXPECT_GT(overlap(s.mask, hand(4, 80 + i, 120, 0.8)), 0.75);
       EXPECT_DOUBLE_EQ(s.quality, 0.45);
       EXPECT_TRUE(s.repaired);
@@ -62,18 +62,18 @@ TEST(SmoothMasks, MasksThatJumpAreRepaired) {
 }
 
 TEST(SmoothMasks, FramesThatMissTheHandAreRepaired) {
-  std::vector<Silhouette> frames = clip();
+  std::vector<HandObservation> frames = clip();
   frames[4] = seen(GreyImage(200, 200), 0);
   EXPECT_EQ(smooth_masks({}, &frames), std::vector<int>{4});
   EXPECT_GT(overlap(frames[4].mask, hand(4, 84, 120, 0.8)), 0.75);
 }
 
 TEST(SmoothMasks, WhatIsNoJumpStaysAsItIs) {
-  const std::vector<Silhouette> before = clip();
+  const std::vector<HandObservation> before = clip();
   const auto untouched = [&](auto change) {
-    std::vector<Silhouette> frames = before;
+    std::vector<HandObservation> frames = before;
     change(&frames);
-    const std::vector<Silhouette> changed = frames;
+    const std::vector<HandObservation> changed = frames;
     EXPECT_TRUE(smooth_masks({}, &frames).empty());
     for (std::size_t i = 0; i < frames.size(); ++i)
       EXPECT_EQ(frames[i].mask.pixels, changed[i].mask.pixels);
@@ -97,7 +97,7 @@ TEST(SmoothMasks, WhatIsNoJumpStaysAsItIs) {
 }
 
 TEST(SmoothMasks, OptionsSayWhatIsRepaired) {
-  std::vector<Silhouette> frames = clip();
+  std::vector<HandObservation> frames = clip();
   frames[3] = seen(elsewhere(), 0.4);
   MaskSmoothingOptions none;
   none.max_gap = 0;
@@ -105,7 +105,7 @@ TEST(SmoothMasks, OptionsSayWhatIsRepaired) {
   MaskSmoothingOptions strict;
   strict.min_agreement = 0.99;
   EXPECT_TRUE(smooth_masks(strict, &frames).empty());
-  std::vector<Silhouette> shorter(frames.begin(), frames.begin() + 2);
+  std::vector<HandObservation> shorter(frames.begin(), frames.begin() + 2);
   EXPECT_TRUE(smooth_masks({}, &shorter).empty());
   const auto refused = [&](auto change) {
     MaskSmoothingOptions options;

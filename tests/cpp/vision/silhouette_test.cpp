@@ -66,7 +66,7 @@ TEST(Silhouette, FindsTheHandInStrongAndWeakLight) {
   const GreyImage truth = hand(4);
   for (const double light : {1.2, 1.0, 0.5, 0.3, 0.15}) {
     const Picture p = photograph([&](int x, int y) { return hand_on_wall(truth, x, y); }, light);
-    const Silhouette s = SilhouetteExtractor({}).extract(p.view());
+    const HandObservation s = SilhouetteExtractor({}).extract(p.view());
     EXPECT_GT(overlap(s.mask, truth), 0.9) << light;
     EXPECT_GT(s.quality, 0.5);
   }
@@ -100,12 +100,12 @@ TEST(Silhouette, IsNotMisledByAShirt) {
   const GreyImage truth = hand(5, 100, 80, 0.8);
   const Picture p =
       photograph([&](int x, int y) { return y > 130 ? kShirt : hand_on_wall(truth, x, y); });
-  const Silhouette s = SilhouetteExtractor({}).extract(p.view());
+  const HandObservation s = SilhouetteExtractor({}).extract(p.view());
   EXPECT_GT(overlap(s.mask, truth), 0.85);
 }
 
 TEST(Silhouette, IsEmptyWithoutAHand) {
-  const Silhouette s =
+  const HandObservation s =
       SilhouetteExtractor({}).extract(photograph([](int, int) { return kWall; }).view());
   EXPECT_EQ(s.quality, 0.0);
   EXPECT_TRUE(
@@ -128,7 +128,7 @@ TEST(Silhouette, TakesPicturesOfAnySize) {
     p.width = width;
     p.height = height;
     p.bgr.assign(static_cast<std::size_t>(3 * width * height), 100);
-    const Silhouette s = SilhouetteExtractor({}).extract(p.view());
+    const HandObservation s = SilhouetteExtractor({}).extract(p.view());
     EXPECT_LE(std::max(s.mask.width_px, s.mask.height_px), 320);
     EXPECT_GE(std::min(s.mask.width_px, s.mask.height_px), 1);
   }
@@ -179,7 +179,7 @@ TEST(SilhouetteExtractor, LeavesOutWhatTheBackgroundHasAlready) {
     EXPECT_LT(overlap(SilhouetteExtractor(options).extract(picture.view()).mask, mask), 0.1);
     const SilhouetteExtractor extractor(options, place.view());
     EXPECT_GT(overlap(extractor.extract(picture.view()).mask, mask), 0.9);
-    const Silhouette empty = extractor.extract(place.view());
+    const HandObservation empty = extractor.extract(place.view());
     EXPECT_TRUE(std::all_of(empty.mask.pixels.begin(), empty.mask.pixels.end(),
                             [](std::uint8_t v) { return v == 0; }));
     EXPECT_EQ(empty.quality, 0);

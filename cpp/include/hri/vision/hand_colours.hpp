@@ -14,24 +14,10 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
-#include "hri/vision/silhouette.hpp"
+#include "hri/features/hand/hand_finder_options.hpp"
+#include "hri/features/hand/hand_source.hpp"
 
 namespace hri {
-
-struct HandColourOptions {
-  int max_side_px = 160;   ///< pictures are scaled down to this before they are segmented, 32..4096
-  int fit_side_px = 80;    ///< and to this for learning, 32..4096
-  int num_fit_frames = 8;  ///< frames learned from, spread over the clip, 1..256
-  int num_rounds = 4;      ///< of segmenting and learning from the segments, 1..100
-  double min_area = 0.004;   ///< smallest share of the picture a hand covers, 0..1
-  double max_area = 0.6;     ///< largest, averaged over the frames learned from, 0..1
-  double min_quality = 0.3;  ///< a discriminant that separates the pixels on both sides of the
-                             ///< hand's outline worse than this is no hand, 0..1
-  bool remove_still = true;  ///< what has the hand's colours but stays in place while something
-                             ///< else of them moves, such as a face, is no hand
-  int max_hands = 1;         ///< regions that masks hold, the largest, 1..2; HandPairTracker tells
-                             ///< which is which
-};
 
 /// One score a pixel, the sum of a function of each channel; above a threshold the pixel is hand.
 /// Immutable once learned; const calls are safe from several threads.
@@ -47,11 +33,11 @@ class HRI_API HandColours {
 
   /// The largest regions of hand colours. Throws InvalidArgument for another layout or an empty
   /// picture.
-  [[nodiscard]] Silhouette extract(ImageView bgr) const;
+  [[nodiscard]] HandObservation extract(ImageView bgr) const;
 
   /// The same into a silhouette whose memory is used again: pictures of one size allocate nothing
   /// from the second on, where their sides are whole multiples of the working ones.
-  void extract(ImageView bgr, Silhouette* out) const;
+  void extract(ImageView bgr, HandObservation* out) const;
 
   /// How well the pixels on both sides of the outline separate (share of their variance), 0..1.
   [[nodiscard]] double quality() const { return quality_; }
@@ -59,7 +45,7 @@ class HRI_API HandColours {
  private:
   HandColours() = default;
 
-  void find_skin(ImageView bgr, Silhouette* out) const;
+  void find_skin(ImageView bgr, HandObservation* out) const;
   [[nodiscard]] float score_of(const std::uint8_t* bgr) const {
     return scores_[0][bgr[0]] + scores_[1][bgr[1]] + scores_[2][bgr[2]];
   }

@@ -7,17 +7,10 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
-#include "hri/vision/silhouette.hpp"
+#include "hri/features/hand/hand_finder_options.hpp"
+#include "hri/features/hand/hand_source.hpp"
 
 namespace hri {
-
-struct MaskSmoothingOptions {
-  int max_gap = 2;             ///< frames in a row that may be repaired, 0 (none)..10
-  double min_agreement = 0.6;  ///< what the masks on both sides must share, of what either covers,
-                               ///< 0..1
-  double max_overlap = 0.5;    ///< what a mask that jumps may share with either, as a share of what
-                               ///< these share, 0..1
-};
 
 /// Repairs the silhouettes of a clip, frame by frame, and gives the numbers of those that were. Up
 /// to `max_gap` frames in a row jump where each shares little with the frames before and after
@@ -27,6 +20,6 @@ struct MaskSmoothingOptions {
 /// repaired in the same way, the first and last frame never; masks of different sizes are not
 /// compared. Throws InvalidArgument naming the field that is out of range.
 HRI_API std::vector<int> smooth_masks(const MaskSmoothingOptions& options,
-                                      std::vector<Silhouette>* clip);
+                                      std::vector<HandObservation>* clip);
 
 }  // namespace hri

@@ -20,7 +20,6 @@ constexpr float kPadding = 0.08F;
 HandFeatureComputer::HandFeatureComputer(const HandFeatureOptions& options)
     : options_(options),
       cepstrum_(options.cepstrum),
-      wavelet_(options.wavelet),
       fourier_(options.fourier),
       chain_code_(options.chain_code) {
   require(options.crop_px >= 16 && options.crop_px <= 256, "crop_px must lie in 16..256");
@@ -28,10 +27,12 @@ HandFeatureComputer::HandFeatureComputer(const HandFeatureOptions& options)
           "histogram.num_cells must not exceed crop_px");
   require(options.cepstrum_weight > 0, "cepstrum_weight must be positive");
   require(options.descriptor_weight > 0, "descriptor_weight must be positive");
+  validate(options.wavelet);
+  if (options.use_wavelet) wavelet_.emplace(options.wavelet);
   const int histogram = orientation_histogram_size(options.histogram);
   num_features_ = (options.use_grey ? histogram : 0) + (options.use_silhouette ? histogram : 0) +
                   (options.use_cepstrum ? cepstrum_.num_features() : 0) +
-                  (options.use_wavelet ? wavelet_.num_features() : 0) +
+                  (wavelet_ ? wavelet_->num_features() : 0) +
                   (options.use_fourier ? fourier_.num_features() : 0) +
                   (options.use_chain_code ? chain_code_.num_features() : 0) +
                   (options.use_moments ? kNumHuMoments : 0);
@@ -95,8 +96,8 @@ void HandFeatureComputer::compute_descriptors(ImageView mask, Span<float> out) c
     for (float& v : part) v *= scale;
     at += part.size();
   };
-  if (options_.use_wavelet)
-    add(wavelet_.num_features(), [&](Span<float> part) { wavelet_.compute(mask, part); });
+  if (wavelet_)
+    add(wavelet_->num_features(), [&](Span<float> part) { wavelet_->compute(mask, part); });
   if (options_.use_moments) add(kNumHuMoments, [&](Span<float> part) { hu_features(mask, part); });
   if (!options_.use_fourier && !options_.use_chain_code) return;
   thread_local std::vector<ContourPoint> contour;

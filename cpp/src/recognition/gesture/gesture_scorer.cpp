@@ -40,18 +40,21 @@ StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class) {
 std::shared_ptr<const GestureScorer> train_gesture_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop) {
-  if (options.model == GestureModel::path)
-    return detail::train_path_scorer(per_class, options, should_stop);
-  return has_states(options.model) ? detail::train_movement_scorer(per_class, options, should_stop)
-                                   : detail::train_vote_scorer(per_class, options, should_stop);
+  if (options.model == GestureModel::trajectory)
+    return detail::train_trajectory_scorer(per_class, options, should_stop);
+  return has_states(options.model)
+             ? detail::train_sequence_gesture_scorer(per_class, options, should_stop)
+             : detail::train_vote_scorer(per_class, options, should_stop);
 }
 
 std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
                                                          const GestureRecognizerOptions& options,
                                                          int num_classes) {
-  if (options.model == GestureModel::path) return detail::read_path_scorer(file, num_classes);
-  return has_states(options.model) ? detail::read_movement_scorer(file, options, num_classes)
-                                   : detail::read_vote_scorer(file, options, num_classes);
+  if (options.model == GestureModel::trajectory)
+    return detail::read_trajectory_scorer(file, num_classes);
+  return has_states(options.model)
+             ? detail::read_sequence_gesture_scorer(file, options, num_classes)
+             : detail::read_vote_scorer(file, options, num_classes);
 }
 
 }  // namespace hri

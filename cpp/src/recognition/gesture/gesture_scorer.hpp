@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How GestureRecognizer scores the feature rows of one gesture. Three families: frames that vote
-// (still signs), sequence models and resampled paths (movements).
+// (still signs), sequence models and resampled trajectories (dynamic gestures).
 #pragma once
 
 #include <memory>
@@ -27,16 +27,17 @@ class GestureScorer {
   /// What the rejection threshold is compared with where no verifier was learned; larger is surer.
   [[nodiscard]] virtual float verification_score(ConstMatrixRefF rows,
                                                  const VectorF& scores) const = 0;
-  /// How many values marks() gives; 0 where score says it all.
-  [[nodiscard]] virtual Eigen::Index num_marks() const { return 0; }
+  /// How many values confidence_features() gives; 0 where score says it all.
+  [[nodiscard]] virtual Eigen::Index num_confidence_features() const { return 0; }
   /// What a verifier weighs; larger values are surer.
-  [[nodiscard]] virtual VectorD marks(ConstMatrixRefF /*rows*/, const VectorF& /*scores*/) const {
+  [[nodiscard]] virtual VectorD confidence_features(ConstMatrixRefF /*rows*/,
+                                                    const VectorF& /*scores*/) const {
     return {};
   }
   virtual void write(ModelFile& file) const = 0;
   /// Whether most training gestures began with a hand that rested in view.
   [[nodiscard]] virtual bool starts_at_rest() const { return false; }
-  /// Whether most were made of several movements with pauses between them.
+  /// Whether most were made of several strokes with pauses between them.
   [[nodiscard]] virtual bool pauses() const { return false; }
 };
 
@@ -57,16 +58,15 @@ std::shared_ptr<const GestureScorer> train_vote_scorer(
 std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file,
                                                       const GestureRecognizerOptions& options,
                                                       int num_classes);
-std::shared_ptr<const GestureScorer> train_movement_scorer(
+std::shared_ptr<const GestureScorer> train_sequence_gesture_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop);
-std::shared_ptr<const GestureScorer> read_movement_scorer(const ModelFile& file,
-                                                          const GestureRecognizerOptions& options,
-                                                          int num_classes);
-std::shared_ptr<const GestureScorer> train_path_scorer(
+std::shared_ptr<const GestureScorer> read_sequence_gesture_scorer(
+    const ModelFile& file, const GestureRecognizerOptions& options, int num_classes);
+std::shared_ptr<const GestureScorer> train_trajectory_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop);
-std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int num_classes);
+std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& file, int num_classes);
 
 /// Columns of GestureRecognizer::features behind the hand's shape: centre x, centre y, log area.
 constexpr int kNumTrackColumns = 3;

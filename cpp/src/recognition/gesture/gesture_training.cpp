@@ -54,7 +54,7 @@ GestureModel model_for(const std::vector<GestureSample>& samples) {
     return s.features.rows() >= kShortestMovement;
   });
   const bool most = 2 * movements > static_cast<std::ptrdiff_t>(samples.size());
-  if (most) return GestureModel::path;
+  if (most) return GestureModel::trajectory;
   // The time of rbf grows with the cube of the frames.
   constexpr Eigen::Index kMostFrames = 3000;
   Eigen::Index num_frames = 0;
@@ -88,7 +88,7 @@ class Trials {
       const MatrixF& rows = samples_[i].features;
       const VectorF scores = scorer.scores(rows);
       held_out_.push_back({scores, classes_[i], scorer.verification_score(rows, scores)});
-      marks_.push_back(scorer.marks(rows, scores));
+      confidence_features_.push_back(scorer.confidence_features(rows, scores));
     }
   }
 
@@ -97,7 +97,7 @@ class Trials {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const MatrixF& rows = samples_[i].features;
       if (folds_[i] == fold && classes_[i] == left_out && rows.rows() > 0)
-        unknown_.push_back(scorer.marks(rows, scorer.scores(rows)));
+        unknown_.push_back(scorer.confidence_features(rows, scorer.scores(rows)));
     }
   }
 
@@ -107,12 +107,12 @@ class Trials {
     for (std::size_t i = 0; i < held_out_.size(); ++i) {
       Eigen::Index best = 0;
       held_out_[i].scores.maxCoeff(&best);
-      if (best == held_out_[i].truth) right.push_back(marks_[i]);
+      if (best == held_out_[i].truth) right.push_back(confidence_features_[i]);
     }
     LogisticRegression verifier = train_gesture_verifier(right, unknown_);
     if (verifier.dim() == 0) return verifier;
     for (std::size_t i = 0; i < held_out_.size(); ++i)
-      held_out_[i].score = log_odds(verifier, marks_[i]);
+      held_out_[i].score = log_odds(verifier, confidence_features_[i]);
     return verifier;
   }
 
@@ -123,8 +123,8 @@ class Trials {
   const std::vector<int>& classes_;
   const std::vector<int>& folds_;
   std::vector<HeldOut> held_out_;
-  std::vector<VectorD> marks_;    // of held_out_
-  std::vector<VectorD> unknown_;  // of gestures whose class was left out
+  std::vector<VectorD> confidence_features_;  // of held_out_
+  std::vector<VectorD> unknown_;              // of gestures whose class was left out
 };
 
 }  // namespace
@@ -136,6 +136,8 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
   GestureRecognizer result;
   result.options_ = options;
   if (options.model == GestureModel::automatic) result.options_.model = model_for(samples);
+  result.front_end_.emplace(options.features, options.min_quality);
+  validate(options.hands);
   result.labels_ = labels_of(samples);
   std::vector<int> classes;
   std::vector<std::string> groups;
@@ -160,7 +162,7 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
     if (any_empty(rest)) continue;  // without every class there is nothing to calibrate on
     const auto scorer = train_gesture_scorer(rest, result.options_, should_stop);
     trials.decide(*scorer, fold);
-    if (scorer->num_marks() == 0 || num_classes < 3) continue;
+    if (scorer->num_confidence_features() == 0 || num_classes < 3) continue;
     const int left_out = fold % num_classes;
     trials.decide_unknown(
         *train_gesture_scorer(without(rest, left_out), result.options_, should_stop), fold,

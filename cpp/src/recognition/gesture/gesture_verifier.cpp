@@ -24,8 +24,8 @@ LogisticRegression train_gesture_verifier(const std::vector<VectorD>& right,
   yes.reserve(count);
   weights.reserve(count);
   for (const std::vector<VectorD>* kind : {&unknown, &right}) {
-    for (const VectorD& marks : *kind) {
-      rows.row(static_cast<Eigen::Index>(yes.size())) = marks.transpose();
+    for (const VectorD& features : *kind) {
+      rows.row(static_cast<Eigen::Index>(yes.size())) = features.transpose();
       yes.push_back(kind == &right ? 1 : 0);
       weights.push_back(static_cast<double>(count) / 2 / static_cast<double>(kind->size()));
     }
@@ -33,22 +33,23 @@ LogisticRegression train_gesture_verifier(const std::vector<VectorD>& right,
   return LogisticRegression::train(rows, yes, weights, {});
 }
 
-float log_odds(const LogisticRegression& verifier, const VectorD& marks) {
+float log_odds(const LogisticRegression& verifier, const VectorD& features) {
   return static_cast<float>(
-      verifier.log_odds({marks.data(), static_cast<std::size_t>(marks.size())}));
+      verifier.log_odds({features.data(), static_cast<std::size_t>(features.size())}));
 }
 
 void write_gesture_verifier(const LogisticRegression& verifier, ModelFile& file) {
   if (verifier.dim() > 0) verifier.write(file, kPrefix);
 }
 
-LogisticRegression read_gesture_verifier(const ModelFile& file, Eigen::Index num_marks) {
+LogisticRegression read_gesture_verifier(const ModelFile& file,
+                                         Eigen::Index num_confidence_features) {
   if (!file.has(std::string(kPrefix) + "weights")) return {};
   LogisticRegression verifier = LogisticRegression::read(file, kPrefix);
-  if (verifier.dim() != num_marks) {
+  if (verifier.dim() != num_confidence_features) {
     fail(ErrorKind::format, file.name() + ": field '" + kPrefix + "weights' has " +
                                 std::to_string(verifier.dim()) + " values, expected " +
-                                std::to_string(num_marks));
+                                std::to_string(num_confidence_features));
   }
   return verifier;
 }

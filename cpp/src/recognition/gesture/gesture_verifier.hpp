@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Was that one of the gestures at all? A logistic regression weighs the marks that a scorer gives.
-// It is learned from gestures held out: those decided upon rightly, against those whose class the
-// scorer had never seen.
+// Was that one of the gestures at all? A logistic regression weighs the confidence features that a
+// scorer gives. It is learned from gestures held out: those decided upon rightly, against those
+// whose class the scorer had never seen.
 #pragma once
 
 #include <vector>
@@ -19,11 +19,12 @@ LogisticRegression train_gesture_verifier(const std::vector<VectorD>& right,
                                           const std::vector<VectorD>& unknown);
 
 /// Log odds that it was one of the gestures.
-float log_odds(const LogisticRegression& verifier, const VectorD& marks);
+float log_odds(const LogisticRegression& verifier, const VectorD& features);
 
 void write_gesture_verifier(const LogisticRegression& verifier, ModelFile& file);
-/// Throws FormatError where the weights do not fit `num_marks`. A file without a verifier gives an
-/// empty one.
-LogisticRegression read_gesture_verifier(const ModelFile& file, Eigen::Index num_marks);
+/// Throws FormatError where the weights do not fit `num_confidence_features`. A file without a
+/// verifier gives an empty one.
+LogisticRegression read_gesture_verifier(const ModelFile& file,
+                                         Eigen::Index num_confidence_features);
 
 }  // namespace hri

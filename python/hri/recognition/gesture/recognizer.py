@@ -17,7 +17,7 @@ from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import ClipInput, as_clips, as_frames
 from hri.recognition.loading import load_native
-from hri.vision.hands import LEAST_QUALITY, find_landmarks, find_silhouettes, landmark_features
+from hri.vision.landmarks import find_landmarks, landmark_features
 
 _log = logging.getLogger(__name__)
 
@@ -27,13 +27,12 @@ class GestureRecognizer(Recognizer):
 
     Parameters
     ----------
-    silhouette : hri._native_vision.SilhouetteOptions, optional
-        How the hand is found in every picture by itself. Without it, a clip of 8 frames or more tells the colours of
-        its hand and its background; see `hri.vision.hands.find_silhouettes`.
     **options
-        Fields of ``hri.GestureRecognizerOptions``, for example ``model="svm"`` for still signs, ``model="path"`` for
-        movements (the training clips decide by default), or ``source="landmarks"`` for the joints of the hand, as
-        MediaPipe finds them, instead of silhouettes. Defaults are the C++ library's.
+        Fields of ``hri.GestureRecognizerOptions``, for example ``model="svm"`` for still signs, ``model="trajectory"``
+        for dynamic gestures (the training clips decide by default), or ``source="landmarks"`` for the joints of the
+        hand, as MediaPipe finds them, instead of silhouettes; ``hands={"learning": "never"}`` looks for the hand in
+        every picture by itself, and without it a clip of eight frames or more tells the colours of its hand and its
+        background. All are saved with the model. Defaults are the C++ library's.
 
     Attributes
     ----------
@@ -45,10 +44,6 @@ class GestureRecognizer(Recognizer):
     _native_class = _native.GestureRecognizer
     _options_class = _native.GestureRecognizerOptions
 
-    def __init__(self, silhouette: Any = None, **options: Any) -> None:
-        super().__init__(**options)
-        self._silhouette = silhouette
-
     def features(self, clip: ClipInput) -> NDArray[np.float32]:
         """Features of every frame that shows a hand, float32, shape (num_frames_with_hand, num_features).
 
@@ -57,25 +52,25 @@ class GestureRecognizer(Recognizer):
         clip : path, Clip, picture or sequence of pictures
             As `recognise` takes it.
         """
-        frames = as_frames(clip)
-        if self.options.source == _native.GestureSource.landmarks:
+        frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
+        if self._by_landmarks:
             size = (frames[0].shape[1], frames[0].shape[0]) if frames else (1, 1)
             return landmark_features(find_landmarks(frames), size)
-        return self.silhouette_features(find_silhouettes(frames, self._silhouette))
+        from hri import _native_vision
 
-    def silhouette_features(self, silhouettes: Sequence[Any]) -> NDArray[np.float32]:
-        """Features as `features` gives them, of hands that are found already (`hri._native_vision.Silhouette`).
+        return np.asarray(_native_vision.gesture_features(frames, self.options))
 
-        Unless they were found in a way that was asked for (`silhouette`), those of a quality below
-        `hri.vision.hands.LEAST_QUALITY` are left out.
+    def observation_features(self, hands: Sequence[Any]) -> NDArray[np.float32]:
+        """Features as `features` gives them, of hands that are found already (`HandObservation`).
+
+        Those of a quality below the option ``min_quality`` show no hand.
         """
-        least = LEAST_QUALITY if self._silhouette is None else 0.0
-        trusted = [s for s in silhouettes if s.quality >= least]
-        return np.asarray(
-            _native.GestureRecognizer.features(
-                [s.grey for s in trusted], [s.mask for s in trusted], self.options.features
-            )
-        )
+        computer = _native.GestureFeatureComputer(self.options.features, self.options.min_quality)
+        return np.asarray(computer.compute(list(hands)))
+
+    @property
+    def _by_landmarks(self) -> bool:
+        return bool(self.options.source == _native.GestureSource.landmarks)
 
     @property
     def model(self) -> Any:
@@ -83,13 +78,13 @@ class GestureRecognizer(Recognizer):
         return self._trained.options.model
 
     @property
-    def knows_movements(self) -> bool:
-        """Whether it was trained on whole movements; frames of still signs vote, each by itself."""
-        return self.model in (_native.GestureModel.path, _native.GestureModel.hmm, _native.GestureModel.ptbhmm)
+    def is_dynamic(self) -> bool:
+        """Whether it was trained on dynamic gestures, scored whole; frames of still signs vote, each by itself."""
+        return bool(self._trained.is_dynamic)
 
     @property
     def starts_at_rest(self) -> bool:
-        """Whether most gestures trained on began with a hand that rested in view (model `path`).
+        """Whether most gestures trained on began with a hand that rested in view (model `trajectory`).
 
         Then a hand that comes into view and rests has shown nothing yet.
         """
@@ -97,7 +92,7 @@ class GestureRecognizer(Recognizer):
 
     @property
     def pauses(self) -> bool:
-        """Whether most gestures trained on were made of several movements with pauses between them (model `path`)."""
+        """Whether most gestures trained on had several strokes with pauses between them (model `trajectory`)."""
         return bool(self._trained.pauses)
 
     def fit(
@@ -177,7 +172,12 @@ class GestureRecognizer(Recognizer):
         >>> signs.recognise("seven.jpg").label  # doctest: +SKIP
         >>> signs.recognise(picture).label      # doctest: +SKIP
         """
-        return self.recognise_features(self.features(clip))
+        if self._by_landmarks:
+            return self.recognise_features(self.features(clip))
+        from hri import _native_vision
+
+        frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
+        return Decision.from_native(self.mode, _native_vision.recognise_gesture(self._trained, frames))
 
     def recognise_features(self, rows: NDArray[np.float32]) -> Decision:
         """Recognise what `features` returned."""

@@ -58,7 +58,7 @@ class GestureRecognizerOf : public ::testing::TestWithParam<GestureModel> {
   }
   static bool of_movements() {
     return GetParam() == GestureModel::hmm || GetParam() == GestureModel::ptbhmm ||
-           GetParam() == GestureModel::path;
+           GetParam() == GestureModel::trajectory;
   }
   static std::vector<GestureSample> samples() {
     if (!of_movements()) return stills();
@@ -112,29 +112,55 @@ TEST_P(GestureRecognizerOf, RefusesAModelThatWasDamaged) {
 }
 
 std::string model_name(const ::testing::TestParamInfo<GestureModel>& test) {
-  constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm", "path", "rbf"};
+  constexpr const char* kNames[] = {"svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf"};
   return kNames[static_cast<std::size_t>(test.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, GestureRecognizerOf,
                          ::testing::Values(GestureModel::svm, GestureModel::bayes,
                                            GestureModel::knn, GestureModel::hmm,
-                                           GestureModel::ptbhmm, GestureModel::path,
+                                           GestureModel::ptbhmm, GestureModel::trajectory,
                                            GestureModel::rbf),
                          model_name);
 
 TEST(GestureRecognizer, SeesNothingWithoutAHand) {
   const GestureRecognizer recognizer = GestureRecognizer::train(stills(), {});
   const GreyImage empty(200, 200);
-  EXPECT_EQ(recognizer.recognise({{empty.view(), empty.view()}}).status, DecisionStatus::no_input);
+  const std::vector<HandObservation> seen = {{empty, empty, 1.0, false, false}};
+  EXPECT_EQ(recognizer.recognise(seen).status, DecisionStatus::no_input);
   EXPECT_EQ(recognizer.recognise({}).status, DecisionStatus::no_input);
   EXPECT_THROW((void)recognizer.scores(MatrixF(0, 10)), InvalidArgument);
 }
 
-// A hand that goes right at another rate of frames, and stands still for a while on its way.
-TEST(GestureRecognizer, FollowsAPathAtAnotherTempo) {
+TEST(GestureRecognizer, SavesHowItsHandsAreFound) {
   GestureRecognizerOptions options;
-  options.model = GestureModel::path;
+  options.hands.learning = ColourLearning::never;
+  options.hands.silhouette.method = SilhouetteMethod::grey_otsu;
+  options.hands.smoothing.max_gap = 1;
+  options.min_quality = 0.5;
+  const GestureRecognizer recognizer = GestureRecognizer::train(stills(), options);
+  const ModelFile file = recognizer.to_model_file();
+  const GestureRecognizer again =
+      GestureRecognizer::from_model_file(ModelFile::parse(file.serialise(), "x"));
+  EXPECT_EQ(again.options().hands.learning, ColourLearning::never);
+  EXPECT_EQ(again.options().hands.silhouette.method, SilhouetteMethod::grey_otsu);
+  EXPECT_EQ(again.options().hands.smoothing.max_gap, 1);
+  EXPECT_EQ(again.options().min_quality, 0.5);
+  // Observations below the gate show no hand.
+  const GreyImage mask = hand(3);
+  std::vector<HandObservation> seen = {{hand_testing::grey(mask), mask, 0.49, false, false}};
+  EXPECT_EQ(again.recognise(seen).status, DecisionStatus::no_input);
+  seen[0].quality = 0.5;
+  EXPECT_EQ(again.recognise(seen).nbest.size(), 3U);
+  ModelFile broken = ModelFile::parse(file.serialise(), "x");
+  broken.set_integer("hands.smoothing.max_gap", 11);
+  EXPECT_THROW(GestureRecognizer::from_model_file(broken), FormatError);
+}
+
+// A hand that goes right at another rate of frames, and stands still for a while on its way.
+TEST(GestureRecognizer, FollowsATrajectoryAtAnotherTempo) {
+  GestureRecognizerOptions options;
+  options.model = GestureModel::trajectory;
   std::vector<GestureSample> samples;
   for (int take = 0; take < 6; ++take) {
     samples.push_back(movement(true, take));
@@ -159,7 +185,7 @@ TEST(GestureRecognizer, FollowsAPathAtAnotherTempo) {
 TEST(GestureRecognizer, TurnsDownAHandThatOnlyRests) {
   constexpr Eigen::Index kRest = 12;
   GestureRecognizerOptions options;
-  options.model = GestureModel::path;
+  options.model = GestureModel::trajectory;
   std::vector<GestureSample> samples;
   for (int take = 0; take < 6; ++take) {
     for (const bool right : {true, false}) {
@@ -238,7 +264,7 @@ TEST(GestureRecognizer, LearnsToTurnDownSignsThatItWasNotTaught) {
 // A movement on the right side of every plane, but far from all that was taught.
 TEST(GestureRecognizer, DoubtsMovementsFarFromTheMeanOfTheirClass) {
   GestureRecognizerOptions options;
-  options.model = GestureModel::path;
+  options.model = GestureModel::trajectory;
   std::vector<GestureSample> samples;
   for (int take = 0; take < 6; ++take) {
     samples.push_back(movement(true, take));
@@ -265,7 +291,7 @@ TEST(GestureRecognizer, ChoosesItsModelByTheLengthOfTheClips) {
   EXPECT_EQ(GestureRecognizer::train(stills(), {}).options().model, GestureModel::rbf);
   const std::vector<GestureSample> movements{movement(true, 0), movement(true, 1),
                                              movement(false, 0), movement(false, 1)};
-  EXPECT_EQ(GestureRecognizer::train(movements, {}).options().model, GestureModel::path);
+  EXPECT_EQ(GestureRecognizer::train(movements, {}).options().model, GestureModel::trajectory);
 }
 
 TEST(GestureRecognizer, RemembersWhatItsFeaturesAreMadeFrom) {

@@ -6,6 +6,8 @@
 // Works on plain pixels, without OpenCV.
 #pragma once
 
+#include <optional>
+
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
@@ -60,7 +62,7 @@ class HRI_API HandFeatureComputer {
 
   HandFeatureOptions options_;
   SilhouetteCepstrumComputer cepstrum_;
-  WaveletDescriptorComputer wavelet_;
+  std::optional<WaveletDescriptorComputer> wavelet_;  // its table takes time: only where it is used
   FourierDescriptorComputer fourier_;
   ChainCodeComputer chain_code_;
   int num_features_ = 0;

@@ -26,6 +26,9 @@ struct WaveletDescriptorOptions {
   int num_frequencies = 4;  ///< b = 0 .. num_frequencies - 1, 1..32
 };
 
+/// Throws InvalidArgument naming the field that is out of range.
+HRI_API void validate(const WaveletDescriptorOptions& options);
+
 /// The wavelet psi(r) of thesis eq. 3.22.
 HRI_API double b_spline_wavelet(double r);
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,25 +17,28 @@
 #include "hri/core/image_view.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/hand_features.hpp"
+#include "hri/features/hand/hand_finder_options.hpp"
+#include "hri/features/hand/hand_source.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/classifiers/logistic_regression.hpp"
 #include "hri/recognition/calibration.hpp"
 #include "hri/recognition/decision.hpp"
+#include "hri/recognition/gesture/gesture_features.hpp"
 #include "hri/recognition/training.hpp"
 
 namespace hri {
 
 enum class GestureModel : std::uint8_t {
-  svm,        ///< linear one-vs-rest support vector machine; frames vote with their margins
-  bayes,      ///< Gaussian Bayes on principal components; frames vote with their log posteriors
-  knn,        ///< k nearest neighbours on principal components; frames vote
-  hmm,        ///< Gaussian HMM a gesture over principal components and the hand's track
-  ptbhmm,     ///< possibility-theory HMM over a codebook of the same
-  path,       ///< linear support vector machine over the whole movement, resampled at a few points;
-              ///< needs few examples
-  rbf,        ///< least-squares support vector machine with a radial kernel; frames vote
-  automatic,  ///< rbf; svm for more than 3000 frames; path where most training gestures have
-              ///< 8 frames or more; a trained recogniser's options say which it became
+  svm,         ///< linear one-vs-rest support vector machine; frames vote with their margins
+  bayes,       ///< Gaussian Bayes on principal components; frames vote with their log posteriors
+  knn,         ///< k nearest neighbours on principal components; frames vote
+  hmm,         ///< Gaussian HMM a gesture over principal components and the hand's track
+  ptbhmm,      ///< possibility-theory HMM over a codebook of the same
+  trajectory,  ///< linear support vector machine over the whole trajectory, resampled at a few
+               ///< points; needs few examples
+  rbf,         ///< least-squares support vector machine with a radial kernel; frames vote
+  automatic,   ///< rbf; svm for more than 3000 frames; trajectory where most training gestures have
+               ///< 8 frames or more; a trained recogniser's options say which it became
 };
 
 /// What the rows of features are made from. C++ makes them from silhouettes; landmarks come from
@@ -46,9 +50,12 @@ enum class GestureSource : std::uint8_t {
 
 struct GestureRecognizerOptions {
   GestureSource source = GestureSource::silhouettes;
+  HandFinderOptions hands;    ///< how hands are found in pictures
+  double min_quality = 0.25;  ///< of an observation that shows a hand, 0..1: hands have more in any
+                              ///< light, walls without one mostly less
   HandFeatureOptions features;
   GestureModel model = GestureModel::automatic;
-  double svm_cost = 1.0;       ///< C of the linear SVM (svm, path), > 0
+  double svm_cost = 1.0;       ///< C of the linear SVM (svm, trajectory), > 0
   double rbf_cost = 10;        ///< C of rbf, > 0
   double rbf_sharpness = 1.5;  ///< of its kernel, see RbfClassifierOptions, > 0
   int num_components = 40;     ///< principal components (bayes, knn, hmm, ptbhmm), 1..1000
@@ -59,13 +66,6 @@ struct GestureRecognizerOptions {
   double false_reject_rate =
       0.02;  ///< share of correct held-out gestures that the threshold may reject, 0..0.5
   std::uint64_t seed = 0;
-};
-
-/// A frame: the grey image and the hand's mask (255 = hand), of one size. An empty mask is a frame
-/// without a hand.
-struct HandImage {
-  ImageView grey;
-  ImageView mask;
 };
 
 /// One training gesture: a row of features a frame, as GestureRecognizer::features gives them.
@@ -94,12 +94,14 @@ class HRI_API GestureRecognizer {
   [[nodiscard]] ModelFile to_model_file() const;
   static GestureRecognizer from_model_file(const ModelFile& file);
 
-  /// The rows of `frames` that show a hand: hand features, then centre x, centre y and log area of
-  /// the mask in units of the frame (0..1). Frames without a hand give no row.
+  /// The rows of `frames` that show a hand, see GestureFeatureComputer.
   static MatrixF features(const std::vector<HandImage>& frames, const HandFeatureOptions& options);
 
-  /// Recognises one gesture (a still is one frame). No hand in any frame gives no_input.
-  [[nodiscard]] Decision recognise(const std::vector<HandImage>& frames) const;
+  /// Recognises one gesture (a still is one frame) by hands that were found in its frames. No hand
+  /// in any frame gives no_input.
+  [[nodiscard]] Decision recognise(Span<const HandObservation> hands) const;
+  /// The same by the frames themselves (BGR), in which `source` finds the hands.
+  [[nodiscard]] Decision recognise(Span<const ImageView> clip, const HandSource& source) const;
   [[nodiscard]] Decision recognise_features(ConstMatrixRefF features) const;
 
   /// Raw score of every label for features with at least one row.
@@ -108,12 +110,18 @@ class HRI_API GestureRecognizer {
   [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
   [[nodiscard]] const GestureRecognizerOptions& options() const { return options_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  /// What makes rows of features of observations, as its options say.
+  [[nodiscard]] const GestureFeatureComputer& front_end() const { return *front_end_; }
 
-  /// Whether most gestures trained on began with a hand that rested in view (model path): then a
-  /// hand that comes into view and rests has shown nothing yet.
+  /// Whether it was trained on dynamic gestures, scored whole, rather than on signs that are held,
+  /// whose frames vote.
+  [[nodiscard]] bool is_dynamic() const;
+
+  /// Whether most gestures trained on began with a hand that rested in view (model trajectory):
+  /// then a hand that comes into view and rests has shown nothing yet.
   [[nodiscard]] bool starts_at_rest() const;
-  /// Whether most were made of several movements with pauses between them (model path): then the
-  /// movement before a short pause may belong to a gesture.
+  /// Whether most were made of several strokes with pauses between them (model trajectory): then
+  /// the movement before a short pause may belong to a gesture.
   [[nodiscard]] bool pauses() const;
 
  private:
@@ -121,9 +129,11 @@ class HRI_API GestureRecognizer {
   static GestureRecognizer read(const ModelFile& file);
 
   GestureRecognizerOptions options_;
+  std::optional<GestureFeatureComputer> front_end_;
   std::vector<std::string> labels_;
   std::shared_ptr<const GestureScorer> scorer_;
-  LogisticRegression verifier_;  // of the scorer's marks; empty where nothing was learned
+  LogisticRegression
+      verifier_;  // of the scorer's confidence features; empty where nothing was learned
   Calibration calibration_;
 };
 

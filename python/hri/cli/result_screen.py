@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What a watcher sees, in a window or as a film."""
+"""What a watcher finds, in a window or as a film."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ import sys
 import click
 
 from hri.core.optional import import_opencv
-from hri.live import draw_sight
-from hri.live.sights import Sight
+from hri.live import draw_result
+from hri.live.frame_results import FrameResult
 from hri.media import VideoWriter
 from hri.recognition import Decision
 
 _WINDOW = "hri watch"
 
 
-class SightScreen:
-    """Draws every sight into a window, a film, both or neither; a film is kept also when Ctrl-C ends the watch."""
+class ResultScreen:
+    """Draws every result into a window, a film, both or neither; a film is kept also when Ctrl-C ends the watch."""
 
     def __init__(self, video_path: str | None, fps: float, show: bool, top: int) -> None:
         if show:
@@ -28,7 +28,7 @@ class SightScreen:
         self._show = show
         self._top = top
 
-    def __enter__(self) -> SightScreen:
+    def __enter__(self) -> ResultScreen:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -37,11 +37,11 @@ class SightScreen:
         if self._show:
             import_opencv("to show a window").destroyAllWindows()
 
-    def draw(self, sight: Sight, decision: Decision | None) -> None:
-        """Show a sight with the newest decision."""
+    def draw(self, result: FrameResult, decision: Decision | None) -> None:
+        """Show a result with the newest decision."""
         if self._writer is None and not self._show:
             return
-        picture = draw_sight(sight, decision, self._top)
+        picture = draw_result(result, decision, self._top)
         if picture is None:
             return
         if self._writer is not None:

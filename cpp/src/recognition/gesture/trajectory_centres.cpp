@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "recognition/gesture/path_centres.hpp"
+#include "recognition/gesture/trajectory_centres.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,20 +12,22 @@ namespace {
 
 constexpr const char* kCentres = "path.centres";
 constexpr const char* kUsual = "path.usual_distance";
-constexpr float kLeast = 1e-3F;  // of a path that lies on its centre
+constexpr float kLeast = 1e-3F;  // of a trajectory that lies on its centre
 
-Eigen::Index centre_of(const KnownPath& known) {
-  return 2 * Eigen::Index{known.klass} + (known.last_movement ? 1 : 0);
+Eigen::Index centre_of(const KnownTrajectory& known) {
+  return 2 * Eigen::Index{known.klass} + (known.final_stroke ? 1 : 0);
 }
 
 }  // namespace
 
-PathCentres PathCentres::train(const std::vector<KnownPath>& paths, int num_classes) {
-  PathCentres result;
-  result.centres_ = MatrixF::Zero(2 * Eigen::Index{num_classes}, paths.front().path.size());
+TrajectoryCentres TrajectoryCentres::train(const std::vector<KnownTrajectory>& trajectories,
+                                           int num_classes) {
+  TrajectoryCentres result;
+  result.centres_ =
+      MatrixF::Zero(2 * Eigen::Index{num_classes}, trajectories.front().trajectory.size());
   VectorF counts = VectorF::Zero(result.centres_.rows());
-  for (const KnownPath& known : paths) {
-    result.centres_.row(centre_of(known)) += known.path.transpose();
+  for (const KnownTrajectory& known : trajectories) {
+    result.centres_.row(centre_of(known)) += known.trajectory.transpose();
     counts[centre_of(known)] += 1;
   }
   for (Eigen::Index i = 0; i < counts.size(); ++i) {
@@ -35,28 +37,28 @@ PathCentres PathCentres::train(const std::vector<KnownPath>& paths, int num_clas
       result.centres_.row(i) = result.centres_.row(i - 1);
   }
   double sum = 0;
-  for (const KnownPath& known : paths) {
+  for (const KnownTrajectory& known : trajectories) {
     const auto centre = result.centres_.row(centre_of(known));
-    sum += static_cast<double>((known.path.transpose() - centre).squaredNorm());
+    sum += static_cast<double>((known.trajectory.transpose() - centre).squaredNorm());
   }
   // One example a class says nothing of how far others may lie.
-  if (sum > 0) result.usual_ = sum / static_cast<double>(paths.size());
+  if (sum > 0) result.usual_ = sum / static_cast<double>(trajectories.size());
   return result;
 }
 
-float PathCentres::log_distance(const VectorF& path, Eigen::Index klass) const {
-  const float whole = (centres_.row(2 * klass) - path.transpose()).squaredNorm();
-  const float last = (centres_.row(2 * klass + 1) - path.transpose()).squaredNorm();
+float TrajectoryCentres::log_distance(const VectorF& trajectory, Eigen::Index klass) const {
+  const float whole = (centres_.row(2 * klass) - trajectory.transpose()).squaredNorm();
+  const float last = (centres_.row(2 * klass + 1) - trajectory.transpose()).squaredNorm();
   return std::log(std::min(whole, last) / static_cast<float>(usual_) + kLeast);
 }
 
-void PathCentres::write(ModelFile& file) const {
+void TrajectoryCentres::write(ModelFile& file) const {
   file.set_matrix(kCentres, centres_);
   file.set_number(kUsual, usual_);
 }
 
-PathCentres PathCentres::read(const ModelFile& file, int dim, int num_classes) {
-  PathCentres result;
+TrajectoryCentres TrajectoryCentres::read(const ModelFile& file, int dim, int num_classes) {
+  TrajectoryCentres result;
   result.centres_ = file.matrix_f(kCentres);
   result.usual_ = file.number(kUsual);
   if (result.centres_.cols() != dim || result.centres_.rows() != 2 * Eigen::Index{num_classes})

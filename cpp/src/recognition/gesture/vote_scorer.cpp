@@ -24,12 +24,12 @@ namespace {
 constexpr float kLeastDistance = 1e-3F;  // of a frame that was trained on
 
 // What a verifier weighs of the radial kernel's best class.
-enum Mark : Eigen::Index {
+enum ConfidenceFeature : Eigen::Index {
   kScore,
-  kLead,     // over the second class
+  kMargin,   // over the second class
   kNearest,  // -log of the distance to the frames nearest to it
   kCentre,   // and to the mean of them all
-  kNumMarks,
+  kNumConfidenceFeatures,
 };
 
 bool needs_components(GestureModel model) {
@@ -61,7 +61,7 @@ class VoteScorer : public GestureScorer {
                                          const VectorF& scores) const override {
     if (rbf) {
       // Of what no gesture resembles, scores alone say too little: they fade towards the average.
-      const VectorD all = marks(rows, scores);
+      const VectorD all = confidence_features(rows, scores);
       return static_cast<float>(all[kScore] + all[kNearest]);
     }
     if (!knn) return scores.maxCoeff();
@@ -72,11 +72,12 @@ class VoteScorer : public GestureScorer {
     return sum / static_cast<float>(shapes.rows());
   }
 
-  [[nodiscard]] Eigen::Index num_marks() const override {
-    return rbf ? Eigen::Index{kNumMarks} : 0;
+  [[nodiscard]] Eigen::Index num_confidence_features() const override {
+    return rbf ? Eigen::Index{kNumConfidenceFeatures} : 0;
   }
 
-  [[nodiscard]] VectorD marks(ConstMatrixRefF rows, const VectorF& scores) const override {
+  [[nodiscard]] VectorD confidence_features(ConstMatrixRefF rows,
+                                            const VectorF& scores) const override {
     if (!rbf) return {};
     Eigen::Index best = 0;
     const float top = scores.maxCoeff(&best);
@@ -84,9 +85,9 @@ class VoteScorer : public GestureScorer {
     for (Eigen::Index c = 0; c < scores.size(); ++c) {
       if (c != best) second = std::max(second, scores[c]);
     }
-    VectorD result = VectorD::Zero(kNumMarks);
+    VectorD result = VectorD::Zero(kNumConfidenceFeatures);
     result[kScore] = static_cast<double>(top);
-    result[kLead] = static_cast<double>(top - second);
+    result[kMargin] = static_cast<double>(top - second);
     const MatrixF shapes = shape_rows(rows);
     const auto count = static_cast<double>(shapes.rows());
     for (Eigen::Index t = 0; t < shapes.rows(); ++t) {

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Movements: principal components of the hand's shape, its track from where it began, and their
-// changes, scored whole by one sequence model a gesture.
+// Dynamic gestures: principal components of the hand's shape, its track from where it began, and
+// their changes, scored whole by one sequence model a gesture.
+#include "hri/models/sequence_scorer.hpp"
+
 #include "hri/core/error.hpp"
 #include "hri/features/speech/cepstra.hpp"
 #include "hri/models/classifiers/pca.hpp"
-#include "hri/models/sequence_scorer.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
 
 namespace hri {
@@ -16,15 +17,15 @@ constexpr int kDeltaWindow = 2;
 constexpr float kTrackScale = 10.0F;  // a tenth of the picture counts as much as one unit of shape
 
 // Shape components and track, with their deltas behind them.
-MatrixF movement_rows(ConstMatrixRefF rows, const Pca& pca) {
+MatrixF sequence_rows(ConstMatrixRefF rows, const Pca& pca) {
   const int track = detail::kNumTrackColumns;
   const int width = pca.num_components() + track;
   require(rows.cols() == pca.dim() + track,
           "features do not have as many columns as the model was trained on");
   MatrixF result(rows.rows(), 2 * width);
   result.leftCols(pca.num_components()) = pca.transform(rows.leftCols(pca.dim()));
-  const MatrixF path = rows.rightCols(track);
-  result.middleCols(pca.num_components(), track) = kTrackScale * (path.rowwise() - path.row(0));
+  const MatrixF place = rows.rightCols(track);
+  result.middleCols(pca.num_components(), track) = kTrackScale * (place.rowwise() - place.row(0));
   append_deltas(result, 0, width, kDeltaWindow);
   return result;
 }
@@ -40,17 +41,17 @@ SequenceModelOptions model_options(const GestureRecognizerOptions& options) {
   return o;
 }
 
-class MovementScorer : public GestureScorer {
+class SequenceGestureScorer : public GestureScorer {
  public:
-  MovementScorer(Pca pca, std::shared_ptr<const SequenceScorer> models)
+  SequenceGestureScorer(Pca pca, std::shared_ptr<const SequenceScorer> models)
       : pca_(std::move(pca)), models_(std::move(models)) {}
 
   [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
-    return models_->scores(movement_rows(rows, pca_));
+    return models_->scores(sequence_rows(rows, pca_));
   }
   [[nodiscard]] float verification_score(ConstMatrixRefF rows,
                                          const VectorF& scores) const override {
-    return (scores.maxCoeff() - models_->garbage_score(movement_rows(rows, pca_))) /
+    return (scores.maxCoeff() - models_->garbage_score(sequence_rows(rows, pca_))) /
            static_cast<float>(rows.rows());
   }
   void write(ModelFile& file) const override {
@@ -67,28 +68,27 @@ class MovementScorer : public GestureScorer {
 
 namespace detail {
 
-std::shared_ptr<const GestureScorer> train_movement_scorer(
+std::shared_ptr<const GestureScorer> train_sequence_gesture_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop) {
   const StackedRows all = stack_rows(per_class);
   require(all.rows.cols() > kNumTrackColumns, "features need columns besides the hand's track");
   Pca pca =
       Pca::train(all.rows.leftCols(all.rows.cols() - kNumTrackColumns), options.num_components);
-  std::vector<std::vector<MatrixF>> movements(per_class.size());
+  std::vector<std::vector<MatrixF>> sequences(per_class.size());
   for (std::size_t c = 0; c < per_class.size(); ++c) {
-    for (const MatrixF& g : per_class[c]) movements[c].push_back(movement_rows(g, pca));
+    for (const MatrixF& g : per_class[c]) sequences[c].push_back(sequence_rows(g, pca));
   }
-  auto models = train_sequence_scorer(movements, model_options(options), should_stop);
-  return std::make_shared<MovementScorer>(std::move(pca), std::move(models));
+  auto models = train_sequence_scorer(sequences, model_options(options), should_stop);
+  return std::make_shared<SequenceGestureScorer>(std::move(pca), std::move(models));
 }
 
-std::shared_ptr<const GestureScorer> read_movement_scorer(const ModelFile& file,
-                                                          const GestureRecognizerOptions& options,
-                                                          int num_classes) {
+std::shared_ptr<const GestureScorer> read_sequence_gesture_scorer(
+    const ModelFile& file, const GestureRecognizerOptions& options, int num_classes) {
   Pca pca = Pca::read(file, "pca.");
   auto models = read_sequence_scorer(file, "movement.", model_options(options), num_classes,
                                      2 * (pca.num_components() + kNumTrackColumns));
-  return std::make_shared<MovementScorer>(std::move(pca), std::move(models));
+  return std::make_shared<SequenceGestureScorer>(std::move(pca), std::move(models));
 }
 
 }  // namespace detail

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Movements from few examples: a gesture is a path through shapes and places, one vector for a
+// Resampled-trajectory classifier, for dynamic gestures with few examples: a gesture is a
+// trajectory through shapes and places, one vector for a
 // linear support vector machine. A gesture that begins at rest, pauses and moves again is also
-// learned from that last movement alone, as somebody who is watched may take up the pose of its
+// learned from its final stroke alone, as somebody who is watched may take up the pose of its
 // start long before. That a hand which stays as it began shows none of the gestures is learned too,
 // so that shape and light at the beginning count for nothing. What was seen speaks for a gesture by
-// its margin, by how near it comes to the mean path, and by how far the hand gets: from gestures
-// and the rests before them is learned what is no movement at all.
+// its margin, by how near it comes to the mean trajectory, and by how far the hand gets: from
+// gestures and the rests before them is learned what is no gesture at all.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,20 +20,20 @@
 #include "hri/models/classifiers/logistic_regression.hpp"
 #include "hri/models/row_checks.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
-#include "recognition/gesture/movement_path.hpp"
-#include "recognition/gesture/path_centres.hpp"
+#include "recognition/gesture/trajectory.hpp"
+#include "recognition/gesture/trajectory_centres.hpp"
 
 namespace hri {
 namespace {
 
-using detail::KnownPath;
+using detail::KnownTrajectory;
 using detail::kNumPoints;
 using detail::max_displacement;
-using detail::path_vector;
-using detail::PathCentres;
 using detail::Rests;
+using detail::trajectory_vector;
+using detail::TrajectoryCentres;
 
-constexpr const char* kMovement = "path.movement.";
+constexpr const char* kMotion = "path.movement.";
 constexpr const char* kStartsAtRest = "path.starts_at_rest";
 constexpr const char* kPauses = "path.pauses";
 constexpr float kDistanceWeight = 0.5F;  // of the log of a squared distance, beside a margin
@@ -45,7 +46,7 @@ class Distances {
     distances_.push_back(distance);
   }
   // Tells them apart, both as often as the other; empty without rests.
-  [[nodiscard]] LogisticRegression movement() const {
+  [[nodiscard]] LogisticRegression motion() const {
     const auto count = static_cast<double>(moved_.size());
     const auto gestures = static_cast<double>(std::count(moved_.begin(), moved_.end(), 1));
     if (gestures == count) return {};
@@ -63,32 +64,32 @@ class Distances {
   std::vector<double> distances_;
 };
 
-class PathScorer : public GestureScorer {
+class TrajectoryScorer : public GestureScorer {
  public:
-  PathScorer(LinearSvm svm, PathCentres centres, float shape_scale, bool starts_at_rest,
-             bool pauses, LogisticRegression movement)
+  TrajectoryScorer(LinearSvm svm, TrajectoryCentres centres, float shape_scale, bool starts_at_rest,
+                   bool pauses, LogisticRegression motion)
       : svm_(std::move(svm)),
         centres_(std::move(centres)),
         shape_scale_(shape_scale),
         starts_at_rest_(starts_at_rest),
         pauses_(pauses),
-        movement_(std::move(movement)) {}
+        motion_(std::move(motion)) {}
 
   [[nodiscard]] VectorF scores(ConstMatrixRefF rows) const override {
     require(rows.cols() * kNumPoints == svm_.dim(),
             "features do not have as many columns as the model was trained on");
-    const VectorF path = path_vector(rows, shape_scale_);
-    return svm_.decision_values({path.data(), static_cast<std::size_t>(path.size())});
+    const VectorF trajectory = trajectory_vector(rows, shape_scale_);
+    return svm_.decision_values({trajectory.data(), static_cast<std::size_t>(trajectory.size())});
   }
   [[nodiscard]] float verification_score(ConstMatrixRefF rows,
                                          const VectorF& scores) const override {
-    const VectorF path = path_vector(rows, shape_scale_);
+    const VectorF trajectory = trajectory_vector(rows, shape_scale_);
     Eigen::Index best = 0;
     const float nearness =
-        scores.maxCoeff(&best) - kDistanceWeight * centres_.log_distance(path, best);
-    if (movement_.dim() == 0) return nearness;
-    const double distance = max_displacement(path);
-    const double odds = movement_.log_odds({&distance, 1});
+        scores.maxCoeff(&best) - kDistanceWeight * centres_.log_distance(trajectory, best);
+    if (motion_.dim() == 0) return nearness;
+    const double distance = max_displacement(trajectory);
+    const double odds = motion_.log_odds({&distance, 1});
     return nearness + static_cast<float>(std::min(odds, 0.0));
   }
   void write(ModelFile& file) const override {
@@ -97,31 +98,32 @@ class PathScorer : public GestureScorer {
     file.set_number("path.shape_scale", shape_scale_);
     file.set_integer(kStartsAtRest, starts_at_rest_ ? 1 : 0);
     file.set_integer(kPauses, pauses_ ? 1 : 0);
-    if (movement_.dim() > 0) movement_.write(file, kMovement);
+    if (motion_.dim() > 0) motion_.write(file, kMotion);
   }
   [[nodiscard]] bool starts_at_rest() const override { return starts_at_rest_; }
   [[nodiscard]] bool pauses() const override { return pauses_; }
 
  private:
   LinearSvm svm_;
-  PathCentres centres_;
+  TrajectoryCentres centres_;
   float shape_scale_;
   bool starts_at_rest_;
   bool pauses_;
-  LogisticRegression movement_;  // against rest; empty where nothing was learned
+  LogisticRegression motion_;  // against rest; empty where nothing was learned
 };
 
-// Tells the paths of classes from one another, and from hands that stay as they are.
-LinearSvm separate(const std::vector<KnownPath>& paths, const std::vector<VectorF>& still,
-                   int num_classes, const LinearSvmOptions& options) {
-  MatrixF rows(static_cast<Eigen::Index>(paths.size() + still.size()), still.front().size());
+// Tells the trajectories of classes from one another, and from hands that stay as they are.
+LinearSvm separate(const std::vector<KnownTrajectory>& trajectories,
+                   const std::vector<VectorF>& still, int num_classes,
+                   const LinearSvmOptions& options) {
+  MatrixF rows(static_cast<Eigen::Index>(trajectories.size() + still.size()), still.front().size());
   std::vector<int> classes(static_cast<std::size_t>(rows.rows()), kNoClass);
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    rows.row(static_cast<Eigen::Index>(i)) = paths[i].path.transpose();
-    classes[i] = paths[i].klass;
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = trajectories[i].trajectory.transpose();
+    classes[i] = trajectories[i].klass;
   }
   for (std::size_t i = 0; i < still.size(); ++i)
-    rows.row(static_cast<Eigen::Index>(paths.size() + i)) = still[i].transpose();
+    rows.row(static_cast<Eigen::Index>(trajectories.size() + i)) = still[i].transpose();
   return LinearSvm::train(rows, classes, num_classes, options);
 }
 
@@ -129,7 +131,7 @@ LinearSvm separate(const std::vector<KnownPath>& paths, const std::vector<Vector
 
 namespace detail {
 
-std::shared_ptr<const GestureScorer> train_path_scorer(
+std::shared_ptr<const GestureScorer> train_trajectory_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop) {
   const Eigen::Index num_columns = per_class.front().front().cols();
@@ -146,7 +148,7 @@ std::shared_ptr<const GestureScorer> train_path_scorer(
     }
   }
   const auto shape_scale = squares > 0 ? static_cast<float>(std::sqrt(num_rows / squares)) : 1.0F;
-  std::vector<KnownPath> paths;
+  std::vector<KnownTrajectory> trajectories;
   std::vector<VectorF> still;
   Eigen::Index num_at_rest = 0;
   Eigen::Index num_pausing = 0;
@@ -154,17 +156,18 @@ std::shared_ptr<const GestureScorer> train_path_scorer(
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     for (const MatrixF& g : per_class[c]) {
       const Rests rests = find_rests(g, shape_scale);
-      num_at_rest += rests.first_movement > 0 ? 1 : 0;
-      paths.push_back({path_vector(g, shape_scale), static_cast<int>(c), false});
-      distances.add(1, max_displacement(paths.back().path));
-      still.push_back(path_vector(g.topRows(1), shape_scale));
-      if (rests.first_movement >= kFewRows)
-        distances.add(0,
-                      max_displacement(path_vector(g.topRows(rests.first_movement), shape_scale)));
-      if (rests.last_movement > 0) {
+      num_at_rest += rests.first_stroke > 0 ? 1 : 0;
+      trajectories.push_back({trajectory_vector(g, shape_scale), static_cast<int>(c), false});
+      distances.add(1, max_displacement(trajectories.back().trajectory));
+      still.push_back(trajectory_vector(g.topRows(1), shape_scale));
+      if (rests.first_stroke >= kFewRows)
+        distances.add(
+            0, max_displacement(trajectory_vector(g.topRows(rests.first_stroke), shape_scale)));
+      if (rests.final_stroke > 0) {
         ++num_pausing;
-        paths.push_back({path_vector(g.bottomRows(g.rows() - rests.last_movement), shape_scale),
-                         static_cast<int>(c), true});
+        trajectories.push_back(
+            {trajectory_vector(g.bottomRows(g.rows() - rests.final_stroke), shape_scale),
+             static_cast<int>(c), true});
       }
     }
   }
@@ -173,12 +176,14 @@ std::shared_ptr<const GestureScorer> train_path_scorer(
   svm.cost = options.svm_cost;
   svm.seed = options.seed;
   svm.should_stop = should_stop;
-  return std::make_shared<PathScorer>(
-      separate(paths, still, num_classes, svm), PathCentres::train(paths, num_classes), shape_scale,
-      2 * num_at_rest > num_gestures, 2 * num_pausing > num_gestures, distances.movement());
+  return std::make_shared<TrajectoryScorer>(separate(trajectories, still, num_classes, svm),
+                                            TrajectoryCentres::train(trajectories, num_classes),
+                                            shape_scale, 2 * num_at_rest > num_gestures,
+                                            2 * num_pausing > num_gestures, distances.motion());
 }
 
-std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int num_classes) {
+std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& file,
+                                                            int num_classes) {
   LinearSvm svm = LinearSvm::read(file, "path.svm.");
   const auto shape_scale = static_cast<float>(file.number("path.shape_scale"));
   if (svm.num_classes() != num_classes || svm.dim() % kNumPoints != 0 ||
@@ -188,15 +193,14 @@ std::shared_ptr<const GestureScorer> read_path_scorer(const ModelFile& file, int
   }
   if (!(shape_scale > 0) || !std::isfinite(shape_scale))
     fail(ErrorKind::format, file.name() + ": field 'path.shape_scale' is out of range");
-  LogisticRegression movement;  // written where training clips began at rest
-  if (file.has(std::string(kMovement) + "weights"))
-    movement = LogisticRegression::read(file, kMovement);
-  if (movement.dim() > 1)
-    fail(ErrorKind::format, file.name() + ": field '" + kMovement + "weights' is too long");
-  PathCentres centres = PathCentres::read(file, svm.dim(), num_classes);
-  return std::make_shared<PathScorer>(std::move(svm), std::move(centres), shape_scale,
-                                      file.integer(kStartsAtRest) != 0, file.integer(kPauses) != 0,
-                                      std::move(movement));
+  LogisticRegression motion;  // written where training clips began at rest
+  if (file.has(std::string(kMotion) + "weights")) motion = LogisticRegression::read(file, kMotion);
+  if (motion.dim() > 1)
+    fail(ErrorKind::format, file.name() + ": field '" + kMotion + "weights' is too long");
+  TrajectoryCentres centres = TrajectoryCentres::read(file, svm.dim(), num_classes);
+  return std::make_shared<TrajectoryScorer>(std::move(svm), std::move(centres), shape_scale,
+                                            file.integer(kStartsAtRest) != 0,
+                                            file.integer(kPauses) != 0, std::move(motion));
 }
 
 }  // namespace detail

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "recognition/gesture/movement_path.hpp"
+#include "recognition/gesture/trajectory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@
 namespace hri::detail {
 namespace {
 
-constexpr Eigen::Index kMaxRows = 32;     // more frames than that only add noise to the steps
-constexpr double kStillQuantile = 0.25;   // the stillest steps tell the noise of the shapes
-constexpr float kNoiseMargin = 1.5F;      // times that, which does not count as change
-constexpr float kTimeShare = 0.5F;        // weight of even spacing in time beside change
-constexpr float kStepTrackScale = 4.0F;   // of the hand's place beside its shape, in a step
-constexpr float kTrackScale = 0.85F;      // and in the vector
-constexpr double kPauseShare = 0.08;      // of a gesture's frames that a pause takes at least
-constexpr float kPauseChange = 0.05F;     // share of all change that may lie in a pause
-constexpr float kMovementChange = 0.15F;  // and that makes a movement
+constexpr Eigen::Index kMaxRows = 32;    // more frames than that only add noise to the steps
+constexpr double kStillQuantile = 0.25;  // the stillest steps tell the noise of the shapes
+constexpr float kNoiseMargin = 1.5F;     // times that, which does not count as change
+constexpr float kTimeShare = 0.5F;       // weight of even spacing in time beside change
+constexpr float kStepTrackScale = 4.0F;  // of the hand's place beside its shape, in a step
+constexpr float kTrackScale = 0.85F;     // and in the vector
+constexpr double kPauseShare = 0.08;     // of a gesture's frames that a pause takes at least
+constexpr float kPauseChange = 0.05F;    // share of all change that may lie in a pause
+constexpr float kStrokeChange = 0.15F;   // and that makes a stroke
 constexpr float kReturned = 0.5F;  // of the way out: a hand that ends closer to its start came back
 constexpr float kChangeWeight = 1.41F;  // of what changes in a shape, beside what stays
 constexpr float kVectorLength = 3.0F;   // of an average vector, to suit a cost of 1
@@ -68,7 +68,7 @@ std::vector<float> change_before(const MatrixF& rows) {
   return result;
 }
 
-// How far along the path every row lies, from 0 to 1.
+// How far along the trajectory every row lies, from 0 to 1.
 std::vector<float> positions(const MatrixF& rows) {
   std::vector<float> result = change_before(rows);
   const float step = kTimeShare / static_cast<float>(rows.rows() - 1);
@@ -105,7 +105,7 @@ MatrixF scaled(MatrixF rows, float shape_scale) {
 
 }  // namespace
 
-VectorF path_vector(ConstMatrixRefF gesture, float shape_scale) {
+VectorF trajectory_vector(ConstMatrixRefF gesture, float shape_scale) {
   constexpr Eigen::Index kTrack = kNumTrackColumns;
   const MatrixF rows = scaled(thinned(gesture), shape_scale);
   MatrixF points(kNumPoints, rows.cols());
@@ -133,23 +133,24 @@ Rests find_rests(ConstMatrixRefF gesture, float shape_scale) {
       2, static_cast<std::size_t>(kPauseShare * static_cast<double>(before.size())));
   Rests found;
   if (before.back() <= 0 || before[pause] > kPauseChange) return found;
-  found.first_movement =
+  found.first_stroke =
       std::upper_bound(before.begin(), before.end(), kPauseChange) - before.begin();
   const VectorF away =
       (smoothed(rows).rowwise() - rows.topRows(3).colwise().mean()).rowwise().norm();
   if (away[away.size() - 1] < kReturned * away.maxCoeff()) return found;
   for (std::size_t t = before.size() - 1; t >= pause; --t) {
-    if (1 - before[t] < kMovementChange || before[t] - before[t - pause] > kPauseChange) continue;
+    if (1 - before[t] < kStrokeChange || before[t] - before[t - pause] > kPauseChange) continue;
     // A pause before which nothing moved is the rest at the start.
-    if (before[t] >= kMovementChange) found.last_movement = static_cast<Eigen::Index>(t);
+    if (before[t] >= kStrokeChange) found.final_stroke = static_cast<Eigen::Index>(t);
     break;
   }
   return found;
 }
 
-double max_displacement(const VectorF& path) {
+double max_displacement(const VectorF& trajectory) {
   constexpr float kLeast = 0.05F;  // at which noise alone decides
-  const Eigen::Map<const MatrixF> points(path.data(), kNumPoints, path.size() / kNumPoints);
+  const Eigen::Map<const MatrixF> points(trajectory.data(), kNumPoints,
+                                         trajectory.size() / kNumPoints);
   const float most = (points.rowwise() - points.row(0)).rowwise().norm().maxCoeff();
   return std::log(static_cast<double>(most + kLeast));
 }

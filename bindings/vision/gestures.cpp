@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Gestures in clips and streams of pictures: hands found and recognised in one call. The
+// recognisers are those of hri._native.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/arrays.hpp"
+#include "core/options.hpp"
+#include "hri/features/hand/landmarks.hpp"
+#include "hri/recognition/gesture/gesture_spotter.hpp"
+#include "hri/recognition/gesture/gesture_stream.hpp"
+#include "hri/vision/hand_finder.hpp"
+#include "vision/clips.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+using hri_bind::as_clip;
+using hri_bind::ByteArray;
+using hri_bind::FloatArray;
+
+const char* name_of(hri::GestureEventKind kind) {
+  constexpr const char* kNames[] = {"segment", "partial", "preliminary", "decision"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+py::object place_of(const hri::GestureSpotter& spotter) {
+  const auto& place = spotter.place();
+  if (!place) return py::none();
+  return py::make_tuple(place->x, place->y, place->area);
+}
+
+template <class Stream>
+hri::HandObservation hand_of(const Stream& self) {
+  return self.spotter().hand();
+}
+
+void bind_spotter(py::module_& m) {
+  py::class_<hri::GestureSpotter>(m, "GestureSpotter", "Gesture segments in a stream of pictures.")
+      .def(py::init([](const hri::HandFinder& hands, bool dynamic,
+                       const hri::GestureSegmenterOptions& options) {
+             return std::make_unique<hri::GestureSpotter>(hands.stream(dynamic), options);
+           }),
+           py::arg("hands"), py::arg("dynamic") = true,
+           py::arg("options") = hri::GestureSegmenterOptions{})
+      .def(
+          "push",
+          [](hri::GestureSpotter& self, const ByteArray& bgr, double time_s) {
+            const auto picture = hri_bind::as_image(bgr, 3, "picture");
+            const py::gil_scoped_release release;
+            return self.push(picture, time_s);
+          },
+          py::arg("bgr"), py::arg("time_s"), "The GestureSegment event of the next picture.")
+      .def("finish", &hri::GestureSpotter::finish)
+      .def("interrupt", &hri::GestureSpotter::interrupt)
+      .def_property_readonly(
+          "hand", [](const hri::GestureSpotter& self) { return hri::HandObservation(self.hand()); })
+      .def_property_readonly("place", &place_of, "x, y and area in shares; None without a hand.")
+      .def_property_readonly(
+          "in_gesture",
+          [](const hri::GestureSpotter& self) { return self.segmenter().in_gesture(); })
+      .def_property_readonly("kept_since_s", &hri::GestureSpotter::kept_since_s,
+                             "Pictures from then on may belong to a gesture.");
+}
+
+void bind_stream(py::module_& m) {
+  py::class_<hri::GestureStreamOptions> options(m, "GestureStreamOptions",
+                                                "How the gestures of a stream are decided on.");
+  hri_bind::options(options)
+      .field("segmenter", &hri::GestureStreamOptions::segmenter)
+      .field("max_pause_s", &hri::GestureStreamOptions::max_pause_s)
+      .field("partial_interval_s", &hri::GestureStreamOptions::partial_interval_s);
+  py::class_<hri::GestureEvent>(m, "GestureEvent", "What happened with a picture of a stream.")
+      .def_property_readonly(
+          "kind", [](const hri::GestureEvent& e) { return name_of(e.kind); },
+          "'segment', 'partial', 'preliminary' or 'decision'.")
+      .def_readonly("segment", &hri::GestureEvent::segment)
+      .def_readonly("decision", &hri::GestureEvent::decision);
+  py::class_<hri::GestureStream>(m, "GestureStream", "Decides on the gestures of a stream.")
+      .def_static("options_for", &hri::GestureStream::options_for, py::arg("recognizer"))
+      .def(py::init([](const hri::GestureRecognizer& recognizer,
+                       const std::optional<hri::GestureStreamOptions>& chosen) {
+             const hri::HandFinder finder(recognizer.options().hands);
+             return std::make_unique<hri::GestureStream>(
+                 recognizer, finder.stream(recognizer.is_dynamic()),
+                 chosen ? *chosen : hri::GestureStream::options_for(recognizer));
+           }),
+           py::arg("recognizer"), py::arg("options") = py::none())
+      .def(
+          "push",
+          [](hri::GestureStream& self, const ByteArray& bgr, double time_s,
+             const std::optional<FloatArray>& landmarks) {
+            const auto picture = hri_bind::as_image(bgr, 3, "picture");
+            hri::MatrixF points;
+            if (landmarks) points = hri_bind::as_matrix(*landmarks, "landmarks");
+            const py::gil_scoped_release release;
+            return std::vector<hri::GestureEvent>(self.push(picture, time_s, &points));
+          },
+          py::arg("bgr"), py::arg("time_s"), py::arg("landmarks") = py::none(),
+          "The events of the next picture; landmarks in pixels, float32, shape (21, 2).")
+      .def(
+          "finish",
+          [](hri::GestureStream& self) {
+            const py::gil_scoped_release release;
+            return std::vector<hri::GestureEvent>(self.finish());
+          },
+          "The stream has ended: preliminary decisions settle.")
+      .def(
+          "interrupt",
+          [](hri::GestureStream& self) { return std::vector<hri::GestureEvent>(self.interrupt()); },
+          "What was shown and has not settled is forgotten.")
+      .def_property_readonly("hand", &hand_of<hri::GestureStream>)
+      .def_property_readonly(
+          "place", [](const hri::GestureStream& self) { return place_of(self.spotter()); })
+      .def_property_readonly(
+          "in_gesture",
+          [](const hri::GestureStream& self) { return self.spotter().segmenter().in_gesture(); })
+      .def_property_readonly("options", &hri::GestureStream::options);
+}
+
+}  // namespace
+
+void bind_vision_gestures(py::module_& m) {
+  bind_spotter(m);
+  bind_stream(m);
+  m.def(
+      "recognise_gesture",
+      [](const hri::GestureRecognizer& recognizer, const std::vector<ByteArray>& clip) {
+        const auto views = as_clip(clip);
+        const py::gil_scoped_release release;
+        return recognizer.recognise(views, hri::HandFinder(recognizer.options().hands));
+      },
+      py::arg("recognizer"), py::arg("clip"), "The Decision on a clip of BGR frames.");
+  m.def(
+      "gesture_features",
+      [](const std::vector<ByteArray>& clip, const hri::GestureRecognizerOptions& options) {
+        const auto views = as_clip(clip);
+        hri::MatrixF rows;
+        {
+          const py::gil_scoped_release release;
+          const auto hands = hri::HandFinder(options.hands).find(views);
+          rows = hri::GestureFeatureComputer(options.features, options.min_quality)
+                     .compute(hri::Span<const hri::HandObservation>(hands));
+        }
+        return hri_bind::to_array(rows);
+      },
+      py::arg("clip"), py::arg("options"), "Rows of features of a clip, float32.");
+}

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Decisions on the gestures of a stream of pictures, as they are shown. Features are computed as
+// the pictures come, and kept in place of them: the decision stands when a gesture ends, and memory
+// is bounded by the longest gesture.
+//
+// Decisions are of two kinds. A robot obeys final ones. A preliminary one says what a segment looks
+// like that may be but part of a gesture:
+//  - the gestures trained on pause (GestureRecognizer::pauses), so that another segment may follow;
+//  - the gestures trained on begin at rest, and this one did not: it may be the way to where one
+//    begins.
+// A preliminary decision settles, that is, becomes final, when the hand leaves, when no other
+// segment follows within `max_pause_s`, or with the end of the stream. When another segment
+// follows, the decision on that takes its place.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hri/core/export.hpp"
+#include "hri/recognition/gesture/gesture_recognizer.hpp"
+#include "hri/recognition/gesture/gesture_spotter.hpp"
+
+namespace hri {
+
+struct GestureStreamOptions {
+  GestureSegmenterOptions segmenter;
+  double max_pause_s = 2.5;  ///< after a longer one, what was shown before it is another gesture,
+                             ///< >= 0
+  double partial_interval_s = 0.5;  ///< between looks at a gesture that has not ended, > 0
+};
+
+/// Throws InvalidArgument naming the field that is out of range.
+HRI_API void validate(const GestureStreamOptions& options);
+
+enum class GestureEventKind : std::uint8_t {
+  segment,      ///< one began, ended or was dropped: see `segment`
+  partial,      ///< `decision` is on what was shown of a segment so far
+  preliminary,  ///< on a segment that may be part of a gesture
+  decision,     ///< final: to be obeyed
+};
+
+struct GestureEvent {
+  GestureEventKind kind = GestureEventKind::segment;
+  GestureSegment segment;  ///< what happened, or which segment the decision is on
+  Decision decision;
+};
+
+/// One stream. What is allocated once gestures have been shown are decisions, and colours that are
+/// learned anew. Not to be shared by threads.
+class HRI_API GestureStream {
+ public:
+  /// What suits a recogniser: whether its gestures begin at rest, and how their hands are found.
+  static GestureStreamOptions options_for(const GestureRecognizer& recognizer);
+
+  /// Throws InvalidArgument for no stream of hands and options out of range.
+  GestureStream(GestureRecognizer recognizer, std::unique_ptr<HandStream> hands,
+                const GestureStreamOptions& options);
+  /// Hands as the recogniser's options say, found by `source`.
+  GestureStream(GestureRecognizer recognizer, const HandSource& source);
+
+  /// The next picture (BGR) and its time; what happened with it, which is overwritten by the next
+  /// call. A recogniser of landmarks is told those of this picture, in pixels (kNumLandmarks rows,
+  /// null or no rows without a hand). Throws as GestureSpotter does.
+  const std::vector<GestureEvent>& push(ImageView bgr, double time_s,
+                                        const MatrixF* landmarks_px = nullptr);
+
+  /// The stream has ended; preliminary decisions settle. The next stream may begin.
+  const std::vector<GestureEvent>& finish();
+
+  /// The stream was interrupted: what was shown and has not settled is forgotten.
+  const std::vector<GestureEvent>& interrupt();
+
+  [[nodiscard]] const GestureSpotter& spotter() const { return spotter_; }
+  [[nodiscard]] const GestureRecognizer& recognizer() const { return recognizer_; }
+  [[nodiscard]] const GestureStreamOptions& options() const { return options_; }
+
+ private:
+  struct Row {
+    double time_s = 0;
+    bool hand = false;
+    std::vector<float> features;
+  };
+  struct Span_s {
+    double first_s = 0;
+    double last_s = 0;
+  };
+
+  void keep_row(ImageView bgr, double time_s, const MatrixF* landmarks_px);
+  void forget_rows(const GestureSegment& segment, double time_s);
+  Row& row(std::size_t i) { return rows_[(first_ + i) % rows_.size()]; }
+  [[nodiscard]] const Row& row(std::size_t i) const { return rows_[(first_ + i) % rows_.size()]; }
+  [[nodiscard]] Span_s frames_of(const GestureSegment& segment) const;
+  [[nodiscard]] Decision recognise(double first_s, double last_s) const;
+  [[nodiscard]] Decision decide(const GestureSegment& segment);
+  void conclude(const GestureSegment& segment);
+  void settle();
+  void settle_if_over(const GestureSegment& segment, double time_s);
+
+  GestureRecognizer recognizer_;
+  GestureStreamOptions options_;
+  GestureSpotter spotter_;
+  std::vector<Row> rows_;  // a ring, of which `count_` from `first_` on are in use
+  std::size_t first_ = 0, count_ = 0;
+  std::optional<Span_s> before_;         // the segment before a pause
+  std::optional<GestureEvent> pending_;  // a preliminary decision
+  double partial_s_ = 0;
+  std::vector<GestureEvent> events_;
+};
+
+}  // namespace hri

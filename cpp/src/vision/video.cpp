@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/vision/video.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <opencv2/videoio.hpp>
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+
+struct VideoReader::Capture {
+  std::string path;
+  cv::VideoCapture video;
+  cv::Mat picture;
+  double last_s = -std::numeric_limits<double>::infinity();
+  std::size_t count = 0;
+};
+
+VideoReader::VideoReader(const std::string& path) : capture_(std::make_unique<Capture>()) {
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) fail(ErrorKind::io, path + ": cannot be opened");
+  std::fclose(file);
+  capture_->path = path;
+  if (!capture_->video.open(path))
+    fail(ErrorKind::format, path + ": not a video that OpenCV reads");
+}
+
+VideoReader::~VideoReader() = default;
+VideoReader::VideoReader(VideoReader&&) noexcept = default;
+VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
+
+bool VideoReader::read(VideoFrame* frame) {
+  Capture& c = *capture_;
+  if (!c.video.read(c.picture) || c.picture.empty()) {
+    if (c.count == 0) fail(ErrorKind::format, c.path + ": video without frames");
+    return false;
+  }
+  if (c.picture.type() != CV_8UC3)
+    fail(ErrorKind::format, c.path + ": frames have not three channels of 8 bits");
+  const double time_s = c.video.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
+  if (!(time_s >= c.last_s)) {
+    fail(ErrorKind::format, c.path + ": time runs backwards: frame " + std::to_string(c.count) +
+                                " is at " + std::to_string(time_s) + " s, the one before at " +
+                                std::to_string(c.last_s) + " s");
+  }
+  c.last_s = frame->time_s = time_s;
+  ++c.count;
+  frame->width_px = c.picture.cols;
+  frame->height_px = c.picture.rows;
+  const std::size_t length = 3 * static_cast<std::size_t>(frame->width_px);
+  frame->pixels.resize(length * static_cast<std::size_t>(frame->height_px));
+  for (int y = 0; y < frame->height_px; ++y) {
+    std::copy_n(c.picture.ptr<std::uint8_t>(y), length,
+                frame->pixels.data() + static_cast<std::size_t>(y) * length);
+  }
+  return true;
+}
+
+std::vector<VideoFrame> read_video(const std::string& path, std::size_t max_bytes) {
+  VideoReader reader(path);
+  std::vector<VideoFrame> frames;
+  std::size_t bytes = 0;
+  for (VideoFrame frame; reader.read(&frame);) {
+    bytes += frame.pixels.size();
+    if (bytes > max_bytes) {
+      fail(ErrorKind::format, path + ": frames take more than " + std::to_string(max_bytes) +
+                                  " bytes; read them one by one");
+    }
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+std::vector<ImageView> views_of(const std::vector<VideoFrame>& frames) {
+  std::vector<ImageView> views;
+  views.reserve(frames.size());
+  for (const VideoFrame& frame : frames) views.push_back(frame.view());
+  return views;
+}
+
+}  // namespace hri

@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The joints of hands, as MediaPipe's tracker finds them, and their features."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.core.optional import import_optional
+
+Frame = NDArray[np.uint8]
+Landmarks = NDArray[np.float32]
+
+
+class LandmarkTracker:
+    """Finds the joints of the hand in pictures that follow on one another (extra `mediapipe`).
+
+    Parameters
+    ----------
+    each_alone : bool
+        Look for the hand anew in every picture, for pictures that do not follow on one another.
+
+    Raises
+    ------
+    ImportError
+        Without MediaPipe; the message names the extra.
+    """
+
+    def __init__(self, *, each_alone: bool = False) -> None:
+        mediapipe = import_optional("mediapipe", "mediapipe", "to find the landmarks of hands")
+        tracker = mediapipe.solutions.hands.Hands(
+            static_image_mode=each_alone,
+            max_num_hands=1,
+            model_complexity=1,
+            min_detection_confidence=0.3,
+            min_tracking_confidence=0.3,
+        )
+        self._held = ExitStack()
+        self._tracker = self._held.enter_context(tracker)
+
+    def __enter__(self) -> LandmarkTracker:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def find(self, frame: Frame) -> Landmarks | None:
+        """x and y of the 21 joints in pixels, float32, shape (21, 2); None where no hand is found.
+
+        `frame` is uint8, shape (height, width, 3), BGR.
+        """
+        hands = self._tracker.process(np.ascontiguousarray(frame[:, :, ::-1])).multi_hand_landmarks
+        if not hands:
+            return None
+        size = np.array([frame.shape[1], frame.shape[0]], np.float32)
+        return np.array([(p.x, p.y) for p in hands[0].landmark], np.float32) * size
+
+    def close(self) -> None:
+        """Give back what the tracker holds."""
+        self._held.close()
+
+
+def find_landmarks(
+    clip: Sequence[Frame], progress: Callable[[int, int], None] | None = None, *, each_alone: bool = False
+) -> list[Landmarks | None]:
+    """The joints of the hand in every frame of a clip, as `LandmarkTracker` finds them.
+
+    Parameters
+    ----------
+    clip : sequence of uint8 arrays, shape (height, width, 3), BGR
+    progress : callable, optional
+        Called with (done, total) frames.
+    each_alone : bool
+        Look for the hand anew in every frame.
+    """
+    found: list[Landmarks | None] = []
+    with LandmarkTracker(each_alone=each_alone) as tracker:
+        for done, frame in enumerate(clip, 1):
+            found.append(tracker.find(frame))
+            if progress is not None:
+                progress(done, len(clip))
+    return found
+
+
+def landmark_features(landmarks: Sequence[Landmarks | None], frame_size: tuple[int, int]) -> NDArray[np.float32]:
+    """Features of the frames that have landmarks, a row a frame, as `GestureRecognizer.features` gives them.
+
+    Shape: the joints from their centre, scaled by the size of the hand, and the direction of every bone of the fingers.
+    Track: centre x and y and the log of the area, in units of the frame.
+
+    Parameters
+    ----------
+    landmarks : sequence of ndarray of float32, shape (21, 2), or None
+        In pixels, as `find_landmarks` gives them.
+    frame_size : tuple of int
+        Width and height of the frames in pixels.
+    """
+    from hri import _native
+
+    width = len(_native.landmark_column_names())
+    rows = [_native.landmark_features(points, *frame_size) for points in landmarks if points is not None]
+    return np.asarray(rows, np.float32).reshape(len(rows), width)
+
+
+def landmark_column_names() -> list[str]:
+    """Names of the columns that `landmark_features` gives; joints are numbered as MediaPipe's are, 0 is the wrist."""
+    from hri import _native
+
+    return list(_native.landmark_column_names())

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""C++ programs of a few lines, video in and decision out, against Python, to the bit."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import hri
+from hri.live import VideoSource, Watcher
+from hri.media import read_frames, write_video
+from test_watching_movements import FAR, FPS, clip
+
+pytest.importorskip("hri._native_vision")
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = os.environ.get("HRI_BUILD_DIR")
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not BUILD, reason="HRI_BUILD_DIR names no CMake build; ./run test --all sets it"),
+]
+
+
+def run(*command: object) -> str:
+    """Standard output of a command that has to succeed."""
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The example project, built against an installed libhri."""
+    prefix, build = tmp_path_factory.mktemp("installed"), tmp_path_factory.mktemp("gestures")
+    run("cmake", "--install", BUILD, "--component", "development", "--prefix", prefix)
+    source = ROOT / "examples" / "gestures"
+    run("cmake", "-S", source, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "--build", build)
+    return build
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Gestures that begin at rest, drawn."""
+    path = tmp_path_factory.mktemp("model") / "gestures.hri"
+    named = [(label, take) for label in FAR for take in range(4)]
+    hri.GestureRecognizer().fit([clip(*one) for one in named], [label for label, _ in named]).save(path)
+    return path
+
+
+@pytest.mark.parametrize("label", list(FAR))
+def test_a_program_of_a_few_lines_gives_the_decision_of_python(
+    programs: Path, model: Path, tmp_path: Path, label: str
+) -> None:
+    video = tmp_path / "clip.avi"
+    write_video(video, clip(label, 9), FPS)  # pictures of their own: every decoder gives the same
+    decision = hri.GestureRecognizer.load(model).recognise(read_frames(video).frames)
+    first, *nbest = (line.split("\t") for line in run(programs / "recognise_gesture", model, video).splitlines())
+    assert first[0] == decision.label == label
+    assert [float.fromhex(text) for text in first[1:]] == [decision.confidence, decision.score]
+    assert [(name, float.fromhex(p), float.fromhex(s)) for name, p, s in nbest] == [
+        (entry.label, entry.probability, entry.log_score) for entry in decision.nbest
+    ]
+
+
+def test_a_program_watches_as_python_does(programs: Path, model: Path, tmp_path: Path) -> None:
+    video = tmp_path / "stream.avi"
+    write_video(video, [frame for label in FAR for frame in clip(label, 8)], FPS)
+    recognizer = hri.GestureRecognizer.load(model)
+    events = [e for e in Watcher(recognizer).watch(VideoSource(video)) if e.event in ("preliminary", "decision")]
+    assert len(events) >= len(FAR)
+    lines = [line.split("\t") for line in run(programs / "watch_video", model, video).splitlines()]
+    assert [(kind, label, float.fromhex(score)) for kind, _, _, label, score in lines] == [
+        (e.event, e.decision.label, e.decision.score) for e in events if e.decision is not None
+    ]
+
+
+def test_what_is_no_video_is_refused_with_its_name(programs: Path, model: Path, tmp_path: Path) -> None:
+    (tmp_path / "broken.avi").write_bytes(b"no video")
+    for name, message in (("broken.avi", "not a video"), ("missing.avi", "cannot be opened")):
+        done = subprocess.run(
+            [str(programs / "recognise_gesture"), str(model), str(tmp_path / name)], capture_output=True, text=True
+        )
+        assert done.returncode == 3 and name in done.stderr and message in done.stderr
