@@ -148,11 +148,11 @@ def _tracker_ms(clip: Sequence[np.ndarray]) -> float:
 def _hand_frame(make_finder: Callable[[Sequence[np.ndarray]], Any]) -> Timed:
     clip = hand_pictures.hand_clip("right", 2)
     frame, finder = clip[len(clip) // 2], make_finder(clip)
-    options = _native.HandFeatureOptions()
+    features = _native.GestureFeatureComputer()
 
     def ours() -> Any:
         found = finder.extract(frame)
-        return found.mask, _native.GestureRecognizer.features([found.grey], [found.mask], options)
+        return found.mask, features.compute([found])
 
     mask, row = ours()
     assert row.shape[0] == 1 and np.isfinite(row).all()

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/simd.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri {
@@ -22,9 +23,17 @@ void check(const OrientationHistogramOptions& o) {
   require(o.num_bins >= 2 && o.num_bins <= 72, "num_bins must lie in 2..72");
 }
 
+HRI_SIMD_CLONES bool all_within(const float* values, std::size_t count) {
+  int outside = 0;
+  for (std::size_t i = 0; i < count; ++i) outside += std::abs(values[i]) <= kLargest ? 0 : 1;
+  return outside == 0;
+}
+
 // A gradient that is not finite has no bin.
 void check_values(ConstMatrixRefF image) {
   for (Eigen::Index y = 0; y < image.rows(); ++y) {
+    if (all_within(image.data() + y * image.outerStride(), static_cast<std::size_t>(image.cols())))
+      continue;
     for (Eigen::Index x = 0; x < image.cols(); ++x) {
       if (std::abs(image(y, x)) <= kLargest) continue;
       fail(ErrorKind::invalid_argument, "image must lie within -1e6..1e6 and be finite, got " +
@@ -54,8 +63,9 @@ class CellHistogram {
   }
   void add(Share y, Share x, float angle, float magnitude) {
     const Share bin = share_of(angle / kPi * static_cast<float>(num_bins_) - 0.5F);
-    const int b0 = (bin.first + num_bins_) % num_bins_;
-    const int b1 = (b0 + 1) % num_bins_;
+    const int b0 = wrapped(bin.first);
+    const int b1 = wrapped(b0 + 1);
+    const float lower = 1 - bin.weight;
     for (int dy = 0; dy < 2; ++dy) {
       const int cy = y.first + dy;
       if (cy < 0 || cy >= num_cells_) continue;
@@ -66,13 +76,19 @@ class CellHistogram {
             magnitude * (dy == 1 ? y.weight : 1 - y.weight) * (dx == 1 ? x.weight : 1 - x.weight);
         float* cell =
             values_->data() + (static_cast<std::ptrdiff_t>(cy) * num_cells_ + cx) * num_bins_;
-        cell[b0] += w * (1 - bin.weight);
+        cell[b0] += w * lower;
         cell[b1] += w * bin.weight;
       }
     }
   }
 
  private:
+  // Bins lie on a circle; only neighbours of its ends are asked for.
+  [[nodiscard]] int wrapped(int bin) const {
+    if (bin < 0) return bin + num_bins_;
+    return bin >= num_bins_ ? bin - num_bins_ : bin;
+  }
+
   int num_cells_;
   int num_bins_;
   std::vector<float>* values_;
@@ -112,6 +128,12 @@ void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOpti
   check_values(image);
   thread_local std::vector<float> cells;
   CellHistogram histogram(n, options.num_bins, &cells);
+  thread_local std::vector<Share> columns;
+  columns.resize(static_cast<std::size_t>(cols));
+  for (int x = 0; x < cols; ++x) {
+    columns[static_cast<std::size_t>(x)] = share_of(
+        (static_cast<float>(x) + 0.5F) * static_cast<float>(n) / static_cast<float>(cols) - 0.5F);
+  }
   for (int y = 1; y + 1 < rows; ++y) {
     const Share sy = share_of(
         (static_cast<float>(y) + 0.5F) * static_cast<float>(n) / static_cast<float>(rows) - 0.5F);
@@ -121,9 +143,7 @@ void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOpti
       if (gx == 0 && gy == 0) continue;
       float angle = std::atan2(gy, gx);
       if (angle < 0) angle += kPi;
-      const Share sx = share_of(
-          (static_cast<float>(x) + 0.5F) * static_cast<float>(n) / static_cast<float>(cols) - 0.5F);
-      histogram.add(sy, sx, angle, std::sqrt(gx * gx + gy * gy));
+      histogram.add(sy, columns[static_cast<std::size_t>(x)], angle, std::sqrt(gx * gx + gy * gy));
     }
   }
   const int bins = options.num_bins;
