@@ -35,14 +35,15 @@ def measure(
     """Run a study; the result also names its arguments, its data and, in a checkout, the code it was measured with."""
     arguments: Row = {"only": {axis: list(values) for axis, values in (only or {}).items()}}
     arguments |= {name: value for name, value in (("takes", takes), ("folds", folds)) if value is not None}
-    result = run_study(study, directory, progress, only, takes, folds)
     root = source_root()
+    # Taken before the study runs: what is edited meanwhile was not measured.
+    code = {"measured": describe_code(root), **({} if root is None else {"sources": hash_rooms(root, study)})}
+    result = run_study(study, directory, progress, only, takes, folds)
     return {
         "study": study.name,
         "arguments": arguments,
         "data": describe_data(find_data(directory), study),
-        "measured": describe_code(root),
-        **({} if root is None else {"sources": hash_rooms(root, study)}),
+        **code,
         **result,
     }
 
@@ -83,11 +84,12 @@ def verify(study: Study, kept: Row, directory: str | os.PathLike[str] | None, pr
     if data != kept["data"]:
         raise InvalidArgument(f"{study.name}: the recordings are not those that were measured: {data}")
     arguments = kept["arguments"]
+    code = {"verified": describe_code(root), "sources": hash_rooms(root, study)}
     # Of results that were kept as rounded means only, every fold is needed.
     folds = 1 if study.folds and "rounded_to" not in kept else arguments.get("folds")
     fresh = run_study(study, directory, progress, _quick(study, arguments["only"]), arguments.get("takes"), folds)
     compare(study.name, kept, fresh)
-    return {**kept, "verified": describe_code(root), "sources": hash_rooms(root, study)}
+    return {**kept, **code}
 
 
 def _quick(study: Study, only: Only) -> dict[str, list[str]]:
