@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hri import _native
+from hri.features import CepstraComputer, CepstraOptions, FilterBankOptions, filter_bank
 from timing import Bench, Details, Timed, medians
 
 RATE_HZ = 16000
@@ -20,9 +20,9 @@ def _audio(seconds: float = 10.0, seed: int = 0) -> np.ndarray:
     return (swell * rng.standard_normal(count)).astype(np.float32)
 
 
-def _computer(kind: str = "mel", delta_orders: int = 0) -> _native.CepstraComputer:
-    return _native.CepstraComputer(
-        _native.CepstraOptions(
+def _computer(kind: str = "mel", delta_orders: int = 0) -> CepstraComputer:
+    return CepstraComputer(
+        CepstraOptions(
             sample_rate_hz=RATE_HZ,
             filter_bank=kind,
             pre_emphasis=0.0,
@@ -49,7 +49,7 @@ def _librosas(audio: np.ndarray, kind: str = "mel") -> np.ndarray:
 
 
 def _hfcc_bank() -> np.ndarray:
-    return _native.filter_bank(_native.FilterBankOptions(kind="hfcc", low_hz=0.0), RATE_HZ, 512)
+    return filter_bank(FilterBankOptions(kind="hfcc", low_hz=0.0), RATE_HZ, 512)
 
 
 def _against_librosa(kind: str) -> tuple[float, float, int]:
@@ -72,9 +72,9 @@ def mfcc_kaldi() -> Timed:
     import kaldi_native_fbank as knf
 
     audio = _audio()
-    options = _native.CepstraOptions.kaldi(RATE_HZ)
+    options = CepstraOptions.kaldi(RATE_HZ)
     options.num_filters = 26
-    computer = _native.CepstraComputer(options)
+    computer = CepstraComputer(options)
     settings = knf.MfccOptions()
     settings.frame_opts.dither = 0
     settings.mel_opts.num_bins = 26

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hri import _native
+from hri.models import GaussianBayes, KnnClassifier, LinearSvm
 from timing import Bench, Timed, medians
 
 NUM_CLASSES = 10
@@ -26,8 +26,7 @@ def svm_train() -> Timed:
     from sklearn.svm import LinearSVC
 
     rows, classes = _rows(500, 1)
-    options = _native.LinearSvmOptions(cost=1.0)
-    ours = _native.LinearSvm.train(rows, classes, NUM_CLASSES, options)
+    ours = LinearSvm(cost=1.0).fit(rows, classes)
 
     def peer() -> LinearSVC:
         return LinearSVC(C=1.0, dual=True, random_state=0).fit(rows, classes)
@@ -39,15 +38,16 @@ def svm_train() -> Timed:
 
     theirs = peer()
     # Each has its own tolerance: what they reach has to be the same.
-    assert np.isclose(cost(ours.weights, ours.biases), cost(theirs.coef_, theirs.intercept_), rtol=1e-4)
-    return medians(lambda: _native.LinearSvm.train(rows, classes, NUM_CLASSES, options), peer, 7)
+    assert np.isclose(cost(ours.coef_, ours.intercept_), cost(theirs.coef_, theirs.intercept_), rtol=1e-4)
+    return medians(lambda: LinearSvm(cost=1.0).fit(rows, classes), peer, 7)
 
 
-def _svms() -> tuple[_native.LinearSvm, object]:
+def _svms() -> tuple[object, object]:
+    """Ours as the C++ model, which takes single rows, and the peer with its weights."""
     from sklearn.svm import LinearSVC
 
     rows, classes = _rows(500, 1)
-    ours = _native.LinearSvm.train(rows, classes, NUM_CLASSES)
+    ours = LinearSvm().fit(rows, classes).model_
     peer = LinearSVC(random_state=0).fit(rows, classes)
     peer.coef_, peer.intercept_ = np.array(ours.weights), np.array(ours.biases)
     return ours, peer
@@ -73,7 +73,7 @@ def _knn(num_tested: int) -> Timed:
     from sklearn.neighbors import KNeighborsClassifier
 
     (rows, classes), (test, _) = _rows(1000, 1), _rows(num_tested, 2)
-    ours = _native.Knn.train(rows, classes, NUM_CLASSES, _native.KnnOptions(num_neighbours=5))
+    ours = KnnClassifier(num_neighbours=5).fit(rows, classes).model_
     peer = KNeighborsClassifier(5, algorithm="brute").fit(rows, classes)
     # Ours adds up to 2e-3 to tell classes with as many neighbours apart.
     assert np.allclose(ours.decision_values(test), peer.predict_proba(test), atol=2e-3)
@@ -96,8 +96,7 @@ def bayes_batch() -> Timed:
 
     (rows, classes), (test, _) = _rows(2000, 1), _rows(500, 2)
     rows, test = np.ascontiguousarray(rows[:, :40]), np.ascontiguousarray(test[:, :40])
-    options = _native.GaussianBayesOptions(covariance="full", shrinkage=0.0)
-    ours = _native.GaussianBayes.train(rows, classes, NUM_CLASSES, options)
+    ours = GaussianBayes(covariance="full", shrinkage=0.0).fit(rows, classes).model_
     peer = QuadraticDiscriminantAnalysis().fit(rows, classes)
     # The covariances are divided by n in ours and by n - 1 in the peer.
     assert np.mean(ours.decision_values(test).argmax(1) == peer.predict(test)) > 0.99

@@ -8,7 +8,7 @@ from types import ModuleType
 
 import numpy as np
 
-from hri import _native
+from hri.models import Codebook
 from timing import Bench, Timed, medians
 
 DIM = 13
@@ -28,18 +28,16 @@ def _faiss() -> ModuleType:
     return faiss
 
 
-def _kmeans(frames: np.ndarray) -> _native.Codebook:
+def _kmeans(frames: np.ndarray) -> Codebook:
     """Ours, from the first rows."""
-    options = _native.CodebookOptions(max_iterations=NUM_ITERATIONS, tolerance=0.0)
-    report = _native.CodebookReport()
-    book = _native.Codebook.train_kmeans(frames, frames[:SIZE], options, report)
-    assert len(report.sizes) == NUM_ITERATIONS and len(book) == SIZE
+    book = Codebook(max_iterations=NUM_ITERATIONS, tolerance=0.0).fit(frames, init=frames[:SIZE])
+    assert len(book.report_.sizes) == NUM_ITERATIONS and len(book) == SIZE
     return book
 
 
 def _same_distortion(frames: np.ndarray, theirs: np.ndarray) -> None:
     ours = _kmeans(frames).distortion(frames)
-    assert np.isclose(ours, _native.Codebook(theirs).distortion(frames), rtol=0.01)
+    assert np.isclose(ours, Codebook.from_centers(theirs).distortion(frames), rtol=0.01)
 
 
 def _per_iteration(seconds: Timed) -> Timed:
@@ -83,7 +81,7 @@ def lbg_sklearn() -> Timed:
 def quantise() -> Timed:
     """The nearest of 64 codewords for the 50 frames of one word, 13 features; the peer is one matrix product."""
     frames, centroids = _frames(50, 3), _frames(SIZE, 4)
-    ours = _native.Codebook(centroids)
+    ours = Codebook.from_centers(centroids).model_
     squares, doubled = (centroids * centroids).sum(axis=1), np.ascontiguousarray(2 * centroids.T)
 
     def peer() -> np.ndarray:
@@ -96,7 +94,7 @@ def quantise() -> Timed:
 def quantise_many() -> Timed:
     """The nearest of the same 64 codewords for 10000 frames."""
     faiss, frames, centroids = _faiss(), _frames(10000, 5), _frames(SIZE, 4)
-    ours = _native.Codebook(centroids)
+    ours = Codebook.from_centers(centroids).model_
     peer = faiss.IndexFlatL2(DIM)
     peer.add(centroids)
     assert np.mean(ours.quantise(frames) == peer.search(frames, 1)[1][:, 0]) > 0.999  # rounding may break ties

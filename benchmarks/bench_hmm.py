@@ -9,7 +9,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hri import _native
+from hri.models import (
+    DiscreteHmm,
+    DiscreteHmmOptions,
+    GaussianMixtureHmm,
+    GaussianMixtureHmmOptions,
+    MarkovChain,
+    Topology,
+    initial_start,
+    initial_transition,
+)
 from timing import Bench, Timed, medians
 
 NUM_STATES = 8
@@ -22,17 +31,17 @@ def _faster(ours: Callable[[], object], peers: list[Callable[[], object]], repea
     return min((medians(ours, peer, repeats) for peer in peers), key=lambda timed: timed[1])
 
 
-def _discrete(kind: str, num_states: int, num_symbols: int, seed: int) -> tuple[_native.DiscreteHmm, list]:
+def _discrete(kind: str, num_states: int, num_symbols: int, seed: int) -> tuple[DiscreteHmm, list]:
     """One model over symbols with the same parameters in both libraries, hmmlearn's in both implementations."""
     from hmmlearn.hmm import CategoricalHMM
 
     rng = np.random.default_rng(seed)
-    topology = _native.Topology(kind=kind, num_states=num_states)
-    start, transition = _native.initial_start(topology), _native.initial_transition(topology)
+    topology = Topology(kind=kind, num_states=num_states)
+    start, transition = initial_start(topology), initial_transition(topology)
     if kind == "ergodic":
         start, transition = rng.dirichlet(np.ones(num_states)), rng.dirichlet(np.ones(num_states), num_states)
     emission = rng.dirichlet(np.ones(num_symbols), num_states)
-    ours = _native.DiscreteHmm(_native.MarkovChain(topology, start, transition), emission)
+    ours = DiscreteHmm(MarkovChain(topology, start, transition), emission)
     peers = []
     for implementation in IMPLEMENTATIONS:
         peer = CategoricalHMM(num_states, implementation=implementation, n_iter=1, tol=0, init_params="")
@@ -82,7 +91,7 @@ def hmm_baum_welch() -> Timed:
     ours, peers = _discrete("ergodic", 64, 64, 0)
     symbols = _symbols(64, 1000)
     column = symbols[:, None]
-    options = _native.DiscreteHmmOptions(max_iterations=1, emission_floor=0.0)
+    options = DiscreteHmmOptions(max_iterations=1, emission_floor=0.0)
 
     def step(peer: object) -> object:
         peer.startprob_, peer.transmat_ = ours.chain.start, ours.chain.transition
@@ -106,17 +115,17 @@ def hmm_word() -> Timed:
     return _faster(lambda: ours.log_likelihood(symbols), [lambda p=peer: p.score(column) for peer in peers], 301)
 
 
-def _left_right_pair(seed: int) -> tuple[_native.GaussianMixtureHmm, list]:
+def _left_right_pair(seed: int) -> tuple[GaussianMixtureHmm, list]:
     """One left-right model with the same parameters in both libraries, hmmlearn's in both implementations."""
     from hmmlearn.hmm import GaussianHMM
 
     rng = np.random.default_rng(seed)
-    topology = _native.Topology(kind="left_right", num_states=NUM_STATES)
-    start, transition = _native.initial_start(topology), _native.initial_transition(topology)
+    topology = Topology(kind="left_right", num_states=NUM_STATES)
+    start, transition = initial_start(topology), initial_transition(topology)
     means = rng.normal(size=(NUM_STATES, DIM))
     variances = rng.uniform(0.5, 2.0, (NUM_STATES, DIM))
-    chain = _native.MarkovChain(topology, start, transition)
-    ours = _native.GaussianMixtureHmm(chain, np.ones((NUM_STATES, 1)), means, variances)
+    chain = MarkovChain(topology, start, transition)
+    ours = GaussianMixtureHmm(chain, np.ones((NUM_STATES, 1)), means, variances)
     peers = []
     for implementation in IMPLEMENTATIONS:
         peer = GaussianHMM(NUM_STATES, covariance_type="diag", implementation=implementation)
@@ -158,7 +167,7 @@ def gmm_hmm_baum_welch() -> Timed:
         .reshape(100, DIM)
         for seed in range(20)
     ]
-    options = _native.GaussianMixtureHmmOptions(max_iterations=10, tolerance=0.0, variance_floor=1e-9)
+    options = GaussianMixtureHmmOptions(max_iterations=10, tolerance=0.0, variance_floor=1e-9)
     together, lengths = np.concatenate(sequences), [100] * 20
 
     def peer(implementation: str) -> GaussianHMM:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hri import _native
+from hri.models import DiscreteHmm, FixedPointHmmSet, MarkovChain, PossibilisticHmmSet, Topology
 from timing import Bench, Details, Timed, medians
 
 # So few that tables stay in the cache, which is not what the slope is about.
@@ -16,22 +16,22 @@ SIZES = (4, 8, 16, 32, 64, 128, 256)
 NUM_CLASSES = 16
 
 
-def _models(kind: str, num_states: int, num_classes: int, num_symbols: int) -> list[_native.DiscreteHmm]:
+def _models(kind: str, num_states: int, num_classes: int, num_symbols: int) -> list[DiscreteHmm]:
     rng = np.random.default_rng(num_states)
-    topology = _native.Topology(kind=kind, num_states=num_states)
-    chain = _native.MarkovChain.initial(topology)
+    topology = Topology(kind=kind, num_states=num_states)
+    chain = MarkovChain.initial(topology)
     if kind == "ergodic":
         start, transition = rng.dirichlet(np.ones(num_states)), rng.dirichlet(np.ones(num_states), num_states)
-        chain = _native.MarkovChain(topology, start, transition)
+        chain = MarkovChain(topology, start, transition)
     emissions = 0.9 * rng.dirichlet(np.ones(num_symbols), (num_classes, num_states)) + 0.1 / num_symbols
-    return [_native.DiscreteHmm(chain, emission) for emission in emissions]
+    return [DiscreteHmm(chain, emission) for emission in emissions]
 
 
 def _symbols(count: int, num_symbols: int) -> np.ndarray:
     return np.random.default_rng(5).integers(0, num_symbols, count).astype(np.int32)
 
 
-def _check(found: _native.PossibilisticHmmSet, symbols: np.ndarray) -> None:
+def _check(found: PossibilisticHmmSet, symbols: np.ndarray) -> None:
     # The product form is the best path of the models it was made of, but for what all classes share.
     best = np.array([model.viterbi(symbols)[0] for model in found.models])
     scores = found.log_possibilities(symbols)
@@ -44,8 +44,8 @@ def _scaling(num_classes: int, kind: str) -> tuple[float, float, Details]:
     hmm, possibilistic, integers = [], [], []
     for num_states in SIZES:
         dense = _models("ergodic", num_states, 1, FEW_SYMBOLS)[0]
-        found = _native.PossibilisticHmmSet(_models(kind, num_states, num_classes, FEW_SYMBOLS))
-        fixed = _native.FixedPointHmmSet(found)
+        found = PossibilisticHmmSet(_models(kind, num_states, num_classes, FEW_SYMBOLS))
+        fixed = FixedPointHmmSet(found)
         _check(found, symbols)
         integers.append(
             medians(lambda fixed=fixed: fixed.log_possibilities(symbols), lambda: None, 31)[0] / num_classes
@@ -92,7 +92,7 @@ def ptbhmm_scaling_jumps() -> Timed:
 def ptbhmm_set1000() -> Timed:
     """An utterance of 1 s (100 symbols) against 1000 word models of 8 states, beside as many HMMs of that topology."""
     models = _models("left_right", 8, 1000, CODEBOOK)
-    found = _native.PossibilisticHmmSet(models)
+    found = PossibilisticHmmSet(models)
     symbols = _symbols(100, CODEBOOK)
     _check(found, symbols)
     return medians(
@@ -103,8 +103,8 @@ def ptbhmm_set1000() -> Timed:
 
 
 def _int16(num_states: int, num_classes: int, num_frames: int) -> Timed:
-    found = _native.PossibilisticHmmSet(_models("left_right", num_states, num_classes, CODEBOOK))
-    fixed = _native.FixedPointHmmSet(found)
+    found = PossibilisticHmmSet(_models("left_right", num_states, num_classes, CODEBOOK))
+    fixed = FixedPointHmmSet(found)
     symbols = _symbols(num_frames, CODEBOOK)
     return medians(lambda: fixed.log_possibilities(symbols), lambda: found.log_possibilities(symbols), repeats=201)
 

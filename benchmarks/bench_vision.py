@@ -16,7 +16,8 @@ import cv2
 import numpy as np
 
 import hand_pictures
-from hri import _native, _native_vision
+from hri import features, vision
+from hri.features import GestureFeatureComputer, OrientationHistogramOptions
 from hri.media import write_video
 from timing import Bench, Details, Timed, medians
 
@@ -56,7 +57,7 @@ def _python_silhouette(frame: np.ndarray) -> np.ndarray:
 def silhouette() -> Timed:
     """The hand's mask in a picture of 640 x 480."""
     frame = _picture(640, 480)
-    extractor = _native_vision.SilhouetteExtractor(_native_vision.SilhouetteOptions())
+    extractor = vision.SilhouetteExtractor(vision.SilhouetteOptions())
     ours, theirs = np.asarray(extractor.extract(frame).mask), _python_silhouette(frame)
     assert np.mean((ours > 0) == (theirs > 0)) > 0.995
     return medians(lambda: extractor.extract(frame), lambda: _python_silhouette(frame), 31)
@@ -71,7 +72,7 @@ def _shares(count: int, cells: int) -> np.ndarray:
 def orientation_histogram() -> Timed:
     """Histograms of 8 x 8 cells and 9 bins of a crop of 64 x 64, shared out linearly, blocks normalised."""
     image = cv2.resize(cv2.cvtColor(_picture(320, 240), cv2.COLOR_BGR2GRAY), (64, 64)).astype(np.float32)
-    options = _native.OrientationHistogramOptions(num_cells=8, num_bins=9)
+    options = OrientationHistogramOptions(num_cells=8, num_bins=9)
     share = _shares(64, 8)
     pixels = np.arange(64 * 64)
 
@@ -92,8 +93,8 @@ def orientation_histogram() -> Timed:
         blocks = np.minimum(blocks, 0.2)
         return blocks / np.sqrt(np.sum(blocks * blocks, axis=2, keepdims=True) + 1e-3)
 
-    assert np.allclose(_native.orientation_histogram(image, options), peer().ravel(), atol=1e-3)
-    return medians(lambda: _native.orientation_histogram(image, options), peer, 101)
+    assert np.allclose(features.orientation_histogram(image, options), peer().ravel(), atol=1e-3)
+    return medians(lambda: features.orientation_histogram(image, options), peer, 101)
 
 
 def _python_hand(frame: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -148,11 +149,11 @@ def _tracker_ms(clip: Sequence[np.ndarray]) -> float:
 def _hand_frame(make_finder: Callable[[Sequence[np.ndarray]], Any]) -> Timed:
     clip = hand_pictures.hand_clip("right", 2)
     frame, finder = clip[len(clip) // 2], make_finder(clip)
-    features = _native.GestureFeatureComputer()
+    computer = GestureFeatureComputer()
 
     def ours() -> Any:
         found = finder.extract(frame)
-        return found.mask, features.compute([found])
+        return found.mask, computer.compute([found])
 
     mask, row = ours()
     assert row.shape[0] == 1 and np.isfinite(row).all()
@@ -165,12 +166,12 @@ def _hand_frame(make_finder: Callable[[Sequence[np.ndarray]], Any]) -> Timed:
 
 def hand_frame() -> Timed:
     """A picture of 640 x 480 to the hand's features, by colours learned from its clip; decoding comes on top."""
-    return _hand_frame(_native_vision.HandColours.learn)
+    return _hand_frame(vision.HandColours.learn)
 
 
 def hand_frame_otsu() -> Timed:
     """The same, the hand found in the picture by itself."""
-    return _hand_frame(lambda _: _native_vision.SilhouetteExtractor(_native_vision.SilhouetteOptions()))
+    return _hand_frame(lambda _: vision.SilhouetteExtractor(vision.SilhouetteOptions()))
 
 
 BENCHES = [

@@ -18,10 +18,18 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 
+from hri.models import (
+    MarkovChain,
+    PossibilisticHmmOptions,
+    PossibilisticHmmSet,
+    PossibilisticHmmStream,
+    PossibilisticRule,
+    Topology,
+    initial_transition,
+)
+
 mpl.use("svg")
 import matplotlib.pyplot as plt
-
-from hri import _native
 
 IMAGES = Path(__file__).resolve().parent.parent / "docs" / "images"
 BLUE, ORANGE, GREEN, GREY = "#3b6fb6", "#d9822b", "#3f8f5f", "#9a948c"
@@ -58,16 +66,12 @@ def say(order: tuple[int, ...], rng: np.random.Generator) -> np.ndarray:
 def draw_forms(path: Path) -> None:
     """Score of three word models while the first word is heard, under each form of the recursion."""
     rng = np.random.default_rng(3)
-    options = _native.PossibilisticHmmOptions(topology={"num_states": 4}, num_symbols=4, emission_floor=0.01)
-    models = _native.PossibilisticHmmSet.train(
-        [[say(order, rng) for _ in range(20)] for order in WORDS], options
-    ).models
+    options = PossibilisticHmmOptions(topology={"num_states": 4}, num_symbols=4, emission_floor=0.01)
+    models = PossibilisticHmmSet.train([[say(order, rng) for _ in range(20)] for order in WORDS], options).models
     heard = say(WORDS[0], rng)
     figure, grid = plt.subplots(1, len(FORMS), figsize=(11, 2.7), sharex=True)
     for axes, (title, rule) in zip(grid, FORMS.items(), strict=True):
-        stream = _native.PossibilisticHmmStream(
-            _native.PossibilisticHmmSet(models, _native.PossibilisticRule(**rule)), float("inf")
-        )
+        stream = PossibilisticHmmStream(PossibilisticHmmSet(models, PossibilisticRule(**rule)), float("inf"))
         scores = []
         for symbol in heard:
             stream.push(int(symbol))
@@ -90,12 +94,12 @@ def draw_structures(path: Path) -> None:
     kinds = ("left_right", "banded", "rank_one_plus_band", "ergodic")
     titles = ("left-right: 2N", "band: 3N", "rank-one plus band: 5N", "dense: N²")
     for axes, kind, title in zip(grid, kinds, titles, strict=True):
-        topology = _native.Topology(kind=kind, num_states=n)
-        transition = rng.dirichlet(np.ones(n), n) if kind == "ergodic" else _native.initial_transition(topology)
+        topology = Topology(kind=kind, num_states=n)
+        transition = rng.dirichlet(np.ones(n), n) if kind == "ergodic" else initial_transition(topology)
         if kind == "rank_one_plus_band":
             leave, land = rng.uniform(0.1, 0.4, n), rng.dirichlet(np.ones(n))
             band = transition * (1 - leave)[:, None]
-            transition = _native.MarkovChain(topology, np.full(n, 1 / n), band, leave, land).transition
+            transition = MarkovChain(topology, np.full(n, 1 / n), band, leave, land).transition
         axes.imshow(np.sqrt(transition), cmap="Blues", vmin=0, vmax=0.9)
         axes.set_title(title, fontsize=10)
         axes.set(xticks=[], yticks=[], xlabel="to j")

@@ -21,9 +21,19 @@ HEADER = """# SPDX-FileCopyrightText: The hri contributors
 """
 
 
+# The package says that its errors are its own (hri.core.errors); here they stand where they are made.
+_STUBGEN = """
+import hri._native, pybind11_stubgen
+for value in vars(hri._native).values():
+    if isinstance(value, type) and issubclass(value, BaseException):
+        value.__module__ = "hri._native"
+pybind11_stubgen.main()
+"""
+
+
 def generate(module: str, directory: Path) -> Path:
     """The stub of hri.`module`, formatted, in `directory`."""
-    command = [sys.executable, "-m", "pybind11_stubgen", f"hri.{module}", "--output-dir", str(directory)]
+    command = [sys.executable, "-c", _STUBGEN, f"hri.{module}", "--output-dir", str(directory)]
     command += ["--numpy-array-use-type-var", "--ignore-invalid-expressions=.*", "--exit-code"]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     stub = directory / "hri" / f"{module}.pyi"

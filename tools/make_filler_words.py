@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hri import _native
 from hri.recognition.word.fillers import RATE_HZ, compress
+from hri.signal import resample
 from hri.synthetic.speech import make_speaker, speak
 
 OUTPUT = Path(__file__).parents[1] / "python" / "hri" / "recognition" / "word" / "filler_words.npz"
@@ -36,7 +36,7 @@ def main() -> None:
     for number, (label, text, language) in enumerate(spoken):
         for voice in range(NUM_VOICES):
             audio = speak(text, language, make_speaker((number * NUM_VOICES + voice) % NUM_SPEAKERS))
-            codes.append(compress(_native.resample(audio.samples, audio.sample_rate_hz, RATE_HZ)))
+            codes.append(compress(resample(audio.samples, audio.sample_rate_hz, RATE_HZ)))
             labels.append(label)
     ends = np.cumsum([c.size for c in codes])
     np.savez_compressed(OUTPUT, codes=np.concatenate(codes), ends=ends, labels=np.array(labels))

@@ -21,6 +21,22 @@ void bind_files(py::module_& m) {
       .def("write", &hri::ModelFile::write, py::arg("path"),
            py::call_guard<py::gil_scoped_release>(),
            "Writes beside the old file, syncs, and renames.")
+      .def_static(
+          "from_bytes",
+          [](const py::bytes& data, const std::string& name) {
+            const std::string_view view(data);
+            const py::gil_scoped_release release;
+            return hri::ModelFile::parse(
+                {reinterpret_cast<const std::uint8_t*>(view.data()), view.size()}, name);
+          },
+          py::arg("data"), py::arg("name") = "bytes", "Reads what `to_bytes` gave, as strictly.")
+      .def(
+          "to_bytes",
+          [](const hri::ModelFile& self) {
+            const std::vector<std::uint8_t> data = self.serialise();
+            return py::bytes(reinterpret_cast<const char*>(data.data()), data.size());
+          },
+          "What `write` writes.")
       .def_property("kind", &hri::ModelFile::kind, &hri::ModelFile::set_kind)
       .def("has", &hri::ModelFile::has, py::arg("name"))
       .def("text", &hri::ModelFile::text, py::arg("key"))

@@ -12,6 +12,7 @@
 #include "hri/models/hmm/gaussian_mixture.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
 #include "hri/models/hmm/markov_chain.hpp"
+#include "hri/models/hmm/sampling.hpp"
 #include "hri/models/hmm/topology.hpp"
 #include "models/model_inputs.hpp"
 
@@ -222,6 +223,13 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
         return to_array(gamma);
       },
       py::arg("frames"), "P(state | all frames), shape (num_frames, num_states).");
+  cls.def(
+      "sample",
+      [](const Model& self, int count, std::uint64_t seed) {
+        const hri::SampledFrames drawn = hri::sample(self, count, seed);
+        return py::make_tuple(to_array(drawn.frames), to_array(drawn.states));
+      },
+      py::arg("count"), py::arg("seed"), "Frames drawn from the model, and their states.");
   cls.def_property_readonly("dim", &Model::dim);
   cls.def_property_readonly("weights",
                             [](const Model& self) { return to_array(self.bank().weights()); });
@@ -312,6 +320,13 @@ void bind_discrete_hmm(py::module_& m) {
         return to_array(gamma);
       },
       py::arg("symbols"), "P(state | all symbols), shape (num_symbols_given, num_states).");
+  cls.def(
+      "sample",
+      [](const Model& self, int count, std::uint64_t seed) {
+        const hri::SampledSymbols drawn = hri::sample(self, count, seed);
+        return py::make_tuple(to_array(drawn.symbols), to_array(drawn.states));
+      },
+      py::arg("count"), py::arg("seed"), "Symbols drawn from the model, and their states.");
   cls.def_property_readonly("num_symbols", &Model::num_symbols);
   cls.def_property_readonly("emission",
                             [](const Model& self) { return to_array(self.emission()); });

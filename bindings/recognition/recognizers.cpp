@@ -163,6 +163,8 @@ void bind_words(py::module_& m) {
                   py::call_guard<py::gil_scoped_release>())
       .def("save", &hri::WordRecognizer::save, py::arg("path"),
            py::call_guard<py::gil_scoped_release>())
+      .def_static("from_model_file", &hri::WordRecognizer::from_model_file, py::arg("file"))
+      .def("to_model_file", &hri::WordRecognizer::to_model_file)
       .def(
           "recognise",
           [](const hri::WordRecognizer& self, const FloatArray& audio, int sample_rate_hz) {
@@ -296,6 +298,8 @@ void bind_gestures(py::module_& m) {
           },
           py::arg("hands"))
       .def_property_readonly("is_dynamic", &hri::GestureRecognizer::is_dynamic)
+      .def_static("from_model_file", &hri::GestureRecognizer::from_model_file, py::arg("file"))
+      .def("to_model_file", &hri::GestureRecognizer::to_model_file)
       .def_property_readonly("starts_at_rest", &hri::GestureRecognizer::starts_at_rest)
       .def_property_readonly("pauses", &hri::GestureRecognizer::pauses)
       .def(

@@ -2,93 +2,142 @@
 # SPDX-License-Identifier: Apache-2.0
 """Command a humanoid robot with words and signs.
 
-The names below are loaded on first use, so that ``import hri`` pulls in neither OpenCV nor PyBullet.
+The names below are loaded on first use, so that ``import hri`` pulls in neither OpenCV nor PyBullet. The rooms are
+`hri.signal`, `hri.features`, `hri.models`, `hri.vision`, `hri.recognition`, `hri.io` (as in C++), and `hri.media`,
+`hri.datasets`, `hri.synthetic`, `hri.evaluation`, `hri.fusion`, `hri.live`, `hri.robot`.
 """
 
-from __future__ import annotations
-
 import logging
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from hri._native import __version__
+from hri.core.errors import Error, FormatError, Interrupted, InvalidArgument, IoError, NotFittedError
 
 if TYPE_CHECKING:
-    from hri._native import (
-        CepstraOptions,
-        GestureRecognizerOptions,
-        HandFeatureOptions,
-        WordRecognizerOptions,
+    from hri import (
+        datasets,
+        evaluation,
+        features,
+        fusion,
+        io,
+        live,
+        media,
+        models,
+        recognition,
+        robot,
+        signal,
+        synthetic,
+        vision,
     )
     from hri.datasets import Dataset
     from hri.evaluation import cross_validate
     from hri.evaluation.training import train
+    from hri.features import CepstraOptions, HandFeatureOptions
     from hri.fusion import FusedDecision, fuse
-    from hri.media import read_audio, read_frames
-    from hri.recognition import Decision, GestureRecognizer, NBest, SpeakerAdapter, WordRecognizer
+    from hri.media import Audio, Clip, read_audio, read_frames
+    from hri.recognition import (
+        Decision,
+        GestureRecognizer,
+        GestureRecognizerOptions,
+        NBest,
+        SpeakerAdapter,
+        WordRecognizer,
+        WordRecognizerOptions,
+        load,
+    )
     from hri.robot import gesture_trajectory, open_robot, render_video
-    from hri.signal.noise_reduction import denoise
+    from hri.signal import denoise
+else:
+    from hri.core.lazy import loader
 
-_HOMES = {
-    "CepstraOptions": "hri._native",
-    "Dataset": "hri.datasets",
-    "Decision": "hri.recognition",
-    "FusedDecision": "hri.fusion",
-    "GestureRecognizer": "hri.recognition",
-    "GestureRecognizerOptions": "hri._native",
-    "HandFeatureOptions": "hri._native",
-    "NBest": "hri.recognition",
-    "SpeakerAdapter": "hri.recognition",
-    "WordRecognizer": "hri.recognition",
-    "WordRecognizerOptions": "hri._native",
-    "cross_validate": "hri.evaluation",
-    "denoise": "hri.signal.noise_reduction",
-    "fuse": "hri.fusion",
-    "gesture_trajectory": "hri.robot",
-    "open_robot": "hri.robot",
-    "read_audio": "hri.media",
-    "read_frames": "hri.media",
-    "render_video": "hri.robot",
-    "train": "hri.evaluation.training",
-}
+    _ROOMS = (
+        "datasets",
+        "evaluation",
+        "features",
+        "fusion",
+        "io",
+        "live",
+        "media",
+        "models",
+        "recognition",
+        "robot",
+        "signal",
+        "synthetic",
+        "vision",
+    )
+    __getattr__ = loader(
+        __name__,
+        {
+            "hri.datasets": ("Dataset",),
+            "hri.evaluation": ("cross_validate",),
+            "hri.evaluation.training": ("train",),
+            "hri.features": ("CepstraOptions", "HandFeatureOptions"),
+            "hri.fusion": ("FusedDecision", "fuse"),
+            "hri.media": ("Audio", "Clip", "read_audio", "read_frames"),
+            "hri.recognition": (
+                "Decision",
+                "GestureRecognizer",
+                "GestureRecognizerOptions",
+                "NBest",
+                "SpeakerAdapter",
+                "WordRecognizer",
+                "WordRecognizerOptions",
+                "load",
+            ),
+            "hri.robot": ("gesture_trajectory", "open_robot", "render_video"),
+            "hri.signal": ("denoise",),
+        },
+        _ROOMS,
+    )
+
+    def __dir__() -> list[str]:
+        return __all__
+
+
+logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 __all__ = [
+    "Audio",
     "CepstraOptions",
+    "Clip",
     "Dataset",
     "Decision",
+    "Error",
+    "FormatError",
     "FusedDecision",
     "GestureRecognizer",
     "GestureRecognizerOptions",
     "HandFeatureOptions",
+    "Interrupted",
+    "InvalidArgument",
+    "IoError",
     "NBest",
+    "NotFittedError",
     "SpeakerAdapter",
     "WordRecognizer",
     "WordRecognizerOptions",
     "__version__",
     "cross_validate",
+    "datasets",
     "denoise",
+    "evaluation",
+    "features",
     "fuse",
+    "fusion",
     "gesture_trajectory",
+    "io",
+    "live",
+    "load",
+    "media",
+    "models",
     "open_robot",
     "read_audio",
     "read_frames",
+    "recognition",
     "render_video",
+    "robot",
+    "signal",
+    "synthetic",
     "train",
+    "vision",
 ]
-
-
-logging.getLogger(__name__).addHandler(logging.NullHandler())
-
-
-def __getattr__(name: str) -> Any:
-    if name in _HOMES:
-        return getattr(import_module(_HOMES[name]), name)
-    from hri.core.suggest import nearest
-
-    alike = nearest(name, __all__)
-    hint = f"; did you mean {' or '.join(repr(entry) for entry in alike)}?" if alike else ""
-    raise AttributeError(f"module 'hri' has no attribute {name!r}{hint}")
-
-
-def __dir__() -> list[str]:
-    return __all__

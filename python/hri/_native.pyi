@@ -85,6 +85,8 @@ __all__: list[str] = [
     "LdaOptions",
     "LinearSvm",
     "LinearSvmOptions",
+    "LogisticRegression",
+    "LogisticRegressionOptions",
     "MarkovChain",
     "MaskSmoothingOptions",
     "MelScale",
@@ -155,6 +157,7 @@ __all__: list[str] = [
     "initial_transition",
     "landmark_column_names",
     "landmark_features",
+    "iswt",
     "linear_prediction",
     "lpc_cepstrum",
     "max_dwt_level",
@@ -175,9 +178,11 @@ __all__: list[str] = [
     "shrink",
     "shrinkage_threshold",
     "spectral_envelope",
+    "swt",
     "trace_contour",
     "wavedec",
     "wavedec2",
+    "wavelet_filters",
     "wavelet_names",
     "wavelet_packets",
     "waverec",
@@ -217,6 +222,11 @@ class ModelFile:
 
     kind: str
     @staticmethod
+    def from_bytes(data: bytes, name: str = "bytes") -> ModelFile:
+        """
+        Reads what `to_bytes` gave, as strictly.
+        """
+    @staticmethod
     def read(path: str) -> ModelFile:
         """
         Reads a whole file; raises IoError, or FormatError naming file and field.
@@ -243,6 +253,10 @@ class ModelFile:
         """
     def text(self, key: str) -> str: ...
     def text_list(self, key: str) -> list[str]: ...
+    def to_bytes(self) -> bytes:
+        """
+        What `write` writes.
+        """
     def write(self, path: str) -> None:
         """
         Writes beside the old file, syncs, and renames.
@@ -2564,6 +2578,63 @@ class PossibilityClassifier:
     @property
     def num_classes(self) -> int: ...
 
+class LogisticRegressionOptions:
+    """
+    Options of LogisticRegression.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
+    def __repr__(self) -> str: ...
+    def as_dict(self) -> dict: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def penalty(self) -> float: ...
+    @penalty.setter
+    def penalty(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class LogisticRegression:
+    """
+    Logistic regression of two classes.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> LogisticRegression:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: LogisticRegressionOptions = ...,
+    ) -> LogisticRegression:
+        """
+        Trains on rows (num_rows, dim) and classes (num_rows,) of 0 and 1.
+        """
+    def decision_values(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        0 and the log odds of class 1, shape (num_rows, 2).
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def bias(self) -> float: ...
+    @property
+    def dim(self) -> int: ...
+    @property
+    def num_classes(self) -> int: ...
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]: ...
+
 class Topology:
     """
     Which transitions a sequence model has.
@@ -2848,6 +2919,12 @@ class GaussianMixtureHmm:
         """
         A model trained further; topology, num_mixtures and seed of the options are not read.
         """
+    def sample(
+        self, count: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.int32]]:
+        """
+        Frames drawn from the model, and their states.
+        """
     def viterbi(
         self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
     ) -> tuple[float, numpy.typing.NDArray[numpy.int32]]:
@@ -2956,6 +3033,12 @@ class DiscreteHmm:
     ) -> DiscreteHmm:
         """
         A model trained further; topology, num_symbols and seed of the options are not read.
+        """
+    def sample(
+        self, count: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex
+    ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+        """
+        Symbols drawn from the model, and their states.
         """
     def viterbi(
         self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
@@ -3667,6 +3750,8 @@ class WordRecognizer:
     Isolated words; hri.WordRecognizer wraps it.
     """
     @staticmethod
+    def from_model_file(file: ModelFile) -> WordRecognizer: ...
+    @staticmethod
     def load(path: str) -> WordRecognizer: ...
     @staticmethod
     def train(
@@ -3696,6 +3781,7 @@ class WordRecognizer:
         audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def to_model_file(self) -> ModelFile: ...
     def with_word(
         self,
         label: str,
@@ -3881,6 +3967,8 @@ class GestureRecognizer:
         options: HandFeatureOptions,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     @staticmethod
+    def from_model_file(file: ModelFile) -> GestureRecognizer: ...
+    @staticmethod
     def load(path: str) -> GestureRecognizer: ...
     @staticmethod
     def train(
@@ -3896,6 +3984,7 @@ class GestureRecognizer:
     def scores(
         self, features: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def to_model_file(self) -> ModelFile: ...
     @property
     def is_dynamic(self) -> bool: ...
     @property
@@ -4431,6 +4520,22 @@ def landmark_features(
     float32, shape (85,), of joints in pixels, shape (21, 2).
     """
 
+@typing.overload
+def iswt(
+    approximation: numpy.typing.NDArray[numpy.float32], details: numpy.typing.NDArray[numpy.float32], wavelet: str
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The inverse, from the approximation of the highest level and all details.
+    """
+
+@typing.overload
+def iswt(
+    approximation: numpy.typing.NDArray[numpy.float64], details: numpy.typing.NDArray[numpy.float64], wavelet: str
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The inverse, from the approximation of the highest level and all details.
+    """
+
 def linear_prediction(
     frame: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], order: typing.SupportsInt | typing.SupportsIndex
 ) -> tuple[numpy.typing.NDArray[numpy.float64], float]:
@@ -4615,6 +4720,22 @@ def spectral_envelope(
     exp(sum of c_i cos(pi i t / num_bins)), t = 1 .. num_bins, of rows c_1, c_2, ...; shape (num_frames, num_bins) (thesis eq. 3.34-3.36).
     """
 
+@typing.overload
+def swt(
+    x: numpy.typing.NDArray[numpy.float32], wavelet: str, num_levels: typing.SupportsInt | typing.SupportsIndex
+) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
+    """
+    Approximations and details, each of shape (num_levels, num_samples), finest level first.
+    """
+
+@typing.overload
+def swt(
+    x: numpy.typing.NDArray[numpy.float64], wavelet: str, num_levels: typing.SupportsInt | typing.SupportsIndex
+) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Approximations and details, each of shape (num_levels, num_samples), finest level first.
+    """
+
 def trace_contour(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> numpy.typing.NDArray[numpy.int32]:
     """
     Outer outline of the largest region, clockwise in image axes: int32, shape (num_points, 2), x and y.
@@ -4662,6 +4783,11 @@ def wavedec2(
 ) -> list:
     """
     Several levels of an image, [approximation, coarsest details, ..., finest details].
+    """
+
+def wavelet_filters(name: str) -> tuple[list[float], list[float], list[float], list[float]]:
+    """
+    The filters dec_lo, dec_hi, rec_lo and rec_hi.
     """
 
 def wavelet_names() -> list[str]:

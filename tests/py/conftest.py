@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hri import _native
+from hri.io import write_wav_pcm16
 from hri.synthetic.signer import make_gesture_corpus
 
 RATE_HZ = 16000
@@ -46,7 +46,7 @@ def spoken(tmp_path_factory: pytest.TempPathFactory) -> Path:
         for take in range(3):
             for label, slope in (("1", 800.0), ("2", -350.0)):
                 path = folder / f"{label}_{person}_{take}.wav"
-                _native.write_wav_pcm16(str(path), tone_word(base_hz, slope, 10 * number + take), RATE_HZ)
+                write_wav_pcm16(str(path), tone_word(base_hz, slope, 10 * number + take), RATE_HZ)
     return folder
 
 

@@ -11,9 +11,10 @@ import pytest
 from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 
-from hri import _native
 from hri._native import CepstraComputer, CepstraOptions, CepstraStream
 from hri.core.errors import InvalidArgument
+from hri.features import FilterBankOptions, filter_bank, filter_edges, lpc_cepstrum, spectral_envelope
+from hri.signal import linear_prediction
 
 
 def audio(count: int = 8000, seed: int = 0) -> np.ndarray:
@@ -35,25 +36,25 @@ def windowed(x: np.ndarray) -> np.ndarray:
 def test_prediction_solves_the_normal_equations() -> None:
     frame = windowed(audio())[20]
     for order in (1, 2, 3, 12, 40):
-        a, gain = _native.linear_prediction(frame, order)
+        a, gain = linear_prediction(frame, order)
         r = np.correlate(frame, frame, "full")[399 : 399 + order + 1]
         np.testing.assert_allclose(a, solve_toeplitz(r[:-1], -r[1:]), rtol=1e-7, atol=1e-9)
         assert gain == pytest.approx(r[0] + a @ r[1:], rel=1e-9)
 
 
 def test_cepstrum_is_that_of_the_all_pole_spectrum() -> None:
-    a, gain = _native.linear_prediction(windowed(audio())[20], 12)
+    a, gain = linear_prediction(windowed(audio())[20], 12)
     log_spectrum = np.log(gain / np.abs(np.fft.fft(np.r_[1, a], 1 << 15)) ** 2)
     expected = np.fft.ifft(log_spectrum).real
-    np.testing.assert_allclose(_native.lpc_cepstrum(a, gain, 30), expected[:31], atol=1e-9)
+    np.testing.assert_allclose(lpc_cepstrum(a, gain, 30), expected[:31], atol=1e-9)
 
 
 def test_silence_is_predicted_by_zeros() -> None:
-    a, gain = _native.linear_prediction(np.zeros(50), 4)
+    a, gain = linear_prediction(np.zeros(50), 4)
     np.testing.assert_array_equal(a, 0)
     assert gain == 0
     with pytest.raises(InvalidArgument, match="gain"):
-        _native.lpc_cepstrum(a, gain, 4)
+        lpc_cepstrum(a, gain, 4)
 
 
 @pytest.mark.parametrize("use_c0", [True, False])
@@ -61,7 +62,7 @@ def test_lpcc_of_a_clip(use_c0: bool) -> None:
     options = plain(kind="linear_prediction", lpc_order=14, num_cepstra=16, use_c0=use_c0)
     ours = CepstraComputer(options).compute(audio())
     lifter = 1 + 11 * np.sin(np.pi * np.arange(17) / 22)
-    theirs = np.stack([_native.lpc_cepstrum(*_native.linear_prediction(f, 14), 16) for f in windowed(audio())])
+    theirs = np.stack([lpc_cepstrum(*linear_prediction(f, 14), 16) for f in windowed(audio())])
     np.testing.assert_allclose(ours, (theirs * lifter)[:, 0 if use_c0 else 1 :], rtol=1e-4, atol=2e-4)
     assert np.isfinite(CepstraComputer(options).compute(np.zeros(4000))).all()
 
@@ -172,19 +173,19 @@ def test_a_stream_refuses_what_is_not_finite_and_goes_on() -> None:
 def test_piecewise_warp_is_kaldis(warp: float) -> None:
     low, high, bend_low, bend_high = 50.0, 7800.0, 200.0, 7000.0
     fields = {"num_filters": 20, "low_hz": low, "high_hz": high}
-    plain_edges = _native.filter_edges(_native.FilterBankOptions(**fields), 16000)
-    options = _native.FilterBankOptions(warp=warp, warp_low_hz=bend_low, warp_high_hz=bend_high, **fields)
+    plain_edges = filter_edges(FilterBankOptions(**fields), 16000)
+    options = FilterBankOptions(warp=warp, warp_low_hz=bend_low, warp_high_hz=bend_high, **fields)
     # Kaldi's VtlnWarpFreq, whose factor is 1 / warp.
     left, right = bend_low * max(1, 1 / warp), bend_high * min(1, 1 / warp)
     expected = np.interp(plain_edges, [low, left, right, high], [low, warp * left, warp * right, high])
-    np.testing.assert_allclose(_native.filter_edges(options, 16000), expected, rtol=1e-9)
+    np.testing.assert_allclose(filter_edges(options, 16000), expected, rtol=1e-9)
 
 
 def test_envelope_is_that_of_the_thesis() -> None:
     cepstra = np.random.default_rng(0).normal(size=(5, 12)).astype("f4")
     w = np.pi * np.arange(1, 11) / 10
     expected = np.exp(cepstra.astype("f8") @ np.cos(np.arange(1, 13)[:, None] * w))
-    np.testing.assert_allclose(_native.spectral_envelope(cepstra, 10), expected, rtol=1e-5)
+    np.testing.assert_allclose(spectral_envelope(cepstra, 10), expected, rtol=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -213,7 +214,7 @@ def test_any_fft_size_will_do() -> None:
     x = audio()
     for size in (400, 402, 500, 512, 1024):
         ours = CepstraComputer(plain(fft_size=size, lifter=0.0)).compute(x)
-        bank = _native.filter_bank(_native.FilterBankOptions(), 16000, size).astype("f8")
+        bank = filter_bank(FilterBankOptions(), 16000, size).astype("f8")
         logs = np.log(np.abs(np.fft.rfft(windowed(x), size)) ** 2 @ bank.T)
         np.testing.assert_allclose(ours[:, 0], logs.sum(axis=1) / np.sqrt(26), rtol=1e-5)
 

@@ -20,6 +20,7 @@ from hri.cli.main import COMMANDS
 from hri.cli.recognizers import parse_options
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
+from hri.io import write_wav_pcm16
 from hri.studies import STUDIES
 
 
@@ -53,7 +54,7 @@ def test_robot_answers_on_film_and_rests_when_nothing_was_said(hri, spoken: Path
     assert cv2.imread(str(still)).shape == (480, 640, 3)
 
     silence = tmp_path / "silence.wav"
-    _native.write_wav_pcm16(str(silence), 0 * tone_word(500, 0, 0), RATE_HZ)
+    write_wav_pcm16(str(silence), 0 * tone_word(500, 0, 0), RATE_HZ)
     rests = hri("recognise", "--speech", silence, "--robot", tmp_path / "none.mp4", "--json", tmp_path / "r.json")
     assert rests.code == 0 and rests.out.startswith("no_input\t")
     assert "robot: not moved" in rests.err and not (tmp_path / "none.mp4").exists()

@@ -15,11 +15,12 @@ from pathlib import Path
 
 import pytest
 
-from hri import _native, studies
+from hri import studies
 from hri.cli import main as cli_main
 from hri.cli.output import say_table
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import recognizer_factory
+from hri.io import ModelFile
 
 
 class Terminal(io.StringIO):
@@ -190,7 +191,7 @@ def test_tables_are_aligned_on_a_terminal_and_tabbed_elsewhere(monkeypatch: pyte
 
 
 def test_info_names_what_a_file_holds_instead_of_a_recogniser(hri, tmp_path: Path):
-    other = _native.ModelFile()
+    other = ModelFile()
     other.kind = "recipe"
     other.write(str(tmp_path / "other.hri"))
     result = hri("info", tmp_path / "other.hri")

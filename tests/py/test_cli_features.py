@@ -13,10 +13,10 @@ import pytest
 
 import drawn_hands
 from conftest import RATE_HZ, tone_word
-from hri import _native
 from hri.core.errors import InvalidArgument
 from hri.features import cepstra, cepstra_options, column_names
 from hri.features.hand import hand_column_names, hand_features
+from hri.io import read_wav, write_wav_pcm16
 from hri.media import read_image, write_image, write_video
 from hri.synthetic.drawing.signer import make_signer
 from hri.synthetic.signer import draw_still
@@ -26,7 +26,7 @@ from hri.vision.hands import find_silhouettes
 @pytest.fixture
 def recording(tmp_path: Path) -> Path:
     path = tmp_path / "word.wav"
-    _native.write_wav_pcm16(str(path), tone_word(500, 0, 0), RATE_HZ)
+    write_wav_pcm16(str(path), tone_word(500, 0, 0), RATE_HZ)
     return path
 
 
@@ -36,7 +36,7 @@ def test_tables_and_arrays_hold_the_same(hri, recording: Path, tmp_path: Path):
     header, *lines = printed.out.splitlines()
     assert header.split("\t")[:2] == ["c0", "c1"] and header.split("\t")[-1] == "dd_c12"
     rows = np.array([[float(v) for v in line.split("\t")] for line in lines], dtype="f4")
-    samples = _native.read_wav(str(recording)).samples
+    samples = read_wav(str(recording)).samples
     np.testing.assert_array_equal(rows, cepstra(samples, RATE_HZ, "hfcc"))
 
     table, array = tmp_path / "new" / "word.csv", tmp_path / "word.npy"
@@ -50,7 +50,7 @@ def test_a_preset_is_the_other_program(hri, recording: Path, tmp_path: Path):
     out, plot = tmp_path / "word.npy", tmp_path / "word.png"
     told = hri("features", recording, "--preset", "librosa", "-o", out, "--plot", plot)
     assert told.code == 0 and "features" in told.err
-    expected = librosa.feature.mfcc(y=np.asarray(_native.read_wav(str(recording)).samples), sr=RATE_HZ).T
+    expected = librosa.feature.mfcc(y=np.asarray(read_wav(str(recording)).samples), sr=RATE_HZ).T
     np.testing.assert_allclose(np.load(out), expected, rtol=1e-4, atol=1e-2)
     assert cv2.imread(str(plot)).shape[1] > 500
 

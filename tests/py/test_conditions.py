@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hri import _native
 from hri.core.errors import InvalidArgument
 from hri.evaluation.noise import active_power
 from hri.evaluation.room import InRoom, Response, Room, convolve, responses_at, simulate_response
 from hri.evaluation.tempo import ChangeTempo
+from hri.io import write_wav_pcm16
 
 RATE_HZ = 16000
 SPEED_OF_SOUND = 343.0
@@ -87,7 +87,7 @@ def test_the_noise_of_a_room_does_not_fall_with_distance() -> None:
 def test_a_recorded_response_is_read_and_resampled(tmp_path: Path) -> None:
     echo = np.zeros(4000, "f4")
     echo[[200, 2200]] = 0.4, 0.1
-    _native.write_wav_pcm16(str(tmp_path / "r.wav"), echo, 2 * RATE_HZ)
+    write_wav_pcm16(str(tmp_path / "r.wav"), echo, 2 * RATE_HZ)
     response = Response.read(str(tmp_path / "r.wav"))
     assert response.samples[200] == 1.0 and response.samples[2200] == pytest.approx(0.25, abs=1e-3)
     time_s = np.arange(RATE_HZ) / RATE_HZ

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.fft import dct
 
-from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.features import CepstraComputer, CepstraOptions, FilterBankOptions, filter_bank, filter_edges, normalise_time
 
 RATE_HZ = 16000
 
@@ -21,7 +21,7 @@ def audio(seconds: float = 0.5, seed: int = 0) -> np.ndarray:
     return (0.1 * rng.normal(size=count) * np.linspace(0.2, 1, count)).astype("f4")
 
 
-def reference(x: np.ndarray, bank: np.ndarray, options: _native.CepstraOptions) -> np.ndarray:
+def reference(x: np.ndarray, bank: np.ndarray, options: CepstraOptions) -> np.ndarray:
     """Static cepstra in double, one line a step."""
     x = x.astype("f8")
     emphasised = x - options.pre_emphasis * np.concatenate([x[:1], x[:-1]])
@@ -35,8 +35,8 @@ def reference(x: np.ndarray, bank: np.ndarray, options: _native.CepstraOptions) 
 
 
 def test_mel_bank_equals_librosas() -> None:
-    options = _native.FilterBankOptions(num_filters=40, low_hz=20.0, high_hz=7600.0)
-    ours = _native.filter_bank(options, RATE_HZ, 512)
+    options = FilterBankOptions(num_filters=40, low_hz=20.0, high_hz=7600.0)
+    ours = filter_bank(options, RATE_HZ, 512)
     theirs = librosa.filters.mel(sr=RATE_HZ, n_fft=512, n_mels=40, fmin=20, fmax=7600, htk=True, norm=None)
     assert ours.shape == (40, 257) and ours.dtype == np.float32
     np.testing.assert_allclose(ours, theirs, atol=2e-6)
@@ -44,8 +44,8 @@ def test_mel_bank_equals_librosas() -> None:
 
 def test_hfcc_filters_are_as_wide_as_the_ear_asks() -> None:
     factor = 1.3
-    options = _native.FilterBankOptions(kind="hfcc", num_filters=29, low_hz=100.0, high_hz=8000.0, erb_factor=factor)
-    low, centre, high = _native.filter_edges(options, RATE_HZ).T
+    options = FilterBankOptions(kind="hfcc", num_filters=29, low_hz=100.0, high_hz=8000.0, erb_factor=factor)
+    low, centre, high = filter_edges(options, RATE_HZ).T
     mel = 2595 * np.log10(1 + centre / 700)
     np.testing.assert_allclose(np.diff(mel), np.diff(mel)[0], rtol=1e-9)  # centres are even in mel
     erb = factor * (6.23e-6 * centre**2 + 93.39e-3 * centre + 28.52)
@@ -57,9 +57,9 @@ def test_hfcc_filters_are_as_wide_as_the_ear_asks() -> None:
 @pytest.mark.parametrize("kind", ["mel", "hfcc"])
 @pytest.mark.parametrize("lifter", [0.0, 22.0])
 def test_cepstra_equal_the_formulae(kind: str, lifter: float) -> None:
-    options = _native.CepstraOptions(filter_bank=kind, normalisation="none", delta_orders=0, lifter=lifter)
-    ours = _native.CepstraComputer(options).compute(audio())
-    bank = _native.filter_bank(_native.FilterBankOptions(kind=kind), RATE_HZ, 512)
+    options = CepstraOptions(filter_bank=kind, normalisation="none", delta_orders=0, lifter=lifter)
+    ours = CepstraComputer(options).compute(audio())
+    bank = filter_bank(FilterBankOptions(kind=kind), RATE_HZ, 512)
     theirs = reference(audio(), bank, options)
     assert ours.shape == theirs.shape == (48, 13) and ours.dtype == np.float32
     # Single precision all the way, then a logarithm: 1e-3 absolute on values of up to 60.
@@ -67,8 +67,8 @@ def test_cepstra_equal_the_formulae(kind: str, lifter: float) -> None:
 
 
 def test_deltas_are_regressions_over_five_frames() -> None:
-    plain = _native.CepstraComputer(_native.CepstraOptions(delta_orders=0)).compute(audio())
-    ours = _native.CepstraComputer(_native.CepstraOptions(delta_orders=2)).compute(audio())
+    plain = CepstraComputer(CepstraOptions(delta_orders=0)).compute(audio())
+    ours = CepstraComputer(CepstraOptions(delta_orders=2)).compute(audio())
     assert ours.shape == (48, 39)
     np.testing.assert_array_equal(ours[:, :13], plain)
     for column in (0, 13):
@@ -79,8 +79,8 @@ def test_deltas_are_regressions_over_five_frames() -> None:
 
 def test_normalisation_does_what_it_says() -> None:
     def static(kind: str, gain: float = 1.0) -> np.ndarray:
-        options = _native.CepstraOptions(normalisation=kind, delta_orders=0)
-        return _native.CepstraComputer(options).compute(gain * audio())
+        options = CepstraOptions(normalisation=kind, delta_orders=0)
+        return CepstraComputer(options).compute(gain * audio())
 
     np.testing.assert_allclose(static("mean").mean(axis=0), 0, atol=1e-4)
     np.testing.assert_allclose(static("mean_variance").std(axis=0), 1, atol=1e-3)
@@ -93,12 +93,12 @@ def test_normalisation_does_what_it_says() -> None:
 @pytest.mark.parametrize("x", [np.zeros(4000), np.full(4000, 0.5), np.eye(1, 4000, 2000)[0], np.full(4000, 1e18)])
 def test_strange_audio_gives_finite_features(x: np.ndarray) -> None:
     for kind in ("none", "mean", "mean_variance"):
-        features = _native.CepstraComputer(_native.CepstraOptions(normalisation=kind)).compute(x.astype("f4"))
+        features = CepstraComputer(CepstraOptions(normalisation=kind)).compute(x.astype("f4"))
         assert np.isfinite(features).all()
 
 
 def test_input_is_taken_in_any_layout_and_refused_with_its_place() -> None:
-    computer = _native.CepstraComputer()
+    computer = CepstraComputer()
     x = audio()
     expected = computer.compute(x)
     np.testing.assert_array_equal(computer.compute(np.repeat(x, 2)[::2]), expected)
@@ -127,9 +127,9 @@ def test_input_is_taken_in_any_layout_and_refused_with_its_place() -> None:
 )
 def test_impossible_options_are_named(fields: dict, message: str) -> None:
     with pytest.raises(InvalidArgument, match=message):
-        _native.CepstraComputer(_native.CepstraOptions(**fields))
+        CepstraComputer(CepstraOptions(**fields))
     with pytest.raises(TypeError, match="no_such_field"):
-        _native.CepstraOptions(no_such_field=1)
+        CepstraOptions(no_such_field=1)
 
 
 @pytest.mark.parametrize("num_rows", [1, 2, 7, 40])
@@ -139,6 +139,6 @@ def test_time_normalisation_is_linear_interpolation(num_rows: int) -> None:
     frames = np.random.default_rng(3).normal(size=(11, 3)).astype("f4")
     places = np.array([5.0]) if num_rows == 1 else np.linspace(0, 10, num_rows)
     expected = interp1d(np.arange(11), frames.astype("f8"), axis=0)(places)
-    np.testing.assert_allclose(_native.normalise_time(frames, num_rows), expected, atol=1e-6)
+    np.testing.assert_allclose(normalise_time(frames, num_rows), expected, atol=1e-6)
     with pytest.raises(InvalidArgument, match="num_rows must be at least 1"):
-        _native.normalise_time(frames, 0)
+        normalise_time(frames, 0)

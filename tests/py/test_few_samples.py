@@ -16,6 +16,8 @@ import hri as hri_package
 from conftest import RATE_HZ, tone_word
 from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.io import write_wav_pcm16
+from hri.signal import resample
 from hri.studies import get_study, run_study
 
 
@@ -50,7 +52,7 @@ def test_three_recordings_make_a_word(words: hri_package.WordRecognizer, tmp_pat
 
 
 def test_clips_at_other_rates_are_words_too(words: hri_package.WordRecognizer) -> None:
-    slower = _native.resample(THREE[1], RATE_HZ, 22050)
+    slower = resample(THREE[1], RATE_HZ, 22050)
     more = copy(words).add_word("0", [THREE[0], slower], [RATE_HZ, 22050])
     assert list(more.predict([THREE[2]], RATE_HZ)) == ["0"]
 
@@ -87,7 +89,7 @@ def test_the_command_line_adds_and_removes_words(hri, spoken: Path, tmp_path: Pa
     assert hri("train", "speech", "--data", spoken, "--out", model).code == 0
     files = [tmp_path / f"flat{take}.wav" for take in range(3)]
     for path, clip in zip(files, THREE, strict=True):
-        _native.write_wav_pcm16(str(path), clip, RATE_HZ)
+        write_wav_pcm16(str(path), clip, RATE_HZ)
     added = hri("add-word", "--model", model, "--label", "0", *files, "-o", more, "--json", "-")
     assert added.code == 0 and "3 labels: 0 1 2" in added.err
     assert json.loads(added.out) == {"model": str(more), "labels": ["0", "1", "2"]}
@@ -111,7 +113,7 @@ def test_the_study_compares_with_training(tmp_path: Path) -> None:
         for label, slope in (("0", 0.0), ("1", 800.0), ("2", -350.0)):
             for take in range(4):
                 clip = tone_word(base_hz, slope, 10 * take + int(label))
-                _native.write_wav_pcm16(str(folder / f"{label}_{person}_{take}.wav"), clip, RATE_HZ)
+                write_wav_pcm16(str(folder / f"{label}_{person}_{take}.wav"), clip, RATE_HZ)
     only = {"data": ["fsdd"], "model": ["hmm"]}
     rows = run_study(get_study("few-samples"), tmp_path, lambda *progress: None, only)["rows"]
     places = [(row["source"], row["samples"]) for row in rows]

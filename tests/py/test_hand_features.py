@@ -10,10 +10,18 @@ import cv2
 import numpy as np
 import pytest
 
-from hri import _native, _native_vision
 from hri.core.errors import InvalidArgument
+from hri.features import (
+    HandFeatureComputer,
+    HandFeatureOptions,
+    OrientationHistogramOptions,
+    SilhouetteCepstrumComputer,
+    SilhouetteCepstrumOptions,
+    orientation_histogram,
+)
 from hri.synthetic.drawing.signer import make_signer
 from hri.synthetic.signer import draw_still
+from hri.vision import SilhouetteExtractor, SilhouetteOptions
 
 
 def picture(rows: int, columns: int, seed: int = 0) -> np.ndarray:
@@ -55,8 +63,8 @@ def reference(image: np.ndarray, num_cells: int, num_bins: int) -> np.ndarray:
 @pytest.mark.parametrize("shape", [(40, 60), (64, 64), (9, 11)])
 def test_orientation_histogram_equals_its_definition(num_cells: int, num_bins: int, shape: tuple[int, int]) -> None:
     image = picture(*shape)
-    options = _native.OrientationHistogramOptions(num_cells=num_cells, num_bins=num_bins)
-    ours = _native.orientation_histogram(image, options)
+    options = OrientationHistogramOptions(num_cells=num_cells, num_bins=num_bins)
+    ours = orientation_histogram(image, options)
     theirs = reference(image, num_cells, num_bins)
     assert ours.dtype == np.float32 and ours.shape == theirs.shape
     # Sums of single precision in another order; blocks have length 1.
@@ -64,26 +72,26 @@ def test_orientation_histogram_equals_its_definition(num_cells: int, num_bins: i
 
 
 def test_orientation_histogram_tells_directions_apart() -> None:
-    options = _native.OrientationHistogramOptions(num_cells=1, num_bins=18)
+    options = OrientationHistogramOptions(num_cells=1, num_bins=18)
     y, x = np.mgrid[:48, :64]
     for bin_index in range(18):
         angle = np.deg2rad(10 * bin_index + 5)
         ramp = (x * np.cos(angle) + y * np.sin(angle)).astype("f4")
         for image in (ramp, -ramp):  # only the direction of the edge counts, not its sign
-            assert _native.orientation_histogram(image, options).argmax() == bin_index
+            assert orientation_histogram(image, options).argmax() == bin_index
 
 
 @pytest.mark.parametrize("value", [0.0, 0.5, 1e6])
 def test_flat_picture_has_no_orientation(value: float) -> None:
-    np.testing.assert_array_equal(_native.orientation_histogram(np.full((20, 20), value, "f4")), 0)
+    np.testing.assert_array_equal(orientation_histogram(np.full((20, 20), value, "f4")), 0)
 
 
 def test_orientation_histogram_takes_any_layout() -> None:
     image = picture(32, 48)
-    expected = _native.orientation_histogram(image)
-    np.testing.assert_array_equal(_native.orientation_histogram(image.astype("f8")), expected)
-    np.testing.assert_array_equal(_native.orientation_histogram(np.repeat(image, 2, axis=1)[:, ::2]), expected)
-    np.testing.assert_array_equal(_native.orientation_histogram(np.asfortranarray(image)), expected)
+    expected = orientation_histogram(image)
+    np.testing.assert_array_equal(orientation_histogram(image.astype("f8")), expected)
+    np.testing.assert_array_equal(orientation_histogram(np.repeat(image, 2, axis=1)[:, ::2]), expected)
+    np.testing.assert_array_equal(orientation_histogram(np.asfortranarray(image)), expected)
 
 
 @pytest.mark.parametrize(
@@ -99,7 +107,7 @@ def test_orientation_histogram_takes_any_layout() -> None:
 )
 def test_orientation_histogram_names_what_does_not_fit(shape: tuple[int, ...], fields: dict, message: str) -> None:
     with pytest.raises(InvalidArgument, match=message):
-        _native.orientation_histogram(np.zeros(shape, "f4"), _native.OrientationHistogramOptions(**fields))
+        orientation_histogram(np.zeros(shape, "f4"), OrientationHistogramOptions(**fields))
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 3e38])
@@ -107,7 +115,7 @@ def test_value_without_a_direction_is_named(bad: float) -> None:
     image = picture(20, 30)
     image[7, 19] = bad
     with pytest.raises(InvalidArgument, match="row 7, column 19"):
-        _native.orientation_histogram(image)
+        orientation_histogram(image)
 
 
 def disc(size_px: int = 200, radius_px: float = 60.0) -> np.ndarray:
@@ -120,22 +128,22 @@ def test_parts_of_the_feature_stand_side_by_side() -> None:
 
     def parts(*names: str) -> np.ndarray:
         chosen = {f"use_{name}": name in names for name in ("grey", "silhouette", "cepstrum")}
-        computer = _native.HandFeatureComputer(_native.HandFeatureOptions(**chosen))
+        computer = HandFeatureComputer(HandFeatureOptions(**chosen))
         values = computer.compute(grey, mask)
         assert values.dtype == np.float32 and values.shape == (computer.num_features,)
         return values
 
     whole = parts("grey", "silhouette", "cepstrum")
     np.testing.assert_array_equal(whole, np.concatenate([parts("grey"), parts("silhouette"), parts("cepstrum")]))
-    weight = np.float32(_native.HandFeatureOptions().cepstrum_weight)
-    cepstrum = _native.SilhouetteCepstrumComputer().compute(mask)
+    weight = np.float32(HandFeatureOptions().cepstrum_weight)
+    cepstrum = SilhouetteCepstrumComputer().compute(mask)
     np.testing.assert_allclose(parts("cepstrum"), weight * cepstrum, rtol=1e-6)
 
 
 def test_contour_of_a_disc_is_flat_and_of_a_square_has_four_corners() -> None:
-    computer = _native.SilhouetteCepstrumComputer()
+    computer = SilhouetteCepstrumComputer()
     flat = computer.contour_signal(disc())
-    assert flat.dtype == np.float32 and flat.shape == (_native.SilhouetteCepstrumOptions().num_points,)
+    assert flat.dtype == np.float32 and flat.shape == (SilhouetteCepstrumOptions().num_points,)
     np.testing.assert_allclose(flat, 1, atol=0.06)
     square = np.zeros((200, 200), "u1")
     square[50:150, 50:150] = 255
@@ -145,7 +153,7 @@ def test_contour_of_a_disc_is_flat_and_of_a_square_has_four_corners() -> None:
 
 
 def test_feature_takes_any_layout_of_bytes_and_nothing_else() -> None:
-    computer = _native.HandFeatureComputer()
+    computer = HandFeatureComputer()
     grey, mask = (255 * picture(200, 200)).astype("u1"), disc()
     expected = computer.compute(grey, mask)
     np.testing.assert_array_equal(
@@ -164,13 +172,13 @@ def test_feature_takes_any_layout_of_bytes_and_nothing_else() -> None:
 @pytest.mark.parametrize("mask", [np.full((1, 1), 255), np.eye(30) * 255, np.full((40, 3), 255), np.eye(1, 900) * 255])
 def test_strange_masks_give_finite_features(mask: np.ndarray) -> None:
     mask = mask.astype("u1")
-    assert np.isfinite(_native.HandFeatureComputer().compute(mask, mask)).all()
+    assert np.isfinite(HandFeatureComputer().compute(mask, mask)).all()
 
 
 @pytest.mark.parametrize("person", range(4))
 def test_drawn_hand_is_cut_out_of_its_wall(person: int) -> None:
     bgr = draw_still(make_signer(person), "5")
-    found = _native_vision.SilhouetteExtractor().extract(bgr)
+    found = SilhouetteExtractor().extract(bgr)
     assert found.grey.shape == found.mask.shape == bgr.shape[:2]
     assert found.grey.dtype == found.mask.dtype == np.uint8
     assert set(np.unique(found.mask)) == {0, 255}
@@ -194,20 +202,20 @@ def num_gaps(mask: np.ndarray) -> int:
 
 def test_silhouette_keeps_the_fingers() -> None:
     for person in range(3):
-        extractor = _native_vision.SilhouetteExtractor()
+        extractor = SilhouetteExtractor()
         gaps = [num_gaps(extractor.extract(draw_still(make_signer(person), label)).mask) for label in "0245"]
         assert gaps == [0, 2, 3, 4]  # beside the second finger of a 2 the fist is a bay, too
 
 
 def test_wall_alone_holds_no_hand() -> None:
-    found = _native_vision.SilhouetteExtractor().extract(np.full((240, 320, 3), (180, 170, 160), np.uint8))
+    found = SilhouetteExtractor().extract(np.full((240, 320, 3), (180, 170, 160), np.uint8))
     assert not found.mask.any() and found.quality == 0
 
 
 def test_silhouette_outlives_its_extractor_and_is_the_same_in_every_thread() -> None:
     pictures = [draw_still(make_signer(person), "3") for person in range(3)]
-    expected = [_native_vision.SilhouetteExtractor().extract(p).mask for p in pictures]
-    extractor = _native_vision.SilhouetteExtractor()
+    expected = [SilhouetteExtractor().extract(p).mask for p in pictures]
+    extractor = SilhouetteExtractor()
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(lambda p: extractor.extract(p).mask, pictures * 4))
     for mask, place in zip(found, range(12), strict=True):
@@ -215,7 +223,7 @@ def test_silhouette_outlives_its_extractor_and_is_the_same_in_every_thread() -> 
 
 
 def test_silhouette_takes_any_layout_of_bytes_and_nothing_else() -> None:
-    extractor = _native_vision.SilhouetteExtractor()
+    extractor = SilhouetteExtractor()
     bgr = draw_still(make_signer(0), "4")
     expected = extractor.extract(bgr).mask
     np.testing.assert_array_equal(extractor.extract(np.repeat(bgr, 2, axis=1)[:, ::2]).mask, expected)
@@ -229,4 +237,4 @@ def test_silhouette_takes_any_layout_of_bytes_and_nothing_else() -> None:
     with pytest.raises(InvalidArgument):
         extractor.extract(np.zeros((0, 0, 3), "u1"))
     with pytest.raises(InvalidArgument, match="blur_px"):
-        _native_vision.SilhouetteExtractor(_native_vision.SilhouetteOptions(blur_px=4))
+        SilhouetteExtractor(SilhouetteOptions(blur_px=4))

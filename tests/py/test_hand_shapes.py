@@ -12,8 +12,23 @@ import cv2
 import numpy as np
 import pytest
 
-from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.features import (
+    FourierDescriptorComputer,
+    FourierDescriptorOptions,
+    HandFeatureComputer,
+    HandFeatureOptions,
+    WaveletDescriptorComputer,
+    b_spline_wavelet,
+    chain_code,
+    hu_features,
+    hu_moments,
+    resample_contour,
+    shape_axis,
+    shape_moments,
+    shape_number,
+    trace_contour,
+)
 from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
 from hri.media import read_image
 from hri.synthetic.drawing.signer import make_signer
@@ -58,7 +73,7 @@ def largest(mask: Mask) -> Mask:
 @pytest.mark.parametrize("seed", range(12))
 def test_outline_is_that_of_opencv(seed: int, sigma: float) -> None:
     mask = blobs(seed, sigma=sigma)
-    ours = _native.trace_contour(mask)
+    ours = trace_contour(mask)
     assert ours.dtype == np.int32
     (theirs,) = cv2.findContours(largest(mask), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)[0]
     # OpenCV starts at the same pixel and goes the other way round.
@@ -68,63 +83,63 @@ def test_outline_is_that_of_opencv(seed: int, sigma: float) -> None:
 
 def test_outline_takes_any_layout_and_nothing_is_no_error() -> None:
     mask = blobs(1)
-    expected = _native.trace_contour(mask)
-    np.testing.assert_array_equal(_native.trace_contour(np.asfortranarray(mask)), expected)
-    np.testing.assert_array_equal(_native.trace_contour(np.repeat(mask, 2, axis=1)[:, ::2]), expected)
-    assert _native.trace_contour(np.zeros((5, 5), "u1")).shape == (0, 2)
-    assert _native.trace_contour(np.zeros((0, 0), "u1")).shape == (0, 2)
+    expected = trace_contour(mask)
+    np.testing.assert_array_equal(trace_contour(np.asfortranarray(mask)), expected)
+    np.testing.assert_array_equal(trace_contour(np.repeat(mask, 2, axis=1)[:, ::2]), expected)
+    assert trace_contour(np.zeros((5, 5), "u1")).shape == (0, 2)
+    assert trace_contour(np.zeros((0, 0), "u1")).shape == (0, 2)
     with pytest.raises(InvalidArgument, match="2 dimensions"):
-        _native.trace_contour(np.zeros((5, 5, 3), "u1"))
+        trace_contour(np.zeros((5, 5, 3), "u1"))
 
 
 def test_chain_code_leads_from_point_to_point() -> None:
-    contour = _native.trace_contour(hand())
-    code = _native.chain_code(contour)
+    contour = trace_contour(hand())
+    code = chain_code(contour)
     angle = code * np.pi / 4
     steps = np.rint(np.stack([np.cos(angle), -np.sin(angle)], axis=1) * np.sqrt(2) * 0.8).astype(int)
     np.testing.assert_array_equal(np.roll(contour, -1, axis=0) - contour, steps)
     turns = (np.roll(code, -1).astype(int) - code) % 8
-    number = _native.shape_number(contour)
+    number = shape_number(contour)
     assert number.tobytes() == min(np.roll(turns, -i).astype("u1").tobytes() for i in range(len(turns)))
     with pytest.raises(InvalidArgument, match="not neighbours"):
-        _native.chain_code(contour[::2])
+        chain_code(contour[::2])
     with pytest.raises(InvalidArgument, match="two columns"):
-        _native.chain_code(np.zeros((4, 3), "i4"))
+        chain_code(np.zeros((4, 3), "i4"))
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_moments_are_those_of_opencv(seed: int) -> None:
     mask = blobs(seed, (240, 320), 8.0)
-    ours, theirs = _native.shape_moments(mask), cv2.moments(mask, binaryImage=True)
+    ours, theirs = shape_moments(mask), cv2.moments(mask, binaryImage=True)
     assert set(ours) == set(theirs)
     for name, value in theirs.items():
         # Central moments are differences of numbers that are so much larger.
         largest_part = max(abs(theirs["m" + name[2:]]), 1.0) if name.startswith("mu") else abs(value)
         assert ours[name] == pytest.approx(value, rel=1e-12, abs=1e-10 * largest_part), name
-    np.testing.assert_allclose(_native.hu_moments(mask), cv2.HuMoments(theirs)[:, 0], rtol=1e-6, atol=1e-14)
+    np.testing.assert_allclose(hu_moments(mask), cv2.HuMoments(theirs)[:, 0], rtol=1e-6, atol=1e-14)
 
 
 def test_moments_as_features_are_roots_by_degree() -> None:
     mask = hand()
-    hu = _native.hu_moments(mask)
+    hu = hu_moments(mask)
     degrees = np.array([1, 2, 2, 2, 4, 3, 4])
-    np.testing.assert_allclose(_native.hu_features(mask), np.sign(hu) * np.abs(hu) ** (1 / degrees), rtol=1e-5)
+    np.testing.assert_allclose(hu_features(mask), np.sign(hu) * np.abs(hu) ** (1 / degrees), rtol=1e-5)
 
 
 def test_axis_is_that_of_the_second_moments() -> None:
     mask = hand(1, "1")
     y, x = np.nonzero(mask)
     values, vectors = np.linalg.eigh(np.cov(np.stack([x, y]).astype(float)))
-    angle, elongation = _native.shape_axis(mask)
+    angle, elongation = shape_axis(mask)
     assert abs(np.array([np.cos(angle), np.sin(angle)]) @ vectors[:, 1]) == pytest.approx(1, abs=1e-9)
     assert elongation == pytest.approx((values[1] - values[0]) / values.sum(), abs=1e-9)
 
 
 @pytest.mark.parametrize("use_phase", [False, True])
 def test_fourier_descriptor_is_numpys_fft_of_the_outline(use_phase: bool) -> None:
-    contour = _native.trace_contour(hand())
-    options = _native.FourierDescriptorOptions(num_points=100, num_harmonics=20, use_phase=use_phase)
-    x, y = _native.resample_contour(contour, 100).T.astype("f8")
+    contour = trace_contour(hand())
+    options = FourierDescriptorOptions(num_points=100, num_harmonics=20, use_phase=use_phase)
+    x, y = resample_contour(contour, 100).T.astype("f8")
     spectrum = np.fft.fft(x + 1j * y)
     spectrum[0] = 0
     spectrum /= np.linalg.norm(spectrum)
@@ -133,22 +148,22 @@ def test_fourier_descriptor_is_numpys_fft_of_the_outline(use_phase: bool) -> Non
     if use_phase:
         shifted = spectrum[k] * np.exp(-1j * k * np.angle(spectrum[1]))
         expected = np.stack([shifted.real, shifted.imag], axis=1).ravel()
-    ours = _native.FourierDescriptorComputer(options).compute_contour(contour)
+    ours = FourierDescriptorComputer(options).compute_contour(contour)
     np.testing.assert_allclose(ours, expected, atol=2e-5)
 
 
 def test_resampled_outline_has_equal_steps() -> None:
-    contour = _native.trace_contour(hand())
-    points = _native.resample_contour(contour, 200)
+    contour = trace_contour(hand())
+    points = resample_contour(contour, 200)
     steps = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
     assert np.std(steps) < 0.1 * np.mean(steps)
     distance = np.hypot(*(points[:, None] - contour[None]).transpose(2, 0, 1)).min(axis=1)
     assert distance.max() < 1.0
-    np.testing.assert_array_equal(_native.resample_contour(contour[:1], 3), np.repeat(contour[:1], 3, axis=0))
+    np.testing.assert_array_equal(resample_contour(contour[:1], 3), np.repeat(contour[:1], 3, axis=0))
     with pytest.raises(InvalidArgument, match="num_points"):
-        _native.resample_contour(contour, 0)
+        resample_contour(contour, 0)
     with pytest.raises(InvalidArgument, match="empty"):
-        _native.resample_contour(contour[:0], 4)
+        resample_contour(contour[:0], 4)
 
 
 def test_wavelet_descriptor_is_the_integral_of_the_paper() -> None:
@@ -165,14 +180,14 @@ def test_wavelet_descriptor_is_the_integral_of_the_paper() -> None:
         gauss = np.exp(-(v**2) / (2 * variance * 4))
         return 4 * a**4 / np.sqrt(2 * np.pi * 4) * np.sqrt(variance) * np.cos(2 * np.pi * f0 * v) * gauss
 
-    assert _native.b_spline_wavelet(0.3) == pytest.approx(psi(np.array(0.3)), rel=1e-12)
+    assert b_spline_wavelet(0.3) == pytest.approx(psi(np.array(0.3)), rel=1e-12)
     expected = [
         abs(np.sum(2 ** (m / 2) * psi(2**m * r - n / 2) * np.exp(1j * b * theta))) / largest_radius**2
         for b in range(4)
         for m in range(4)
         for n in range(2 ** (m + 1) + 1)
     ]
-    ours = _native.WaveletDescriptorComputer().compute(mask)
+    ours = WaveletDescriptorComputer().compute(mask)
     np.testing.assert_allclose(ours, expected, atol=2e-3 * max(expected))
 
 
@@ -269,7 +284,7 @@ def test_kinds_and_options_that_there_are_not_are_refused() -> None:
     with pytest.raises(InvalidArgument, match="another size"):
         hand_features([mask, mask[:9]], [mask, mask[:9]], "track")
     with pytest.raises(InvalidArgument, match="empty"):
-        _native.WaveletDescriptorComputer().compute(np.zeros((5, 5), "u1"))
+        WaveletDescriptorComputer().compute(np.zeros((5, 5), "u1"))
 
 
 @pytest.mark.parametrize("mask", [np.full((1, 1), 255), np.eye(30) * 255, np.full((40, 3), 255), np.eye(1, 900) * 255])
@@ -281,10 +296,10 @@ def test_strange_masks_have_finite_shapes(mask: Mask) -> None:
 
 def test_shapes_are_the_same_in_every_thread() -> None:
     masks = [hand(person, "5") for person in range(3)]
-    options = _native.HandFeatureOptions(
+    options = HandFeatureOptions(
         use_wavelet=True, use_moments=True, use_fourier=True, use_chain_code=True, use_grey=False
     )
-    computer = _native.HandFeatureComputer(options)
+    computer = HandFeatureComputer(options)
     expected = [computer.compute(mask, mask) for mask in masks]
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(lambda mask: computer.compute(mask, mask), masks * 4))

@@ -9,8 +9,21 @@ import logging
 import numpy as np
 import pytest
 
-from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.models import (
+    DiscreteHmm,
+    DiscreteHmmOptions,
+    DiscreteHmmStream,
+    GaussianMixtureHmm,
+    GaussianMixtureHmmOptions,
+    GaussianMixtureHmmStream,
+    MarkovChain,
+    StateChoiceOptions,
+    Topology,
+    choose_num_states,
+    initial_start,
+    initial_transition,
+)
 
 hmmlearn = pytest.importorskip("hmmlearn.hmm")
 logging.getLogger("hmmlearn").setLevel(logging.ERROR)  # it warns of too little data
@@ -28,34 +41,34 @@ TOPOLOGIES = [
 ]
 
 
-def random_chain(topology: _native.Topology, rng: np.random.Generator) -> _native.MarkovChain:
+def random_chain(topology: Topology, rng: np.random.Generator) -> MarkovChain:
     """Random values with the zeros and the jumps of the topology."""
     n = topology.num_states
-    start = _native.initial_start(topology) * rng.uniform(0.5, 1.0, n)
+    start = initial_start(topology) * rng.uniform(0.5, 1.0, n)
     start /= start.sum()
-    in_band = _native.initial_transition(topology) > 0
+    in_band = initial_transition(topology) > 0
     band = np.where(in_band, rng.uniform(0.1, 1.0, (n, n)), 0.0)
     band /= band.sum(axis=1, keepdims=True)
     if topology.kind.name != "rank_one_plus_band":
-        return _native.MarkovChain(topology, start, band)
+        return MarkovChain(topology, start, band)
     leave = rng.uniform(0.1, 0.6, n)
-    return _native.MarkovChain(topology, start, band * (1 - leave[:, None]), leave, rng.dirichlet(np.ones(n)))
+    return MarkovChain(topology, start, band * (1 - leave[:, None]), leave, rng.dirichlet(np.ones(n)))
 
 
-def discrete_pair(fields: dict, seed: int, implementation: str = "log") -> tuple[_native.DiscreteHmm, object]:
+def discrete_pair(fields: dict, seed: int, implementation: str = "log") -> tuple[DiscreteHmm, object]:
     """The same model here and in hmmlearn, which only has whole matrices."""
     rng = np.random.default_rng(seed)
-    chain = random_chain(_native.Topology(**fields), rng)
+    chain = random_chain(Topology(**fields), rng)
     emission = rng.dirichlet(np.ones(NUM_SYMBOLS), chain.num_states)
     peer = hmmlearn.CategoricalHMM(chain.num_states, n_iter=1, tol=0, init_params="", implementation=implementation)
     peer.startprob_, peer.transmat_, peer.emissionprob_ = chain.start, chain.transition, emission
     peer.n_features = NUM_SYMBOLS
-    return _native.DiscreteHmm(chain, emission), peer
+    return DiscreteHmm(chain, emission), peer
 
 
-def gaussian_pair(fields: dict, seed: int) -> tuple[_native.GaussianMixtureHmm, object]:
+def gaussian_pair(fields: dict, seed: int) -> tuple[GaussianMixtureHmm, object]:
     rng = np.random.default_rng(seed)
-    chain = random_chain(_native.Topology(**fields), rng)
+    chain = random_chain(Topology(**fields), rng)
     n = chain.num_states
     means, variances = rng.normal(0, 2, (n, DIM)), rng.uniform(0.5, 2.0, (n, DIM))
     # hmmlearn's priors on means and covariances are switched off, so that both maximise likelihood.
@@ -64,7 +77,7 @@ def gaussian_pair(fields: dict, seed: int) -> tuple[_native.GaussianMixtureHmm, 
     )
     peer.startprob_, peer.transmat_, peer.n_features = chain.start, chain.transition, DIM
     peer.means_, peer.covars_ = means, variances
-    return _native.GaussianMixtureHmm(chain, np.ones((n, 1)), means, variances), peer
+    return GaussianMixtureHmm(chain, np.ones((n, 1)), means, variances), peer
 
 
 def symbols_of(seed: int, *lengths: int) -> list[np.ndarray]:
@@ -101,9 +114,7 @@ def test_frames_score_as_in_hmmlearn(fields: dict) -> None:
         np.testing.assert_allclose(ours.posterior(frames), peer.predict_proba(frames), rtol=1e-7, atol=1e-10)
 
 
-def assert_chains_agree(
-    ours: _native.MarkovChain, before: _native.MarkovChain, peer: object, moved: np.ndarray
-) -> None:
+def assert_chains_agree(ours: MarkovChain, before: MarkovChain, peer: object, moved: np.ndarray) -> None:
     """Ours after a step against hmmlearn's, whose jumps are told from steps of the band by their shares before.
 
     moved : expected visits of every state but in the last frame of a sequence.
@@ -124,7 +135,7 @@ def test_a_baum_welch_step_over_symbols_is_hmmlearns(fields: dict) -> None:
     ours, peer = discrete_pair(fields, 4)
     sequences = symbols_of(5, 30, 45, 60)
     moved = sum(ours.posterior(s)[:-1].sum(axis=0) for s in sequences)
-    after = ours.retrain(sequences, _native.DiscreteHmmOptions(max_iterations=1, emission_floor=0.0))
+    after = ours.retrain(sequences, DiscreteHmmOptions(max_iterations=1, emission_floor=0.0))
     peer.fit(np.concatenate(sequences)[:, None], [len(s) for s in sequences])
     assert_chains_agree(after.chain, ours.chain, peer, moved)
     np.testing.assert_allclose(after.emission, peer.emissionprob_, rtol=1e-7, atol=1e-12)
@@ -136,7 +147,7 @@ def test_a_baum_welch_step_over_frames_is_hmmlearns(fields: dict) -> None:
     # Drawn from the model, as states that are never visited keep what they were here.
     sequences = [peer.sample(length, random_state=length)[0].astype("f4") for length in (40, 50, 60)]
     moved = sum(ours.posterior(s)[:-1].sum(axis=0) for s in sequences)
-    options = _native.GaussianMixtureHmmOptions(max_iterations=1, variance_floor=1e-12)
+    options = GaussianMixtureHmmOptions(max_iterations=1, variance_floor=1e-12)
     after = ours.retrain(sequences, options)
     # In double, as hmmlearn squares frames in the precision they have.
     peer.fit(np.concatenate(sequences).astype("f8"), [len(s) for s in sequences])
@@ -169,7 +180,7 @@ def test_a_symbol_beyond_32_bits_is_out_of_range() -> None:
 
 def test_streams_are_where_whole_scores_are() -> None:
     models = [discrete_pair(fields, seed)[0] for seed, fields in enumerate(TOPOLOGIES)]
-    stream = _native.DiscreteHmmStream(models)
+    stream = DiscreteHmmStream(models)
     (symbols,) = symbols_of(10, 50)
     for count, symbol in enumerate(symbols, start=1):
         stream.push(symbol)
@@ -187,7 +198,7 @@ def test_streams_are_where_whole_scores_are() -> None:
 def test_streams_of_frames_drop_what_falls_below_the_beam() -> None:
     models = [gaussian_pair(fields, seed)[0] for seed, fields in enumerate(TOPOLOGIES)]
     frames = np.random.default_rng(11).normal(0, 2, (80, DIM)).astype("f4")
-    whole, pruned = _native.GaussianMixtureHmmStream(models), _native.GaussianMixtureHmmStream(models, beam=20.0)
+    whole, pruned = GaussianMixtureHmmStream(models), GaussianMixtureHmmStream(models, beam=20.0)
     for frame in frames:
         whole.push(frame)
     pruned.push_all(frames)
@@ -198,7 +209,7 @@ def test_streams_of_frames_drop_what_falls_below_the_beam() -> None:
     np.testing.assert_array_equal(kept[np.isfinite(kept)], whole.log_likelihoods()[np.isfinite(kept)])
     assert pruned.nbest(1) == whole.nbest(1)
     with pytest.raises(InvalidArgument, match="beam"):
-        _native.GaussianMixtureHmmStream(models, beam=-1.0)
+        GaussianMixtureHmmStream(models, beam=-1.0)
 
 
 @pytest.mark.parametrize("criterion", ["bic", "held_out"])
@@ -207,10 +218,10 @@ def test_the_number_of_states_is_found(criterion: str) -> None:
     lengths = rng.integers(4, 12, (20, 3))
     words = [np.repeat([0, 1, 2], length) for length in lengths]
     curves = [(4.0 * word[:, None] + rng.normal(size=(len(word), 2))).astype("f4") for word in words]
-    choice = _native.StateChoiceOptions(criterion=criterion)
-    found = _native.choose_num_states(curves, _native.GaussianMixtureHmmOptions(), [1, 2, 3], choice)
+    choice = StateChoiceOptions(criterion=criterion)
+    found = choose_num_states(curves, GaussianMixtureHmmOptions(), [1, 2, 3], choice)
     assert found.num_states == 3 and [c.num_states for c in found.candidates] == [1, 2, 3]
-    options = _native.DiscreteHmmOptions(num_symbols=3)
-    found = _native.choose_num_states(words, options, [1, 2, 3], choice)
+    options = DiscreteHmmOptions(num_symbols=3)
+    found = choose_num_states(words, options, [1, 2, 3], choice)
     assert found.num_states == 3
     assert max(c.score for c in found.candidates) == found.candidates[2].score

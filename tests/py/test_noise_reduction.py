@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 import pywt
 
-from hri import _native, denoise
-from hri import noise_reduction as reduction
+from hri import denoise
 from hri.cli.main import main
 from hri.core.errors import InvalidArgument
+from hri.io import write_wav_pcm16
 from hri.media import read_audio
+from hri.signal import noise_reduction as reduction
 
 RULES, SHAPES, NOISES = list(reduction.RULES), list(reduction.SHAPES), list(reduction.NOISES)
 
@@ -80,9 +81,9 @@ def test_denoising_is_its_formula(rule: str, shape: str, noise: str) -> None:
     for count, wavelet, levels in ((4096, "sym8", 5), (1001, "db4", 3), (37, "haar", 2), (300, "bior4.4", 4)):
         _, x = bumps(count, seed=count)
         expected = by_formula(x, wavelet, levels, rule, shape, noise)
-        ours = denoise(x, wavelet, num_levels=levels, threshold=rule, shape=shape, noise=noise)
+        ours = denoise(x, wavelet, level=levels, threshold=rule, shape=shape, noise=noise)
         np.testing.assert_allclose(ours, expected, rtol=0, atol=1e-9)
-        single = denoise(x.astype("f4"), wavelet, num_levels=levels, threshold=rule, shape="soft", noise=noise)
+        single = denoise(x.astype("f4"), wavelet, level=levels, threshold=rule, shape="soft", noise=noise)
         assert single.dtype == np.float32 and single.shape == x.shape
         np.testing.assert_allclose(single, by_formula(x, wavelet, levels, rule, "soft", noise), rtol=0, atol=1e-4)
 
@@ -143,7 +144,7 @@ def test_silence_and_short_signals_stay() -> None:
 def test_approximation_is_the_low_half_as_loud() -> None:
     tone = np.sin(2 * np.pi * 100 * np.arange(8000) / 16000)
     for level in (1, 2, 3):
-        found = reduction.approximation(tone, "sym8", level, "periodization")
+        found = reduction.approximation(tone, "sym8", "periodization", level)
         assert len(found) == 8000 // 2**level
         assert np.sqrt((found[50:-50] ** 2).mean()) == pytest.approx(np.sqrt(0.5), rel=0.01)
         expected = pywt.wavedec(tone, "sym8", "periodization", level)[0] / 2 ** (level / 2)
@@ -154,12 +155,12 @@ def test_approximation_is_the_low_half_as_loud() -> None:
     ("arguments", "named"),
     [
         ({"wavelet": "db99"}, "db99"),
-        ({"border": "mirror"}, "border"),
+        ({"mode": "mirror"}, "mode"),
         ({"threshold": "best"}, "threshold"),
         ({"shape": "firm"}, "shape"),
         ({"noise": "pink"}, "noise"),
-        ({"num_levels": -1}, "num_levels"),
-        ({"num_levels": 63}, "num_levels"),
+        ({"level": -1}, "num_levels"),
+        ({"level": 63}, "num_levels"),
         ({"strength": -1.0}, "strength"),
         ({"strength": np.nan}, "strength"),
     ],
@@ -182,11 +183,11 @@ def test_signals_that_are_none_are_refused() -> None:
 def test_command_cleans_a_recording(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     clean, noisy = bumps(noise=0.2)
     source, target = tmp_path / "noisy.wav", tmp_path / "clean.wav"
-    _native.write_wav_pcm16(str(source), (noisy / 4).astype("f4"), 16000)
+    write_wav_pcm16(str(source), (noisy / 4).astype("f4"), 16000)
     assert main(["denoise", str(source), str(target), "--wavelet", "db6", "--threshold", "sure", "--levels", "6"]) == 0
     assert str(target) in capsys.readouterr().out
     heard, found = read_audio(source).samples, read_audio(target)
-    expected = denoise(heard, "db6", num_levels=6, threshold="sure")
+    expected = denoise(heard, "db6", level=6, threshold="sure")
     assert found.sample_rate_hz == 16000
     np.testing.assert_allclose(found.samples, expected, atol=2**-15)
     assert ((4 * found.samples - clean) ** 2).sum() < 0.3 * ((noisy - clean) ** 2).sum()
@@ -197,7 +198,7 @@ def test_command_cleans_a_recording(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 def test_command_refuses_what_it_cannot_do(tmp_path: Path) -> None:
     source = tmp_path / "x.wav"
-    _native.write_wav_pcm16(str(source), np.ones(1000, "f4") / 2, 11025)
+    write_wav_pcm16(str(source), np.ones(1000, "f4") / 2, 11025)
     assert main(["denoise", str(source), str(tmp_path / "y.mp3")]) == 2
     assert main(["denoise", str(source), str(tmp_path / "y.wav"), "--threshold", "best"]) == 2
     assert main(["denoise", str(source), str(tmp_path / "y.wav"), "--wavelet", "db99"]) == 3

@@ -12,9 +12,11 @@ import numpy as np
 import pytest
 
 from conftest import RATE_HZ, tone_word
-from hri import _native, studies
+from hri import studies
 from hri.core.errors import InvalidArgument
 from hri.datasets.asl_sentences import SignedSentence
+from hri.io import write_wav_pcm16
+from hri.models import DiscreteHmm, DiscreteHmmOptions, PossibilisticHmmSet, Topology
 from hri.studies import parity
 from hri.studies.sequences import DELTA_WEIGHT, Example, hand_features, splits_by_person
 
@@ -30,7 +32,7 @@ def write_tones(folder: Path, pattern: str, labels: dict[str, str], base_hz: flo
                 path = folder / pattern.format(label=label, person=speaker, take=take)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 tone = tone_word(base_hz + 40.0 * number, FORMS[form], 10 * number + take)
-                _native.write_wav_pcm16(str(path), tone, RATE_HZ)
+                write_wav_pcm16(str(path), tone, RATE_HZ)
 
 
 def write_signs(folder: Path) -> None:
@@ -173,10 +175,10 @@ def test_scores_of_rows_are_those_of_every_path() -> None:
     train = [[rng.integers(0, 5, 12).astype("i4") for _ in range(6)] for _ in range(2)]
     test = [rng.integers(0, 5, length).astype("i4") for length in (1, 2, 6)]
     models = [
-        _native.DiscreteHmm.train(
+        DiscreteHmm.train(
             part,
-            _native.DiscreteHmmOptions(
-                topology=_native.Topology(kind="left_right", num_states=3, max_jump=1),
+            DiscreteHmmOptions(
+                topology=Topology(kind="left_right", num_states=3, max_jump=1),
                 num_symbols=5,
                 emission_floor=setting.floor / 5,
                 max_iterations=setting.max_iterations,
@@ -184,7 +186,7 @@ def test_scores_of_rows_are_those_of_every_path() -> None:
         )
         for part in train
     ]
-    found = _native.PossibilisticHmmSet(models)
+    found = PossibilisticHmmSet(models)
     scores = parity.score_all(train, test, setting)["product_rows"]
     for symbols, row in zip(test, scores, strict=True):
         for c, model in enumerate(models):

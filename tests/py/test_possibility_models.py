@@ -18,6 +18,22 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.io import ModelFile
+from hri.models import (
+    DiscreteHmm,
+    FixedPointHmmSet,
+    GaussianMixtureHmm,
+    GaussianMixtureHmmOptions,
+    MarkovChain,
+    PossibilisticGaussianHmmSet,
+    PossibilisticHmmOptions,
+    PossibilisticHmmSet,
+    PossibilisticHmmStream,
+    PossibilisticRule,
+    Topology,
+    initial_start,
+    initial_transition,
+)
 
 NUM_SYMBOLS = 6
 DIM = 2
@@ -38,34 +54,34 @@ RULES = [
 ]
 
 
-def random_chain(fields: dict, rng: np.random.Generator) -> _native.MarkovChain:
-    topology = _native.Topology(**fields)
+def random_chain(fields: dict, rng: np.random.Generator) -> MarkovChain:
+    topology = Topology(**fields)
     n = topology.num_states
-    start = _native.initial_start(topology) * rng.uniform(0.5, 1.0, n)
-    band = np.where(_native.initial_transition(topology) > 0, rng.uniform(0.05, 1.0, (n, n)), 0.0)
+    start = initial_start(topology) * rng.uniform(0.5, 1.0, n)
+    band = np.where(initial_transition(topology) > 0, rng.uniform(0.05, 1.0, (n, n)), 0.0)
     band /= band.sum(axis=1, keepdims=True)
     if topology.kind.name != "rank_one_plus_band":
-        return _native.MarkovChain(topology, start / start.sum(), band)
+        return MarkovChain(topology, start / start.sum(), band)
     leave = rng.uniform(0.1, 0.6, n)
     land = rng.dirichlet(np.ones(n))
-    return _native.MarkovChain(topology, start / start.sum(), band * (1 - leave[:, None]), leave, land)
+    return MarkovChain(topology, start / start.sum(), band * (1 - leave[:, None]), leave, land)
 
 
-def models_of(fields: dict, num_classes: int, seed: int = 1) -> list[_native.DiscreteHmm]:
+def models_of(fields: dict, num_classes: int, seed: int = 1) -> list[DiscreteHmm]:
     rng = np.random.default_rng(seed)
     chains = [random_chain(fields, rng) for _ in range(num_classes)]
-    return [_native.DiscreteHmm(c, rng.dirichlet(np.full(NUM_SYMBOLS, 0.3), c.num_states)) for c in chains]
+    return [DiscreteHmm(c, rng.dirichlet(np.full(NUM_SYMBOLS, 0.3), c.num_states)) for c in chains]
 
 
-def set_of(num_classes: int = 3, **rule: object) -> _native.PossibilisticHmmSet:
-    return _native.PossibilisticHmmSet(models_of(TOPOLOGIES[0], num_classes), _native.PossibilisticRule(**rule))
+def set_of(num_classes: int = 3, **rule: object) -> PossibilisticHmmSet:
+    return PossibilisticHmmSet(models_of(TOPOLOGIES[0], num_classes), PossibilisticRule(**rule))
 
 
 def symbols_of(length: int, seed: int = 5) -> NDArray[np.int32]:
     return np.random.default_rng(seed).integers(0, NUM_SYMBOLS, length).astype(np.int32)
 
 
-def log_possibilities(models: list[_native.DiscreteHmm], rule: dict, symbols: NDArray[np.int32]) -> NDArray[np.float64]:
+def log_possibilities(models: list[DiscreteHmm], rule: dict, symbols: NDArray[np.int32]) -> NDArray[np.float64]:
     """The recursion of the header in plain possibilities, from the parameters of the HMMs."""
     largest = np.max([m.emission.max(axis=0) for m in models], axis=0)
     most_start = max(m.chain.start.max() for m in models)
@@ -80,7 +96,7 @@ def log_possibilities(models: list[_native.DiscreteHmm], rule: dict, symbols: ND
             land = chain.land / chain.land.max()
             leave = chain.leave * chain.land.max() / most_transition
             jump = join(leave[:, None], land[None, :])
-            s = np.maximum(np.where(_native.initial_transition(chain.topology) > 0, s, 0.0), jump)
+            s = np.maximum(np.where(initial_transition(chain.topology) > 0, s, 0.0), jump)
         phi, log_scale = chain.start / most_start, 0.0
         for t, symbol in enumerate(symbols):
             came = phi if t == 0 else join(phi[:, None], s).max(axis=0)
@@ -102,7 +118,7 @@ def log_possibilities(models: list[_native.DiscreteHmm], rule: dict, symbols: ND
 @pytest.mark.parametrize("num_classes", [2, 20])
 def test_scores_are_those_of_the_recursion_in_numpy(fields: dict, rule: dict, num_classes: int) -> None:
     models = models_of(fields, num_classes)
-    possible = _native.PossibilisticHmmSet(models, _native.PossibilisticRule(**rule))
+    possible = PossibilisticHmmSet(models, PossibilisticRule(**rule))
     for length in (1, 2, 5, 25):
         symbols = symbols_of(length)
         expected = log_possibilities(models, rule, symbols)
@@ -114,20 +130,20 @@ def test_scores_are_those_of_the_recursion_in_numpy(fields: dict, rule: dict, nu
 
 def test_jumps_score_as_the_same_numbers_in_an_ergodic_model() -> None:
     jumping = models_of({"kind": "rank_one_plus_band", "num_states": 6, "max_jump": 1}, 5)
-    topology = _native.Topology(kind="ergodic", num_states=6)
-    chains = [_native.MarkovChain(topology, m.chain.start, m.chain.transition) for m in jumping]
-    dense = [_native.DiscreteHmm(c, m.emission) for c, m in zip(chains, jumping, strict=True)]
+    topology = Topology(kind="ergodic", num_states=6)
+    chains = [MarkovChain(topology, m.chain.start, m.chain.transition) for m in jumping]
+    dense = [DiscreteHmm(c, m.emission) for c, m in zip(chains, jumping, strict=True)]
     for length in (1, 2, 40):
         symbols = symbols_of(length)
-        expected = _native.PossibilisticHmmSet(dense).log_possibilities_exact(symbols)
-        found = _native.PossibilisticHmmSet(jumping).log_possibilities_exact(symbols)
+        expected = PossibilisticHmmSet(dense).log_possibilities_exact(symbols)
+        found = PossibilisticHmmSet(jumping).log_possibilities_exact(symbols)
         np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
 def test_results_have_their_dtypes_and_shapes() -> None:
     possible = set_of()
     symbols = symbols_of(9)
-    for scores in (possible.log_possibilities(symbols), _native.FixedPointHmmSet(possible).log_possibilities(symbols)):
+    for scores in (possible.log_possibilities(symbols), FixedPointHmmSet(possible).log_possibilities(symbols)):
         assert (scores.dtype, scores.shape) == (np.float32, (3,))
     exact = possible.log_possibilities_exact(symbols)
     assert (exact.dtype, exact.shape) == (np.float64, (3,))
@@ -158,7 +174,7 @@ def test_symbols_are_integers_of_any_kind(dtype: str) -> None:
 
 def test_bad_input_is_refused_by_name() -> None:
     possible = set_of()
-    fixed = _native.FixedPointHmmSet(possible)
+    fixed = FixedPointHmmSet(possible)
     sets = (possible.log_possibilities, possible.log_possibilities_exact, possible.classify, fixed.log_possibilities)
     for scores in sets:
         with pytest.raises(InvalidArgument, match="symbol 6 at position 2"):
@@ -179,47 +195,47 @@ def test_bad_input_is_refused_by_name() -> None:
             with pytest.raises(InvalidArgument, match="class_index"):
                 action(class_index)
     with pytest.raises(InvalidArgument, match="at least one model"):
-        _native.PossibilisticHmmSet([])
+        PossibilisticHmmSet([])
     with pytest.raises(InvalidArgument, match="same topology"):
-        _native.PossibilisticHmmSet(models_of(TOPOLOGIES[0], 1) + models_of(TOPOLOGIES[3], 1))
+        PossibilisticHmmSet(models_of(TOPOLOGIES[0], 1) + models_of(TOPOLOGIES[3], 1))
     with pytest.raises(InvalidArgument, match="same topology"):
         possible.with_class(models_of(TOPOLOGIES[4], 1)[0])
     with pytest.raises(InvalidArgument, match="product"):
-        _native.FixedPointHmmSet(set_of(conjunction="min"))
+        FixedPointHmmSet(set_of(conjunction="min"))
     for beam in (0.0, -1.0, np.nan):
         with pytest.raises(InvalidArgument, match="beam"):
-            _native.PossibilisticHmmStream(possible, beam=beam)
+            PossibilisticHmmStream(possible, beam=beam)
 
 
 def test_rules_refuse_what_they_do_not_know() -> None:
-    rule = _native.PossibilisticRule(conjunction="min", concentration=2.0)
+    rule = PossibilisticRule(conjunction="min", concentration=2.0)
     assert (rule.conjunction, rule.conditioned, rule.concentration) == (_native.Conjunction.min, True, 2.0)
     with pytest.raises((TypeError, ValueError), match="conjuction"):
-        _native.PossibilisticRule(conjuction="min")
+        PossibilisticRule(conjuction="min")
     with pytest.raises((TypeError, ValueError)):
-        _native.PossibilisticRule(conjunction="average")
+        PossibilisticRule(conjunction="average")
     for concentration in (0.5, 17.0, np.nan, np.inf):
-        bad = _native.PossibilisticRule(conjunction="min", concentration=concentration)
+        bad = PossibilisticRule(conjunction="min", concentration=concentration)
         with pytest.raises(InvalidArgument, match="concentration"):
-            _native.PossibilisticHmmSet(models_of(TOPOLOGIES[0], 2), bad)
+            PossibilisticHmmSet(models_of(TOPOLOGIES[0], 2), bad)
         options = discrete_options(rule=bad, max_iterations=100000, tolerance=0.0)
         started = time.monotonic()
         with pytest.raises(InvalidArgument, match="concentration"):  # before any training
-            _native.PossibilisticHmmSet.train([[symbols_of(20000)]] * 2, options)
+            PossibilisticHmmSet.train([[symbols_of(20000)]] * 2, options)
         assert time.monotonic() - started < 2
 
 
-def discrete_options(**fields: object) -> _native.PossibilisticHmmOptions:
-    fields = {"topology": _native.Topology(**TOPOLOGIES[0]), "num_symbols": NUM_SYMBOLS, **fields}
-    return _native.PossibilisticHmmOptions(**fields)
+def discrete_options(**fields: object) -> PossibilisticHmmOptions:
+    fields = {"topology": Topology(**TOPOLOGIES[0]), "num_symbols": NUM_SYMBOLS, **fields}
+    return PossibilisticHmmOptions(**fields)
 
 
 @pytest.mark.parametrize("training", ["all_paths", "best_path"])
 def test_a_trained_class_more_changes_no_other(training: str) -> None:
     data = [[symbols_of(20, 10 * c + i) % (c + 2) for i in range(4)] for c in range(4)]
     options = discrete_options(training=training)
-    whole = _native.PossibilisticHmmSet.train(data, options)
-    few = _native.PossibilisticHmmSet.train(data[:3], options)
+    whole = PossibilisticHmmSet.train(data, options)
+    few = PossibilisticHmmSet.train(data[:3], options)
     symbols = symbols_of(12, 77) % 2
     expected = whole.log_possibilities(symbols)
     np.testing.assert_array_equal(few.with_class(data[3], options).log_possibilities(symbols), expected)
@@ -233,18 +249,18 @@ def test_a_trained_class_more_changes_no_other(training: str) -> None:
 
 def long_training(kind: str) -> None:
     rng = np.random.default_rng(0)
-    topology = _native.Topology(kind="ergodic", num_states=30)
+    topology = Topology(kind="ergodic", num_states=30)
     if kind == "gaussian":
-        options = _native.GaussianMixtureHmmOptions(topology=topology, max_iterations=100000, tolerance=0.0)
+        options = GaussianMixtureHmmOptions(topology=topology, max_iterations=100000, tolerance=0.0)
         frames = [rng.normal(size=(200, DIM)).astype("f4") for _ in range(20)]
-        _native.PossibilisticGaussianHmmSet.train([frames] * 3, options)
+        PossibilisticGaussianHmmSet.train([frames] * 3, options)
         return
     options = discrete_options(topology=topology, training=kind, max_iterations=100000, tolerance=0.0)
     sequences = [symbols_of(300, i) for i in range(50)]
     if kind == "best_path":  # ends by itself where nothing moves: thousands of classes
-        _native.PossibilisticHmmSet.train([sequences] * 5000, options)
+        PossibilisticHmmSet.train([sequences] * 5000, options)
     else:
-        _native.PossibilisticHmmSet.train([sequences] * 3, options)
+        PossibilisticHmmSet.train([sequences] * 3, options)
 
 
 @pytest.mark.parametrize("kind", ["all_paths", "best_path", "gaussian"])
@@ -260,15 +276,15 @@ def test_an_interrupt_ends_the_training(kind: str) -> None:
     assert time.monotonic() - started < 10
 
 
-def gaussian_set(num_classes: int = 3, **rule: object) -> _native.PossibilisticGaussianHmmSet:
+def gaussian_set(num_classes: int = 3, **rule: object) -> PossibilisticGaussianHmmSet:
     rng = np.random.default_rng(3)
     models = []
     for _ in range(num_classes):
         chain = random_chain(TOPOLOGIES[0], rng)
         n = chain.num_states
         means, variances = rng.normal(0, 2, (n, DIM)), rng.uniform(0.5, 2.0, (n, DIM))
-        models.append(_native.GaussianMixtureHmm(chain, np.ones((n, 1)), means, variances))
-    return _native.PossibilisticGaussianHmmSet(models, _native.PossibilisticRule(**rule))
+        models.append(GaussianMixtureHmm(chain, np.ones((n, 1)), means, variances))
+    return PossibilisticGaussianHmmSet(models, PossibilisticRule(**rule))
 
 
 def test_frames_are_scored_by_densities_over_the_largest() -> None:
@@ -311,8 +327,8 @@ def test_a_stream_outlives_its_set_and_gives_its_scores() -> None:
     possible = set_of(20)
     symbols = symbols_of(30)
     expected = [possible.log_possibilities(symbols[: t + 1]) for t in range(len(symbols))]
-    stream = _native.PossibilisticHmmStream(possible)
-    fixed = _native.FixedPointHmmSet(possible)
+    stream = PossibilisticHmmStream(possible)
+    fixed = FixedPointHmmSet(possible)
     rounded = fixed.log_possibilities(symbols)
     del possible
     gc.collect()
@@ -340,7 +356,7 @@ def test_threads_share_the_sets() -> None:
     sequences = [symbols_of(10 + 40 * i, i) for i in range(8)]
     frames = [np.random.default_rng(i).normal(0, 2, (30 + i, DIM)).astype("f4") for i in range(8)]
     jobs: list[tuple[Callable, NDArray]] = [(s.log_possibilities, x) for s in symbol_sets for x in sequences]
-    jobs += [(_native.FixedPointHmmSet(s).log_possibilities, x) for s in symbol_sets[::2] for x in sequences]
+    jobs += [(FixedPointHmmSet(s).log_possibilities, x) for s in symbol_sets[::2] for x in sequences]
     gaussian = gaussian_set(20)
     jobs += [(gaussian.log_possibilities, x) for x in frames]
     expected = [action(x) for action, x in jobs]
@@ -353,10 +369,10 @@ def test_threads_share_the_sets() -> None:
 @pytest.mark.parametrize("make", [set_of, gaussian_set])
 def test_files_give_back_the_set(make: Callable, tmp_path: Path) -> None:
     possible = make(3, conjunction="min", concentration=2.5)
-    file = _native.ModelFile()
+    file = ModelFile()
     possible.write(file, "p.")
     file.write(str(tmp_path / "set.hri"))
-    loaded = type(possible).read(_native.ModelFile.read(str(tmp_path / "set.hri")), "p.")
+    loaded = type(possible).read(ModelFile.read(str(tmp_path / "set.hri")), "p.")
     assert loaded.rule.as_dict() == possible.rule.as_dict()
     x = symbols_of(20) if make is set_of else np.random.default_rng(4).normal(0, 2, (15, DIM)).astype("f4")
     np.testing.assert_array_equal(loaded.log_possibilities(x), possible.log_possibilities(x))

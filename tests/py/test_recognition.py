@@ -17,6 +17,7 @@ import pytest
 import hri
 from conftest import PERSONS, RATE_HZ, tone_word
 from hri.core.errors import Interrupted, InvalidArgument
+from hri.signal import resample
 
 Clips = tuple[list[np.ndarray], list[str], list[str]]
 
@@ -88,9 +89,8 @@ def test_most_words_that_were_not_trained_are_unknown() -> None:
 
 
 def test_another_rate_is_resampled_and_said(words: hri.WordRecognizer, clips: Clips) -> None:
-    from hri import _native
 
-    slower = _native.resample(clips[0][0], RATE_HZ, 22050)
+    slower = resample(clips[0][0], RATE_HZ, 22050)
     decision = words.recognise(slower, 22050)
     assert decision.label == "rise"
     assert any("22050" in note and "16000" in note for note in decision.notes)

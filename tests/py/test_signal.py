@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.signal import resample_poly
 
-from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.signal import find_speech, resample
 
 
 def signal(count: int, dtype: str = "f8", seed: int = 0) -> np.ndarray:
@@ -20,7 +20,7 @@ def signal(count: int, dtype: str = "f8", seed: int = 0) -> np.ndarray:
 def test_resampling_keeps_tones_and_equals_scipy_inside(source: int, target: int) -> None:
     time_s = np.arange(source) / source
     tone = (0.5 * np.sin(2 * np.pi * 1000 * time_s)).astype("f4")
-    ours = _native.resample(tone, source, target)
+    ours = resample(tone, source, target)
     assert len(ours) == target
     inner = slice(target // 20, -target // 20)
     exact = 0.5 * np.sin(2 * np.pi * 1000 * np.arange(target) / target)
@@ -32,15 +32,15 @@ def test_resampling_keeps_tones_and_equals_scipy_inside(source: int, target: int
 
 def test_resampling_removes_what_the_lower_rate_cannot_hold() -> None:
     tone = np.sin(2 * np.pi * 6000 * np.arange(16000) / 16000).astype("f4")
-    assert np.abs(_native.resample(tone, 16000, 8000)[200:-200]).max() < 1e-3
+    assert np.abs(resample(tone, 16000, 8000)[200:-200]).max() < 1e-3
 
 
 def test_resampling_to_the_same_rate_changes_nothing() -> None:
     x = signal(100, "f4")
-    np.testing.assert_array_equal(_native.resample(x, 8000, 8000), x)
-    assert len(_native.resample(x[:0], 8000, 16000)) == 0
+    np.testing.assert_array_equal(resample(x, 8000, 8000), x)
+    assert len(resample(x[:0], 8000, 16000)) == 0
     with pytest.raises(InvalidArgument, match=r"1000\.\.384000"):
-        _native.resample(x, 10, 8000)
+        resample(x, 10, 8000)
 
 
 def burst(level: float, noise: float) -> np.ndarray:
@@ -53,16 +53,16 @@ def burst(level: float, noise: float) -> np.ndarray:
 @pytest.mark.parametrize("level", [0.5, 0.05, 0.02])
 @pytest.mark.parametrize("ratio", [300.0, 10.0, 6.0])
 def test_word_is_found_whatever_its_level(level: float, ratio: float) -> None:
-    first, last = _native.find_speech(burst(level, level / ratio), 16000)
+    first, last = find_speech(burst(level, level / ratio), 16000)
     assert first == pytest.approx(8000, abs=1200)
     assert last == pytest.approx(12800, abs=1200)
 
 
 def test_silence_and_steady_noise_hold_no_word() -> None:
-    assert _native.find_speech(np.zeros(16000, "f4"), 16000) is None
-    assert _native.find_speech(np.full(16000, 0.3, "f4"), 16000) is None
-    assert _native.find_speech(signal(16000, "f4") * 0.1, 16000) is None
+    assert find_speech(np.zeros(16000, "f4"), 16000) is None
+    assert find_speech(np.full(16000, 0.3, "f4"), 16000) is None
+    assert find_speech(signal(16000, "f4") * 0.1, 16000) is None
     with pytest.raises(InvalidArgument, match="sample 7"):
-        _native.find_speech(np.where(np.arange(16000) == 7, np.nan, 0).astype("f4"), 16000)
+        find_speech(np.where(np.arange(16000) == 7, np.nan, 0).astype("f4"), 16000)
     with pytest.raises(InvalidArgument, match="too short"):
-        _native.find_speech(np.zeros(10, "f4"), 16000)
+        find_speech(np.zeros(10, "f4"), 16000)

@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 
 from conftest import RATE_HZ
-from hri import _native, studies
+from hri import studies
 from hri.core.errors import InvalidArgument
+from hri.io import write_wav_pcm16
 from hri.studies import distance, noise, tables, tempo, training_size
 from hri.studies.registry import Layout
 from hri.studies.word_classifiers import CLASSIFIERS
@@ -35,7 +36,7 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory, spoken: Path) -> Path:
     rng = np.random.default_rng(0)
     for file in noise.NOISES.values():
         hiss = (0.1 * rng.standard_normal(3 * RATE_HZ)).astype("f4")
-        _native.write_wav_pcm16(str(folder / "noise" / file), hiss, RATE_HZ)
+        write_wav_pcm16(str(folder / "noise" / file), hiss, RATE_HZ)
     return folder
 
 
@@ -178,7 +179,7 @@ def test_words_from_across_a_room_are_measured(data_dir: Path, monkeypatch: pyte
     (data_dir / "room").mkdir(exist_ok=True)
     click = np.zeros(2000, "f4")
     click[[10, 700]] = 0.5, 0.2
-    _native.write_wav_pcm16(str(data_dir / distance.RECORDED_RESPONSE), click, RATE_HZ)
+    write_wav_pcm16(str(data_dir / distance.RECORDED_RESPONSE), click, RATE_HZ)
     result = run("speech-distance", data_dir, data=["fsdd"])
     places = [(row["training"], row["ambience"], row["distance"]) for row in result["rows"]]
     assert len(set(places)) == len(places) == 2 * 2 * 4

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import pywt
 
-from hri.core.errors import InvalidArgument
-from hri.signal import wavelets
+from hri import InvalidArgument
+from hri import signal as wavelets
 
 
 def signal(count: int, dtype: str = "f8") -> np.ndarray:
@@ -32,6 +32,28 @@ def test_nodes_are_those_of_pywavelets(wavelet: str, border: str) -> None:
                 rising = [node.data for node in tree.get_level(level, "freq")]
                 ours = packets[level][wavelets.frequency_order(level)]
                 np.testing.assert_allclose(ours, rising, rtol=0, atol=tolerance * np.abs(rising).max())
+
+
+def test_the_tree_has_pywavelets_paths() -> None:
+    x = signal(101)
+    ours, theirs = wavelets.WaveletPacket(x, "db3"), pywt.WaveletPacket(x, "db3")
+    assert ours.maxlevel == theirs.maxlevel
+    for order in ("natural", "freq"):
+        paths = [node.path for node in theirs.get_level(3, order)]
+        assert [node.path for node in ours.get_level(3, order)] == paths
+        for path in paths:
+            np.testing.assert_allclose(ours[path].data, theirs[path].data, rtol=0, atol=1e-10)
+    np.testing.assert_array_equal(ours[""].data, x)
+    np.testing.assert_allclose(ours.reconstruct()[:101], x, rtol=0, atol=1e-10)
+    basis = ours.best_basis()
+    assert sum(2.0**-node.level for node in basis) == 1
+    for wrong in ("ax", "a" * 9):
+        with pytest.raises(InvalidArgument, match="no node"):
+            ours[wrong]
+    with pytest.raises(InvalidArgument, match="order"):
+        ours.get_level(1, "rising")  # type: ignore[arg-type]
+    one = wavelets.WaveletPacket([1.0], "db3")
+    assert one.maxlevel == 0 and one.reconstruct().tolist() == [1.0]
 
 
 def test_best_basis_gives_the_signal_back_and_needs_fewer_numbers() -> None:
@@ -71,6 +93,6 @@ def test_streams_and_packets_refuse_what_they_cannot_do() -> None:
     with pytest.raises(InvalidArgument, match="db99"):
         wavelets.WaveletStream("db99", 1)
     with pytest.raises(InvalidArgument, match="num_levels"):
-        wavelets.wavelet_packets(signal(8), "db4", num_levels=21)
+        wavelets.wavelet_packets(signal(8), "db4", level=21)
     with pytest.raises(InvalidArgument, match="level"):
         wavelets.frequency_order(-1)

@@ -7,9 +7,9 @@ from __future__ import annotations
 import click
 import numpy as np
 
-from hri import _native
 from hri.cli.output import OutputFile
 from hri.core.errors import InvalidArgument
+from hri.io import write_wav_pcm16
 from hri.media import read_audio
 from hri.signal.noise_reduction import NOISES, RULES, SHAPES, approximation
 from hri.signal.noise_reduction import denoise as denoised
@@ -61,7 +61,7 @@ def denoise(
         samples = denoised(
             audio.samples,
             wavelet,
-            num_levels=levels,
+            level=levels or None,
             threshold=threshold,
             shape=shape,
             noise=noise,
@@ -71,6 +71,6 @@ def denoise(
         if rate_hz % 2**level:
             raise InvalidArgument(f"--approximation {level}: {rate_hz} Hz cannot be divided by {2**level}")
         rate_hz //= 2**level
-        samples = approximation(audio.samples, wavelet, level, "periodization")
-    _native.write_wav_pcm16(target, np.clip(samples, -1.0, 1.0), rate_hz)
+        samples = approximation(audio.samples, wavelet, "periodization", level)
+    write_wav_pcm16(target, np.clip(samples, -1.0, 1.0), rate_hz)
     click.echo(f"{target}\t{len(samples) / rate_hz:.2f} s at {rate_hz} Hz")

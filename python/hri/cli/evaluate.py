@@ -114,7 +114,7 @@ def evaluate(
         Path(confusion).parent.mkdir(parents=True, exist_ok=True)
         result.plot_confusion(confusion)
         note(f"confusion matrix: {confusion}")
-    write_json(json_path, {"mode": mode, **result.to_dict(), "options": make().get_params()})
+    write_json(json_path, {"mode": mode, **result.to_dict(), "options": make().options.as_dict()})
 
 
 def _warn_of_shared_persons(train: Dataset, test: Dataset) -> None:

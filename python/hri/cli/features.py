@@ -12,13 +12,12 @@ from typing import Any
 import click
 import numpy as np
 
-from hri._native import CepstraComputer
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_bytes, write_text
 from hri.cli.recognizers import naming_options, parse_options
 from hri.core.errors import InvalidArgument
 from hri.core.plotting import new_figure, save_figure
-from hri.features import KINDS, PRESETS, cepstra_options, column_names
+from hri.features import KINDS, PRESETS, CepstraComputer, cepstra_options, column_names
 from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, Audio, frame_rate, read_audio, read_frames
 from hri.vision.hands import find_silhouettes

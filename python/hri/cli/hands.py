@@ -145,9 +145,9 @@ def hands(
 
 
 def _options(method: str | None) -> Any:
-    from hri import _native_vision
+    from hri.vision import SilhouetteOptions
 
-    return None if method is None else _native_vision.SilhouetteOptions(method=method)
+    return None if method is None else SilhouetteOptions(method=method)
 
 
 def _background(background: str | None, clip: Clip) -> Any:

@@ -12,11 +12,11 @@ from typing import Any
 
 import click
 
-from hri import __version__, _native
+from hri import __version__
 from hri.cli.output import json_option, say, write_json
 from hri.cli.recognizers import CLASSES, default_model
-from hri.core.errors import FormatError
 from hri.media import natural_key
+from hri.recognition import load
 
 EXTRAS = {
     "audio": ("soundfile",),
@@ -25,10 +25,6 @@ EXTRAS = {
     "robot": ("pybullet",),
     "video": ("cv2",),
 }
-
-
-KINDS = {"word_recognizer": "speech", "gesture_recognizer": "gesture"}
-"""What a model file says it is, and the mode it is for."""
 
 
 @click.command()
@@ -52,7 +48,7 @@ def _installation() -> dict[str, Any]:
     return {
         "version": __version__,
         "python": python_version(),
-        "native": {name: _loads(f"hri.{name}") for name in ("_native", "_native_vision")},
+        "native": {"core": _loads("hri.io"), "vision": _loads("hri.vision.silhouettes")},
         "extras": {name: all(map(find_spec, modules)) for name, modules in EXTRAS.items()},
         "models": {mode: str(default_model(mode)) for mode in CLASSES if default_model(mode).is_file()},
     }
@@ -67,12 +63,9 @@ def _loads(module: str) -> bool:
 
 
 def _model(path: str) -> dict[str, Any]:
-    kind = _native.ModelFile.read(path).kind
-    if kind not in KINDS:
-        raise FormatError(f"{path}: holds a {kind!r}, neither {' nor '.join(KINDS)}")
-    recognizer = CLASSES[KINDS[kind]].load(path)
+    recognizer = load(path)
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
-    return {"mode": KINDS[kind], "labels": labels, "options": recognizer.get_params()}
+    return {"mode": recognizer.mode, "labels": labels, "options": recognizer.options.as_dict()}
 
 
 def _lines(found: dict[str, Any]) -> list[str]:

@@ -86,6 +86,6 @@ def train(
             "num_recordings": len(dataset),
             "persons": dataset.persons,
             "synthetic": dataset.synthetic,
-            "options": recognizer.get_params(),
+            "options": recognizer.options.as_dict(),
         },
     )

@@ -9,35 +9,36 @@ from typing import Any
 
 import numpy as np
 
-from hri import _native
 from hri.core.plotting import new_figure
 from hri.demo.scenes import Scene
 from hri.evaluation import EvaluationResult
+from hri.features import CepstraComputer, CepstraOptions
+from hri.signal import find_speech
 
 _BLUE, _ORANGE, _GREEN = "#3b6fb6", "#d9822b", "#3f8f5f"
 
 
 def plot_scene(scene: Scene) -> bytes:
     """What was heard (waveform and cepstra), what was seen (picture and silhouette), and the candidates."""
-    from hri import _native_vision
+    from hri.vision import SilhouetteExtractor, SilhouetteOptions
 
     figure = new_figure((10.5, 4.6))
     grid = figure.add_gridspec(2, 3, width_ratios=(1.25, 1.0, 1.1))
     samples, rate_hz = scene.audio.samples, scene.audio.sample_rate_hz
     wave = figure.add_subplot(grid[0, 0])
     wave.plot(np.arange(len(samples)) / rate_hz, samples, color=_BLUE, linewidth=0.5)
-    bounds = _native.find_speech(samples, rate_hz)
+    bounds = find_speech(samples, rate_hz)
     if bounds is not None:
         wave.axvspan(bounds[0] / rate_hz, bounds[1] / rate_hz, color=_BLUE, alpha=0.12, linewidth=0)
     wave.set(title="heard: waveform and end points", xlabel="s", ylim=(-1, 1), xlim=(0, len(samples) / rate_hz))
 
-    cepstra = _native.CepstraComputer(_native.CepstraOptions(sample_rate_hz=rate_hz, delta_orders=0)).compute(samples)
+    cepstra = CepstraComputer(CepstraOptions(sample_rate_hz=rate_hz, delta_orders=0)).compute(samples)
     image = figure.add_subplot(grid[1, 0])
     image.imshow(np.asarray(cepstra).T, aspect="auto", origin="lower", cmap="magma", interpolation="nearest")
     image.set(title="mel cepstra", xlabel="frame (10 ms)", ylabel="coefficient")
 
     frame = scene.frames[len(scene.frames) // 2]
-    silhouette = _native_vision.SilhouetteExtractor(_native_vision.SilhouetteOptions()).extract(frame)
+    silhouette = SilhouetteExtractor(SilhouetteOptions()).extract(frame)
     for row, (title, picture, cmap) in enumerate(
         (("seen: held frame", frame[:, :, ::-1], None), ("silhouette of the hand", silhouette.mask, "gray"))
     ):

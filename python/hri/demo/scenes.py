@@ -15,6 +15,7 @@ from hri.core.display import short_repr
 from hri.demo.corpus import FULL, WORDS
 from hri.evaluation import make_noise, mix_noise
 from hri.fusion import RULES, FusedDecision, fuse
+from hri.io import write_wav_pcm16
 from hri.media import Audio
 from hri.recognition import GestureRecognizer, WordRecognizer
 from hri.synthetic.drawing.signer import make_signer
@@ -124,8 +125,7 @@ def play(number: int, script: Script, words: WordRecognizer, signs: GestureRecog
 
 def save(scene: Scene, directory: Path, number: int) -> None:
     """Write what was heard and seen, so that ``hri recognise`` can be tried on it."""
-    from hri import _native
     from hri.media import write_video
 
-    _native.write_wav_pcm16(str(directory / f"scene{number + 1}.wav"), scene.audio.samples, scene.audio.sample_rate_hz)
+    write_wav_pcm16(str(directory / f"scene{number + 1}.wav"), scene.audio.samples, scene.audio.sample_rate_hz)
     write_video(directory / f"scene{number + 1}.mp4", scene.frames, scene.fps)

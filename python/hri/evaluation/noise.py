@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.core.errors import InvalidArgument
 from hri.media import read_audio
+from hri.signal import resample
 
 Samples = NDArray[np.float32]
 SYNTHESISED = ("white", "pink")
@@ -69,7 +69,7 @@ def _recording(path: str, sample_rate_hz: int) -> Samples:
     audio = read_audio(path)
     if audio.sample_rate_hz == sample_rate_hz:
         return audio.samples
-    return np.asarray(_native.resample(audio.samples, audio.sample_rate_hz, sample_rate_hz))
+    return np.asarray(resample(audio.samples, audio.sample_rate_hz, sample_rate_hz))
 
 
 def active_power(samples: Samples, sample_rate_hz: int) -> float:

@@ -11,13 +11,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 from hri.core.optional import import_optional
 from hri.evaluation.conditions import Samples
 from hri.evaluation.noise import active_power, make_noise, noise_at
 from hri.media import read_audio
+from hri.signal import resample
 
 REFERENCE_M = 0.5
 """Simulated responses have a direct sound of gain 1 at this distance."""
@@ -60,7 +60,7 @@ class Response:
         """Resampled, as loud as it was."""
         if sample_rate_hz == self.sample_rate_hz:
             return self.samples
-        resampled = np.asarray(_native.resample(self.samples, self.sample_rate_hz, sample_rate_hz))
+        resampled = np.asarray(resample(self.samples, self.sample_rate_hz, sample_rate_hz))
         return resampled * np.float32(self.sample_rate_hz / sample_rate_hz)
 
 

@@ -11,8 +11,24 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
+from hri._native import HAND_TRACK_COLUMNS
 from hri.core.errors import InvalidArgument
+from hri.features.shapes import (
+    ChainCodeComputer,
+    ChainCodeOptions,
+    FourierDescriptorComputer,
+    FourierDescriptorOptions,
+    HandFeatureComputer,
+    HandFeatureOptions,
+    HandTrackComputer,
+    HandTrackOptions,
+    OrientationHistogramOptions,
+    SilhouetteCepstrumComputer,
+    SilhouetteCepstrumOptions,
+    WaveletDescriptorComputer,
+    WaveletDescriptorOptions,
+    hu_features,
+)
 
 Kind = Literal["hand", "orientation", "dwt-mfcc", "wavelet", "fourier", "chain-code", "moments", "track"]
 Picture = NDArray[np.uint8]
@@ -33,7 +49,7 @@ def hand_features(
         the grey picture; ``dwt-mfcc``, the silhouette cepstrum; ``wavelet``, moment-invariant wavelet descriptors;
         ``fourier`` descriptors; ``chain-code`` histograms; ``moments``, Hu's; ``track``, place, size, axis and speed.
     **options
-        Fields of the kind's options: `hri._native.HandFeatureOptions`, `OrientationHistogramOptions`,
+        Fields of the kind's options: `HandFeatureOptions`, `OrientationHistogramOptions`,
         `SilhouetteCepstrumOptions`, `WaveletDescriptorOptions`, `FourierDescriptorOptions`, `ChainCodeOptions`,
         `HandTrackOptions`; moments have none.
 
@@ -60,7 +76,7 @@ def hand_features(
     if len(greys) != len(masks):
         raise InvalidArgument(f"greys and masks differ in length: {len(greys)}, {len(masks)}")
     if own.compute is None:
-        return np.asarray(_native.HandTrackComputer(chosen).compute(list(masks)))
+        return np.asarray(HandTrackComputer(chosen).compute(list(masks)))
     compute = own.compute(chosen)
     rows = [compute(grey, mask) for grey, mask in zip(greys, masks, strict=True) if np.any(mask)]
     return np.asarray(rows, np.float32).reshape(len(rows), len(own.names(chosen)))
@@ -106,12 +122,12 @@ def _no_options() -> None:
 
 
 def _orientation_options(num_cells: int = 1, num_bins: int = 18) -> Any:
-    return _native.OrientationHistogramOptions(num_cells=num_cells, num_bins=num_bins)
+    return OrientationHistogramOptions(num_cells=num_cells, num_bins=num_bins)
 
 
 def _orientation(options: Any) -> Compute:
-    parts = _native.HandFeatureOptions(histogram=options, use_silhouette=False, use_cepstrum=False)
-    return _native.HandFeatureComputer(parts).compute
+    parts = HandFeatureOptions(histogram=options, use_silhouette=False, use_cepstrum=False)
+    return HandFeatureComputer(parts).compute
 
 
 def _orientation_names(options: Any) -> list[str]:
@@ -138,29 +154,29 @@ def _chain_code_names(options: Any) -> list[str]:
 
 def _track_names(options: Any) -> list[str]:
     orders = ("", "d_", "dd_")[: 1 + options.delta_orders]
-    return [order + name for order in orders for name in _native.HAND_TRACK_COLUMNS]
+    return [order + name for order in orders for name in HAND_TRACK_COLUMNS]
 
 
 HAND_KINDS: dict[str, _Kind] = {
     "hand": _Kind(
-        _native.HandFeatureOptions,
-        lambda options: _native.HandFeatureComputer(options).compute,
-        lambda options: [f"f{i}" for i in range(_native.HandFeatureComputer(options).num_features)],
+        HandFeatureOptions,
+        lambda options: HandFeatureComputer(options).compute,
+        lambda options: [f"f{i}" for i in range(HandFeatureComputer(options).num_features)],
     ),
     "orientation": _Kind(_orientation_options, _orientation, _orientation_names),
     "dwt-mfcc": _Kind(
-        _native.SilhouetteCepstrumOptions,
-        _of_mask(_native.SilhouetteCepstrumComputer),
+        SilhouetteCepstrumOptions,
+        _of_mask(SilhouetteCepstrumComputer),
         lambda options: [f"c{i}" for i in range(options.num_cepstra + 1)],
     ),
-    "wavelet": _Kind(_native.WaveletDescriptorOptions, _of_mask(_native.WaveletDescriptorComputer), _wavelet_names),
-    "fourier": _Kind(_native.FourierDescriptorOptions, _of_mask(_native.FourierDescriptorComputer), _fourier_names),
-    "chain-code": _Kind(_native.ChainCodeOptions, _of_mask(_native.ChainCodeComputer), _chain_code_names),
+    "wavelet": _Kind(WaveletDescriptorOptions, _of_mask(WaveletDescriptorComputer), _wavelet_names),
+    "fourier": _Kind(FourierDescriptorOptions, _of_mask(FourierDescriptorComputer), _fourier_names),
+    "chain-code": _Kind(ChainCodeOptions, _of_mask(ChainCodeComputer), _chain_code_names),
     "moments": _Kind(
         _no_options,
-        lambda options: lambda grey, mask: _native.hu_features(mask),
+        lambda options: lambda grey, mask: hu_features(mask),
         lambda options: [f"hu{i}" for i in range(1, 8)],
     ),
-    "track": _Kind(_native.HandTrackOptions, None, _track_names),
+    "track": _Kind(HandTrackOptions, None, _track_names),
 }
 """What `hand_features` can give, by name."""

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.core.display import summary
 from hri.core.errors import FormatError, IoError
 from hri.core.optional import import_optional
+from hri.io import read_wav
 from hri.media.suffixes import kind_of_file
 
 _log = logging.getLogger(__name__)
@@ -76,7 +76,7 @@ def read_audio(path: str | PathLike[str]) -> Audio:
     if kind not in ("", "a sound file") and path.exists():
         raise FormatError(f"{path} is {kind}, and a sound file is needed here")
     if path.suffix.lower() == ".wav":
-        wav = _native.read_wav(str(path))
+        wav = read_wav(str(path))
         samples = np.asarray(wav.samples, dtype=np.float32)
         audio = Audio(samples, int(wav.sample_rate_hz), list(wav.notes))
     else:

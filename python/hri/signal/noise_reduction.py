@@ -6,25 +6,26 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.signal.arrays import as_contiguous, as_mode
+from hri.signal.filters import Wavelet, name_of
 
-RULES: dict[str, _native.ThresholdRule] = dict(_native.ThresholdRule.__members__)
-SHAPES: dict[str, _native.ThresholdShape] = dict(_native.ThresholdShape.__members__)
-NOISES: dict[str, _native.NoiseEstimate] = dict(_native.NoiseEstimate.__members__)
+RULES: dict[str, Any] = dict(_native.ThresholdRule.__members__)
+SHAPES: dict[str, Any] = dict(_native.ThresholdShape.__members__)
+NOISES: dict[str, Any] = dict(_native.NoiseEstimate.__members__)
 
 Array = NDArray[Any]
 
 
 def denoise(
     samples: ArrayLike,
-    wavelet: str = "sym8",
-    border: str = "symmetric",
+    wavelet: str | Wavelet = "sym8",
+    mode: str = "symmetric",
     *,
-    num_levels: int = 0,
+    level: int | None = None,
     threshold: str = "bayes",
     shape: str = "soft",
     noise: str = "quietest",
@@ -36,10 +37,11 @@ def denoise(
     ----------
     samples : array_like, shape (num_samples,)
         Not empty, finite. float32 stays float32, everything else becomes float64.
-    wavelet, border : str
-        As in `hri.signal.wavelets`.
-    num_levels : int
-        1..62; 0 takes five, or as many as the signal has room for.
+    wavelet : str or Wavelet
+    mode : str
+        What stands beyond the ends, as for `hri.signal.dwt`.
+    level : int, optional
+        1..62; by default five, or as many as the signal has room for.
     threshold : str
         ``"universal"`` (VisuShrink: s sqrt(2 ln num_samples)), ``"sure"`` (SureShrink: the least estimate of the
         risk, universal where details are sparse) or ``"bayes"`` (BayesShrink: s**2 over the deviation of the clean
@@ -63,30 +65,29 @@ def denoise(
         For an empty signal, a NaN or an infinity, and arguments out of range.
     """
     options = _native.ShrinkageOptions(
-        wavelet=wavelet,
-        border=_named(_native.Border.__members__, "border", border),
-        num_levels=num_levels,
+        wavelet=name_of(wavelet),
+        border=as_mode(mode),
+        num_levels=0 if level is None else level,
         rule=_named(RULES, "threshold", threshold),
         shape=_named(SHAPES, "shape", shape),
         noise=_named(NOISES, "noise", noise),
         strength=float(strength),
     )
-    return _native.denoise(_contiguous(samples), options)
+    return _native.denoise(as_contiguous(samples), options)
 
 
-def approximation(samples: ArrayLike, wavelet: str, num_levels: int, border: str = "symmetric") -> Array:
+def approximation(samples: ArrayLike, wavelet: str | Wavelet, mode: str = "symmetric", level: int = 1) -> Array:
     """The approximation of a level, as loud as the signal.
 
-    About the signal at 1 / 2**num_levels of its rate, with what lay above half of that gone; longer by what the border
+    About the signal at 1 / 2**level of its rate, with what lay above half of that gone; longer by what the border
     adds (``"periodization"`` adds nothing).
     """
-    place = _named(_native.Border.__members__, "border", border)
-    return _native.approximate(_contiguous(samples), wavelet, place, num_levels)
+    return _native.approximate(as_contiguous(samples), name_of(wavelet), as_mode(mode), level)
 
 
 def noise_level(details: ArrayLike) -> float:
     """Standard deviation of normal noise among `details`: their median size over 0.6745."""
-    return _native.noise_level(_contiguous(details))
+    return _native.noise_level(as_contiguous(details))
 
 
 def shrinkage_threshold(details: ArrayLike, noise: float, num_samples: int, rule: str) -> float:
@@ -102,22 +103,15 @@ def shrinkage_threshold(details: ArrayLike, noise: float, num_samples: int, rule
     rule : str
         As `threshold` of `denoise`.
     """
-    return _native.shrinkage_threshold(_contiguous(details), noise, num_samples, _named(RULES, "rule", rule))
+    return _native.shrinkage_threshold(as_contiguous(details), noise, num_samples, _named(RULES, "rule", rule))
 
 
 def shrink(details: ArrayLike, threshold: float, shape: str = "soft") -> Array:
     """Details with a threshold applied; `shape` as in `denoise`."""
-    return _native.shrink(_contiguous(details), threshold, _named(SHAPES, "shape", shape))
+    return _native.shrink(as_contiguous(details), threshold, _named(SHAPES, "shape", shape))
 
 
 def _named(choices: Any, what: str, name: str) -> Any:
     if name not in choices:
         raise InvalidArgument(f"no {what} {name!r}; there are: {', '.join(choices)}")
     return choices[name]
-
-
-def _contiguous(values: ArrayLike) -> Array:
-    array = np.asarray(values)
-    if array.dtype.char not in "fd":
-        array = array.astype(np.float64, casting="safe")
-    return np.ascontiguousarray(array)

@@ -1,60 +1,41 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Wavelet transforms of signals and pictures, by PyWavelets' names and equal to it.
+"""Wavelet transforms of signals, by PyWavelets' names and equal to it.
 
-Arrays of float32 stay float32, everything else becomes float64. Borders are named as PyWavelets' modes: symmetric,
-zero, constant, periodic, reflect, periodization, smooth, antisymmetric, antireflect.
+Arrays of float32 stay float32, everything else that is real becomes float64.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
-from hri._native import Border, frequency_order, max_dwt_level, wavelet_names
 from hri.core.errors import InvalidArgument
+from hri.signal.arrays import as_mode, as_real
+from hri.signal.filters import Wavelet, dwt_max_level, name_of
 
-__all__ = [
-    "WaveletStream",
-    "best_basis",
-    "dwt",
-    "dwt2",
-    "frequency_order",
-    "idwt",
-    "idwt2",
-    "max_dwt_level",
-    "wavedec",
-    "wavedec2",
-    "wavelet_names",
-    "wavelet_packets",
-    "waverec",
-    "waverec2",
-    "waverec_packets",
-]
+__all__ = ["dwt", "idwt", "iswt", "swt", "swt_max_level", "wavedec", "waverec"]
 
 Array = NDArray[Any]
-Details = tuple[Array, Array, Array]
-"""Horizontal, vertical and diagonal details of one level."""
-
-_BORDERS: dict[str, Border] = dict(Border.__members__)
 _WHOLE = 2**62
 
 
-def dwt(x: ArrayLike, wavelet: str, border: str = "symmetric") -> tuple[Array, Array]:
+def dwt(data: ArrayLike, wavelet: str | Wavelet, mode: str = "symmetric", axis: int = -1) -> tuple[Array, Array]:
     """One level of a signal.
 
     Parameters
     ----------
-    x : array_like, shape (num_samples,)
-        Not empty.
-    wavelet : str
-        One of `wavelet_names()`.
-    border : str
-        What stands beyond the ends.
+    data : array_like
+        Not empty. Of more than one dimension, every line along `axis` is a signal.
+    wavelet : str or Wavelet
+        One of `wavelist()`.
+    mode : str
+        What stands beyond the ends, one of `MODES`.
+    axis : int
 
     Returns
     -------
@@ -64,174 +45,179 @@ def dwt(x: ArrayLike, wavelet: str, border: str = "symmetric") -> tuple[Array, A
     Raises
     ------
     InvalidArgument
-        For an unknown wavelet or border, and for an empty signal.
+        For an unknown wavelet or mode, and for an empty signal.
     """
-    return _native.dwt(_real(x), wavelet, _border(border))
+    name, border = name_of(wavelet), as_mode(mode)
+    approximation, detail = _along([as_real(data)], axis, lambda x: _native.dwt(x, name, border))
+    return approximation, detail
 
 
-def idwt(approximation: ArrayLike, detail: ArrayLike, wavelet: str, border: str = "symmetric") -> Array:
-    """The inverse of `dwt`: a signal of even length, one sample too long where the original was odd."""
-    return _native.idwt(_real(approximation), _real(detail), wavelet, _border(border))
+def idwt(
+    cA: ArrayLike | None, cD: ArrayLike | None, wavelet: str | Wavelet, mode: str = "symmetric", axis: int = -1
+) -> Array:
+    """The inverse of `dwt`: signals of even length, one sample too long where the original was odd.
+
+    Parameters
+    ----------
+    cA, cD : array_like or None
+        Approximation and detail; None, for one of them, stands for zeros.
+    wavelet, mode, axis
+        As given to `dwt`.
+    """
+    if cA is None and cD is None:
+        raise InvalidArgument("cA and cD cannot both be None")
+    high = None if cD is None else as_real(cD)
+    low = np.zeros_like(high) if cA is None else as_real(cA)
+    high = np.zeros_like(low) if high is None else high
+    low, high = _of_one_type(low, high)
+    name, border = name_of(wavelet), as_mode(mode)
+    (signal,) = _along([low, high], axis, lambda a, d: [_native.idwt(a, d, name, border)])
+    return signal
 
 
-def wavedec(x: ArrayLike, wavelet: str, border: str = "symmetric", num_levels: int = 1) -> list[Array]:
+def wavedec(
+    data: ArrayLike, wavelet: str | Wavelet, mode: str = "symmetric", level: int | None = None, axis: int = -1
+) -> list[Array]:
     """Several levels of a signal.
 
     Parameters
     ----------
-    x, wavelet, border
+    data, wavelet, mode, axis
         As for `dwt`.
-    num_levels : int
-        1..62; beyond `max_dwt_level(num_samples, wavelet)` every coefficient depends on the border.
+    level : int, optional
+        0..62; by default `dwt_max_level`. Beyond that every coefficient depends on the border.
 
     Returns
     -------
     list of ndarray
         Approximation, then details from coarse to fine.
     """
-    return _native.wavedec(_real(x), wavelet, _border(border), num_levels)
+    values = as_real(data)
+    if level is None:
+        level = dwt_max_level(values.shape[_axis(values, axis)], wavelet)
+    if level == 0:
+        return [values.copy()]
+    name, border = name_of(wavelet), as_mode(mode)
+    return _along([values], axis, lambda x: _native.wavedec(x, name, border, level))
 
 
 def waverec(
-    coefficients: Sequence[ArrayLike], wavelet: str, border: str = "symmetric", num_samples: int | None = None
+    coeffs: Sequence[ArrayLike],
+    wavelet: str | Wavelet,
+    mode: str = "symmetric",
+    axis: int = -1,
+    *,
+    num_samples: int | None = None,
 ) -> Array:
     """The inverse of `wavedec`.
 
     Parameters
     ----------
-    coefficients : sequence of array_like
+    coeffs : sequence of array_like
         As `wavedec` gives them.
-    wavelet, border
+    wavelet, mode, axis
         As given to `wavedec`.
     num_samples : int, optional
-        Length of the signal; without it a signal of odd length comes back one sample too long.
+        Length of the signal; without it a signal of odd length comes back one sample too long, as from PyWavelets.
 
     Raises
     ------
     InvalidArgument
         For coefficients that no signal has.
     """
-    bands = [_real(c) for c in coefficients]
-    return _native.waverec(bands, wavelet, _border(border), _WHOLE if num_samples is None else num_samples)
+    if not coeffs:
+        raise InvalidArgument("there are no coefficients")
+    bands = _of_one_type(*map(as_real, coeffs))
+    if len(bands) == 1:
+        return bands[0].copy()
+    name, border, count = name_of(wavelet), as_mode(mode), _WHOLE if num_samples is None else num_samples
+    (signal,) = _along(bands, axis, lambda *lines: [_native.waverec(list(lines), name, border, count)])
+    return signal
 
 
-def dwt2(image: ArrayLike, wavelet: str, border: str = "symmetric") -> tuple[Array, Details]:
-    """One level of a picture of shape (height, width): (approximation, (horizontal, vertical, diagonal)).
-
-    Horizontal details answer to horizontal edges.
-    """
-    return _native.dwt2(_real(image), wavelet, _border(border))
-
-
-def idwt2(level: tuple[ArrayLike, Sequence[ArrayLike]], wavelet: str, border: str, shape: tuple[int, int]) -> Array:
-    """The inverse of `dwt2` for a picture of this (height, width)."""
-    approximation, details = level
-    horizontal, vertical, diagonal = map(_real, details)
-    return _native.idwt2(_real(approximation), horizontal, vertical, diagonal, wavelet, _border(border), shape)
+def swt_max_level(input_len: int) -> int:
+    """Levels of the stationary transform: how often the length can be halved."""
+    if input_len < 1:
+        return 0
+    return (input_len & -input_len).bit_length() - 1
 
 
-def wavedec2(
-    image: ArrayLike, wavelet: str, border: str = "symmetric", num_levels: int = 1
-) -> tuple[Array, list[Details]]:
-    """Several levels of a picture: (approximation, details of every level from coarse to fine)."""
-    approximation, *details = _native.wavedec2(_real(image), wavelet, _border(border), num_levels)
-    return approximation, details
-
-
-def waverec2(
-    levels: tuple[ArrayLike, Sequence[Sequence[ArrayLike]]], wavelet: str, border: str, shape: tuple[int, int]
-) -> Array:
-    """The inverse of `wavedec2` for a picture of this (height, width)."""
-    approximation, details = levels
-    bands = [list(map(_real, level)) for level in details]
-    return _native.waverec2(_real(approximation), bands, wavelet, _border(border), shape)
-
-
-def wavelet_packets(x: ArrayLike, wavelet: str, border: str = "symmetric", num_levels: int = 1) -> list[Array]:
-    """Wavelet packets: details are split as approximations are.
+def swt(
+    data: ArrayLike, wavelet: str | Wavelet, level: int | None = None, axis: int = -1, trim_approx: bool = False
+) -> list[Any]:
+    """Stationary wavelet transform: no level is decimated, so that a shift of the signal shifts its coefficients.
 
     Parameters
     ----------
-    x, wavelet, border
-        As for `dwt`.
-    num_levels : int
-        1..20.
+    data : array_like
+        Its length must be a multiple of 2**level; it is taken as periodic.
+    wavelet : str or Wavelet
+    level : int, optional
+        By default `swt_max_level`.
+    axis : int
+    trim_approx : bool
+        Leave out the approximations of all levels but the highest.
 
     Returns
     -------
-    list of ndarray
-        Item l has a row for each of the 2**l nodes of level l; item 0 is the signal. Rows stand in natural order:
-        the binary digits of an index are the way from the top, 1 for the detail. ``packets[l][frequency_order(l)]``
-        has them by rising frequency.
-    """
-    return _native.wavelet_packets(_contiguous(x), wavelet, _border(border), num_levels)
-
-
-def best_basis(packets: Sequence[ArrayLike]) -> list[tuple[int, int]]:
-    """The nodes (level, index) that together describe the signal with the least Shannon entropy of energy."""
-    return _native.best_basis([_contiguous(level) for level in packets])
-
-
-def waverec_packets(
-    packets: Sequence[ArrayLike], basis: Sequence[tuple[int, int]], wavelet: str, border: str = "symmetric"
-) -> Array:
-    """The signal from the nodes (level, index) of `basis` alone, which cover the signal exactly once.
+    list
+        ``[(cA_n, cD_n), ..., (cA_1, cD_1)]``; with `trim_approx` ``[cA_n, cD_n, ..., cD_1]``. All as long as `data`.
 
     Raises
     ------
     InvalidArgument
-        For nodes that do not, and for packets that no signal has.
+        For a length that does not allow the levels.
     """
-    levels = [_contiguous(level) for level in packets]
-    return _native.reconstruct_packets(levels, list(basis), wavelet, _border(border))
+    values = as_real(data)
+    count = swt_max_level(values.shape[_axis(values, axis)]) if level is None else level
+    name = name_of(wavelet)
+    bands = _along(
+        [values], axis, lambda x: [row for pair in _native.swt(np.ascontiguousarray(x), name, count) for row in pair]
+    )
+    approximations, details = bands[:count][::-1], bands[count:][::-1]
+    if trim_approx:
+        return [approximations[0], *details]
+    return list(zip(approximations, details, strict=True))
 
 
-class WaveletStream:
-    """The transform of a signal that arrives in pieces.
-
-    All coefficients together, after `finish`, are those of ``wavedec(x, wavelet, "zero", num_levels)``, to the bit.
-
-    Parameters
-    ----------
-    wavelet : str
-    num_levels : int
-        1..30.
-    dtype : dtype
-        float32 or float64: of samples and coefficients.
-    """
-
-    def __init__(self, wavelet: str, num_levels: int, dtype: DTypeLike = np.float32) -> None:
-        self.dtype = np.dtype(dtype)
-        if self.dtype.char not in "fd":
-            raise InvalidArgument(f"dtype must be float32 or float64, got {self.dtype}")
-        kind = _native.WaveletStream32 if self.dtype.char == "f" else _native.WaveletStream64
-        self._stream = kind(_native.WaveletStreamOptions(wavelet=wavelet, num_levels=num_levels))
-
-    def push(self, samples: ArrayLike) -> list[Array]:
-        """The coefficients that have become final, in the order of `wavedec`; each array may be empty."""
-        return self._stream.push(np.ascontiguousarray(samples, dtype=self.dtype))
-
-    def finish(self) -> list[Array]:
-        """The rest, as if zeros followed; then the stream starts anew."""
-        return self._stream.finish()
-
-    def reset(self) -> None:
-        """Forget what was pushed."""
-        self._stream.reset()
+def iswt(coeffs: Sequence[Any], wavelet: str | Wavelet, axis: int = -1) -> Array:
+    """The inverse of `swt`, from either structure that it gives."""
+    if not coeffs:
+        raise InvalidArgument("there are no coefficients")
+    pairs = isinstance(coeffs[0], tuple | list)
+    parts = [coeffs[0][0], *(detail for _, detail in coeffs)] if pairs else coeffs
+    bands = _of_one_type(*map(as_real, parts))
+    if len(bands) < 2:
+        raise InvalidArgument("there are no details")
+    if len({band.shape for band in bands}) != 1:
+        raise InvalidArgument("the coefficients of all levels must be of one shape")
+    name = name_of(wavelet)
+    (signal,) = _along(bands, axis, lambda a, *d: [_native.iswt(np.ascontiguousarray(a), np.stack(d[::-1]), name)])
+    return signal
 
 
-def _border(name: str) -> Border:
-    try:
-        return _BORDERS[name]
-    except (KeyError, TypeError):
-        raise InvalidArgument(f"no border {name!r}; there are: {', '.join(_BORDERS)}") from None
+def _axis(values: Array, axis: int) -> int:
+    if not -values.ndim <= axis < values.ndim:
+        raise InvalidArgument(f"axis {axis} does not exist in an array of {values.ndim} dimensions")
+    return axis % values.ndim
 
 
-def _real(values: ArrayLike) -> Array:
-    """As an array of float32 or float64; complex numbers and text are refused."""
-    array = np.asarray(values)
-    return array if array.dtype.char in "fd" else array.astype(np.float64, casting="safe")
+def _of_one_type(*arrays: Array) -> list[Array]:
+    """The arrays as float32 where all are, else as float64."""
+    dtype = np.result_type(*arrays)
+    return [array.astype(dtype, copy=False) for array in arrays]
 
 
-def _contiguous(values: ArrayLike) -> Array:
-    return np.ascontiguousarray(_real(values))
+def _along(arrays: Sequence[Array], axis: int, transform: Callable[..., Sequence[Array]]) -> list[Array]:
+    """`transform` of the lines of all arrays along `axis`; what it gives stands along that axis again."""
+    if all(array.ndim == 1 for array in arrays) and axis in (0, -1):
+        return list(transform(*arrays))
+    axis = _axis(arrays[0], axis)
+    moved = [np.moveaxis(array, axis, -1) for array in arrays]
+    shape = moved[0].shape[:-1]
+    if any(array.shape[:-1] != shape for array in moved):
+        raise InvalidArgument("coefficients differ in shape beside the axis")
+    if not np.prod(shape):
+        raise InvalidArgument(f"data is empty: shape {arrays[0].shape}")
+    lines = [transform(*(np.ascontiguousarray(array[i]) for array in moved)) for i in np.ndindex(shape)]
+    return [np.moveaxis(np.stack(band).reshape(*shape, -1), -1, axis) for band in zip(*lines, strict=True)]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from hri.datasets import Dataset
 from hri.evaluation import AddNoise
 from hri.media import read_audio
-from hri.signal import wavelets
+from hri.signal import wavedec, waverec
 from hri.signal.noise_reduction import NOISES, RULES, denoise
 from hri.studies.noise import NOISES as RECORDED
 from hri.studies.noise import noise_paths
@@ -34,8 +34,8 @@ APPROXIMATIONS = (1, 2, 3)
 
 def _approximation(samples: Samples, level: int) -> Samples:
     """Without the details of the finest levels, at the rate it had."""
-    bands = wavelets.wavedec(samples, WAVELET, "symmetric", level)
-    return wavelets.waverec([bands[0], *map(np.zeros_like, bands[1:])], WAVELET, "symmetric", len(samples))
+    bands = wavedec(samples, WAVELET, "symmetric", level)
+    return waverec([bands[0], *map(np.zeros_like, bands[1:])], WAVELET, num_samples=len(samples))
 
 
 def _methods(threshold: Sequence[str]) -> Iterator[tuple[dict[str, str], Callable[[Samples], Samples]]]:

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.datasets import Dataset
 from hri.evaluation import active_power, make_noise
 from hri.evaluation.noise import noise_at
 from hri.media import read_audio
+from hri.signal import Endpointer, EndpointKind, find_speech
 from hri.studies.noise import noise_paths
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.tables import Row, statistics
@@ -54,10 +54,10 @@ def noise_taken_for_speech(data_dir: Path) -> dict[str, dict[str, Any]]:
             for seconds in CLIP_S
             for at in range(0, len(audio.samples) - seconds * rate + 1, seconds * rate // 2)
         ]
-        endpointer = _native.Endpointer(rate)
+        endpointer = Endpointer(rate)
         events = [*endpointer.push(audio.samples), *endpointer.finish()]
-        starts = sum(e.kind == _native.EndpointKind.speech_start for e in events)
-        clips = sum(_native.find_speech(piece, rate) is not None for piece in pieces)
+        starts = sum(e.kind == EndpointKind.speech_start for e in events)
+        clips = sum(find_speech(piece, rate) is not None for piece in pieces)
         found[name] = {"pieces": len(pieces), "taken_for_speech": clips, "starts_in_the_stream": starts}
     return found
 
@@ -73,7 +73,7 @@ def words_missed(dataset: Dataset, name: str, progress: Progress) -> dict[str, A
         power = active_power(x, rate)
         for level, snr_db in (("clean", None), ("10 dB", 10), ("5 dB", 5)):
             y = x if snr_db is None else (x + noise_at(noise, power, snr_db)).astype(np.float32)
-            missed[level] += _native.find_speech(y, rate) is None
+            missed[level] += find_speech(y, rate) is None
         progress(f"words, {name}", done + 1, len(dataset.samples))
     return {"recordings": len(dataset.samples), "missed": missed}
 
@@ -84,7 +84,7 @@ def _errors(x: Samples, rate: int, noise: str, snr_db: float, rng: np.random.Gen
     first, last = word_span(x, rate)
     y = noise_at(make_noise(noise, len(x) + 2 * around, rate, rng), active_power(x, rate), snr_db)
     y[around : around + len(x)] += x
-    bounds = _native.find_speech(y, rate)
+    bounds = find_speech(y, rate)
     if bounds is None:
         return None
     return 1000 * (bounds[0] - around - first) / rate, 1000 * (bounds[1] - around - last) / rate

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.datasets import Dataset, Sample
 from hri.evaluation import make_noise
 from hri.live import ArraySource, Attention, Listener
 from hri.media import read_audio
 from hri.recognition import WordRecognizer
+from hri.signal import find_speech, resample
 from hri.studies.noise import noise_paths
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
@@ -90,7 +90,7 @@ def _clip(sample: Sample, rate: int) -> Samples:
     audio = read_audio(sample.path)
     if audio.sample_rate_hz == rate:
         return audio.samples
-    return np.asarray(_native.resample(audio.samples, audio.sample_rate_hz, rate))
+    return np.asarray(resample(audio.samples, audio.sample_rate_hz, rate))
 
 
 def compose_words(
@@ -217,7 +217,7 @@ def longest_word(labels: Sequence[str], clips: Sequence[Samples], rate: int) -> 
     """The longest word on average, which is the easiest to distinguish from others."""
     lengths: dict[str, list[int]] = {}
     for label, clip in zip(labels, clips, strict=True):
-        bounds = _native.find_speech(clip, rate)
+        bounds = find_speech(clip, rate)
         if bounds is not None:
             lengths.setdefault(label, []).append(bounds[1] - bounds[0])
     return max(sorted(lengths), key=lambda label: float(np.mean(lengths[label])))

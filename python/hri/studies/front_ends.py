@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from hri import _native
 from hri.evaluation.conditions import FrontEnd, Samples
+from hri.signal import denoise
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class FrontEndChoice:
 
 def shrinkage(samples: Samples, sample_rate_hz: int) -> tuple[Samples, int]:
     """Less noise by shrinking wavelet details, with the library's defaults."""
-    return np.asarray(_native.denoise(samples, _native.ShrinkageOptions())), sample_rate_hz
+    return np.asarray(denoise(samples)), sample_rate_hz
 
 
 HFCC_E = {"cepstra": {"filter_bank": "hfcc", "erb_factor": 2.0}}

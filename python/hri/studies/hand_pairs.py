@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.core.optional import import_opencv
 from hri.datasets.asl_sentences import SignedSentence, read_asl_sentences
+from hri.features import HandPairTracker
 from hri.studies.registry import Layout, Progress, Study
 
 FOLDER = "asl_sentences"
@@ -49,7 +49,7 @@ def _ways(sentence: SignedSentence) -> list[list[tuple[float, float]]]:
 
 def _labels(ways: Sequence[Sequence[tuple[float, float]]], rule: str) -> list[tuple[bool, bool]]:
     """For every frame in which both are seen: whether "left" is the dominant hand, and whether they touch."""
-    tracker = _native.HandPairTracker()
+    tracker = HandPairTracker()
     labels = []
     for places in ways:
         hands = tracker.push(draw_mask(places))

@@ -30,13 +30,13 @@ _FLESH = 0.12
 
 
 def _finders(frames: Sequence[NDArray[np.uint8]], ways: Sequence[str]) -> dict[str, Any]:
-    from hri import _native_vision
+    from hri.vision import HandColours, SilhouetteExtractor, SilhouetteOptions
 
     finders: dict[str, Any] = {}
     for way in ways:
         if way != "learned":
-            finders[way] = _native_vision.SilhouetteExtractor(_native_vision.SilhouetteOptions(method=way))
-        elif (colours := _native_vision.HandColours.learn(list(frames))) is not None:
+            finders[way] = SilhouetteExtractor(SilhouetteOptions(method=way))
+        elif (colours := HandColours.learn(list(frames))) is not None:
             finders[way] = colours
     return finders
 

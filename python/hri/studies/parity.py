@@ -12,8 +12,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.models import (
+    Codebook,
+    DiscreteHmm,
+    DiscreteHmmOptions,
+    FixedPointHmmSet,
+    PossibilisticHmmOptions,
+    PossibilisticHmmSet,
+    PossibilisticRule,
+    Topology,
+)
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.sequences import Example, Split, signed_words, splits_by_person, spoken_words
 from hri.studies.tables import statistics
@@ -92,36 +101,36 @@ def _quantise(examples: Sequence[Example], split: Split, setting: Setting, seed:
     """Symbols of all examples by a codebook of a random half of the training persons' frames."""
     rows = np.concatenate([examples[i].frames for i in split.pool])
     half = np.random.default_rng(seed).permutation(len(rows))[: (len(rows) + 1) // 2]
-    options = _native.CodebookOptions(num_codewords=setting.num_codewords, max_iterations=setting.max_iterations)
-    codebook = _native.Codebook.train_lbg(rows[np.sort(half)], options)
-    return [codebook.quantise(example.frames) for example in examples]
+    codebook = Codebook(num_codewords=setting.num_codewords, max_iterations=setting.max_iterations)
+    codebook.fit(rows[np.sort(half)])
+    return [codebook.predict(example.frames) for example in examples]
 
 
 def score_all(
     train: Sequence[Sequence[NDArray[np.int32]]], test: Sequence[NDArray[np.int32]], setting: Setting
 ) -> dict[str, NDArray[np.float64]]:
     """Log scores of every method, shape (len(test), number of classes); `train` lists the symbols of each class."""
-    topology = _native.Topology(kind="left_right", num_states=setting.num_states, max_jump=1)
+    topology = Topology(kind="left_right", num_states=setting.num_states, max_jump=1)
     shared: dict[str, Any] = {
         "topology": topology,
         "num_symbols": setting.num_codewords,
         "emission_floor": setting.floor / setting.num_codewords,
         "max_iterations": setting.max_iterations,
     }
-    models = [_native.DiscreteHmm.train(list(part), _native.DiscreteHmmOptions(**shared)) for part in train]
+    models = [DiscreteHmm.train(list(part), DiscreteHmmOptions(**shared)) for part in train]
     rules = {
-        "product": _native.PossibilisticRule(conjunction="product"),
-        "min_conditioned": _native.PossibilisticRule(conjunction="min"),
-        "min_not_concentrated": _native.PossibilisticRule(conjunction="min", concentration=1.0),
-        "min_plain": _native.PossibilisticRule(conjunction="min", conditioned=False),
-        "max_literal": _native.PossibilisticRule(conjunction="max"),
+        "product": PossibilisticRule(conjunction="product"),
+        "min_conditioned": PossibilisticRule(conjunction="min"),
+        "min_not_concentrated": PossibilisticRule(conjunction="min", concentration=1.0),
+        "min_plain": PossibilisticRule(conjunction="min", conditioned=False),
+        "max_literal": PossibilisticRule(conjunction="max"),
     }
-    best_path = _native.PossibilisticHmmOptions(training="best_path", **shared)
-    own = _native.PossibilisticHmmSet.train(train, best_path).models
-    sets: dict[str, Any] = {name: _native.PossibilisticHmmSet(models, rule) for name, rule in rules.items()}
-    sets["product_16_bit"] = _native.FixedPointHmmSet(sets["product"])
-    sets["product_best_path"] = _native.PossibilisticHmmSet(own, rules["product"])
-    sets["min_best_path"] = _native.PossibilisticHmmSet(own, rules["min_conditioned"])
+    best_path = PossibilisticHmmOptions(training="best_path", **shared)
+    own = PossibilisticHmmSet.train(train, best_path).models
+    sets: dict[str, Any] = {name: PossibilisticHmmSet(models, rule) for name, rule in rules.items()}
+    sets["product_16_bit"] = FixedPointHmmSet(sets["product"])
+    sets["product_best_path"] = PossibilisticHmmSet(own, rules["product"])
+    sets["min_best_path"] = PossibilisticHmmSet(own, rules["min_conditioned"])
     scores = {
         "hmm_forward": [[model.log_likelihood(symbols) for model in models] for symbols in test],
         "hmm_viterbi": [[model.viterbi(symbols)[0] for model in models] for symbols in test],
@@ -132,7 +141,7 @@ def score_all(
 
 
 def _score_rows(
-    models: Sequence[_native.DiscreteHmm], found: _native.PossibilisticHmmSet, test: Sequence[NDArray[np.int32]]
+    models: Sequence[DiscreteHmm], found: PossibilisticHmmSet, test: Sequence[NDArray[np.int32]]
 ) -> NDArray[np.float64]:
     """Product with the transitions of `found`, each state's emissions divided by its own largest."""
     with np.errstate(divide="ignore"):

@@ -12,10 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.datasets import Dataset
 from hri.datasets.asl_sentences import SignedSentence, read_asl_sentences
+from hri.features import CepstraComputer, CepstraOptions
 from hri.media import read_audio
+from hri.signal import find_speech, resample
 from hri.studies.registry import Progress
 
 RATE_HZ = 8000
@@ -62,16 +63,14 @@ class Split:
 def spoken_words(folder: Path, what: str, progress: Progress) -> list[Example]:
     """Cepstra of every recording: MFCC 0-12 and deltas at 8 kHz, mean and variance normalised, pauses cut."""
     samples = Dataset.load(folder, "speech").samples
-    computer = _native.CepstraComputer(
-        _native.CepstraOptions(sample_rate_hz=RATE_HZ, normalisation="mean_variance", delta_orders=1)
-    )
+    computer = CepstraComputer(CepstraOptions(sample_rate_hz=RATE_HZ, normalisation="mean_variance", delta_orders=1))
     examples = []
     for done, sample in enumerate(samples):
         audio = read_audio(sample.path)
         clip = audio.samples
         if audio.sample_rate_hz != RATE_HZ:
-            clip = _native.resample(clip, audio.sample_rate_hz, RATE_HZ)
-        bounds = _native.find_speech(clip, RATE_HZ)
+            clip = resample(clip, audio.sample_rate_hz, RATE_HZ)
+        bounds = find_speech(clip, RATE_HZ)
         if bounds is not None:
             clip = clip[bounds[0] : bounds[1]]
         examples.append(Example(sample.label, sample.person, computer.compute(clip)))

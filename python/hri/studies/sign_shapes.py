@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.datasets import Dataset, Fold
 from hri.features.hand import hand_features
 from hri.media import read_image
+from hri.models import PCA, Classifier, DistanceClassifier, GaussianBayes, KnnClassifier, LinearSvm
 from hri.studies.registry import Progress
 from hri.studies.tables import Row, statistics
 from hri.vision.hands import find_silhouettes
@@ -29,7 +29,7 @@ NUM_NEIGHBOURS = (1, 3, 5, 7)
 
 Vectors = NDArray[np.float32]
 Predict = Callable[[Vectors], NDArray[np.int64]]
-Fit = Callable[[Vectors, NDArray[np.int64], int], Predict]
+Fit = Callable[[Vectors, NDArray[np.int64]], Predict]
 """Trains on vectors and their classes in 0..num_classes - 1."""
 
 
@@ -72,26 +72,25 @@ def read_signs(data_dir: Path, progress: Progress) -> SignPictures:
     return SignPictures(dataset, greys, masks, missing)
 
 
-def _fit(model: Any, options: Any, rows: Vectors, classes: NDArray[np.int64], count: int) -> Predict:
-    trained = model.train(rows, classes, count, options)
-    return lambda test: trained.decision_values(test).argmax(axis=1)
+def _fit(make: Callable[[], Classifier], rows: Vectors, classes: NDArray[np.int64]) -> Predict:
+    return make().fit(rows, classes).predict
 
 
-def _fit_svm(rows: Vectors, classes: NDArray[np.int64], count: int) -> Predict:
+def _fit_svm(rows: Vectors, classes: NDArray[np.int64]) -> Predict:
     # An average vector of length 1 suits a cost of 1.
     scale = 1 / np.sqrt(np.mean(np.sum(rows**2, axis=1)))
-    trained = _native.LinearSvm.train(scale * rows, classes, count, _native.LinearSvmOptions())
-    return lambda test: trained.decision_values(scale * test).argmax(axis=1)
+    trained = LinearSvm().fit(scale * rows, classes)
+    return lambda test: trained.predict(scale * test)
 
 
 def _nearest(metric: str) -> Fit:
-    return partial(_fit, _native.DistanceClassifier, _native.DistanceClassifierOptions(metric=metric))
+    return partial(_fit, partial(DistanceClassifier, metric=metric))
 
 
 CLASSIFIERS: dict[str, Fit] = {
     **{metric: _nearest(metric) for metric in ("euclidean", "manhattan", "mahalanobis", "bhattacharyya")},
-    **{f"{k}-nn": partial(_fit, _native.Knn, _native.KnnOptions(num_neighbours=k)) for k in NUM_NEIGHBOURS},
-    "bayes": partial(_fit, _native.GaussianBayes, _native.GaussianBayesOptions(covariance="full")),
+    **{f"{k}-nn": partial(_fit, partial(KnnClassifier, num_neighbours=k)) for k in NUM_NEIGHBOURS},
+    "bayes": partial(_fit, partial(GaussianBayes, covariance="full")),
     "svm": _fit_svm,
 }
 """By name; distances are to class means. All but "svm" get principal components."""
@@ -114,11 +113,11 @@ def accuracies(
     for done, fold in enumerate(folds):
         train = scaled(vectors[fold.train], vectors[fold.train])
         test = scaled(vectors[fold.test], vectors[fold.train])
-        pca = _native.Pca.train(train, min(NUM_COMPONENTS, train.shape[1]))
+        pca = PCA(min(NUM_COMPONENTS, train.shape[1])).fit(train)
         shown = (pca.transform(train), pca.transform(test))
         for name in classifiers:
             known, unknown = (train, test) if name == "svm" else shown
-            predict = CLASSIFIERS[name](known, classes[fold.train], len(signs.labels))
+            predict = CLASSIFIERS[name](known, classes[fold.train])
             per_fold[name][fold.name] = float(np.mean(predict(unknown) == classes[fold.test]))
         say(what, done + 1, len(folds))
     return [{"classifier": name, **statistics(shares)} for name, shares in per_fold.items()]

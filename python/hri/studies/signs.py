@@ -30,7 +30,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
             {"light": light, **statistics({fold.name: fold.accuracy for fold in part.folds})}
             for light, part in found.items()
         ],
-        "options": GestureRecognizer().get_params(),
+        "options": GestureRecognizer().options.as_dict(),
         "passed": result.mean >= TARGET,
     }
 

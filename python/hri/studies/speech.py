@@ -28,7 +28,7 @@ def _study(name: str, folder: str, summary: str, target: float) -> Study:
             **heard["adapting"].to_dict(),
             "alone": heard["alone"].to_dict(),
             "rows": [{"listening": how, **measured(result)} for how, result in heard.items()],
-            "options": recognizer.get_params(),
+            "options": recognizer.options.as_dict(),
             "passed": heard["adapting"].mean >= target,
         }
 

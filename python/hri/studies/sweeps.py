@@ -71,4 +71,4 @@ def sweep(
 
 def result_of(rows: list[Row], passed: bool | None = None, **more: Any) -> dict[str, Any]:
     """A result with what all sweeps have in common."""
-    return {"seed": SEED, "options": WordRecognizer().get_params(), **more, "rows": rows, "passed": passed}
+    return {"seed": SEED, "options": WordRecognizer().options.as_dict(), **more, "rows": rows, "passed": passed}

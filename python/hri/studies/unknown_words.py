@@ -155,7 +155,7 @@ def _run(
     lines = {name: {"x": list(FALSE_ACCEPTS), "y": found.pop("curve")} for name, found in details.items()}
     return {
         "seed": SEED,
-        "options": WordRecognizer().get_params(),
+        "options": WordRecognizer().options.as_dict(),
         "rows": rows,
         "details": details,
         "curves": {"x": "false accepts", "y": "false rejects", "lines": lines},

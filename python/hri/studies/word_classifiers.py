@@ -11,7 +11,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
+from hri.features import normalise_time
+from hri.models import (
+    PCA,
+    Classifier,
+    Codebook,
+    DistanceClassifier,
+    GaussianBayes,
+    GaussianMixtureHmm,
+    GaussianMixtureHmmOptions,
+    KnnClassifier,
+    PossibilisticHmmOptions,
+    PossibilisticHmmSet,
+    PossibilityClassifier,
+    Topology,
+)
 from hri.studies.word_features import Frames
 
 NUM_ROWS = 16
@@ -31,14 +45,16 @@ Fit = Callable[[Sequence[Frames], Sequence[int], int], Predict]
 
 def _vectors(frames: Sequence[Frames]) -> NDArray[np.float32]:
     width = frames[0].shape[1] // 3  # without deltas: the row's neighbours say the same
-    return np.stack([_native.normalise_time(f[:, :width], NUM_ROWS).ravel() for f in frames])
+    return np.stack([normalise_time(f[:, :width], NUM_ROWS).ravel() for f in frames])
 
 
-def _fit_vectors(model: Any, options: Any, frames: Sequence[Frames], classes: Sequence[int], count: int) -> Predict:
+def _fit_vectors(
+    make: Callable[[], Classifier], frames: Sequence[Frames], classes: Sequence[int], count: int
+) -> Predict:
     vectors = _vectors(frames)
-    pca = _native.Pca.train(vectors, NUM_COMPONENTS)
-    trained = model.train(pca.transform(vectors), np.asarray(classes), count, options)
-    return lambda test: trained.decision_values(pca.transform(_vectors(test))).argmax(axis=1)
+    pca = PCA(NUM_COMPONENTS).fit(vectors)
+    trained = make().fit(pca.transform(vectors), classes)
+    return lambda test: trained.predict(pca.transform(_vectors(test)))
 
 
 def _by_class(items: Sequence[Any], classes: Sequence[int], count: int) -> list[list[Any]]:
@@ -46,29 +62,29 @@ def _by_class(items: Sequence[Any], classes: Sequence[int], count: int) -> list[
 
 
 def _left_right() -> Any:
-    return _native.Topology(kind="left_right", num_states=NUM_STATES, max_jump=1)
+    return Topology(kind="left_right", num_states=NUM_STATES, max_jump=1)
 
 
 def _fit_hmm(frames: Sequence[Frames], classes: Sequence[int], count: int) -> Predict:
-    options = _native.GaussianMixtureHmmOptions(topology=_left_right(), max_iterations=MAX_ITERATIONS)
-    models = [_native.GaussianMixtureHmm.train(own, options) for own in _by_class(frames, classes, count)]
+    options = GaussianMixtureHmmOptions(topology=_left_right(), max_iterations=MAX_ITERATIONS)
+    models = [GaussianMixtureHmm.train(own, options) for own in _by_class(frames, classes, count)]
     return lambda test: np.array([np.argmax([m.log_likelihood(f) for m in models]) for f in test])
 
 
 def _fit_ptbhmm(frames: Sequence[Frames], classes: Sequence[int], count: int) -> Predict:
     rows = np.concatenate(frames)
     size = min(NUM_CODEWORDS, 1 << int(np.log2(len(rows))))
-    book = _native.Codebook.train_lbg(rows, _native.CodebookOptions(num_codewords=size))
-    options = _native.PossibilisticHmmOptions(
+    book = Codebook(num_codewords=size).fit(rows)
+    options = PossibilisticHmmOptions(
         topology=_left_right(), num_symbols=len(book), emission_floor=0.1 / len(book), max_iterations=MAX_ITERATIONS
     )
-    symbols = _by_class([book.quantise(f) for f in frames], classes, count)
-    trained = _native.PossibilisticHmmSet.train(symbols, options)
-    return lambda test: np.array([np.argmax(trained.log_possibilities(book.quantise(f))) for f in test])
+    symbols = _by_class([book.predict(f) for f in frames], classes, count)
+    trained = PossibilisticHmmSet.train(symbols, options)
+    return lambda test: np.array([np.argmax(trained.log_possibilities(book.predict(f))) for f in test])
 
 
 def _nearest(metric: str) -> Fit:
-    return partial(_fit_vectors, _native.DistanceClassifier, _native.DistanceClassifierOptions(metric=metric))
+    return partial(_fit_vectors, partial(DistanceClassifier, metric=metric))
 
 
 CLASSIFIERS: dict[str, Fit] = {
@@ -76,11 +92,9 @@ CLASSIFIERS: dict[str, Fit] = {
     "manhattan": _nearest("manhattan"),
     "mahalanobis": _nearest("mahalanobis"),
     "bhattacharyya": _nearest("bhattacharyya"),
-    "knn": partial(_fit_vectors, _native.Knn, _native.KnnOptions(num_neighbours=NUM_NEIGHBOURS)),
-    "bayes": partial(_fit_vectors, _native.GaussianBayes, _native.GaussianBayesOptions(covariance="full")),
-    "possibility": partial(
-        _fit_vectors, _native.PossibilityClassifier, _native.GaussianBayesOptions(covariance="full")
-    ),
+    "knn": partial(_fit_vectors, partial(KnnClassifier, num_neighbours=NUM_NEIGHBOURS)),
+    "bayes": partial(_fit_vectors, partial(GaussianBayes, covariance="full")),
+    "possibility": partial(_fit_vectors, partial(PossibilityClassifier, covariance="full")),
     "hmm": _fit_hmm,
     "ptbhmm": _fit_ptbhmm,
 }

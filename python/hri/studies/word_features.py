@@ -14,10 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
+from hri import signal
 from hri.datasets import Dataset
 from hri.evaluation.conditions import Condition
+from hri.features import CepstraComputer, CepstraOptions
 from hri.media import read_audio
+from hri.signal import find_speech, resample
 from hri.studies.registry import Progress
 
 Samples = NDArray[np.float32]
@@ -74,12 +76,12 @@ def read_words(
     words = []
     for done, sample in enumerate(dataset.samples):
         audio = read_audio(sample.path)
-        bounds = _native.find_speech(audio.samples, audio.sample_rate_hz)
+        bounds = find_speech(audio.samples, audio.sample_rate_hz)
         heard = audio.samples
         if condition is not None:
             heard = condition(heard, audio.sample_rate_hz, np.random.default_rng([seed, done]))
         clip = heard if bounds is None else heard[bounds[0] : bounds[1]]
-        clip = np.asarray(_native.resample(clip, audio.sample_rate_hz, RATE_HZ))
+        clip = np.asarray(resample(clip, audio.sample_rate_hz, RATE_HZ))
         words.append(SpokenWord(sample.label, sample.person, clip, min(RATE_HZ, audio.sample_rate_hz) / 2))
         progress(f"{name}: reading", done + 1, len(dataset))
     return words
@@ -110,7 +112,7 @@ class FeatureKind:
         prepared = samples if self.prepare is None else self.prepare(samples)
         rate_hz = RATE_HZ // self.rate_divisor
         if self.at_band and 2 * band_hz < rate_hz:
-            prepared = np.asarray(_native.resample(prepared, rate_hz, round(2 * band_hz)))
+            prepared = np.asarray(resample(prepared, rate_hz, round(2 * band_hz)))
             rate_hz = round(2 * band_hz)
         computer = _computer(rate_hz, band_hz, self.options)
         least = int(np.ceil(rate_hz * computer.options.frame_length_ms / 1000))
@@ -124,7 +126,7 @@ def _computer(rate_hz: int, band_hz: float, options: dict[str, Any]) -> Any:
     band = min(band_hz, rate_hz / 2)
     filters = round(NUM_FILTERS * _mel(band) / _mel(RATE_HZ / 2)) if band < RATE_HZ / 4 else NUM_FILTERS
     named = {"num_filters": filters, "num_cepstra": min(NUM_CEPSTRA, filters - 1), **options}
-    return _native.CepstraComputer(_native.CepstraOptions(sample_rate_hz=rate_hz, high_hz=band, **named))
+    return CepstraComputer(CepstraOptions(sample_rate_hz=rate_hz, high_hz=band, **named))
 
 
 def _mel(hz: float) -> float:
@@ -133,12 +135,12 @@ def _mel(hz: float) -> float:
 
 def approximation(samples: Samples, wavelet: str = WAVELET, level: int = LEVEL) -> Samples:
     """The level's approximation: the sound below 8 kHz / 2^level, at 16 kHz / 2^level."""
-    return np.asarray(_native.approximate(samples, wavelet, _native.Border.periodization, level))
+    return signal.approximation(samples, wavelet, "periodization", level)
 
 
 def denoised(samples: Samples, wavelet: str = WAVELET, level: int = 0) -> Samples:
     """Shrinkage of the details of `level` levels with the library's other defaults; 0 takes its levels too."""
-    return np.asarray(_native.denoise(samples, _native.ShrinkageOptions(wavelet=wavelet, num_levels=level)))
+    return signal.denoise(samples, wavelet, level=level or None)
 
 
 def approximation_kind(wavelet: str, level: int, options: dict[str, Any]) -> FeatureKind:

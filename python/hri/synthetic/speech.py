@@ -20,11 +20,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.datasets.dataset import Dataset
 from hri.datasets.manifest import SampleRow
+from hri.io import write_wav_pcm16
 from hri.media import Audio, read_audio
+from hri.signal import resample
 from hri.synthetic.corpus import finish_corpus, start_corpus
 
 DIGIT_WORDS: dict[str, dict[str, str]] = {
@@ -156,7 +157,7 @@ def speak(text: str, language: str = "en", speaker: Speaker | None = None, take:
     word = _trimmed(audio.samples)
     if speaker.tract != 1.0:
         played_hz = round(audio.sample_rate_hz * speaker.tract)
-        word = np.asarray(_native.resample(word, played_hz, audio.sample_rate_hz))
+        word = np.asarray(resample(word, played_hz, audio.sample_rate_hz))
     if word.size == 0:
         raise InvalidArgument(f"text {text!r} gives no sound in language {language!r}")
     margin = np.zeros(round(_MARGIN_S * audio.sample_rate_hz), dtype=np.float32)
@@ -254,7 +255,7 @@ def make_speech_corpus(
         speaker, label, language, text, take = job
         audio = speak(text, language, speaker, take, seed)
         name = f"{label}/{speaker.name}_{language}{take + 1}.wav"
-        _native.write_wav_pcm16(str(root / name), audio.samples, audio.sample_rate_hz)
+        write_wav_pcm16(str(root / name), audio.samples, audio.sample_rate_hz)
         return SampleRow(name, label, speaker.name, f"{language}{take + 1}")
 
     with ThreadPoolExecutor(os.cpu_count()) as executor:  # the synthesiser is a process of its own

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.core.optional import import_opencv
+from hri.features import OrientationHistogramOptions, orientation_histogram
 
 Frame = NDArray[np.uint8]
 Colour = tuple[int, int, int]
@@ -89,8 +89,8 @@ def paint_text(picture: Frame, text: str, place: tuple[int, int], size: float) -
 
 
 def _glyphs(square: NDArray[np.float32], cv2: Any) -> Frame:
-    options = _native.OrientationHistogramOptions(num_cells=_CELLS, num_bins=9)
-    histogram = np.asarray(_native.orientation_histogram(square, options))
+    options = OrientationHistogramOptions(num_cells=_CELLS, num_bins=9)
+    histogram = np.asarray(orientation_histogram(square, options))
     blocks: NDArray[np.float32] = histogram.reshape(_CELLS - 1, _CELLS - 1, 4, options.num_bins)
     glyphs = np.zeros(((_CELLS - 1) * _GLYPH_PX, (_CELLS - 1) * _GLYPH_PX, 3), np.uint8)
     for (row, column), weights in ((place, blocks[place][0]) for place in np.ndindex(blocks.shape[:2])):

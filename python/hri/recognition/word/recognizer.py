@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.suggest import did_you_mean
-from hri.recognition.base import Recognizer
+from hri.recognition.base import Recognizer, best_labels, posteriors
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio, as_audios
 from hri.recognition.loading import load_native
@@ -222,6 +222,29 @@ class WordRecognizer(Recognizer):
     def decide(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
         return [self.recognise(audio) for audio in as_audios(X, sample_rate_hz)]
+
+    def predict(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> NDArray[np.str_]:
+        """The best label for every clip, whether or not it would be rejected; "no_input" where nobody speaks."""
+        return best_labels(self.decide(X, sample_rate_hz))
+
+    def predict_proba(
+        self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None
+    ) -> NDArray[np.float64]:
+        """Calibrated posteriors, shape (len(X), num_classes) in the order of `classes_`; uniform without speech."""
+        return posteriors(self.decide(X, sample_rate_hz), self.classes_)
+
+    def predict_log_proba(
+        self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None
+    ) -> NDArray[np.float64]:
+        """Natural logs of `predict_proba`."""
+        with np.errstate(divide="ignore"):
+            return np.log(self.predict_proba(X, sample_rate_hz))
+
+    def score(
+        self, X: Sequence[AudioInput], y: Sequence[str], sample_rate_hz: int | Sequence[int] | None = None
+    ) -> float:
+        """Share of clips whose best label is right, 0..1."""
+        return float(np.mean(self.predict(X, sample_rate_hz) == np.asarray(y)))
 
     @property
     def threshold(self) -> float:

@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A recogniser from its file, whichever it is."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from typing import Literal, overload
+
+from hri.core.errors import FormatError
+from hri.io import ModelFile
+from hri.recognition.gesture import GestureRecognizer
+from hri.recognition.word import WordRecognizer
+
+Mode = Literal["speech", "gesture"]
+_MODES: dict[str, Mode] = {"word_recognizer": "speech", "gesture_recognizer": "gesture"}
+
+
+@overload
+def load(path: str | PathLike[str]) -> WordRecognizer | GestureRecognizer: ...
+@overload
+def load(path: str | PathLike[str], mode: Literal["speech"]) -> WordRecognizer: ...
+@overload
+def load(path: str | PathLike[str], mode: Literal["gesture"]) -> GestureRecognizer: ...
+def load(path: str | PathLike[str], mode: Mode | None = None) -> WordRecognizer | GestureRecognizer:
+    """Read a recogniser of words or of gestures.
+
+    Parameters
+    ----------
+    path : path_like
+        What `save` wrote, in Python or C++.
+    mode : {"speech", "gesture"}, optional
+        What it has to be.
+
+    Raises
+    ------
+    FormatError
+        For a file that holds anything else.
+    IoError
+        For one that cannot be read.
+    """
+    kind = ModelFile.read(fspath(path)).kind
+    found = _MODES.get(kind)
+    if found is None or mode not in (None, found):
+        wanted = "recogniser" if mode is None else f"recogniser of {mode}"
+        raise FormatError(f"{fspath(path)}: holds a {kind!r}, which is no {wanted}")
+    return WordRecognizer.load(path) if found == "speech" else GestureRecognizer.load(path)
