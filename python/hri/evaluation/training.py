@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from os import PathLike
+from typing import overload
 
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
@@ -15,6 +16,26 @@ from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
 Progress = Callable[[str, int, int], None]
 
 
+@overload
+def train(
+    dataset: Dataset | str | PathLike[str],
+    recognizer: WordRecognizer,
+    *,
+    fillers: Sequence[FillerWord] | None = None,
+    progress: Progress | None = None,
+) -> WordRecognizer: ...
+@overload
+def train(
+    dataset: Dataset | str | PathLike[str], recognizer: GestureRecognizer, *, progress: Progress | None = None
+) -> GestureRecognizer: ...
+@overload
+def train(
+    dataset: Dataset | str | PathLike[str],
+    recognizer: WordRecognizer | GestureRecognizer | None = None,
+    *,
+    fillers: Sequence[FillerWord] | None = None,
+    progress: Progress | None = None,
+) -> WordRecognizer | GestureRecognizer: ...
 def train(
     dataset: Dataset | str | PathLike[str],
     recognizer: WordRecognizer | GestureRecognizer | None = None,
