@@ -160,7 +160,15 @@ def _points(signs: SignPictures, vectors: Vectors) -> dict[str, Any]:
 
 _DATA = ("sign_digits",)
 _TARGET = "none: a comparison"
-_SOURCES = ("cpp/signal", "cpp/features/hand", "cpp/models/...", "cpp/vision", "python/studies/sign_shapes.py")
+_SOURCES = (
+    "cpp/signal",
+    "cpp/features/hand",
+    "cpp/models/...",
+    "python/models",
+    "python/features",
+    "cpp/vision",
+    "python/studies/sign_shapes.py",
+)
 
 STUDIES = (
     Study(

@@ -108,6 +108,8 @@ STUDIES = (
             "cpp/signal",
             "cpp/features/speech",
             "cpp/models/...",
+            "python/models",
+            "python/features",
             "python/studies/word_features.py",
             "python/studies/word_classifiers.py",
         ),
