@@ -39,7 +39,9 @@ function(hri_target_settings target optimisation)
     if(HRI_INFERENCE_ONLY)
       target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections)
     endif()
-    # No -ffast-math: NaN checks and bit-equal scores depend on IEEE arithmetic.
+    # No -ffast-math, and no fused multiply-adds, which round once where others round twice: NaN checks depend on IEEE
+    # arithmetic, and every processor gives the same bits.
+    target_compile_options(${target} PRIVATE -ffp-contract=off)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimisation}>)
   endif()
 endfunction()

@@ -24,17 +24,19 @@
 #endif
 
 /// In front of a non-inline function of a source file: the compiler makes one clone for every set
-/// and the loader picks one. Clang makes clones of functions with external linkage only, and gets
-/// none.
-#if defined(__clang__) || !defined(__gnu_linux__)
+/// and the loader picks one, by the features of the processor (the name of a processor, such as
+/// haswell, would ask for that very one). All give the same bits, as nothing is fused
+/// (cmake/HriTarget.cmake). Clang makes clones of functions with external linkage only, and GCC
+/// knows these levels from 12 on; others get none.
+#if defined(__clang__) || !defined(__gnu_linux__) || __GNUC__ < 12
 #define HRI_SIMD_CLONES
 #elif HRI_WITH_AVX2 && HRI_WITH_AVX512
 #define HRI_SIMD_CLONES \
-  __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #elif HRI_WITH_AVX2
-#define HRI_SIMD_CLONES __attribute__((target_clones("arch=haswell", "default")))
+#define HRI_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #elif HRI_WITH_AVX512
-#define HRI_SIMD_CLONES __attribute__((target_clones("arch=skylake-avx512", "default")))
+#define HRI_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "default")))
 #else
 #define HRI_SIMD_CLONES
 #endif
