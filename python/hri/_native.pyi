@@ -123,6 +123,7 @@ __all__: list[str] = [
     "ThresholdShape",
     "Topology",
     "TrainingReport",
+    "UtteranceDecision",
     "Wav",
     "WaveletDescriptorComputer",
     "WaveletDescriptorOptions",
@@ -155,9 +156,9 @@ __all__: list[str] = [
     "idwt2",
     "initial_start",
     "initial_transition",
+    "iswt",
     "landmark_column_names",
     "landmark_features",
-    "iswt",
     "linear_prediction",
     "lpc_cepstrum",
     "max_dwt_level",
@@ -4506,20 +4507,6 @@ def initial_transition(
     Row-stochastic start values without jumps, shape (num_states, num_states).
     """
 
-def landmark_column_names() -> list[str]:
-    """
-    Names of the columns of landmark_features; joints are numbered as MediaPipe's are.
-    """
-
-def landmark_features(
-    points: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
-    width_px: typing.SupportsInt | typing.SupportsIndex,
-    height_px: typing.SupportsInt | typing.SupportsIndex,
-) -> numpy.typing.NDArray[numpy.float32]:
-    """
-    float32, shape (85,), of joints in pixels, shape (21, 2).
-    """
-
 @typing.overload
 def iswt(
     approximation: numpy.typing.NDArray[numpy.float32], details: numpy.typing.NDArray[numpy.float32], wavelet: str
@@ -4534,6 +4521,20 @@ def iswt(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The inverse, from the approximation of the highest level and all details.
+    """
+
+def landmark_column_names() -> list[str]:
+    """
+    Names of the columns of landmark_features; joints are numbered as MediaPipe's are.
+    """
+
+def landmark_features(
+    points: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    width_px: typing.SupportsInt | typing.SupportsIndex,
+    height_px: typing.SupportsInt | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    float32, shape (85,), of joints in pixels, shape (21, 2).
     """
 
 def linear_prediction(

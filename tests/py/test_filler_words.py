@@ -69,7 +69,7 @@ def test_users_bring_their_own_or_none():
     assert len(set(score)) == 3
     for words in (shipped, mine):
         np.testing.assert_array_equal(words.scores(clips[0], 16000), none.scores(clips[0], 16000))
-    with pytest.raises(InvalidArgument, match=r"fillers\[0\].samples"):
+    with pytest.raises(InvalidArgument, match=r"fillers\[0\] must have 1 dimension"):
         train([FillerWord(np.zeros((2, 2), np.float32), 16000, "flat")])
 
 

@@ -83,8 +83,8 @@ def test_recogniser_comes_back_to_the_bit(spoken: Path, tmp_path: Path, kind: st
     again = hri.WordRecognizer.load(tmp_path / "w.hri")
     again.save(tmp_path / "again.hri")
     assert (tmp_path / "w.hri").read_bytes() == (tmp_path / "again.hri").read_bytes()
-    assert again.get_params()["models"] == words.get_params()["models"]
-    assert again.get_params()["cepstra"]["sample_rate_hz"] == 16000  # 0 asked for the recordings' own
+    assert again.options.models.model == words.options.models.model
+    assert again.options.cepstra.sample_rate_hz == 16000  # 0 asked for the recordings' own
     for path in sorted(spoken.glob("*.wav"))[:4]:
         audio = hri.read_audio(path)
         clip = (audio.samples, audio.sample_rate_hz)

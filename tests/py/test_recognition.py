@@ -108,7 +108,7 @@ def test_bad_audio_is_refused_with_its_place(words: hri.WordRecognizer, clips: C
         words.recognise(x[0][:10], RATE_HZ)
     with pytest.raises(InvalidArgument, match="one-dimensional"):
         words.recognise(x[0].reshape(2, -1), RATE_HZ)
-    with pytest.raises(InvalidArgument, match="differ in length: 2, 1, 2, 2"):
+    with pytest.raises(InvalidArgument, match="X, y and groups differ in length: 2, 1, 2"):
         hri.WordRecognizer().fit(x[:2], y[:1], sample_rate_hz=RATE_HZ)
     with pytest.raises(InvalidArgument, match="not trained"):
         hri.WordRecognizer().recognise(x[0], RATE_HZ)
@@ -214,5 +214,5 @@ def test_options_out_of_range_are_named(clips: Clips, make, message: str) -> Non
 
 
 def test_options_given_as_a_dict_change_only_what_they_name() -> None:
-    changed = hri.WordRecognizer(cepstra={"filter_bank": "hfcc"}).get_params()["cepstra"]
-    assert changed == hri.WordRecognizer().get_params()["cepstra"] | {"filter_bank": "hfcc"}
+    changed = hri.WordRecognizer(cepstra={"filter_bank": "hfcc"}).options.as_dict()["cepstra"]
+    assert changed == hri.WordRecognizer().options.as_dict()["cepstra"] | {"filter_bank": "hfcc"}

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from hri.core.errors import InvalidArgument, IoError
-from hri.datasets import Dataset, synthetic_speech
+from hri.datasets import Dataset
 from hri.media import read_audio, read_frames
+from hri.synthetic import speech
 from hri.synthetic.drawing.hand_pose import DIGIT_POSES, HandShape, make_skeleton, rotation
 from hri.synthetic.drawing.height_field import HeightField
 from hri.synthetic.signer import (
@@ -138,7 +139,7 @@ def test_synthesiser_that_hangs_is_stopped(monkeypatch: pytest.MonkeyPatch, tmp_
     program.write_text("#!/bin/sh\nexec /bin/sleep 30\n")
     program.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setattr(synthetic_speech, "_TIMEOUT_S", 0.2)
+    monkeypatch.setattr(speech, "_TIMEOUT_S", 0.2)
     with pytest.raises(IoError, match="did not finish"):
         speak("go")
 

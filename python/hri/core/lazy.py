@@ -9,6 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from typing import Any
 
+from hri.core.suggest import nearest
+
 
 def loader(package: str, homes: Mapping[str, Sequence[str]], modules: Sequence[str] = ()) -> Callable[[str], Any]:
     """The module-level `__getattr__` of a package.
@@ -28,9 +30,15 @@ def loader(package: str, homes: Mapping[str, Sequence[str]], modules: Sequence[s
         if name in modules:
             return import_module(f"{package}.{name}")
         if name not in home_of:
-            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+            raise AttributeError(_no_attribute(package, name, {*home_of, *modules}))
         value = getattr(import_module(home_of[name]), name)
         setattr(sys.modules[package], name, value)
         return value
 
     return get
+
+
+def _no_attribute(package: str, name: str, known: set[str]) -> str:
+    alike = [] if name.startswith("__") else nearest(name, known)
+    hint = f"; did you mean {' or '.join(repr(entry) for entry in alike)}?" if alike else ""
+    return f"module {package!r} has no attribute {name!r}{hint}"

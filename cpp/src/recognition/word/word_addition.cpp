@@ -58,9 +58,11 @@ WordRecognizer WordRecognizer::with_word(const std::vector<WordSample>& samples,
   std::vector<const StreamFrames*> sequences;
   sequences.reserve(frames.size());
   for (const StreamFrames& copy : frames) sequences.push_back(&copy);
-  MultiStreamScorer scorer = scorer_.with_class(label_index(labels, label), sequences,
-                                                static_cast<int>(samples.size()), should_stop);
-  return {options_, std::move(labels), std::move(scorer), verifier_, calibration_};
+  const int index = label_index(labels, label);
+  MultiStreamScorer scorer =
+      scorer_.with_class(index, sequences, static_cast<int>(samples.size()), should_stop);
+  return {options_, std::move(labels), std::move(scorer), verifier_,
+          calibration_.with_class(index)};
 }
 
 WordRecognizer WordRecognizer::without_word(const std::string& label) const {
