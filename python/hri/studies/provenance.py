@@ -14,13 +14,13 @@ import ast
 import hashlib
 import re
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from hri import __version__
 from hri.core.errors import InvalidArgument
+from hri.core.library import library_file
 from hri.studies.registry import Study
 
 SUFFIXES = {".cpp", ".hpp", ".py", ".toml"}
@@ -103,8 +103,7 @@ def _is_text(statement: ast.AST) -> bool:
 
 def newer_than_build(root: Path) -> list[Path]:
     """The C++ files that changed after the compiled module was written."""
-    module = sys.modules[InvalidArgument.__module__]
-    built = Path(str(module.__file__)).stat().st_mtime
+    built = library_file().stat().st_mtime
     files = [path for top in ("cpp", "bindings") for path in (root / top).rglob("*") if path.suffix in (".cpp", ".hpp")]
     return sorted(path for path in files if path.stat().st_mtime > built)
 

@@ -7,6 +7,7 @@
 #include "allocations/allocation_counter.hpp"
 #include "features/hand_testing.hpp"
 #include "hri/vision/hand_colours.hpp"
+#include "hri/vision/silhouette.hpp"
 
 namespace hri {
 namespace {
