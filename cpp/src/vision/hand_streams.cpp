@@ -12,9 +12,9 @@ namespace {
 constexpr double kSample_s = 0.25;
 constexpr std::size_t kFewestSamples = 4;
 constexpr double kLearn_s = 1.0;
-constexpr double kAlike = 0.9;  // outlines that share so much are of the same colours
-constexpr double kMoved = 0.3;  // those that differ by so much are of something that moves, as
-                                // hands do and furniture does not
+constexpr double kAlike = 0.9;   // outlines that share so much are of the same colours
+constexpr double kMoved = 0.3;   // those that differ by so much are of something that moves, as
+                                 // hands do and furniture does not
 constexpr double kSurer = 0.05;  // by how much better the quality of better colours is
 
 // What both cover, as a share of what either does, 0..1; 1 where neither covers anything.

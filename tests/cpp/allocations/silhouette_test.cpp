@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A stream of pictures allocates nothing once the first one was segmented, in either way.
+#include "hri/vision/silhouette.hpp"
+
 #include <gtest/gtest.h>
 
 #include "allocations/allocation_counter.hpp"
 #include "features/hand_testing.hpp"
 #include "hri/vision/hand_colours.hpp"
-#include "hri/vision/silhouette.hpp"
 
 namespace hri {
 namespace {

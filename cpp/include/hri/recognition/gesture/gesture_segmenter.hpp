@@ -25,9 +25,9 @@ constexpr double kLearnedStillChange = 0.12;
 struct GestureSegmenterOptions {
   double appear_s = 0.1;  ///< a hand is there, or moves again, when it has been seen, or moving,
                           ///< for so long, > 0
-  double leave_s = 0.3;  ///< it has gone when it has not been seen for so long, > 0
-  double rest_s = 0.5;   ///< a hand that is still for so long ends the segment: it rests, or holds
-                         ///< a sign, > 0
+  double leave_s = 0.3;   ///< it has gone when it has not been seen for so long, > 0
+  double rest_s = 0.5;    ///< a hand that is still for so long ends the segment: it rests, or holds
+                          ///< a sign, > 0
   double still_change = 0.3;  ///< it is still while the outlines of now and of compare_s ago differ
                               ///< by less than this share of what they cover together, 0..1
   double compare_s = 0.2;     ///< > 0

@@ -25,8 +25,8 @@ struct SpeakerAdapterOptions {
   double prior_frames = 5;     ///< frames a state that weigh as much as the training, > 0
   int num_iterations = 3;      ///< EM iterations of an update, 1..1000
   double trusted_share = 1;    ///< share of the words without a label to learn from, those of the
-                             ///< largest margins first, 0..1
-  int max_words = 300;  ///< words remembered; the oldest goes first, 1..100000
+                               ///< largest margins first, 0..1
+  int max_words = 300;         ///< words remembered; the oldest goes first, 1..100000
 };
 
 /// Not safe from several threads at once. Invariant: recognizer() is the recogniser it was made
