@@ -15,6 +15,7 @@ export -f verify
 
 results=("$@")
 ((${#results[@]})) || mapfile -t results < <(.venv/bin/python tools/generate_tables.py --stale)
+# shellcheck disable=SC2016 # expanded by the shell that xargs starts
 printf '%s\n' ${results[@]+"${results[@]}"} | xargs -r -P "${HRI_JOBS:-1}" -I '{}' bash -c 'verify "$1"' _ '{}'
 .venv/bin/python tools/generate_tables.py
 .venv/bin/python tools/generate_tables.py --check
