@@ -127,6 +127,7 @@ std::vector<FillerModels> train_fillers(const ClassStreams& sequences, int num_s
                                         const SequenceModelOptions& options,
                                         const StopCheck& should_stop) {
   std::vector<FillerModels> result;
+  result.reserve(static_cast<std::size_t>(num_streams));
   for (int s = 0; s < num_streams; ++s) {
     result.push_back(
         train_fillers(of_stream(sequences, static_cast<std::size_t>(s)), options, should_stop));

@@ -44,7 +44,7 @@ GestureStream::GestureStream(GestureRecognizer recognizer, std::unique_ptr<HandS
   validate(options);
 }
 
-GestureStream::GestureStream(GestureRecognizer recognizer, const HandSource& source)
+GestureStream::GestureStream(const GestureRecognizer& recognizer, const HandSource& source)
     : GestureStream(recognizer, source.stream(recognizer.is_dynamic()), options_for(recognizer)) {}
 
 const std::vector<GestureEvent>& GestureStream::push(ImageView bgr, double time_s,

@@ -60,7 +60,7 @@ class HRI_API GestureStream {
   GestureStream(GestureRecognizer recognizer, std::unique_ptr<HandStream> hands,
                 const GestureStreamOptions& options);
   /// Hands as the recogniser's options say, found by `source`.
-  GestureStream(GestureRecognizer recognizer, const HandSource& source);
+  GestureStream(const GestureRecognizer& recognizer, const HandSource& source);
 
   /// The next picture (BGR) and its time; what happened with it, which is overwritten by the next
   /// call. A recogniser of landmarks is told those of this picture, in pixels (kNumLandmarks rows,
