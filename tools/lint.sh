@@ -30,6 +30,7 @@ fi
 step mypy "$python" -m mypy
 step "stubs are up to date" "$python" tools/generate_stubs.py --check
 step "tables and results are up to date" "$python" tools/generate_tables.py --check
+step "tables of options are up to date" "$python" tools/generate_option_tables.py --check
 step shellcheck shellcheck run tools/*.sh .ci/run
 # Only findings; the commands and counts of suppressed warnings are noise.
 tidy() {

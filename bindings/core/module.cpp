@@ -10,6 +10,7 @@
 
 namespace py = pybind11;
 
+void bind_option_field(py::module_& m);
 void bind_files(py::module_& m);
 void bind_resample(py::module_& m);
 void bind_wavelets(py::module_& m);
@@ -87,6 +88,7 @@ PYBIND11_MODULE(_native, m) {
   m.doc() = "libhri's core: signal, features, models and recognition, without OpenCV.";
   m.attr("__version__") = HRI_VERSION;
   bind_errors(m);
+  bind_option_field(m);
   bind_files(m);
   bind_resample(m);
   bind_wavelets(m);

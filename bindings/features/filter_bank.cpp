@@ -13,30 +13,7 @@
 namespace py = pybind11;
 
 void bind_filter_bank(py::module_& m) {
-  py::enum_<hri::FilterBankKind>(m, "FilterBankKind")
-      .value("mel", hri::FilterBankKind::mel)
-      .value("hfcc", hri::FilterBankKind::hfcc);
-  py::enum_<hri::MelScale>(m, "MelScale")
-      .value("htk", hri::MelScale::htk)
-      .value("slaney", hri::MelScale::slaney);
-  py::enum_<hri::FilterAxis>(m, "FilterAxis")
-      .value("hz", hri::FilterAxis::hz)
-      .value("mel", hri::FilterAxis::mel);
-
-  py::class_<hri::FilterBankOptions> bank(m, "FilterBankOptions",
-                                          "Triangular filters over a power spectrum.");
-  hri_bind::options(bank)
-      .field("kind", &hri::FilterBankOptions::kind)
-      .field("num_filters", &hri::FilterBankOptions::num_filters)
-      .field("low_hz", &hri::FilterBankOptions::low_hz)
-      .field("high_hz", &hri::FilterBankOptions::high_hz)
-      .field("erb_factor", &hri::FilterBankOptions::erb_factor)
-      .field("warp", &hri::FilterBankOptions::warp)
-      .field("warp_low_hz", &hri::FilterBankOptions::warp_low_hz)
-      .field("warp_high_hz", &hri::FilterBankOptions::warp_high_hz)
-      .field("mel_scale", &hri::FilterBankOptions::mel_scale)
-      .field("axis", &hri::FilterBankOptions::axis)
-      .field("unit_area", &hri::FilterBankOptions::unit_area);
+  hri_bind::bind_options<hri::FilterBankOptions>(m, "Triangular filters over a power spectrum.");
   m.def(
       "filter_bank",
       [](const hri::FilterBankOptions& options, int sample_rate_hz, int fft_size) {

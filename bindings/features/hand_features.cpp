@@ -17,11 +17,7 @@ using hri_bind::ByteArray;
 using hri_bind::to_array;
 
 void bind_hand_features(py::module_& m) {
-  py::class_<hri::OrientationHistogramOptions> histogram(m, "OrientationHistogramOptions",
-                                                         "Grid of cells and bins.");
-  hri_bind::options(histogram)
-      .field("num_cells", &hri::OrientationHistogramOptions::num_cells)
-      .field("num_bins", &hri::OrientationHistogramOptions::num_bins);
+  hri_bind::bind_options<hri::OrientationHistogramOptions>(m, "Grid of cells and bins.");
   m.def(
       "orientation_histogram",
       [](const hri_bind::FloatArray& image, const hri::OrientationHistogramOptions& options) {
@@ -37,15 +33,7 @@ void bind_hand_features(py::module_& m) {
       py::arg("image"), py::arg("options") = hri::OrientationHistogramOptions{},
       "Block-normalised histograms, float32.");
 
-  py::class_<hri::SilhouetteCepstrumOptions> cepstrum(m, "SilhouetteCepstrumOptions",
-                                                      "DWT + MFCC of a silhouette.");
-  hri_bind::options(cepstrum)
-      .field("wavelet", &hri::SilhouetteCepstrumOptions::wavelet)
-      .field("num_levels", &hri::SilhouetteCepstrumOptions::num_levels)
-      .field("mask_px", &hri::SilhouetteCepstrumOptions::mask_px)
-      .field("num_points", &hri::SilhouetteCepstrumOptions::num_points)
-      .field("num_filters", &hri::SilhouetteCepstrumOptions::num_filters)
-      .field("num_cepstra", &hri::SilhouetteCepstrumOptions::num_cepstra);
+  hri_bind::bind_options<hri::SilhouetteCepstrumOptions>(m, "DWT + MFCC of a silhouette.");
   py::class_<hri::SilhouetteCepstrumComputer>(m, "SilhouetteCepstrumComputer",
                                               "Cepstrum of a silhouette's contour.")
       .def(py::init<const hri::SilhouetteCepstrumOptions&>(),
@@ -75,24 +63,7 @@ void bind_hand_features(py::module_& m) {
           },
           py::arg("mask"), "c0, c1, ..., float32.");
 
-  py::class_<hri::HandFeatureOptions> options(m, "HandFeatureOptions",
-                                              "The joined feature of one hand picture.");
-  hri_bind::options(options)
-      .field("crop_px", &hri::HandFeatureOptions::crop_px)
-      .field("histogram", &hri::HandFeatureOptions::histogram)
-      .field("use_grey", &hri::HandFeatureOptions::use_grey)
-      .field("use_silhouette", &hri::HandFeatureOptions::use_silhouette)
-      .field("use_cepstrum", &hri::HandFeatureOptions::use_cepstrum)
-      .field("cepstrum", &hri::HandFeatureOptions::cepstrum)
-      .field("cepstrum_weight", &hri::HandFeatureOptions::cepstrum_weight)
-      .field("use_wavelet", &hri::HandFeatureOptions::use_wavelet)
-      .field("wavelet", &hri::HandFeatureOptions::wavelet)
-      .field("use_moments", &hri::HandFeatureOptions::use_moments)
-      .field("use_fourier", &hri::HandFeatureOptions::use_fourier)
-      .field("fourier", &hri::HandFeatureOptions::fourier)
-      .field("use_chain_code", &hri::HandFeatureOptions::use_chain_code)
-      .field("chain_code", &hri::HandFeatureOptions::chain_code)
-      .field("descriptor_weight", &hri::HandFeatureOptions::descriptor_weight);
+  hri_bind::bind_options<hri::HandFeatureOptions>(m, "The joined feature of one hand picture.");
   py::class_<hri::HandFeatureComputer>(m, "HandFeatureComputer", "Features of one hand picture.")
       .def(py::init<const hri::HandFeatureOptions&>(),
            py::arg("options") = hri::HandFeatureOptions{})

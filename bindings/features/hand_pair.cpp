@@ -15,11 +15,7 @@
 namespace py = pybind11;
 
 void bind_hand_pair(py::module_& m) {
-  py::class_<hri::HandPairOptions> options(m, "HandPairOptions", "How two hands are kept apart.");
-  hri_bind::options(options)
-      .field("min_area", &hri::HandPairOptions::min_area)
-      .field("min_share", &hri::HandPairOptions::min_share)
-      .field("num_kept_frames", &hri::HandPairOptions::num_kept_frames);
+  hri_bind::bind_options<hri::HandPairOptions>(m, "How two hands are kept apart.");
   py::class_<hri::PairedHand>(m, "PairedHand", "One of two hands in a frame.")
       .def_property_readonly("mask",
                              [](const hri::PairedHand& h) { return hri_bind::to_array(h.mask); })

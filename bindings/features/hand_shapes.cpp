@@ -139,31 +139,15 @@ void bind_outlines(py::module_& m) {
 }
 
 void bind_descriptors(py::module_& m) {
-  py::class_<hri::ChainCodeOptions> chain(m, "ChainCodeOptions", "Histograms of chain codes.");
-  hri_bind::options(chain)
-      .field("num_parts", &hri::ChainCodeOptions::num_parts)
-      .field("use_turns", &hri::ChainCodeOptions::use_turns);
+  hri_bind::bind_options<hri::ChainCodeOptions>(m, "Histograms of chain codes.");
   def_outline_computer<hri::ChainCodeComputer>(m, "ChainCodeComputer",
                                                "Histograms of the directions of an outline.");
 
-  py::class_<hri::FourierDescriptorOptions> fourier(m, "FourierDescriptorOptions",
-                                                    "Harmonics of an outline.");
-  hri_bind::options(fourier)
-      .field("num_points", &hri::FourierDescriptorOptions::num_points)
-      .field("num_harmonics", &hri::FourierDescriptorOptions::num_harmonics)
-      .field("use_phase", &hri::FourierDescriptorOptions::use_phase);
+  hri_bind::bind_options<hri::FourierDescriptorOptions>(m, "Harmonics of an outline.");
   def_outline_computer<hri::FourierDescriptorComputer>(m, "FourierDescriptorComputer",
                                                        "Fourier descriptors of an outline.");
 
-  py::enum_<hri::WaveletDescriptorSource>(m, "WaveletDescriptorSource")
-      .value("silhouette", hri::WaveletDescriptorSource::silhouette)
-      .value("contour", hri::WaveletDescriptorSource::contour);
-  py::class_<hri::WaveletDescriptorOptions> wavelet(m, "WaveletDescriptorOptions",
-                                                    "Moment-invariant wavelet descriptors.");
-  hri_bind::options(wavelet)
-      .field("source", &hri::WaveletDescriptorOptions::source)
-      .field("num_scales", &hri::WaveletDescriptorOptions::num_scales)
-      .field("num_frequencies", &hri::WaveletDescriptorOptions::num_frequencies);
+  hri_bind::bind_options<hri::WaveletDescriptorOptions>(m, "Moment-invariant wavelet descriptors.");
   py::class_<hri::WaveletDescriptorComputer>(m, "WaveletDescriptorComputer",
                                              "Moment-invariant wavelet descriptors of a mask.")
       .def(py::init<const hri::WaveletDescriptorOptions&>(),
@@ -210,11 +194,7 @@ void bind_moments(py::module_& m) {
 }
 
 void bind_tracks(py::module_& m) {
-  py::class_<hri::HandTrackOptions> track(m, "HandTrackOptions", "The way of a hand.");
-  hri_bind::options(track)
-      .field("frames_per_second", &hri::HandTrackOptions::frames_per_second)
-      .field("delta_orders", &hri::HandTrackOptions::delta_orders)
-      .field("delta_window", &hri::HandTrackOptions::delta_window);
+  hri_bind::bind_options<hri::HandTrackOptions>(m, "The way of a hand.");
   py::class_<hri::HandTrackComputer>(m, "HandTrackComputer",
                                      "Place, size, axis and speed of a hand, with deltas.")
       .def(py::init<const hri::HandTrackOptions&>(), py::arg("options") = hri::HandTrackOptions{})

@@ -26,53 +26,11 @@ py::array_t<std::uint8_t> shared_array(const hri::GreyImage& image, const py::ob
 }
 
 void bind_finder_options(py::module_& m) {
-  py::enum_<hri::SilhouetteMethod>(m, "SilhouetteMethod")
-      .value("chroma_otsu", hri::SilhouetteMethod::chroma_otsu)
-      .value("hsv", hri::SilhouetteMethod::hsv)
-      .value("grey_otsu", hri::SilhouetteMethod::grey_otsu);
-  py::class_<hri::SilhouetteOptions> silhouette(m, "SilhouetteOptions",
-                                                "How the hand is found in a picture.");
-  hri_bind::options(silhouette)
-      .field("method", &hri::SilhouetteOptions::method)
-      .field("max_side_px", &hri::SilhouetteOptions::max_side_px)
-      .field("blur_px", &hri::SilhouetteOptions::blur_px)
-      .field("min_contrast", &hri::SilhouetteOptions::min_contrast)
-      .field("sure_contrast", &hri::SilhouetteOptions::sure_contrast)
-      .field("min_quality", &hri::SilhouetteOptions::min_quality)
-      .field("min_area", &hri::SilhouetteOptions::min_area)
-      .field("max_area", &hri::SilhouetteOptions::max_area)
-      .field("remove_face", &hri::SilhouetteOptions::remove_face)
-      .field("max_hands", &hri::SilhouetteOptions::max_hands);
-  py::class_<hri::MaskSmoothingOptions> smoothing(m, "MaskSmoothingOptions",
-                                                  "Which masks of a clip are repaired.");
-  hri_bind::options(smoothing)
-      .field("max_gap", &hri::MaskSmoothingOptions::max_gap)
-      .field("min_agreement", &hri::MaskSmoothingOptions::min_agreement)
-      .field("max_overlap", &hri::MaskSmoothingOptions::max_overlap);
-  py::class_<hri::HandColourOptions> colours(
-      m, "HandColourOptions", "How the colours of hand and background are learned from a clip.");
-  hri_bind::options(colours)
-      .field("max_side_px", &hri::HandColourOptions::max_side_px)
-      .field("fit_side_px", &hri::HandColourOptions::fit_side_px)
-      .field("num_fit_frames", &hri::HandColourOptions::num_fit_frames)
-      .field("num_rounds", &hri::HandColourOptions::num_rounds)
-      .field("min_area", &hri::HandColourOptions::min_area)
-      .field("max_area", &hri::HandColourOptions::max_area)
-      .field("min_quality", &hri::HandColourOptions::min_quality)
-      .field("remove_still", &hri::HandColourOptions::remove_still)
-      .field("max_hands", &hri::HandColourOptions::max_hands);
-  py::enum_<hri::ColourLearning>(m, "ColourLearning")
-      .value("automatic", hri::ColourLearning::automatic)
-      .value("never", hri::ColourLearning::never);
-  py::class_<hri::HandFinderOptions> finder(m, "HandFinderOptions",
-                                            "How hands are found in clips and streams.");
-  hri_bind::options(finder)
-      .field("learning", &hri::HandFinderOptions::learning)
-      .field("min_frames", &hri::HandFinderOptions::min_frames)
-      .field("silhouette", &hri::HandFinderOptions::silhouette)
-      .field("colours", &hri::HandFinderOptions::colours)
-      .field("smooth", &hri::HandFinderOptions::smooth)
-      .field("smoothing", &hri::HandFinderOptions::smoothing);
+  hri_bind::bind_options<hri::SilhouetteOptions>(m, "How the hand is found in a picture.");
+  hri_bind::bind_options<hri::MaskSmoothingOptions>(m, "Which masks of a clip are repaired.");
+  hri_bind::bind_options<hri::HandColourOptions>(
+      m, "How the colours of hand and background are learned from a clip.");
+  hri_bind::bind_options<hri::HandFinderOptions>(m, "How hands are found in clips and streams.");
 }
 
 }  // namespace

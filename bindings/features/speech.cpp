@@ -21,74 +21,7 @@ using Computer = hri::CepstraComputer;
 using Stream = hri::CepstraStream;
 
 void bind_options(py::module_& m) {
-  py::enum_<hri::CepstraKind>(m, "CepstraKind")
-      .value("filter_bank", hri::CepstraKind::filter_bank)
-      .value("linear_prediction", hri::CepstraKind::linear_prediction);
-  py::enum_<hri::FramePadding>(m, "FramePadding")
-      .value("none", hri::FramePadding::none)
-      .value("centred", hri::FramePadding::centred);
-  py::enum_<hri::WindowKind>(m, "WindowKind")
-      .value("hamming", hri::WindowKind::hamming)
-      .value("hann", hri::WindowKind::hann)
-      .value("hann_periodic", hri::WindowKind::hann_periodic)
-      .value("povey", hri::WindowKind::povey)
-      .value("rectangular", hri::WindowKind::rectangular);
-  py::enum_<hri::Normalisation>(m, "Normalisation")
-      .value("none", hri::Normalisation::none)
-      .value("level", hri::Normalisation::level)
-      .value("mean", hri::Normalisation::mean)
-      .value("mean_variance", hri::Normalisation::mean_variance)
-      .value("running_mean", hri::Normalisation::running_mean)
-      .value("running_mean_variance", hri::Normalisation::running_mean_variance);
-
-  py::class_<Options> cepstra(m, "CepstraOptions", "Cepstra of speech (MFCC, HFCC, LPCC).");
-  hri_bind::options(cepstra)
-      .field("sample_rate_hz", &Options::sample_rate_hz, "1000..384000")
-      .field("frame_length_ms", &Options::frame_length_ms, "1..1000")
-      .field("frame_shift_ms", &Options::frame_shift_ms, "1..1000")
-      .field("padding", &Options::padding,
-             "none, or zeros around the audio so that frame t has sample t * shift in its middle")
-      .field("sample_scale", &Options::sample_scale, "32768: as if samples were 16-bit integers")
-      .field("remove_dc", &Options::remove_dc, "subtract the mean of every frame")
-      .field("pre_emphasis", &Options::pre_emphasis, "0 (off) .. 1")
-      .field("frame_pre_emphasis", &Options::frame_pre_emphasis,
-             "every frame begins anew, as in HTK and Kaldi")
-      .field("window", &Options::window, "laid over every frame")
-      .field("fft_size", &Options::fft_size,
-             "even, at least the frame's samples; 0: the next power of two")
-      .field("kind", &Options::kind, "filter_bank (MFCC, HFCC) or linear_prediction (LPCC)")
-      .field("lpc_order", &Options::lpc_order, "1..64")
-      .field("filter_bank", &Options::filter_bank, "mel or hfcc")
-      .field("num_filters", &Options::num_filters, "1..512")
-      .field("low_hz", &Options::low_hz, "lower edge of the first filter")
-      .field("high_hz", &Options::high_hz, "upper edge of the last filter; 0: the Nyquist rate")
-      .field("erb_factor", &Options::erb_factor, "bandwidth factor E of HFCC-E, 0.1..10")
-      .field("warp", &Options::warp, "vocal-tract-length factor on the filter frequencies, 0.5..2")
-      .field("warp_low_hz", &Options::warp_low_hz,
-             "where the warp bends back to low_hz; 0: it does not")
-      .field("warp_high_hz", &Options::warp_high_hz,
-             "where the warp bends back to high_hz; 0: it does not")
-      .field("mel_scale", &Options::mel_scale, "htk or slaney")
-      .field("filter_axis", &Options::filter_axis,
-             "along which the sides of filters are straight: hz or mel")
-      .field("unit_area", &Options::unit_area, "filters of equal area, not of equal height")
-      .field("use_power", &Options::use_power, "False: filters over the magnitude")
-      .field("energy_floor", &Options::energy_floor, "below the log, 1e-30..1e30")
-      .field("decibels", &Options::decibels, "10 log10 in place of ln")
-      .field("top_db", &Options::top_db,
-             "filters this far below the loudest of the utterance are raised to that; 0: off")
-      .field("num_cepstra", &Options::num_cepstra, "c1 .. c_num, 1..num_filters - 1")
-      .field("use_c0", &Options::use_c0, "put c0 in front")
-      .field("use_energy", &Options::use_energy, "log energy of the frame in the place of c0")
-      .field("htk_c0", &Options::htk_c0,
-             "c0 (or the energy) behind the others, and c0 sqrt(2) times as large")
-      .field("lifter", &Options::lifter, "HTK's sine lifter; 0: off")
-      .field("rasta_pole", &Options::rasta_pole, "of the RASTA filter, below 1; 0: off")
-      .field("normalisation", &Options::normalisation, "of an utterance or running")
-      .field("running_s", &Options::running_s, "memory of the running normalisations")
-      .field("delta_orders", &Options::delta_orders, "0..2")
-      .field("delta_window", &Options::delta_window,
-             "frames on each side of the regression, 1..10");
+  auto cepstra = hri_bind::bind_options<Options>(m, "Cepstra of speech (MFCC, HFCC, LPCC).");
   cepstra
       .def_static("htk", &Options::htk, py::arg("sample_rate_hz") = 16000,
                   "HTK's MFCC_0 by the configuration of the HTK book: c1 .. c12, c0.")

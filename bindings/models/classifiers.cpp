@@ -107,10 +107,7 @@ void bind_pca(py::module_& m) {
 }
 
 void bind_lda(py::module_& m) {
-  py::class_<hri::LdaOptions> options(m, "LdaOptions", "Options of Lda.");
-  hri_bind::options(options)
-      .field("num_components", &hri::LdaOptions::num_components)
-      .field("shrinkage", &hri::LdaOptions::shrinkage);
+  hri_bind::bind_options<hri::LdaOptions>(m, "Options of Lda.");
   py::class_<hri::Lda> cls(m, "Lda", "Linear discriminant analysis.");
   cls.def_static(
       "train",
@@ -143,13 +140,7 @@ void bind_lda(py::module_& m) {
 }
 
 void bind_svm(py::module_& m) {
-  py::class_<hri::LinearSvmOptions> options(m, "LinearSvmOptions", "Options of LinearSvm.");
-  hri_bind::options(options)
-      .field("cost", &hri::LinearSvmOptions::cost)
-      .field("bias_feature", &hri::LinearSvmOptions::bias_feature)
-      .field("max_iterations", &hri::LinearSvmOptions::max_iterations)
-      .field("tolerance", &hri::LinearSvmOptions::tolerance)
-      .field("seed", &hri::LinearSvmOptions::seed);
+  hri_bind::bind_options<hri::LinearSvmOptions>(m, "Options of LinearSvm.");
   py::class_<hri::LinearSvm> cls(m, "LinearSvm",
                                  "Linear support vector machines, one class against the rest.");
   bind_classifier<hri::LinearSvm, hri::LinearSvmOptions>(
@@ -161,11 +152,7 @@ void bind_svm(py::module_& m) {
 }
 
 void bind_rbf(py::module_& m) {
-  py::class_<hri::RbfClassifierOptions> options(m, "RbfClassifierOptions",
-                                                "Options of RbfClassifier.");
-  hri_bind::options(options)
-      .field("cost", &hri::RbfClassifierOptions::cost)
-      .field("sharpness", &hri::RbfClassifierOptions::sharpness);
+  hri_bind::bind_options<hri::RbfClassifierOptions>(m, "Options of RbfClassifier.");
   py::class_<hri::RbfClassifier> cls(
       m, "RbfClassifier",
       "Least-squares support vector machines with a radial kernel, one class against the rest.");
@@ -175,15 +162,7 @@ void bind_rbf(py::module_& m) {
 }
 
 void bind_bayes(py::module_& m) {
-  py::enum_<hri::CovarianceKind>(m, "CovarianceKind")
-      .value("shared", hri::CovarianceKind::shared)
-      .value("full", hri::CovarianceKind::full)
-      .value("diagonal", hri::CovarianceKind::diagonal);
-  py::class_<hri::GaussianBayesOptions> options(m, "GaussianBayesOptions",
-                                                "Options of GaussianBayes.");
-  hri_bind::options(options)
-      .field("covariance", &hri::GaussianBayesOptions::covariance)
-      .field("shrinkage", &hri::GaussianBayesOptions::shrinkage);
+  hri_bind::bind_options<hri::GaussianBayesOptions>(m, "Options of GaussianBayes.");
   py::class_<hri::GaussianBayes> cls(m, "GaussianBayes",
                                      "Bayes classifier with one Gaussian a class.");
   bind_classifier<hri::GaussianBayes, hri::GaussianBayesOptions>(cls, {});
@@ -196,16 +175,7 @@ void bind_bayes(py::module_& m) {
 }
 
 void bind_distance_classifier(py::module_& m) {
-  py::enum_<hri::ClassDistance>(m, "ClassDistance")
-      .value("euclidean", hri::ClassDistance::euclidean)
-      .value("manhattan", hri::ClassDistance::manhattan)
-      .value("mahalanobis", hri::ClassDistance::mahalanobis)
-      .value("bhattacharyya", hri::ClassDistance::bhattacharyya);
-  py::class_<hri::DistanceClassifierOptions> options(m, "DistanceClassifierOptions",
-                                                     "Options of DistanceClassifier.");
-  hri_bind::options(options)
-      .field("metric", &hri::DistanceClassifierOptions::metric)
-      .field("shrinkage", &hri::DistanceClassifierOptions::shrinkage);
+  hri_bind::bind_options<hri::DistanceClassifierOptions>(m, "Options of DistanceClassifier.");
   py::class_<hri::DistanceClassifier> cls(
       m, "DistanceClassifier",
       "The class whose mean is nearest (thesis table 6.5); decision values are negative "
@@ -229,8 +199,7 @@ void bind_possibility_classifier(py::module_& m) {
 }
 
 void bind_knn(py::module_& m) {
-  py::class_<hri::KnnOptions> options(m, "KnnOptions", "Options of Knn.");
-  hri_bind::options(options).field("num_neighbours", &hri::KnnOptions::num_neighbours);
+  hri_bind::bind_options<hri::KnnOptions>(m, "Options of Knn.");
   py::class_<hri::Knn> cls(m, "Knn", "k nearest neighbours by Euclidean distance.");
   bind_classifier<hri::Knn, hri::KnnOptions>(cls, {});
   cls.def(
@@ -242,11 +211,6 @@ void bind_knn(py::module_& m) {
 }
 
 void bind_distances(py::module_& m) {
-  py::enum_<hri::Distance>(m, "Distance")
-      .value("euclidean", hri::Distance::euclidean)
-      .value("manhattan", hri::Distance::manhattan)
-      .value("cosine", hri::Distance::cosine)
-      .value("bhattacharyya", hri::Distance::bhattacharyya);
   m.def(
       "distance",
       [](hri::Distance kind, const FloatArray& a, const FloatArray& b) {

@@ -31,12 +31,7 @@ void release_for_long(Eigen::Index multiplications,
 }
 
 void bind_training(py::module_& m) {
-  py::class_<hri::CodebookOptions> options(m, "CodebookOptions", "Options of Codebook.");
-  hri_bind::options(options)
-      .field("num_codewords", &hri::CodebookOptions::num_codewords)
-      .field("max_iterations", &hri::CodebookOptions::max_iterations)
-      .field("tolerance", &hri::CodebookOptions::tolerance)
-      .field("split_epsilon", &hri::CodebookOptions::split_epsilon);
+  hri_bind::bind_options<hri::CodebookOptions>(m, "Options of Codebook.");
 
   using Report = hri::CodebookReport;
   py::class_<Report>(m, "CodebookReport",

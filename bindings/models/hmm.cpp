@@ -36,16 +36,7 @@ std::vector<hri::MatrixF> sequences_of(const std::vector<FloatArray>& arrays) {
 }
 
 void bind_topology(py::module_& m) {
-  py::class_<hri::Topology> cls(m, "Topology", "Which transitions a sequence model has.");
-  py::enum_<hri::Topology::Kind>(cls, "Kind")
-      .value("left_right", hri::Topology::Kind::left_right)
-      .value("banded", hri::Topology::Kind::banded)
-      .value("ergodic", hri::Topology::Kind::ergodic)
-      .value("rank_one_plus_band", hri::Topology::Kind::rank_one_plus_band);
-  hri_bind::options(cls)
-      .field("kind", &hri::Topology::kind)
-      .field("num_states", &hri::Topology::num_states)
-      .field("max_jump", &hri::Topology::max_jump);
+  auto cls = hri_bind::bind_options<hri::Topology>(m, "Which transitions a sequence model has.");
   cls.def("allows", &hri::Topology::allows, py::arg("i"), py::arg("j"));
   m.def(
       "initial_start",
@@ -97,15 +88,7 @@ void bind_topology(py::module_& m) {
 }
 
 void bind_gaussian_mixture(py::module_& m) {
-  py::class_<hri::GaussianMixtureOptions> options(m, "GaussianMixtureOptions",
-                                                  "Options of GaussianMixture.");
-  hri_bind::options(options)
-      .field("num_mixtures", &hri::GaussianMixtureOptions::num_mixtures)
-      .field("max_iterations", &hri::GaussianMixtureOptions::max_iterations)
-      .field("tolerance", &hri::GaussianMixtureOptions::tolerance)
-      .field("variance_floor", &hri::GaussianMixtureOptions::variance_floor)
-      .field("wide_weight", &hri::GaussianMixtureOptions::wide_weight)
-      .field("seed", &hri::GaussianMixtureOptions::seed);
+  hri_bind::bind_options<hri::GaussianMixtureOptions>(m, "Options of GaussianMixture.");
   py::class_<hri::GaussianMixture> cls(m, "GaussianMixture",
                                        "Gaussian mixture with diagonal covariance.");
   cls.def_static(
@@ -141,19 +124,7 @@ void bind_gaussian_mixture(py::module_& m) {
 void bind_gaussian_mixture_hmm(py::module_& m) {
   using Model = hri::GaussianMixtureHmm;
   using Options = hri::GaussianMixtureHmmOptions;
-  py::class_<Options> options(m, "GaussianMixtureHmmOptions", "Options of GaussianMixtureHmm.");
-  hri_bind::options(options)
-      .field("topology", &Options::topology)
-      .field("num_mixtures", &Options::num_mixtures)
-      .field("max_iterations", &Options::max_iterations)
-      .field("tolerance", &Options::tolerance)
-      .field("variance_floor", &Options::variance_floor)
-      .field("weight_floor", &Options::weight_floor)
-      .field("tied_variance", &Options::tied_variance)
-      .field("transition_prior", &Options::transition_prior)
-      .field("weight_prior", &Options::weight_prior)
-      .field("train_transitions", &Options::train_transitions)
-      .field("seed", &Options::seed);
+  hri_bind::bind_options<Options>(m, "Options of GaussianMixtureHmm.");
   py::class_<Model> cls(m, "GaussianMixtureHmm",
                         "HMM with Gaussian-mixture emissions of diagonal covariance.");
   cls.def(py::init([](const hri::MarkovChain& chain, const DoubleArray& weights,
@@ -245,17 +216,7 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
 void bind_discrete_hmm(py::module_& m) {
   using Model = hri::DiscreteHmm;
   using Options = hri::DiscreteHmmOptions;
-  py::class_<Options> options(m, "DiscreteHmmOptions", "Options of DiscreteHmm.");
-  hri_bind::options(options)
-      .field("topology", &Options::topology)
-      .field("num_symbols", &Options::num_symbols)
-      .field("max_iterations", &Options::max_iterations)
-      .field("tolerance", &Options::tolerance)
-      .field("emission_floor", &Options::emission_floor)
-      .field("transition_prior", &Options::transition_prior)
-      .field("emission_prior", &Options::emission_prior)
-      .field("train_transitions", &Options::train_transitions)
-      .field("seed", &Options::seed);
+  hri_bind::bind_options<Options>(m, "Options of DiscreteHmm.");
   py::class_<Model> cls(m, "DiscreteHmm", "HMM over discrete symbols.");
   cls.def(py::init([](const hri::MarkovChain& chain, const DoubleArray& emission) {
             return Model(chain, as_matrix(emission, "emission"));

@@ -81,15 +81,7 @@ void bind_streams(py::module_& m) {
 
 void bind_state_choice(py::module_& m) {
   using Options = hri::StateChoiceOptions;
-  py::class_<Options> options(m, "StateChoiceOptions", "Options of choose_num_states.");
-  py::enum_<Options::Criterion>(options, "Criterion")
-      .value("bic", Options::Criterion::bic)
-      .value("held_out", Options::Criterion::held_out);
-  hri_bind::options(options)
-      .field("criterion", &Options::criterion)
-      .field("num_folds", &Options::num_folds)
-      .field("num_restarts", &Options::num_restarts)
-      .field("seed", &Options::seed);
+  hri_bind::bind_options<Options>(m, "Options of choose_num_states.");
   using Candidate = hri::StateChoice::Candidate;
   py::class_<hri::StateChoice> choice(m, "StateChoice", "What choose_num_states found.");
   py::class_<Candidate>(choice, "Candidate", "One number of states.")

@@ -19,10 +19,7 @@ using hri_bind::to_array;
 void bind_logistic_regression(py::module_& m) {
   using Model = hri::LogisticRegression;
   using Options = hri::LogisticRegressionOptions;
-  py::class_<Options> options(m, "LogisticRegressionOptions", "Options of LogisticRegression.");
-  hri_bind::options(options)
-      .field("penalty", &Options::penalty)
-      .field("max_iterations", &Options::max_iterations);
+  hri_bind::bind_options<Options>(m, "Options of LogisticRegression.");
   py::class_<Model> cls(m, "LogisticRegression", "Logistic regression of two classes.");
   cls.def_static(
       "train",

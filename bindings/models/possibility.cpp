@@ -38,29 +38,9 @@ py::array_t<float> scores_of(const Model& self, const py::array& symbols) {
 }
 
 void bind_set(py::module_& m) {
-  py::enum_<hri::Conjunction>(m, "Conjunction")
-      .value("product", hri::Conjunction::product)
-      .value("min", hri::Conjunction::min)
-      .value("max", hri::Conjunction::max);
   using Rule = hri::PossibilisticRule;
-  py::class_<Rule> rule(m, "PossibilisticRule", "How a PossibilisticHmmSet is scored.");
-  hri_bind::options(rule)
-      .field("conjunction", &Rule::conjunction)
-      .field("conditioned", &Rule::conditioned)
-      .field("concentration", &Rule::concentration);
-  py::enum_<hri::PossibilisticTraining>(m, "PossibilisticTraining")
-      .value("all_paths", hri::PossibilisticTraining::all_paths)
-      .value("best_path", hri::PossibilisticTraining::best_path);
-  py::class_<Options> options(m, "PossibilisticHmmOptions", "Options of PossibilisticHmmSet.");
-  hri_bind::options(options)
-      .field("topology", &Options::topology)
-      .field("num_symbols", &Options::num_symbols)
-      .field("rule", &Options::rule)
-      .field("training", &Options::training)
-      .field("max_iterations", &Options::max_iterations)
-      .field("tolerance", &Options::tolerance)
-      .field("emission_floor", &Options::emission_floor)
-      .field("seed", &Options::seed);
+  hri_bind::bind_options<Rule>(m, "How a PossibilisticHmmSet is scored.");
+  hri_bind::bind_options<Options>(m, "Options of PossibilisticHmmSet.");
   py::class_<Set> cls(
       m, "PossibilisticHmmSet",
       "Possibility-theory HMMs of all classes, trained and scaled together (thesis chapter 4).");

@@ -13,43 +13,12 @@ namespace py = pybind11;
 
 void bind_gesture_segments(py::module_& m) {
   m.attr("LEARNED_STILL_CHANGE") = hri::kLearnedStillChange;
-  py::class_<hri::GestureSegmenterOptions> options(
-      m, "GestureSegmenterOptions", "When a gesture begins and ends; times in seconds.");
-  hri_bind::options(options)
-      .field("appear_s", &hri::GestureSegmenterOptions::appear_s)
-      .field("leave_s", &hri::GestureSegmenterOptions::leave_s)
-      .field("rest_s", &hri::GestureSegmenterOptions::rest_s)
-      .field("still_change", &hri::GestureSegmenterOptions::still_change)
-      .field("compare_s", &hri::GestureSegmenterOptions::compare_s)
-      .field("min_gesture_s", &hri::GestureSegmenterOptions::min_gesture_s)
-      .field("max_gesture_s", &hri::GestureSegmenterOptions::max_gesture_s)
-      .field("take_away_s", &hri::GestureSegmenterOptions::take_away_s)
-      .field("context_s", &hri::GestureSegmenterOptions::context_s)
-      .field("arrivals", &hri::GestureSegmenterOptions::arrivals);
-  py::enum_<hri::GestureSegmentKind>(m, "GestureSegmentKind")
-      .value("none", hri::GestureSegmentKind::none)
-      .value("start", hri::GestureSegmentKind::start)
-      .value("end", hri::GestureSegmentKind::end)
-      .value("dropped", hri::GestureSegmentKind::dropped);
-  py::enum_<hri::GestureSegmentReason>(m, "GestureSegmentReason")
-      .value("none", hri::GestureSegmentReason::none)
-      .value("rested", hri::GestureSegmentReason::rested)
-      .value("left", hri::GestureSegmentReason::left)
-      .value("cut", hri::GestureSegmentReason::cut)
-      .value("ended", hri::GestureSegmentReason::ended)
-      .value("arrived", hri::GestureSegmentReason::arrived)
-      .value("stalled", hri::GestureSegmentReason::stalled);
+  hri_bind::bind_options<hri::GestureSegmenterOptions>(
+      m, "When a gesture begins and ends; times in seconds.");
   py::class_<hri::GestureSegment>(m, "GestureSegment", "An event in a stream of masks.")
-      .def_property_readonly(
-          "kind",
-          [](const hri::GestureSegment& s) -> py::object { return py::cast(s.kind).attr("name"); },
-          "'none', 'start', 'end' or 'dropped'.")
-      .def_property_readonly(
-          "reason",
-          [](const hri::GestureSegment& s) -> py::object {
-            return py::cast(s.reason).attr("name");
-          },
-          "Why it ended: 'rested', 'left', 'cut', 'ended', 'arrived', 'stalled'.")
+      .def_readonly("kind", &hri::GestureSegment::kind, "'none', 'start', 'end' or 'dropped'.")
+      .def_readonly("reason", &hri::GestureSegment::reason,
+                    "Why it ended: 'rested', 'left', 'cut', 'ended', 'arrived', 'stalled'.")
       .def_readonly("first_s", &hri::GestureSegment::first_s)
       .def_readonly("last_s", &hri::GestureSegment::last_s)
       .def_readonly("from_rest", &hri::GestureSegment::from_rest,

@@ -51,10 +51,6 @@ std::vector<hri::HandImage> as_hand_images(const std::vector<ByteArray>& greys,
 }
 
 void bind_decision(py::module_& m) {
-  py::enum_<hri::DecisionStatus>(m, "DecisionStatus")
-      .value("recognised", hri::DecisionStatus::recognised)
-      .value("unknown", hri::DecisionStatus::unknown)
-      .value("no_input", hri::DecisionStatus::no_input);
   py::class_<hri::NBest>(m, "NBest", "One class of the n-best list.")
       .def_readonly("label", &hri::NBest::label)
       .def_readonly("probability", &hri::NBest::probability)
@@ -119,36 +115,9 @@ hri::WordRecognizer train_words(
 }
 
 void bind_words(py::module_& m) {
-  py::enum_<hri::SequenceModelKind>(m, "SequenceModelKind")
-      .value("hmm", hri::SequenceModelKind::hmm)
-      .value("ptbhmm", hri::SequenceModelKind::ptbhmm);
+  hri_bind::bind_options<hri::SequenceModelOptions>(m, "The models trained on one front end.");
 
-  py::class_<hri::SequenceModelOptions> stream(m, "SequenceModelOptions",
-                                               "The models trained on one front end.");
-  hri_bind::options(stream)
-      .field("model", &hri::SequenceModelOptions::model)
-      .field("num_states", &hri::SequenceModelOptions::num_states)
-      .field("num_mixtures", &hri::SequenceModelOptions::num_mixtures)
-      .field("num_codewords", &hri::SequenceModelOptions::num_codewords)
-      .field("garbage_mixtures", &hri::SequenceModelOptions::garbage_mixtures)
-      .field("max_iterations", &hri::SequenceModelOptions::max_iterations)
-      .field("seed", &hri::SequenceModelOptions::seed);
-
-  py::class_<hri::WordRecognizerOptions> options(m, "WordRecognizerOptions",
-                                                 "Options of WordRecognizer.");
-  hri_bind::options(options)
-      .field("cepstra", &hri::WordRecognizerOptions::cepstra)
-      .field("activity", &hri::WordRecognizerOptions::activity)
-      .field("models", &hri::WordRecognizerOptions::models)
-      .field("trim", &hri::WordRecognizerOptions::trim)
-      .field("floor_db", &hri::WordRecognizerOptions::floor_db)
-      .field("level_stream", &hri::WordRecognizerOptions::level_stream)
-      .field("num_warps", &hri::WordRecognizerOptions::num_warps)
-      .field("warp_step", &hri::WordRecognizerOptions::warp_step)
-      .field("noise_copies", &hri::WordRecognizerOptions::noise_copies)
-      .field("noise_low_db", &hri::WordRecognizerOptions::noise_low_db)
-      .field("noise_high_db", &hri::WordRecognizerOptions::noise_high_db)
-      .field("false_reject_rate", &hri::WordRecognizerOptions::false_reject_rate);
+  hri_bind::bind_options<hri::WordRecognizerOptions>(m, "Options of WordRecognizer.");
 
   py::class_<hri::WordRecognizer>(m, "WordRecognizer",
                                   "Isolated words; hri.WordRecognizer wraps it.")
@@ -230,37 +199,7 @@ py::array_t<float> gesture_features(const std::vector<ByteArray>& greys,
 }
 
 void bind_gestures(py::module_& m) {
-  py::enum_<hri::GestureSource>(m, "GestureSource")
-      .value("silhouettes", hri::GestureSource::silhouettes)
-      .value("landmarks", hri::GestureSource::landmarks);
-  py::enum_<hri::GestureModel>(m, "GestureModel")
-      .value("svm", hri::GestureModel::svm)
-      .value("bayes", hri::GestureModel::bayes)
-      .value("knn", hri::GestureModel::knn)
-      .value("hmm", hri::GestureModel::hmm)
-      .value("ptbhmm", hri::GestureModel::ptbhmm)
-      .value("trajectory", hri::GestureModel::trajectory)
-      .value("rbf", hri::GestureModel::rbf)
-      .value("automatic", hri::GestureModel::automatic);
-
-  py::class_<hri::GestureRecognizerOptions> options(m, "GestureRecognizerOptions",
-                                                    "Options of GestureRecognizer.");
-  hri_bind::options(options)
-      .field("source", &hri::GestureRecognizerOptions::source)
-      .field("hands", &hri::GestureRecognizerOptions::hands)
-      .field("min_quality", &hri::GestureRecognizerOptions::min_quality)
-      .field("features", &hri::GestureRecognizerOptions::features)
-      .field("model", &hri::GestureRecognizerOptions::model)
-      .field("svm_cost", &hri::GestureRecognizerOptions::svm_cost)
-      .field("rbf_cost", &hri::GestureRecognizerOptions::rbf_cost)
-      .field("rbf_sharpness", &hri::GestureRecognizerOptions::rbf_sharpness)
-      .field("num_components", &hri::GestureRecognizerOptions::num_components)
-      .field("num_neighbours", &hri::GestureRecognizerOptions::num_neighbours)
-      .field("num_states", &hri::GestureRecognizerOptions::num_states)
-      .field("num_codewords", &hri::GestureRecognizerOptions::num_codewords)
-      .field("max_iterations", &hri::GestureRecognizerOptions::max_iterations)
-      .field("false_reject_rate", &hri::GestureRecognizerOptions::false_reject_rate)
-      .field("seed", &hri::GestureRecognizerOptions::seed);
+  hri_bind::bind_options<hri::GestureRecognizerOptions>(m, "Options of GestureRecognizer.");
 
   py::class_<hri::GestureFeatureComputer>(m, "GestureFeatureComputer",
                                           "Rows of features, one a frame that shows a hand.")

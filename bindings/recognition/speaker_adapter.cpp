@@ -26,15 +26,7 @@ bool python_wants_to_stop() {
 }  // namespace
 
 void bind_speaker_adapter(py::module_& m) {
-  py::class_<hri::SpeakerAdapterOptions> options(m, "SpeakerAdapterOptions",
-                                                 "Options of SpeakerAdapter.");
-  hri_bind::options(options)
-      .field("words_per_label", &hri::SpeakerAdapterOptions::words_per_label)
-      .field("shared_frames", &hri::SpeakerAdapterOptions::shared_frames)
-      .field("prior_frames", &hri::SpeakerAdapterOptions::prior_frames)
-      .field("num_iterations", &hri::SpeakerAdapterOptions::num_iterations)
-      .field("trusted_share", &hri::SpeakerAdapterOptions::trusted_share)
-      .field("max_words", &hri::SpeakerAdapterOptions::max_words);
+  hri_bind::bind_options<hri::SpeakerAdapterOptions>(m, "Options of SpeakerAdapter.");
 
   py::class_<hri::SpeakerAdapter>(m, "SpeakerAdapter", "Adapts a word recogniser to a speaker.")
       .def(py::init<hri::WordRecognizer, const hri::SpeakerAdapterOptions&>(),

@@ -18,17 +18,7 @@ using hri_bind::to_array;
 namespace {
 
 void bind_clips(py::module_& m) {
-  py::class_<hri::ActivityOptions> options(m, "ActivityOptions",
-                                           "Where somebody speaks in a clip.");
-  hri_bind::options(options)
-      .field("frame_ms", &hri::ActivityOptions::frame_ms)
-      .field("shift_ms", &hri::ActivityOptions::shift_ms)
-      .field("silence_dbfs", &hri::ActivityOptions::silence_dbfs)
-      .field("margin_db", &hri::ActivityOptions::margin_db)
-      .field("max_depth_db", &hri::ActivityOptions::max_depth_db)
-      .field("min_voicing", &hri::ActivityOptions::min_voicing)
-      .field("max_gap_ms", &hri::ActivityOptions::max_gap_ms)
-      .field("padding_ms", &hri::ActivityOptions::padding_ms);
+  hri_bind::bind_options<hri::ActivityOptions>(m, "Where somebody speaks in a clip.");
   m.def(
       "find_speech",
       [](const hri_bind::FloatArray& audio, int sample_rate_hz,
@@ -96,18 +86,8 @@ std::vector<hri::Endpoint> finish(hri::Endpointer& self) {
 }
 
 void bind_streams(py::module_& m) {
-  py::class_<hri::EndpointerOptions> options(m, "EndpointerOptions",
-                                             "When an utterance in a stream begins and ends.");
-  hri_bind::options(options)
-      .field("activity", &hri::EndpointerOptions::activity)
-      .field("hangover_ms", &hri::EndpointerOptions::hangover_ms)
-      .field("context_ms", &hri::EndpointerOptions::context_ms)
-      .field("max_utterance_ms", &hri::EndpointerOptions::max_utterance_ms);
-  py::enum_<hri::EndpointKind>(m, "EndpointKind")
-      .value("none", hri::EndpointKind::none)
-      .value("speech_start", hri::EndpointKind::speech_start)
-      .value("speech_end", hri::EndpointKind::speech_end)
-      .value("speech_dropped", hri::EndpointKind::speech_dropped);
+  hri_bind::bind_options<hri::EndpointerOptions>(m,
+                                                 "When an utterance in a stream begins and ends.");
   py::class_<hri::Endpoint>(m, "Endpoint",
                             "An event; positions are samples since the stream began.")
       .def_readonly("kind", &hri::Endpoint::kind)

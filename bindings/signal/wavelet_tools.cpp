@@ -179,33 +179,9 @@ void bind_shrinkage(py::module_& m) {
 }
 
 void bind_options(py::module_& m) {
-  py::enum_<hri::ThresholdRule>(m, "ThresholdRule", "How a threshold follows from the noise.")
-      .value("universal", hri::ThresholdRule::universal)
-      .value("sure", hri::ThresholdRule::sure)
-      .value("bayes", hri::ThresholdRule::bayes);
-  py::enum_<hri::ThresholdShape>(m, "ThresholdShape", "What becomes of details at a threshold.")
-      .value("soft", hri::ThresholdShape::soft)
-      .value("hard", hri::ThresholdShape::hard)
-      .value("garrote", hri::ThresholdShape::garrote);
-  py::enum_<hri::NoiseEstimate>(m, "NoiseEstimate", "Where a level's noise is measured.")
-      .value("quietest", hri::NoiseEstimate::quietest)
-      .value("per_level", hri::NoiseEstimate::per_level)
-      .value("finest", hri::NoiseEstimate::finest);
-  py::class_<hri::ShrinkageOptions> shrinkage(m, "ShrinkageOptions",
-                                              "Noise reduction by wavelets.");
-  hri_bind::options(shrinkage)
-      .field("wavelet", &hri::ShrinkageOptions::wavelet)
-      .field("border", &hri::ShrinkageOptions::border)
-      .field("num_levels", &hri::ShrinkageOptions::num_levels, "0: five, or as many as fit.")
-      .field("rule", &hri::ShrinkageOptions::rule)
-      .field("shape", &hri::ShrinkageOptions::shape)
-      .field("noise", &hri::ShrinkageOptions::noise)
-      .field("strength", &hri::ShrinkageOptions::strength, "Factor of all thresholds.");
-  py::class_<hri::WaveletStreamOptions> stream(m, "WaveletStreamOptions",
-                                               "What a stream of samples is transformed by.");
-  hri_bind::options(stream)
-      .field("wavelet", &hri::WaveletStreamOptions::wavelet)
-      .field("num_levels", &hri::WaveletStreamOptions::num_levels);
+  hri_bind::bind_options<hri::ShrinkageOptions>(m, "Noise reduction by wavelets.");
+  hri_bind::bind_options<hri::WaveletStreamOptions>(m,
+                                                    "What a stream of samples is transformed by.");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "core/arrays.hpp"
+#include "core/enums.hpp"
 #include "hri/signal/dwt.hpp"
 #include "hri/signal/dwt2.hpp"
 
@@ -231,17 +232,6 @@ void bind_dwt2(py::module_& m) {
 }  // namespace
 
 void bind_wavelets(py::module_& m) {
-  py::enum_<hri::Border>(m, "Border",
-                         "What stands beyond the ends of a signal, by PyWavelets' names.")
-      .value("symmetric", hri::Border::symmetric)
-      .value("zero", hri::Border::zero)
-      .value("constant", hri::Border::constant)
-      .value("periodic", hri::Border::periodic)
-      .value("reflect", hri::Border::reflect)
-      .value("periodization", hri::Border::periodization)
-      .value("smooth", hri::Border::smooth)
-      .value("antisymmetric", hri::Border::antisymmetric)
-      .value("antireflect", hri::Border::antireflect);
   m.def("wavelet_names", &hri::wavelet_names, "Names of all wavelets, as PyWavelets has them.");
   m.def(
       "max_dwt_level",

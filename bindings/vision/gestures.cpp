@@ -27,11 +27,6 @@ using hri_bind::as_clip;
 using hri_bind::ByteArray;
 using hri_bind::FloatArray;
 
-const char* name_of(hri::GestureEventKind kind) {
-  constexpr const char* kNames[] = {"segment", "partial", "preliminary", "decision"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
 py::object place_of(const hri::GestureSpotter& spotter) {
   const auto& place = spotter.place();
   if (!place) return py::none();
@@ -72,16 +67,11 @@ void bind_spotter(py::module_& m) {
 }
 
 void bind_stream(py::module_& m) {
-  py::class_<hri::GestureStreamOptions> options(m, "GestureStreamOptions",
-                                                "How the gestures of a stream are decided on.");
-  hri_bind::options(options)
-      .field("segmenter", &hri::GestureStreamOptions::segmenter)
-      .field("max_pause_s", &hri::GestureStreamOptions::max_pause_s)
-      .field("partial_interval_s", &hri::GestureStreamOptions::partial_interval_s);
+  hri_bind::bind_options<hri::GestureStreamOptions>(m,
+                                                    "How the gestures of a stream are decided on.");
   py::class_<hri::GestureEvent>(m, "GestureEvent", "What happened with a picture of a stream.")
-      .def_property_readonly(
-          "kind", [](const hri::GestureEvent& e) { return name_of(e.kind); },
-          "'segment', 'partial', 'preliminary' or 'decision'.")
+      .def_readonly("kind", &hri::GestureEvent::kind,
+                    "'segment', 'partial', 'preliminary' or 'decision'.")
       .def_readonly("segment", &hri::GestureEvent::segment)
       .def_readonly("decision", &hri::GestureEvent::decision);
   py::class_<hri::GestureStream>(m, "GestureStream", "Decides on the gestures of a stream.")

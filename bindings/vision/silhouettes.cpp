@@ -20,8 +20,8 @@ namespace py = pybind11;
 void bind_vision(py::module_& m) {
   // Bound in hri._native, as recognisers own and save them without OpenCV.
   const py::module_ core = py::module_::import("hri._native");
-  for (const char* name : {"SilhouetteMethod", "SilhouetteOptions", "MaskSmoothingOptions",
-                           "HandColourOptions", "HandObservation"})
+  for (const char* name :
+       {"SilhouetteOptions", "MaskSmoothingOptions", "HandColourOptions", "HandObservation"})
     m.attr(name) = core.attr(name);
   m.def(
       "smooth_masks",

@@ -13,41 +13,29 @@ import typing
 
 __all__: list[str] = [
     "ActivityOptions",
-    "Border",
     "CepstraComputer",
-    "CepstraKind",
     "CepstraOptions",
     "CepstraStream",
     "ChainCodeComputer",
     "ChainCodeOptions",
-    "ClassDistance",
     "Codebook",
     "CodebookOptions",
     "CodebookReport",
-    "ColourLearning",
-    "Conjunction",
-    "CovarianceKind",
     "Decision",
-    "DecisionStatus",
     "DiscreteHmm",
     "DiscreteHmmOptions",
     "DiscreteHmmStream",
-    "Distance",
     "DistanceClassifier",
     "DistanceClassifierOptions",
     "Endpoint",
-    "EndpointKind",
     "Endpointer",
     "EndpointerOptions",
     "Error",
-    "FilterAxis",
-    "FilterBankKind",
     "FilterBankOptions",
     "FixedPointHmmSet",
     "FormatError",
     "FourierDescriptorComputer",
     "FourierDescriptorOptions",
-    "FramePadding",
     "GaussianBayes",
     "GaussianBayesOptions",
     "GaussianMixture",
@@ -56,15 +44,11 @@ __all__: list[str] = [
     "GaussianMixtureHmmStream",
     "GaussianMixtureOptions",
     "GestureFeatureComputer",
-    "GestureModel",
     "GestureRecognizer",
     "GestureRecognizerOptions",
     "GestureSegment",
-    "GestureSegmentKind",
-    "GestureSegmentReason",
     "GestureSegmenter",
     "GestureSegmenterOptions",
-    "GestureSource",
     "HAND_TRACK_COLUMNS",
     "HandColourOptions",
     "HandFeatureComputer",
@@ -89,13 +73,11 @@ __all__: list[str] = [
     "LogisticRegressionOptions",
     "MarkovChain",
     "MaskSmoothingOptions",
-    "MelScale",
     "ModelFile",
     "MultiStreamCodebook",
     "NBest",
     "NUM_LANDMARKS",
-    "NoiseEstimate",
-    "Normalisation",
+    "OptionField",
     "OrientationHistogramOptions",
     "PairedHand",
     "Pca",
@@ -104,34 +86,27 @@ __all__: list[str] = [
     "PossibilisticHmmSet",
     "PossibilisticHmmStream",
     "PossibilisticRule",
-    "PossibilisticTraining",
     "PossibilityClassifier",
     "RbfClassifier",
     "RbfClassifierOptions",
-    "SequenceModelKind",
     "SequenceModelOptions",
     "ShrinkageOptions",
     "SilhouetteCepstrumComputer",
     "SilhouetteCepstrumOptions",
-    "SilhouetteMethod",
     "SilhouetteOptions",
     "SpeakerAdapter",
     "SpeakerAdapterOptions",
     "StateChoice",
     "StateChoiceOptions",
-    "ThresholdRule",
-    "ThresholdShape",
     "Topology",
     "TrainingReport",
     "UtteranceDecision",
     "Wav",
     "WaveletDescriptorComputer",
     "WaveletDescriptorOptions",
-    "WaveletDescriptorSource",
     "WaveletStream32",
     "WaveletStream64",
     "WaveletStreamOptions",
-    "WindowKind",
     "WordRecognizer",
     "WordRecognizerOptions",
     "activity_frames",
@@ -216,6 +191,45 @@ class Interrupted(KeyboardInterrupt):
     Training was interrupted; nothing was kept.
     """
 
+class OptionField:
+    """
+    What a field of an options class is.
+    """
+    @property
+    def choices(self) -> list[str]:
+        """
+        Names that it may hold; empty for other types.
+        """
+    @property
+    def default(self) -> typing.Any:
+        """
+        As a plain value: a dict for a nested class.
+        """
+    @property
+    def description(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def options(self) -> typing.Any:
+        """
+        The class of a nested field, otherwise None.
+        """
+    @property
+    def range(self) -> str:
+        """
+        Values that it may hold; empty where the type says so.
+        """
+    @property
+    def type(self) -> str:
+        """
+        Its type in Python.
+        """
+    @property
+    def unit(self) -> str:
+        """
+        Empty for a field without one.
+        """
+
 class ModelFile:
     """
     Tensors and metadata in the safetensors layout; strict reader.
@@ -276,309 +290,316 @@ class Wav:
     @property
     def samples(self) -> numpy.typing.NDArray[numpy.float32]: ...
 
-class Border:
-    """
-    What stands beyond the ends of a signal, by PyWavelets' names.
-
-    Members:
-
-      symmetric
-
-      zero
-
-      constant
-
-      periodic
-
-      reflect
-
-      periodization
-
-      smooth
-
-      antisymmetric
-
-      antireflect
-    """
-
-    __members__: typing.ClassVar[dict[str, Border]]
-    antireflect: typing.ClassVar[Border]
-    antisymmetric: typing.ClassVar[Border]
-    constant: typing.ClassVar[Border]
-    periodic: typing.ClassVar[Border]
-    periodization: typing.ClassVar[Border]
-    reflect: typing.ClassVar[Border]
-    smooth: typing.ClassVar[Border]
-    symmetric: typing.ClassVar[Border]
-    zero: typing.ClassVar[Border]
-    @typing.overload
-    def __eq__(self, other: Border) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: Border) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class FilterBankKind:
-    """
-    Members:
-
-      mel
-
-      hfcc
-    """
-
-    __members__: typing.ClassVar[dict[str, FilterBankKind]]
-    hfcc: typing.ClassVar[FilterBankKind]
-    mel: typing.ClassVar[FilterBankKind]
-    @typing.overload
-    def __eq__(self, other: FilterBankKind) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: FilterBankKind) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class MelScale:
-    """
-    Members:
-
-      htk
-
-      slaney
-    """
-
-    __members__: typing.ClassVar[dict[str, MelScale]]
-    htk: typing.ClassVar[MelScale]
-    slaney: typing.ClassVar[MelScale]
-    @typing.overload
-    def __eq__(self, other: MelScale) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: MelScale) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class FilterAxis:
-    """
-    Members:
-
-      hz
-
-      mel
-    """
-
-    __members__: typing.ClassVar[dict[str, FilterAxis]]
-    hz: typing.ClassVar[FilterAxis]
-    mel: typing.ClassVar[FilterAxis]
-    @typing.overload
-    def __eq__(self, other: FilterAxis) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: FilterAxis) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class FilterBankOptions:
     """
     Triangular filters over a power spectrum.
+
+    Parameters
+    ----------
+    kind : {'mel', 'hfcc'}, default 'mel'
+        shape of the filters
+    num_filters : int, default 26
+        number of filters; 1..512
+    low_hz : float, default 100.0
+        lower edge of the first filter; 0..192000 Hz
+    high_hz : float, default 0.0
+        upper edge of the last filter; 0: half the sample rate; 0..192000 Hz
+    erb_factor : float, default 1.0
+        E of HFCC-E: filters E times as wide as an ear's; mel ignores it; 0.1..10
+    warp : float, default 1.0
+        vocal-tract-length factor on all filter frequencies; 0.5..2
+    warp_low_hz : float, default 0.0
+        below it the warp bends back to low_hz; 0, with warp_high_hz: it does not bend; 0..192000 Hz
+    warp_high_hz : float, default 0.0
+        above it the warp bends back to high_hz; 0..192000 Hz
+    mel_scale : {'htk', 'slaney'}, default 'htk'
+        mel scale of the filters' spacing; HFCC uses HTK's
+    axis : {'hz', 'mel'}, default 'hz'
+        axis on which the filters are triangles
+    unit_area : bool, default False
+        weights times 2 / (high - low), for filters of equal area
     """
 
     __hash__: typing.ClassVar[None] = None
-    axis: FilterAxis
-    kind: FilterBankKind
-    mel_scale: MelScale
-    unit_area: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        kind: typing.Literal["mel", "hfcc"] = "mel",
+        num_filters: int = 26,
+        low_hz: float = 100.0,
+        high_hz: float = 0.0,
+        erb_factor: float = 1.0,
+        warp: float = 1.0,
+        warp_low_hz: float = 0.0,
+        warp_high_hz: float = 0.0,
+        mel_scale: typing.Literal["htk", "slaney"] = "htk",
+        axis: typing.Literal["hz", "mel"] = "hz",
+        unit_area: bool = False,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def erb_factor(self) -> float: ...
+    def axis(self) -> typing.Literal["hz", "mel"]:
+        """
+        axis on which the filters are triangles
+        """
+    @axis.setter
+    def axis(self, arg1: typing.Any) -> None: ...
+    @property
+    def erb_factor(self) -> float:
+        """
+        E of HFCC-E: filters E times as wide as an ear's; mel ignores it
+        """
     @erb_factor.setter
-    def erb_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def erb_factor(self, arg1: typing.Any) -> None: ...
     @property
-    def high_hz(self) -> float: ...
+    def high_hz(self) -> float:
+        """
+        upper edge of the last filter; 0: half the sample rate
+        """
     @high_hz.setter
-    def high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def high_hz(self, arg1: typing.Any) -> None: ...
     @property
-    def low_hz(self) -> float: ...
+    def kind(self) -> typing.Literal["mel", "hfcc"]:
+        """
+        shape of the filters
+        """
+    @kind.setter
+    def kind(self, arg1: typing.Any) -> None: ...
+    @property
+    def low_hz(self) -> float:
+        """
+        lower edge of the first filter
+        """
     @low_hz.setter
-    def low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def low_hz(self, arg1: typing.Any) -> None: ...
     @property
-    def num_filters(self) -> int: ...
+    def mel_scale(self) -> typing.Literal["htk", "slaney"]:
+        """
+        mel scale of the filters' spacing; HFCC uses HTK's
+        """
+    @mel_scale.setter
+    def mel_scale(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_filters(self) -> int:
+        """
+        number of filters
+        """
     @num_filters.setter
-    def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_filters(self, arg1: typing.Any) -> None: ...
     @property
-    def warp(self) -> float: ...
+    def unit_area(self) -> bool:
+        """
+        weights times 2 / (high - low), for filters of equal area
+        """
+    @unit_area.setter
+    def unit_area(self, arg1: typing.Any) -> None: ...
+    @property
+    def warp(self) -> float:
+        """
+        vocal-tract-length factor on all filter frequencies
+        """
     @warp.setter
-    def warp(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def warp(self, arg1: typing.Any) -> None: ...
     @property
-    def warp_high_hz(self) -> float: ...
+    def warp_high_hz(self) -> float:
+        """
+        above it the warp bends back to high_hz
+        """
     @warp_high_hz.setter
-    def warp_high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def warp_high_hz(self, arg1: typing.Any) -> None: ...
     @property
-    def warp_low_hz(self) -> float: ...
+    def warp_low_hz(self) -> float:
+        """
+        below it the warp bends back to low_hz; 0, with warp_high_hz: it does not bend
+        """
     @warp_low_hz.setter
-    def warp_low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def warp_low_hz(self, arg1: typing.Any) -> None: ...
 
 class ActivityOptions:
     """
     Where somebody speaks in a clip.
+
+    Parameters
+    ----------
+    frame_ms : float, default 25.0
+        length of a frame; 1..1000 ms
+    shift_ms : float, default 10.0
+        time from frame to frame; 1..1000 ms
+    silence_dbfs : float, default -70.0
+        level below which a frame is silent; -120..0 dBFS
+    margin_db : float, default 4.0
+        how far sound is above the noise, over all bands; 0..60 dB
+    max_depth_db : float, default 30.0
+        lowest level of a sound, below the loudest voiced frame; 1..120 dB
+    min_voicing : float, default 1.15
+        least voicing of a word, its clarity times its duration; 0..10
+    max_gap_ms : float, default 300.0
+        longest silence within a word, as before a plosive; 0..2000 ms
+    padding_ms : float, default 30.0
+        kept before and after the word; 0..1000 ms
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        frame_ms: float = 25.0,
+        shift_ms: float = 10.0,
+        silence_dbfs: float = -70.0,
+        margin_db: float = 4.0,
+        max_depth_db: float = 30.0,
+        min_voicing: float = 1.15,
+        max_gap_ms: float = 300.0,
+        padding_ms: float = 30.0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def frame_ms(self) -> float: ...
+    def frame_ms(self) -> float:
+        """
+        length of a frame
+        """
     @frame_ms.setter
-    def frame_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def frame_ms(self, arg1: typing.Any) -> None: ...
     @property
-    def margin_db(self) -> float: ...
+    def margin_db(self) -> float:
+        """
+        how far sound is above the noise, over all bands
+        """
     @margin_db.setter
-    def margin_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def margin_db(self, arg1: typing.Any) -> None: ...
     @property
-    def max_depth_db(self) -> float: ...
+    def max_depth_db(self) -> float:
+        """
+        lowest level of a sound, below the loudest voiced frame
+        """
     @max_depth_db.setter
-    def max_depth_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_depth_db(self, arg1: typing.Any) -> None: ...
     @property
-    def max_gap_ms(self) -> float: ...
+    def max_gap_ms(self) -> float:
+        """
+        longest silence within a word, as before a plosive
+        """
     @max_gap_ms.setter
-    def max_gap_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_gap_ms(self, arg1: typing.Any) -> None: ...
     @property
-    def min_voicing(self) -> float: ...
+    def min_voicing(self) -> float:
+        """
+        least voicing of a word, its clarity times its duration
+        """
     @min_voicing.setter
-    def min_voicing(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_voicing(self, arg1: typing.Any) -> None: ...
     @property
-    def padding_ms(self) -> float: ...
+    def padding_ms(self) -> float:
+        """
+        kept before and after the word
+        """
     @padding_ms.setter
-    def padding_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def padding_ms(self, arg1: typing.Any) -> None: ...
     @property
-    def shift_ms(self) -> float: ...
+    def shift_ms(self) -> float:
+        """
+        time from frame to frame
+        """
     @shift_ms.setter
-    def shift_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def shift_ms(self, arg1: typing.Any) -> None: ...
     @property
-    def silence_dbfs(self) -> float: ...
+    def silence_dbfs(self) -> float:
+        """
+        level below which a frame is silent
+        """
     @silence_dbfs.setter
-    def silence_dbfs(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def silence_dbfs(self, arg1: typing.Any) -> None: ...
 
 class EndpointerOptions:
     """
     When an utterance in a stream begins and ends.
+
+    Parameters
+    ----------
+    activity : ActivityOptions or dict
+        how speech is found
+    hangover_ms : float, default 300.0
+        silence that ends an utterance; 50..5000 ms
+    context_ms : float, default 300.0
+        noise kept from before an utterance, to estimate its level; 50..5000 ms
+    max_utterance_ms : float, default 5000.0
+        longest utterance; a longer one is cut; 500..60000 ms
     """
 
     __hash__: typing.ClassVar[None] = None
-    activity: ActivityOptions
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        activity: ActivityOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        hangover_ms: float = 300.0,
+        context_ms: float = 300.0,
+        max_utterance_ms: float = 5000.0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def context_ms(self) -> float: ...
+    def activity(self) -> ActivityOptions:
+        """
+        how speech is found
+        """
+    @activity.setter
+    def activity(self, arg1: typing.Any) -> None: ...
+    @property
+    def context_ms(self) -> float:
+        """
+        noise kept from before an utterance, to estimate its level
+        """
     @context_ms.setter
-    def context_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def context_ms(self, arg1: typing.Any) -> None: ...
     @property
-    def hangover_ms(self) -> float: ...
+    def hangover_ms(self) -> float:
+        """
+        silence that ends an utterance
+        """
     @hangover_ms.setter
-    def hangover_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def hangover_ms(self, arg1: typing.Any) -> None: ...
     @property
-    def max_utterance_ms(self) -> float: ...
+    def max_utterance_ms(self) -> float:
+        """
+        longest utterance; a longer one is cut
+        """
     @max_utterance_ms.setter
-    def max_utterance_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-
-class EndpointKind:
-    """
-    Members:
-
-      none
-
-      speech_start
-
-      speech_end
-
-      speech_dropped
-    """
-
-    __members__: typing.ClassVar[dict[str, EndpointKind]]
-    none: typing.ClassVar[EndpointKind]
-    speech_dropped: typing.ClassVar[EndpointKind]
-    speech_end: typing.ClassVar[EndpointKind]
-    speech_start: typing.ClassVar[EndpointKind]
-    @typing.overload
-    def __eq__(self, other: EndpointKind) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: EndpointKind) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
+    def max_utterance_ms(self, arg1: typing.Any) -> None: ...
 
 class Endpoint:
     """
@@ -591,7 +612,7 @@ class Endpoint:
     @property
     def first(self) -> int: ...
     @property
-    def kind(self) -> EndpointKind: ...
+    def kind(self) -> typing.Literal["none", "speech_start", "speech_end", "speech_dropped"]: ...
     @property
     def last(self) -> int: ...
     @property
@@ -625,165 +646,166 @@ class Endpointer:
     @property
     def options(self) -> EndpointerOptions: ...
 
-class ThresholdRule:
-    """
-    How a threshold follows from the noise.
-
-    Members:
-
-      universal
-
-      sure
-
-      bayes
-    """
-
-    __members__: typing.ClassVar[dict[str, ThresholdRule]]
-    bayes: typing.ClassVar[ThresholdRule]
-    sure: typing.ClassVar[ThresholdRule]
-    universal: typing.ClassVar[ThresholdRule]
-    @typing.overload
-    def __eq__(self, other: ThresholdRule) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: ThresholdRule) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class ThresholdShape:
-    """
-    What becomes of details at a threshold.
-
-    Members:
-
-      soft
-
-      hard
-
-      garrote
-    """
-
-    __members__: typing.ClassVar[dict[str, ThresholdShape]]
-    garrote: typing.ClassVar[ThresholdShape]
-    hard: typing.ClassVar[ThresholdShape]
-    soft: typing.ClassVar[ThresholdShape]
-    @typing.overload
-    def __eq__(self, other: ThresholdShape) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: ThresholdShape) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class NoiseEstimate:
-    """
-    Where a level's noise is measured.
-
-    Members:
-
-      quietest
-
-      per_level
-
-      finest
-    """
-
-    __members__: typing.ClassVar[dict[str, NoiseEstimate]]
-    finest: typing.ClassVar[NoiseEstimate]
-    per_level: typing.ClassVar[NoiseEstimate]
-    quietest: typing.ClassVar[NoiseEstimate]
-    @typing.overload
-    def __eq__(self, other: NoiseEstimate) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: NoiseEstimate) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class ShrinkageOptions:
     """
     Noise reduction by wavelets.
+
+    Parameters
+    ----------
+    wavelet : str, default 'sym8'
+        wavelet of the transform; the name of a wavelet, such as 'db4'
+    border : {'symmetric', 'zero', 'constant', 'periodic', 'reflect', 'periodization', 'smooth', 'antisymmetric', 'antireflect'}, default 'symmetric'
+        how the signal goes on beyond its ends
+    num_levels : int, default 0
+        levels of the transform; 0: five, or as many as the signal has room for; 0..62
+    rule : {'universal', 'sure', 'bayes'}, default 'bayes'
+        how the threshold follows from the noise
+    shape : {'soft', 'hard', 'garrote'}, default 'soft'
+        how coefficients shrink
+    noise : {'quietest', 'per_level', 'finest'}, default 'quietest'
+        how the noise is estimated
+    strength : float, default 1.0
+        factor of all thresholds; 0..1000000
     """
 
     __hash__: typing.ClassVar[None] = None
-    border: Border
-    noise: NoiseEstimate
-    rule: ThresholdRule
-    shape: ThresholdShape
-    wavelet: str
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        wavelet: str = "sym8",
+        border: typing.Literal[
+            "symmetric",
+            "zero",
+            "constant",
+            "periodic",
+            "reflect",
+            "periodization",
+            "smooth",
+            "antisymmetric",
+            "antireflect",
+        ] = "symmetric",
+        num_levels: int = 0,
+        rule: typing.Literal["universal", "sure", "bayes"] = "bayes",
+        shape: typing.Literal["soft", "hard", "garrote"] = "soft",
+        noise: typing.Literal["quietest", "per_level", "finest"] = "quietest",
+        strength: float = 1.0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def border(
+        self,
+    ) -> typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ]:
+        """
+        how the signal goes on beyond its ends
+        """
+    @border.setter
+    def border(self, arg1: typing.Any) -> None: ...
+    @property
+    def noise(self) -> typing.Literal["quietest", "per_level", "finest"]:
+        """
+        how the noise is estimated
+        """
+    @noise.setter
+    def noise(self, arg1: typing.Any) -> None: ...
     @property
     def num_levels(self) -> int:
         """
-        0: five, or as many as fit.
+        levels of the transform; 0: five, or as many as the signal has room for
         """
     @num_levels.setter
-    def num_levels(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_levels(self, arg1: typing.Any) -> None: ...
+    @property
+    def rule(self) -> typing.Literal["universal", "sure", "bayes"]:
+        """
+        how the threshold follows from the noise
+        """
+    @rule.setter
+    def rule(self, arg1: typing.Any) -> None: ...
+    @property
+    def shape(self) -> typing.Literal["soft", "hard", "garrote"]:
+        """
+        how coefficients shrink
+        """
+    @shape.setter
+    def shape(self, arg1: typing.Any) -> None: ...
     @property
     def strength(self) -> float:
         """
-        Factor of all thresholds.
+        factor of all thresholds
         """
     @strength.setter
-    def strength(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def strength(self, arg1: typing.Any) -> None: ...
+    @property
+    def wavelet(self) -> str:
+        """
+        wavelet of the transform
+        """
+    @wavelet.setter
+    def wavelet(self, arg1: typing.Any) -> None: ...
 
 class WaveletStreamOptions:
     """
     What a stream of samples is transformed by.
+
+    Parameters
+    ----------
+    wavelet : str, default 'db4'
+        wavelet of the transform; the name of a wavelet, such as 'db4'
+    num_levels : int, default 3
+        levels of the transform; 1..30
     """
 
     __hash__: typing.ClassVar[None] = None
-    wavelet: str
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, wavelet: str = "db4", num_levels: int = 3) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def num_levels(self) -> int: ...
+    def num_levels(self) -> int:
+        """
+        levels of the transform
+        """
     @num_levels.setter
-    def num_levels(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_levels(self, arg1: typing.Any) -> None: ...
+    @property
+    def wavelet(self) -> str:
+        """
+        wavelet of the transform
+        """
+    @wavelet.setter
+    def wavelet(self, arg1: typing.Any) -> None: ...
 
 class WaveletStream32:
     """
@@ -821,165 +843,94 @@ class WaveletStream64:
         Forgets what was pushed.
         """
 
-class CepstraKind:
-    """
-    Members:
-
-      filter_bank
-
-      linear_prediction
-    """
-
-    __members__: typing.ClassVar[dict[str, CepstraKind]]
-    filter_bank: typing.ClassVar[CepstraKind]
-    linear_prediction: typing.ClassVar[CepstraKind]
-    @typing.overload
-    def __eq__(self, other: CepstraKind) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: CepstraKind) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class FramePadding:
-    """
-    Members:
-
-      none
-
-      centred
-    """
-
-    __members__: typing.ClassVar[dict[str, FramePadding]]
-    centred: typing.ClassVar[FramePadding]
-    none: typing.ClassVar[FramePadding]
-    @typing.overload
-    def __eq__(self, other: FramePadding) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: FramePadding) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class WindowKind:
-    """
-    Members:
-
-      hamming
-
-      hann
-
-      hann_periodic
-
-      povey
-
-      rectangular
-    """
-
-    __members__: typing.ClassVar[dict[str, WindowKind]]
-    hamming: typing.ClassVar[WindowKind]
-    hann: typing.ClassVar[WindowKind]
-    hann_periodic: typing.ClassVar[WindowKind]
-    povey: typing.ClassVar[WindowKind]
-    rectangular: typing.ClassVar[WindowKind]
-    @typing.overload
-    def __eq__(self, other: WindowKind) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: WindowKind) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class Normalisation:
-    """
-    Members:
-
-      none
-
-      level
-
-      mean
-
-      mean_variance
-
-      running_mean
-
-      running_mean_variance
-    """
-
-    __members__: typing.ClassVar[dict[str, Normalisation]]
-    level: typing.ClassVar[Normalisation]
-    mean: typing.ClassVar[Normalisation]
-    mean_variance: typing.ClassVar[Normalisation]
-    none: typing.ClassVar[Normalisation]
-    running_mean: typing.ClassVar[Normalisation]
-    running_mean_variance: typing.ClassVar[Normalisation]
-    @typing.overload
-    def __eq__(self, other: Normalisation) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: Normalisation) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class CepstraOptions:
     """
     Cepstra of speech (MFCC, HFCC, LPCC).
+
+    Parameters
+    ----------
+    sample_rate_hz : int, default 16000
+        sample rate of the audio; 0, in a recogniser only: the lowest of the training recordings, at most 16000; 1000..384000, or 0 Hz
+    frame_length_ms : float, default 25.0
+        length of a frame; 1..1000 ms
+    frame_shift_ms : float, default 10.0
+        time from frame to frame; 1..1000 ms
+    padding : {'none', 'centred'}, default 'none'
+        whether zeros surround the audio
+    sample_scale : float, default 1.0
+        factor on the samples; 32768: as if they were 16-bit integers; 0..1000000, 0 excluded
+    remove_dc : bool, default False
+        subtract the mean of every frame
+    pre_emphasis : float, default 0.97
+        coefficient of the pre-emphasis; 0: off; 0..1
+    frame_pre_emphasis : bool, default False
+        pre-emphasis begins anew in every frame, as in HTK and Kaldi
+    window : {'hamming', 'hann', 'hann_periodic', 'povey', 'rectangular'}, default 'hamming'
+        window of a frame
+    fft_size : int, default 0
+        size of the FFT, at least the frame's samples; 0: the next power of two; 0..1048576, even
+    kind : {'filter_bank', 'linear_prediction'}, default 'filter_bank'
+        what the cepstra are taken of
+    lpc_order : int, default 12
+        order of linear prediction; 1..64
+    filter_bank : {'mel', 'hfcc'}, default 'mel'
+        shape of the filters
+    num_filters : int, default 26
+        number of filters; 1..512
+    low_hz : float, default 100.0
+        lower edge of the first filter; 0..192000 Hz
+    high_hz : float, default 0.0
+        upper edge of the last filter; 0: half the sample rate; 0..192000 Hz
+    erb_factor : float, default 1.0
+        bandwidth factor E of HFCC-E; 0.1..10
+    warp : float, default 1.0
+        vocal-tract-length factor on the filter frequencies; 0.5..2
+    warp_low_hz : float, default 0.0
+        below it the warp bends back to low_hz; 0, with warp_high_hz: it does not bend; 0..192000 Hz
+    warp_high_hz : float, default 0.0
+        above it the warp bends back to high_hz; 0..192000 Hz
+    mel_scale : {'htk', 'slaney'}, default 'htk'
+        mel scale of the filters' spacing
+    filter_axis : {'hz', 'mel'}, default 'hz'
+        axis on which the filters are triangles
+    unit_area : bool, default False
+        filters of equal area, not of equal height
+    use_power : bool, default True
+        filters over the power; False: over the magnitude
+    energy_floor : float, default 1e-10
+        least energy of a filter, which keeps the log of digital silence finite; 1e-30..1e+30
+    decibels : bool, default False
+        10 log10 in place of ln
+    top_db : float, default 0.0
+        filters this far below the loudest of the utterance are raised to that; 0: off; 0..1000 dB
+    num_cepstra : int, default 12
+        c1 .. c_num, below num_filters (linear prediction: up to 64); 1..511
+    use_c0 : bool, default True
+        c0, the log energy of all filters, in front
+    use_energy : bool, default False
+        in the place of c0 the log energy of the frame before pre-emphasis
+    htk_c0 : bool, default False
+        c0 (or the energy) behind the others, and c0 sqrt(2) times as large
+    lifter : float, default 22.0
+        HTK's sine lifter; 0: off; 0..1000000
+    rasta_pole : float, default 0.0
+        pole of the RASTA filter (0.94 or 0.98 are usual); 0: off; 0..1, 1 excluded
+    normalisation : {'none', 'level', 'mean', 'mean_variance', 'running_mean', 'running_mean_variance'}, default 'mean'
+        what is normalised along time
+    running_s : float, default 2.0
+        memory of the running normalisations; 0..1000000, 0 excluded s
+    delta_orders : int, default 2
+        0: static only, 1: with deltas, 2: and accelerations; 0..2
+    delta_window : int, default 2
+        frames on each side of the regression; 1..10
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     @staticmethod
     def htk(sample_rate_hz: typing.SupportsInt | typing.SupportsIndex = 16000) -> CepstraOptions:
         """
@@ -996,268 +947,317 @@ class CepstraOptions:
         librosa.feature.mfcc by its defaults: 20 cepstra of 128 filters.
         """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        sample_rate_hz: int = 16000,
+        frame_length_ms: float = 25.0,
+        frame_shift_ms: float = 10.0,
+        padding: typing.Literal["none", "centred"] = "none",
+        sample_scale: float = 1.0,
+        remove_dc: bool = False,
+        pre_emphasis: float = 0.97,
+        frame_pre_emphasis: bool = False,
+        window: typing.Literal["hamming", "hann", "hann_periodic", "povey", "rectangular"] = "hamming",
+        fft_size: int = 0,
+        kind: typing.Literal["filter_bank", "linear_prediction"] = "filter_bank",
+        lpc_order: int = 12,
+        filter_bank: typing.Literal["mel", "hfcc"] = "mel",
+        num_filters: int = 26,
+        low_hz: float = 100.0,
+        high_hz: float = 0.0,
+        erb_factor: float = 1.0,
+        warp: float = 1.0,
+        warp_low_hz: float = 0.0,
+        warp_high_hz: float = 0.0,
+        mel_scale: typing.Literal["htk", "slaney"] = "htk",
+        filter_axis: typing.Literal["hz", "mel"] = "hz",
+        unit_area: bool = False,
+        use_power: bool = True,
+        energy_floor: float = 1e-10,
+        decibels: bool = False,
+        top_db: float = 0.0,
+        num_cepstra: int = 12,
+        use_c0: bool = True,
+        use_energy: bool = False,
+        htk_c0: bool = False,
+        lifter: float = 22.0,
+        rasta_pole: float = 0.0,
+        normalisation: typing.Literal[
+            "none", "level", "mean", "mean_variance", "running_mean", "running_mean_variance"
+        ] = "mean",
+        running_s: float = 2.0,
+        delta_orders: int = 2,
+        delta_window: int = 2,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
     def decibels(self) -> bool:
         """
         10 log10 in place of ln
         """
     @decibels.setter
-    def decibels(self, arg0: bool) -> None: ...
+    def decibels(self, arg1: typing.Any) -> None: ...
     @property
     def delta_orders(self) -> int:
         """
-        0..2
+        0: static only, 1: with deltas, 2: and accelerations
         """
     @delta_orders.setter
-    def delta_orders(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def delta_orders(self, arg1: typing.Any) -> None: ...
     @property
     def delta_window(self) -> int:
         """
-        frames on each side of the regression, 1..10
+        frames on each side of the regression
         """
     @delta_window.setter
-    def delta_window(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def delta_window(self, arg1: typing.Any) -> None: ...
     @property
     def energy_floor(self) -> float:
         """
-        below the log, 1e-30..1e30
+        least energy of a filter, which keeps the log of digital silence finite
         """
     @energy_floor.setter
-    def energy_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def energy_floor(self, arg1: typing.Any) -> None: ...
     @property
     def erb_factor(self) -> float:
         """
-        bandwidth factor E of HFCC-E, 0.1..10
+        bandwidth factor E of HFCC-E
         """
     @erb_factor.setter
-    def erb_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def erb_factor(self, arg1: typing.Any) -> None: ...
     @property
     def fft_size(self) -> int:
         """
-        even, at least the frame's samples; 0: the next power of two
+        size of the FFT, at least the frame's samples; 0: the next power of two
         """
     @fft_size.setter
-    def fft_size(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def fft_size(self, arg1: typing.Any) -> None: ...
     @property
-    def filter_axis(self) -> FilterAxis:
+    def filter_axis(self) -> typing.Literal["hz", "mel"]:
         """
-        along which the sides of filters are straight: hz or mel
+        axis on which the filters are triangles
         """
     @filter_axis.setter
-    def filter_axis(self, arg0: FilterAxis) -> None: ...
+    def filter_axis(self, arg1: typing.Any) -> None: ...
     @property
-    def filter_bank(self) -> FilterBankKind:
+    def filter_bank(self) -> typing.Literal["mel", "hfcc"]:
         """
-        mel or hfcc
+        shape of the filters
         """
     @filter_bank.setter
-    def filter_bank(self, arg0: FilterBankKind) -> None: ...
+    def filter_bank(self, arg1: typing.Any) -> None: ...
     @property
     def frame_length_ms(self) -> float:
         """
-        1..1000
+        length of a frame
         """
     @frame_length_ms.setter
-    def frame_length_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def frame_length_ms(self, arg1: typing.Any) -> None: ...
     @property
     def frame_pre_emphasis(self) -> bool:
         """
-        every frame begins anew, as in HTK and Kaldi
+        pre-emphasis begins anew in every frame, as in HTK and Kaldi
         """
     @frame_pre_emphasis.setter
-    def frame_pre_emphasis(self, arg0: bool) -> None: ...
+    def frame_pre_emphasis(self, arg1: typing.Any) -> None: ...
     @property
     def frame_shift_ms(self) -> float:
         """
-        1..1000
+        time from frame to frame
         """
     @frame_shift_ms.setter
-    def frame_shift_ms(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def frame_shift_ms(self, arg1: typing.Any) -> None: ...
     @property
     def high_hz(self) -> float:
         """
-        upper edge of the last filter; 0: the Nyquist rate
+        upper edge of the last filter; 0: half the sample rate
         """
     @high_hz.setter
-    def high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def high_hz(self, arg1: typing.Any) -> None: ...
     @property
     def htk_c0(self) -> bool:
         """
         c0 (or the energy) behind the others, and c0 sqrt(2) times as large
         """
     @htk_c0.setter
-    def htk_c0(self, arg0: bool) -> None: ...
+    def htk_c0(self, arg1: typing.Any) -> None: ...
     @property
-    def kind(self) -> CepstraKind:
+    def kind(self) -> typing.Literal["filter_bank", "linear_prediction"]:
         """
-        filter_bank (MFCC, HFCC) or linear_prediction (LPCC)
+        what the cepstra are taken of
         """
     @kind.setter
-    def kind(self, arg0: CepstraKind) -> None: ...
+    def kind(self, arg1: typing.Any) -> None: ...
     @property
     def lifter(self) -> float:
         """
         HTK's sine lifter; 0: off
         """
     @lifter.setter
-    def lifter(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def lifter(self, arg1: typing.Any) -> None: ...
     @property
     def low_hz(self) -> float:
         """
         lower edge of the first filter
         """
     @low_hz.setter
-    def low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def low_hz(self, arg1: typing.Any) -> None: ...
     @property
     def lpc_order(self) -> int:
         """
-        1..64
+        order of linear prediction
         """
     @lpc_order.setter
-    def lpc_order(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def lpc_order(self, arg1: typing.Any) -> None: ...
     @property
-    def mel_scale(self) -> MelScale:
+    def mel_scale(self) -> typing.Literal["htk", "slaney"]:
         """
-        htk or slaney
+        mel scale of the filters' spacing
         """
     @mel_scale.setter
-    def mel_scale(self, arg0: MelScale) -> None: ...
+    def mel_scale(self, arg1: typing.Any) -> None: ...
     @property
-    def normalisation(self) -> Normalisation:
+    def normalisation(
+        self,
+    ) -> typing.Literal["none", "level", "mean", "mean_variance", "running_mean", "running_mean_variance"]:
         """
-        of an utterance or running
+        what is normalised along time
         """
     @normalisation.setter
-    def normalisation(self, arg0: Normalisation) -> None: ...
+    def normalisation(self, arg1: typing.Any) -> None: ...
     @property
     def num_cepstra(self) -> int:
         """
-        c1 .. c_num, 1..num_filters - 1
+        c1 .. c_num, below num_filters (linear prediction: up to 64)
         """
     @num_cepstra.setter
-    def num_cepstra(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_cepstra(self, arg1: typing.Any) -> None: ...
     @property
     def num_filters(self) -> int:
         """
-        1..512
+        number of filters
         """
     @num_filters.setter
-    def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_filters(self, arg1: typing.Any) -> None: ...
     @property
-    def padding(self) -> FramePadding:
+    def padding(self) -> typing.Literal["none", "centred"]:
         """
-        none, or zeros around the audio so that frame t has sample t * shift in its middle
+        whether zeros surround the audio
         """
     @padding.setter
-    def padding(self, arg0: FramePadding) -> None: ...
+    def padding(self, arg1: typing.Any) -> None: ...
     @property
     def pre_emphasis(self) -> float:
         """
-        0 (off) .. 1
+        coefficient of the pre-emphasis; 0: off
         """
     @pre_emphasis.setter
-    def pre_emphasis(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def pre_emphasis(self, arg1: typing.Any) -> None: ...
     @property
     def rasta_pole(self) -> float:
         """
-        of the RASTA filter, below 1; 0: off
+        pole of the RASTA filter (0.94 or 0.98 are usual); 0: off
         """
     @rasta_pole.setter
-    def rasta_pole(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def rasta_pole(self, arg1: typing.Any) -> None: ...
     @property
     def remove_dc(self) -> bool:
         """
         subtract the mean of every frame
         """
     @remove_dc.setter
-    def remove_dc(self, arg0: bool) -> None: ...
+    def remove_dc(self, arg1: typing.Any) -> None: ...
     @property
     def running_s(self) -> float:
         """
         memory of the running normalisations
         """
     @running_s.setter
-    def running_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def running_s(self, arg1: typing.Any) -> None: ...
     @property
     def sample_rate_hz(self) -> int:
         """
-        1000..384000
+        sample rate of the audio; 0, in a recogniser only: the lowest of the training recordings, at most 16000
         """
     @sample_rate_hz.setter
-    def sample_rate_hz(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def sample_rate_hz(self, arg1: typing.Any) -> None: ...
     @property
     def sample_scale(self) -> float:
         """
-        32768: as if samples were 16-bit integers
+        factor on the samples; 32768: as if they were 16-bit integers
         """
     @sample_scale.setter
-    def sample_scale(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def sample_scale(self, arg1: typing.Any) -> None: ...
     @property
     def top_db(self) -> float:
         """
         filters this far below the loudest of the utterance are raised to that; 0: off
         """
     @top_db.setter
-    def top_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def top_db(self, arg1: typing.Any) -> None: ...
     @property
     def unit_area(self) -> bool:
         """
         filters of equal area, not of equal height
         """
     @unit_area.setter
-    def unit_area(self, arg0: bool) -> None: ...
+    def unit_area(self, arg1: typing.Any) -> None: ...
     @property
     def use_c0(self) -> bool:
         """
-        put c0 in front
+        c0, the log energy of all filters, in front
         """
     @use_c0.setter
-    def use_c0(self, arg0: bool) -> None: ...
+    def use_c0(self, arg1: typing.Any) -> None: ...
     @property
     def use_energy(self) -> bool:
         """
-        log energy of the frame in the place of c0
+        in the place of c0 the log energy of the frame before pre-emphasis
         """
     @use_energy.setter
-    def use_energy(self, arg0: bool) -> None: ...
+    def use_energy(self, arg1: typing.Any) -> None: ...
     @property
     def use_power(self) -> bool:
         """
-        False: filters over the magnitude
+        filters over the power; False: over the magnitude
         """
     @use_power.setter
-    def use_power(self, arg0: bool) -> None: ...
+    def use_power(self, arg1: typing.Any) -> None: ...
     @property
     def warp(self) -> float:
         """
-        vocal-tract-length factor on the filter frequencies, 0.5..2
+        vocal-tract-length factor on the filter frequencies
         """
     @warp.setter
-    def warp(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def warp(self, arg1: typing.Any) -> None: ...
     @property
     def warp_high_hz(self) -> float:
         """
-        where the warp bends back to high_hz; 0: it does not
+        above it the warp bends back to high_hz
         """
     @warp_high_hz.setter
-    def warp_high_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def warp_high_hz(self, arg1: typing.Any) -> None: ...
     @property
     def warp_low_hz(self) -> float:
         """
-        where the warp bends back to low_hz; 0: it does not
+        below it the warp bends back to low_hz; 0, with warp_high_hz: it does not bend
         """
     @warp_low_hz.setter
-    def warp_low_hz(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def warp_low_hz(self, arg1: typing.Any) -> None: ...
     @property
-    def window(self) -> WindowKind:
+    def window(self) -> typing.Literal["hamming", "hann", "hann_periodic", "povey", "rectangular"]:
         """
-        laid over every frame
+        window of a frame
         """
     @window.setter
-    def window(self, arg0: WindowKind) -> None: ...
+    def window(self, arg1: typing.Any) -> None: ...
 
 class CepstraComputer:
     """
@@ -1300,18 +1300,44 @@ class CepstraStream:
 class ChainCodeOptions:
     """
     Histograms of chain codes.
+
+    Parameters
+    ----------
+    num_parts : int, default 1
+        parts of equal length with a histogram each; from 2 on the start counts, the first pixel of the outline in reading order; 1..64
+    use_turns : bool, default False
+        turns instead of directions
     """
 
     __hash__: typing.ClassVar[None] = None
-    use_turns: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, num_parts: int = 1, use_turns: bool = False) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def num_parts(self) -> int: ...
+    def num_parts(self) -> int:
+        """
+        parts of equal length with a histogram each; from 2 on the start counts, the first pixel of the outline in reading order
+        """
     @num_parts.setter
-    def num_parts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_parts(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_turns(self) -> bool:
+        """
+        turns instead of directions
+        """
+    @use_turns.setter
+    def use_turns(self, arg1: typing.Any) -> None: ...
 
 class ChainCodeComputer:
     """
@@ -1336,22 +1362,53 @@ class ChainCodeComputer:
 class FourierDescriptorOptions:
     """
     Harmonics of an outline.
+
+    Parameters
+    ----------
+    num_points : int, default 128
+        points along the outline; powers of two are fastest; 16..4096, even
+    num_harmonics : int, default 16
+        harmonics of each sign, below num_points / 2; 1..2047
+    use_phase : bool, default False
+        real and imaginary parts, with the start where the first harmonic is real: they show how far a shape is turned
     """
 
     __hash__: typing.ClassVar[None] = None
-    use_phase: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, num_points: int = 128, num_harmonics: int = 16, use_phase: bool = False) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def num_harmonics(self) -> int: ...
+    def num_harmonics(self) -> int:
+        """
+        harmonics of each sign, below num_points / 2
+        """
     @num_harmonics.setter
-    def num_harmonics(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_harmonics(self, arg1: typing.Any) -> None: ...
     @property
-    def num_points(self) -> int: ...
+    def num_points(self) -> int:
+        """
+        points along the outline; powers of two are fastest
+        """
     @num_points.setter
-    def num_points(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_points(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_phase(self) -> bool:
+        """
+        real and imaginary parts, with the start where the first harmonic is real: they show how far a shape is turned
+        """
+    @use_phase.setter
+    def use_phase(self, arg1: typing.Any) -> None: ...
 
 class FourierDescriptorComputer:
     """
@@ -1373,58 +1430,62 @@ class FourierDescriptorComputer:
     @property
     def num_features(self) -> int: ...
 
-class WaveletDescriptorSource:
-    """
-    Members:
-
-      silhouette
-
-      contour
-    """
-
-    __members__: typing.ClassVar[dict[str, WaveletDescriptorSource]]
-    contour: typing.ClassVar[WaveletDescriptorSource]
-    silhouette: typing.ClassVar[WaveletDescriptorSource]
-    @typing.overload
-    def __eq__(self, other: WaveletDescriptorSource) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: WaveletDescriptorSource) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class WaveletDescriptorOptions:
     """
     Moment-invariant wavelet descriptors.
+
+    Parameters
+    ----------
+    source : {'silhouette', 'contour'}, default 'silhouette'
+        pixels that are described
+    num_scales : int, default 4
+        radial scales m = 0 .. num_scales - 1; 1..6
+    num_frequencies : int, default 4
+        angular frequencies, from 0; 1..32
     """
 
     __hash__: typing.ClassVar[None] = None
-    source: WaveletDescriptorSource
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        source: typing.Literal["silhouette", "contour"] = "silhouette",
+        num_scales: int = 4,
+        num_frequencies: int = 4,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def num_frequencies(self) -> int: ...
+    def num_frequencies(self) -> int:
+        """
+        angular frequencies, from 0
+        """
     @num_frequencies.setter
-    def num_frequencies(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_frequencies(self, arg1: typing.Any) -> None: ...
     @property
-    def num_scales(self) -> int: ...
+    def num_scales(self) -> int:
+        """
+        radial scales m = 0 .. num_scales - 1
+        """
     @num_scales.setter
-    def num_scales(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_scales(self, arg1: typing.Any) -> None: ...
+    @property
+    def source(self) -> typing.Literal["silhouette", "contour"]:
+        """
+        pixels that are described
+        """
+    @source.setter
+    def source(self, arg1: typing.Any) -> None: ...
 
 class WaveletDescriptorComputer:
     """
@@ -1443,25 +1504,53 @@ class WaveletDescriptorComputer:
 class HandTrackOptions:
     """
     The way of a hand.
+
+    Parameters
+    ----------
+    frames_per_second : float, default 30.0
+        frame rate of the clip; 0..100000, 0 excluded
+    delta_orders : int, default 1
+        derivatives appended; 0..2
+    delta_window : int, default 2
+        frames on each side of the regression; 1..10
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, frames_per_second: float = 30.0, delta_orders: int = 1, delta_window: int = 2) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def delta_orders(self) -> int: ...
+    def delta_orders(self) -> int:
+        """
+        derivatives appended
+        """
     @delta_orders.setter
-    def delta_orders(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def delta_orders(self, arg1: typing.Any) -> None: ...
     @property
-    def delta_window(self) -> int: ...
+    def delta_window(self) -> int:
+        """
+        frames on each side of the regression
+        """
     @delta_window.setter
-    def delta_window(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def delta_window(self, arg1: typing.Any) -> None: ...
     @property
-    def frames_per_second(self) -> float: ...
+    def frames_per_second(self) -> float:
+        """
+        frame rate of the clip
+        """
     @frames_per_second.setter
-    def frames_per_second(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def frames_per_second(self, arg1: typing.Any) -> None: ...
 
 class HandTrackComputer:
     """
@@ -1480,25 +1569,53 @@ class HandTrackComputer:
 class HandPairOptions:
     """
     How two hands are kept apart.
+
+    Parameters
+    ----------
+    min_area : float, default 0.004
+        smallest share of the picture that a hand covers; 0..1
+    min_share : float, default 0.25
+        least area of the smaller region, as a share of the larger, to be a hand; 0..1
+    num_kept_frames : int, default 10
+        frames for which the place of a hand out of sight is kept; 0..1000
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, min_area: float = 0.004, min_share: float = 0.25, num_kept_frames: int = 10) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def min_area(self) -> float: ...
+    def min_area(self) -> float:
+        """
+        smallest share of the picture that a hand covers
+        """
     @min_area.setter
-    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_area(self, arg1: typing.Any) -> None: ...
     @property
-    def min_share(self) -> float: ...
+    def min_share(self) -> float:
+        """
+        least area of the smaller region, as a share of the larger, to be a hand
+        """
     @min_share.setter
-    def min_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_share(self, arg1: typing.Any) -> None: ...
     @property
-    def num_kept_frames(self) -> int: ...
+    def num_kept_frames(self) -> int:
+        """
+        frames for which the place of a hand out of sight is kept
+        """
     @num_kept_frames.setter
-    def num_kept_frames(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_kept_frames(self, arg1: typing.Any) -> None: ...
 
 class PairedHand:
     """
@@ -1537,53 +1654,131 @@ class HandPairTracker:
 class OrientationHistogramOptions:
     """
     Grid of cells and bins.
+
+    Parameters
+    ----------
+    num_cells : int, default 8
+        cells along each side; 1 gives the single histogram of the thesis; 1..64
+    num_bins : int, default 9
+        orientations over 180 degrees; 2..72
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, num_cells: int = 8, num_bins: int = 9) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def num_bins(self) -> int: ...
+    def num_bins(self) -> int:
+        """
+        orientations over 180 degrees
+        """
     @num_bins.setter
-    def num_bins(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_bins(self, arg1: typing.Any) -> None: ...
     @property
-    def num_cells(self) -> int: ...
+    def num_cells(self) -> int:
+        """
+        cells along each side; 1 gives the single histogram of the thesis
+        """
     @num_cells.setter
-    def num_cells(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_cells(self, arg1: typing.Any) -> None: ...
 
 class SilhouetteCepstrumOptions:
     """
     DWT + MFCC of a silhouette.
+
+    Parameters
+    ----------
+    wavelet : str, default 'db2'
+        wavelet of the transform; the name of a wavelet, such as 'db4'
+    num_levels : int, default 3
+        levels of the DWT; 0: none; 0..4
+    mask_px : int, default 256
+        side of the square that the mask is scaled to before the DWT; 64..1024 px
+    num_points : int, default 256
+        samples along the contour; 64..4096
+    num_filters : int, default 20
+        filters over their spectrum; 2..64
+    num_cepstra : int, default 13
+        coefficients kept, below num_filters; 1..63
     """
 
     __hash__: typing.ClassVar[None] = None
-    wavelet: str
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        wavelet: str = "db2",
+        num_levels: int = 3,
+        mask_px: int = 256,
+        num_points: int = 256,
+        num_filters: int = 20,
+        num_cepstra: int = 13,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def mask_px(self) -> int: ...
+    def mask_px(self) -> int:
+        """
+        side of the square that the mask is scaled to before the DWT
+        """
     @mask_px.setter
-    def mask_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def mask_px(self, arg1: typing.Any) -> None: ...
     @property
-    def num_cepstra(self) -> int: ...
+    def num_cepstra(self) -> int:
+        """
+        coefficients kept, below num_filters
+        """
     @num_cepstra.setter
-    def num_cepstra(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_cepstra(self, arg1: typing.Any) -> None: ...
     @property
-    def num_filters(self) -> int: ...
+    def num_filters(self) -> int:
+        """
+        filters over their spectrum
+        """
     @num_filters.setter
-    def num_filters(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_filters(self, arg1: typing.Any) -> None: ...
     @property
-    def num_levels(self) -> int: ...
+    def num_levels(self) -> int:
+        """
+        levels of the DWT; 0: none
+        """
     @num_levels.setter
-    def num_levels(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_levels(self, arg1: typing.Any) -> None: ...
     @property
-    def num_points(self) -> int: ...
+    def num_points(self) -> int:
+        """
+        samples along the contour
+        """
     @num_points.setter
-    def num_points(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_points(self, arg1: typing.Any) -> None: ...
+    @property
+    def wavelet(self) -> str:
+        """
+        wavelet of the transform
+        """
+    @wavelet.setter
+    def wavelet(self, arg1: typing.Any) -> None: ...
 
 class SilhouetteCepstrumComputer:
     """
@@ -1606,37 +1801,179 @@ class SilhouetteCepstrumComputer:
 class HandFeatureOptions:
     """
     The joined feature of one hand picture.
+
+    Parameters
+    ----------
+    crop_px : int, default 64
+        side of the square that the hand is scaled to; 16..256 px
+    histogram : OrientationHistogramOptions or dict
+        cells and bins of the orientation histograms
+    use_grey : bool, default True
+        histogram of the grey crop (square root of grey, against uneven light)
+    use_silhouette : bool, default True
+        histogram of the mask crop
+    use_cepstrum : bool, default True
+        cepstrum of the silhouette
+    cepstrum : SilhouetteCepstrumOptions or dict
+        options of the cepstrum
+    cepstrum_weight : float, default 0.1
+        scale of the cepstrum beside the histograms, which are blocks of length 1; 0..1000000, 0 excluded
+    use_wavelet : bool, default False
+        moment-invariant wavelet descriptor of the mask
+    wavelet : WaveletDescriptorOptions or dict
+        options of the wavelet descriptor
+    use_moments : bool, default False
+        roots of Hu's moments of the mask
+    use_fourier : bool, default False
+        Fourier descriptor of the outline
+    fourier : FourierDescriptorOptions or dict
+        options of the Fourier descriptor
+    use_chain_code : bool, default False
+        chain-code histograms of the outline
+    chain_code : ChainCodeOptions or dict
+        options of the chain code
+    descriptor_weight : float, default 1.0
+        length that each of these four descriptors is scaled to; they leave out the forearm that hand_box() cuts off; 0..1000000, 0 excluded
     """
 
     __hash__: typing.ClassVar[None] = None
-    cepstrum: SilhouetteCepstrumOptions
-    chain_code: ChainCodeOptions
-    fourier: FourierDescriptorOptions
-    histogram: OrientationHistogramOptions
-    use_cepstrum: bool
-    use_chain_code: bool
-    use_fourier: bool
-    use_grey: bool
-    use_moments: bool
-    use_silhouette: bool
-    use_wavelet: bool
-    wavelet: WaveletDescriptorOptions
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        crop_px: int = 64,
+        histogram: OrientationHistogramOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        use_grey: bool = True,
+        use_silhouette: bool = True,
+        use_cepstrum: bool = True,
+        cepstrum: SilhouetteCepstrumOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        cepstrum_weight: float = 0.1,
+        use_wavelet: bool = False,
+        wavelet: WaveletDescriptorOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        use_moments: bool = False,
+        use_fourier: bool = False,
+        fourier: FourierDescriptorOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        use_chain_code: bool = False,
+        chain_code: ChainCodeOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        descriptor_weight: float = 1.0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def cepstrum_weight(self) -> float: ...
+    def cepstrum(self) -> SilhouetteCepstrumOptions:
+        """
+        options of the cepstrum
+        """
+    @cepstrum.setter
+    def cepstrum(self, arg1: typing.Any) -> None: ...
+    @property
+    def cepstrum_weight(self) -> float:
+        """
+        scale of the cepstrum beside the histograms, which are blocks of length 1
+        """
     @cepstrum_weight.setter
-    def cepstrum_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def cepstrum_weight(self, arg1: typing.Any) -> None: ...
     @property
-    def crop_px(self) -> int: ...
+    def chain_code(self) -> ChainCodeOptions:
+        """
+        options of the chain code
+        """
+    @chain_code.setter
+    def chain_code(self, arg1: typing.Any) -> None: ...
+    @property
+    def crop_px(self) -> int:
+        """
+        side of the square that the hand is scaled to
+        """
     @crop_px.setter
-    def crop_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def crop_px(self, arg1: typing.Any) -> None: ...
     @property
-    def descriptor_weight(self) -> float: ...
+    def descriptor_weight(self) -> float:
+        """
+        length that each of these four descriptors is scaled to; they leave out the forearm that hand_box() cuts off
+        """
     @descriptor_weight.setter
-    def descriptor_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def descriptor_weight(self, arg1: typing.Any) -> None: ...
+    @property
+    def fourier(self) -> FourierDescriptorOptions:
+        """
+        options of the Fourier descriptor
+        """
+    @fourier.setter
+    def fourier(self, arg1: typing.Any) -> None: ...
+    @property
+    def histogram(self) -> OrientationHistogramOptions:
+        """
+        cells and bins of the orientation histograms
+        """
+    @histogram.setter
+    def histogram(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_cepstrum(self) -> bool:
+        """
+        cepstrum of the silhouette
+        """
+    @use_cepstrum.setter
+    def use_cepstrum(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_chain_code(self) -> bool:
+        """
+        chain-code histograms of the outline
+        """
+    @use_chain_code.setter
+    def use_chain_code(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_fourier(self) -> bool:
+        """
+        Fourier descriptor of the outline
+        """
+    @use_fourier.setter
+    def use_fourier(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_grey(self) -> bool:
+        """
+        histogram of the grey crop (square root of grey, against uneven light)
+        """
+    @use_grey.setter
+    def use_grey(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_moments(self) -> bool:
+        """
+        roots of Hu's moments of the mask
+        """
+    @use_moments.setter
+    def use_moments(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_silhouette(self) -> bool:
+        """
+        histogram of the mask crop
+        """
+    @use_silhouette.setter
+    def use_silhouette(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_wavelet(self) -> bool:
+        """
+        moment-invariant wavelet descriptor of the mask
+        """
+    @use_wavelet.setter
+    def use_wavelet(self, arg1: typing.Any) -> None: ...
+    @property
+    def wavelet(self) -> WaveletDescriptorOptions:
+        """
+        options of the wavelet descriptor
+        """
+    @wavelet.setter
+    def wavelet(self, arg1: typing.Any) -> None: ...
 
 class HandFeatureComputer:
     """
@@ -1654,206 +1991,387 @@ class HandFeatureComputer:
     @property
     def num_features(self) -> int: ...
 
-class SilhouetteMethod:
-    """
-    Members:
-
-      chroma_otsu
-
-      hsv
-
-      grey_otsu
-    """
-
-    __members__: typing.ClassVar[dict[str, SilhouetteMethod]]
-    chroma_otsu: typing.ClassVar[SilhouetteMethod]
-    grey_otsu: typing.ClassVar[SilhouetteMethod]
-    hsv: typing.ClassVar[SilhouetteMethod]
-    @typing.overload
-    def __eq__(self, other: SilhouetteMethod) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: SilhouetteMethod) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class SilhouetteOptions:
     """
     How the hand is found in a picture.
+
+    Parameters
+    ----------
+    method : {'chroma_otsu', 'hsv', 'grey_otsu'}, default 'chroma_otsu'
+        how a hand differs from what is behind it
+    max_side_px : int, default 320
+        larger pictures are scaled down to this first; 32..4096 px
+    blur_px : int, default 5
+        size of the Gaussian blur before and of the median after the threshold; 1..31, odd px
+    min_contrast : float, default 1.5
+        least difference of the two classes' means, in grey levels; 0..255
+    sure_contrast : float, default 5.0
+        below this, as in poor light, the classes must also be separated by min_quality; 0..255
+    min_quality : float, default 0.7
+        least separation of the classes; camera noise alone gives 0.64; 0..1
+    min_area : float, default 0.005
+        smallest share of the picture that a hand covers; 0..1
+    max_area : float, default 0.8
+        largest; 0..1
+    remove_face : bool, default True
+        of more skin regions than hands the one most like an ellipse is a face
+    max_hands : int, default 1
+        regions that masks hold, the largest; HandPairTracker decides which is which; 1..2
     """
 
     __hash__: typing.ClassVar[None] = None
-    method: SilhouetteMethod
-    remove_face: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        method: typing.Literal["chroma_otsu", "hsv", "grey_otsu"] = "chroma_otsu",
+        max_side_px: int = 320,
+        blur_px: int = 5,
+        min_contrast: float = 1.5,
+        sure_contrast: float = 5.0,
+        min_quality: float = 0.7,
+        min_area: float = 0.005,
+        max_area: float = 0.8,
+        remove_face: bool = True,
+        max_hands: int = 1,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def blur_px(self) -> int: ...
+    def blur_px(self) -> int:
+        """
+        size of the Gaussian blur before and of the median after the threshold
+        """
     @blur_px.setter
-    def blur_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def blur_px(self, arg1: typing.Any) -> None: ...
     @property
-    def max_area(self) -> float: ...
+    def max_area(self) -> float:
+        """
+        largest
+        """
     @max_area.setter
-    def max_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_area(self, arg1: typing.Any) -> None: ...
     @property
-    def max_hands(self) -> int: ...
+    def max_hands(self) -> int:
+        """
+        regions that masks hold, the largest; HandPairTracker decides which is which
+        """
     @max_hands.setter
-    def max_hands(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_hands(self, arg1: typing.Any) -> None: ...
     @property
-    def max_side_px(self) -> int: ...
+    def max_side_px(self) -> int:
+        """
+        larger pictures are scaled down to this first
+        """
     @max_side_px.setter
-    def max_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_side_px(self, arg1: typing.Any) -> None: ...
     @property
-    def min_area(self) -> float: ...
+    def method(self) -> typing.Literal["chroma_otsu", "hsv", "grey_otsu"]:
+        """
+        how a hand differs from what is behind it
+        """
+    @method.setter
+    def method(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_area(self) -> float:
+        """
+        smallest share of the picture that a hand covers
+        """
     @min_area.setter
-    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_area(self, arg1: typing.Any) -> None: ...
     @property
-    def min_contrast(self) -> float: ...
+    def min_contrast(self) -> float:
+        """
+        least difference of the two classes' means, in grey levels
+        """
     @min_contrast.setter
-    def min_contrast(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_contrast(self, arg1: typing.Any) -> None: ...
     @property
-    def min_quality(self) -> float: ...
+    def min_quality(self) -> float:
+        """
+        least separation of the classes; camera noise alone gives 0.64
+        """
     @min_quality.setter
-    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_quality(self, arg1: typing.Any) -> None: ...
     @property
-    def sure_contrast(self) -> float: ...
+    def remove_face(self) -> bool:
+        """
+        of more skin regions than hands the one most like an ellipse is a face
+        """
+    @remove_face.setter
+    def remove_face(self, arg1: typing.Any) -> None: ...
+    @property
+    def sure_contrast(self) -> float:
+        """
+        below this, as in poor light, the classes must also be separated by min_quality
+        """
     @sure_contrast.setter
-    def sure_contrast(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def sure_contrast(self, arg1: typing.Any) -> None: ...
 
 class MaskSmoothingOptions:
     """
     Which masks of a clip are repaired.
+
+    Parameters
+    ----------
+    max_gap : int, default 2
+        frames in a row that may be repaired; 0: none; 0..10
+    min_agreement : float, default 0.6
+        what the masks on both sides must share, of what either covers; 0..1
+    max_overlap : float, default 0.5
+        what a mask that jumps may share with either, as a share of what these share; 0..1
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, max_gap: int = 2, min_agreement: float = 0.6, max_overlap: float = 0.5) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def max_gap(self) -> int: ...
+    def max_gap(self) -> int:
+        """
+        frames in a row that may be repaired; 0: none
+        """
     @max_gap.setter
-    def max_gap(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_gap(self, arg1: typing.Any) -> None: ...
     @property
-    def max_overlap(self) -> float: ...
+    def max_overlap(self) -> float:
+        """
+        what a mask that jumps may share with either, as a share of what these share
+        """
     @max_overlap.setter
-    def max_overlap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_overlap(self, arg1: typing.Any) -> None: ...
     @property
-    def min_agreement(self) -> float: ...
+    def min_agreement(self) -> float:
+        """
+        what the masks on both sides must share, of what either covers
+        """
     @min_agreement.setter
-    def min_agreement(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_agreement(self, arg1: typing.Any) -> None: ...
 
 class HandColourOptions:
     """
     How the colours of hand and background are learned from a clip.
+
+    Parameters
+    ----------
+    max_side_px : int, default 160
+        larger pictures are scaled down to this before they are segmented; 32..4096 px
+    fit_side_px : int, default 80
+        and to this for learning; 32..4096 px
+    num_fit_frames : int, default 8
+        frames learned from, spread over the clip; 1..256
+    num_rounds : int, default 4
+        rounds of segmenting and learning from the segments; 1..100
+    min_area : float, default 0.004
+        smallest share of the picture that a hand covers; 0..1
+    max_area : float, default 0.6
+        largest, averaged over the frames learned from; 0..1
+    min_quality : float, default 0.3
+        a discriminant that separates the pixels on both sides of the hand's outline worse than this is no hand; 0..1
+    remove_still : bool, default True
+        what has the hand's colours but stays in place while something else of them moves, such as a face, is no hand
+    max_hands : int, default 1
+        regions that masks hold, the largest; HandPairTracker decides which is which; 1..2
     """
 
     __hash__: typing.ClassVar[None] = None
-    remove_still: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        max_side_px: int = 160,
+        fit_side_px: int = 80,
+        num_fit_frames: int = 8,
+        num_rounds: int = 4,
+        min_area: float = 0.004,
+        max_area: float = 0.6,
+        min_quality: float = 0.3,
+        remove_still: bool = True,
+        max_hands: int = 1,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def fit_side_px(self) -> int: ...
+    def fit_side_px(self) -> int:
+        """
+        and to this for learning
+        """
     @fit_side_px.setter
-    def fit_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def fit_side_px(self, arg1: typing.Any) -> None: ...
     @property
-    def max_area(self) -> float: ...
+    def max_area(self) -> float:
+        """
+        largest, averaged over the frames learned from
+        """
     @max_area.setter
-    def max_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_area(self, arg1: typing.Any) -> None: ...
     @property
-    def max_hands(self) -> int: ...
+    def max_hands(self) -> int:
+        """
+        regions that masks hold, the largest; HandPairTracker decides which is which
+        """
     @max_hands.setter
-    def max_hands(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_hands(self, arg1: typing.Any) -> None: ...
     @property
-    def max_side_px(self) -> int: ...
+    def max_side_px(self) -> int:
+        """
+        larger pictures are scaled down to this before they are segmented
+        """
     @max_side_px.setter
-    def max_side_px(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_side_px(self, arg1: typing.Any) -> None: ...
     @property
-    def min_area(self) -> float: ...
+    def min_area(self) -> float:
+        """
+        smallest share of the picture that a hand covers
+        """
     @min_area.setter
-    def min_area(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_area(self, arg1: typing.Any) -> None: ...
     @property
-    def min_quality(self) -> float: ...
+    def min_quality(self) -> float:
+        """
+        a discriminant that separates the pixels on both sides of the hand's outline worse than this is no hand
+        """
     @min_quality.setter
-    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_quality(self, arg1: typing.Any) -> None: ...
     @property
-    def num_fit_frames(self) -> int: ...
+    def num_fit_frames(self) -> int:
+        """
+        frames learned from, spread over the clip
+        """
     @num_fit_frames.setter
-    def num_fit_frames(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_fit_frames(self, arg1: typing.Any) -> None: ...
     @property
-    def num_rounds(self) -> int: ...
+    def num_rounds(self) -> int:
+        """
+        rounds of segmenting and learning from the segments
+        """
     @num_rounds.setter
-    def num_rounds(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-
-class ColourLearning:
-    """
-    Members:
-
-      automatic
-
-      never
-    """
-
-    __members__: typing.ClassVar[dict[str, ColourLearning]]
-    automatic: typing.ClassVar[ColourLearning]
-    never: typing.ClassVar[ColourLearning]
-    @typing.overload
-    def __eq__(self, other: ColourLearning) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: ColourLearning) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
+    def num_rounds(self, arg1: typing.Any) -> None: ...
     @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
+    def remove_still(self) -> bool:
+        """
+        what has the hand's colours but stays in place while something else of them moves, such as a face, is no hand
+        """
+    @remove_still.setter
+    def remove_still(self, arg1: typing.Any) -> None: ...
 
 class HandFinderOptions:
     """
     How hands are found in clips and streams.
+
+    Parameters
+    ----------
+    learning : {'automatic', 'never'}, default 'automatic'
+        where the colours of hand and background come from
+    min_frames : int, default 8
+        length of a clip from which on its colours are learned; 1..1000000
+    silhouette : SilhouetteOptions or dict
+        of pictures that are segmented by themselves
+    colours : HandColourOptions or dict
+        of clips and streams whose colours are learned
+    smooth : bool, default True
+        repair masks of clips that jump for a frame or two
+    smoothing : MaskSmoothingOptions or dict
+        which masks are repaired
     """
 
     __hash__: typing.ClassVar[None] = None
-    colours: HandColourOptions
-    learning: ColourLearning
-    silhouette: SilhouetteOptions
-    smooth: bool
-    smoothing: MaskSmoothingOptions
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        learning: typing.Literal["automatic", "never"] = "automatic",
+        min_frames: int = 8,
+        silhouette: SilhouetteOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        colours: HandColourOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        smooth: bool = True,
+        smoothing: MaskSmoothingOptions | collections.abc.Mapping[str, typing.Any] = ...,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def min_frames(self) -> int: ...
+    def colours(self) -> HandColourOptions:
+        """
+        of clips and streams whose colours are learned
+        """
+    @colours.setter
+    def colours(self, arg1: typing.Any) -> None: ...
+    @property
+    def learning(self) -> typing.Literal["automatic", "never"]:
+        """
+        where the colours of hand and background come from
+        """
+    @learning.setter
+    def learning(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_frames(self) -> int:
+        """
+        length of a clip from which on its colours are learned
+        """
     @min_frames.setter
-    def min_frames(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def min_frames(self, arg1: typing.Any) -> None: ...
+    @property
+    def silhouette(self) -> SilhouetteOptions:
+        """
+        of pictures that are segmented by themselves
+        """
+    @silhouette.setter
+    def silhouette(self, arg1: typing.Any) -> None: ...
+    @property
+    def smooth(self) -> bool:
+        """
+        repair masks of clips that jump for a frame or two
+        """
+    @smooth.setter
+    def smooth(self, arg1: typing.Any) -> None: ...
+    @property
+    def smoothing(self) -> MaskSmoothingOptions:
+        """
+        which masks are repaired
+        """
+    @smoothing.setter
+    def smoothing(self, arg1: typing.Any) -> None: ...
 
 class HandObservation:
     """
@@ -1897,29 +2415,69 @@ class HandObservation:
 class CodebookOptions:
     """
     Options of Codebook.
+
+    Parameters
+    ----------
+    num_codewords : int, default 64
+        codewords; fewer come out where the data have fewer different rows; 1..65536
+    max_iterations : int, default 50
+        iterations of k-means after each split; 1..100000
+    tolerance : float, default 0.0001
+        training stops when the distortion falls by a smaller share; 0..1000000
+    split_epsilon : float, default 0.01
+        a codeword splits into c + e s and c - e s, s the deviation of its cell; 0..1000, 0 excluded
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        num_codewords: int = 64,
+        max_iterations: int = 50,
+        tolerance: float = 0.0001,
+        split_epsilon: float = 0.01,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def max_iterations(self) -> int: ...
+    def max_iterations(self) -> int:
+        """
+        iterations of k-means after each split
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def num_codewords(self) -> int: ...
+    def num_codewords(self) -> int:
+        """
+        codewords; fewer come out where the data have fewer different rows
+        """
     @num_codewords.setter
-    def num_codewords(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_codewords(self, arg1: typing.Any) -> None: ...
     @property
-    def split_epsilon(self) -> float: ...
+    def split_epsilon(self) -> float:
+        """
+        a codeword splits into c + e s and c - e s, s the deviation of its cell
+        """
     @split_epsilon.setter
-    def split_epsilon(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def split_epsilon(self, arg1: typing.Any) -> None: ...
     @property
-    def tolerance(self) -> float: ...
+    def tolerance(self) -> float:
+        """
+        training stops when the distortion falls by a smaller share
+        """
     @tolerance.setter
-    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def tolerance(self, arg1: typing.Any) -> None: ...
 
 class CodebookReport:
     """
@@ -2036,45 +2594,6 @@ class MultiStreamCodebook:
     @property
     def streams(self) -> list[Codebook]: ...
 
-class Distance:
-    """
-    Members:
-
-      euclidean
-
-      manhattan
-
-      cosine
-
-      bhattacharyya
-    """
-
-    __members__: typing.ClassVar[dict[str, Distance]]
-    bhattacharyya: typing.ClassVar[Distance]
-    cosine: typing.ClassVar[Distance]
-    euclidean: typing.ClassVar[Distance]
-    manhattan: typing.ClassVar[Distance]
-    @typing.overload
-    def __eq__(self, other: Distance) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: Distance) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class Pca:
     """
     Principal component analysis (thesis eq. 6.11-6.14).
@@ -2113,21 +2632,44 @@ class Pca:
 class LdaOptions:
     """
     Options of Lda.
+
+    Parameters
+    ----------
+    num_components : int, default 0
+        at most the number of classes less 1; 0: as many as there are; 0..1000000
+    shrinkage : float, default 0.0
+        share of the covariance within classes that is replaced by its mean variance times the identity; 0..1
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, num_components: int = 0, shrinkage: float = 0.0) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def num_components(self) -> int: ...
+    def num_components(self) -> int:
+        """
+        at most the number of classes less 1; 0: as many as there are
+        """
     @num_components.setter
-    def num_components(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_components(self, arg1: typing.Any) -> None: ...
     @property
-    def shrinkage(self) -> float: ...
+    def shrinkage(self) -> float:
+        """
+        share of the covariance within classes that is replaced by its mean variance times the identity
+        """
     @shrinkage.setter
-    def shrinkage(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def shrinkage(self, arg1: typing.Any) -> None: ...
 
 class Lda:
     """
@@ -2175,33 +2717,79 @@ class Lda:
 class LinearSvmOptions:
     """
     Options of LinearSvm.
+
+    Parameters
+    ----------
+    cost : float, default 1.0
+        C: larger fits the training rows more closely; 0..1e+12, 0 excluded
+    bias_feature : float, default 1.0
+        constant feature that carries the bias; 0..1000000, 0 excluded
+    max_iterations : int, default 1000
+        passes over the rows at most; 1..1000000
+    tolerance : float, default 0.001
+        training stops when the range of the projected gradient falls below; 0..1000000, 0 excluded
+    seed : int, default 0
+        of the order of the rows; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        cost: float = 1.0,
+        bias_feature: float = 1.0,
+        max_iterations: int = 1000,
+        tolerance: float = 0.001,
+        seed: int = 0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def bias_feature(self) -> float: ...
+    def bias_feature(self) -> float:
+        """
+        constant feature that carries the bias
+        """
     @bias_feature.setter
-    def bias_feature(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def bias_feature(self, arg1: typing.Any) -> None: ...
     @property
-    def cost(self) -> float: ...
+    def cost(self) -> float:
+        """
+        C: larger fits the training rows more closely
+        """
     @cost.setter
-    def cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def cost(self, arg1: typing.Any) -> None: ...
     @property
-    def max_iterations(self) -> int: ...
+    def max_iterations(self) -> int:
+        """
+        passes over the rows at most
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """
+        of the order of the rows
+        """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def seed(self, arg1: typing.Any) -> None: ...
     @property
-    def tolerance(self) -> float: ...
+    def tolerance(self) -> float:
+        """
+        training stops when the range of the projected gradient falls below
+        """
     @tolerance.setter
-    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def tolerance(self, arg1: typing.Any) -> None: ...
 
 class LinearSvm:
     """
@@ -2246,21 +2834,44 @@ class LinearSvm:
 class RbfClassifierOptions:
     """
     Options of RbfClassifier.
+
+    Parameters
+    ----------
+    cost : float, default 10.0
+        of a squared error, against the weights: larger fits more closely; 0..1e+12, 0 excluded
+    sharpness : float, default 1.5
+        the kernel is exp(-sharpness) at the root mean square distance of the training rows; 0..1000000, 0 excluded
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, cost: float = 10.0, sharpness: float = 1.5) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def cost(self) -> float: ...
+    def cost(self) -> float:
+        """
+        of a squared error, against the weights: larger fits more closely
+        """
     @cost.setter
-    def cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def cost(self, arg1: typing.Any) -> None: ...
     @property
-    def sharpness(self) -> float: ...
+    def sharpness(self) -> float:
+        """
+        the kernel is exp(-sharpness) at the root mean square distance of the training rows
+        """
     @sharpness.setter
-    def sharpness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def sharpness(self, arg1: typing.Any) -> None: ...
 
 class RbfClassifier:
     """
@@ -2300,57 +2911,49 @@ class RbfClassifier:
     @property
     def num_rows(self) -> int: ...
 
-class CovarianceKind:
-    """
-    Members:
-
-      shared
-
-      full
-
-      diagonal
-    """
-
-    __members__: typing.ClassVar[dict[str, CovarianceKind]]
-    diagonal: typing.ClassVar[CovarianceKind]
-    full: typing.ClassVar[CovarianceKind]
-    shared: typing.ClassVar[CovarianceKind]
-    @typing.overload
-    def __eq__(self, other: CovarianceKind) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: CovarianceKind) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class GaussianBayesOptions:
     """
     Options of GaussianBayes.
+
+    Parameters
+    ----------
+    covariance : {'shared', 'full', 'diagonal'}, default 'shared'
+        covariances of the classes
+    shrinkage : float, default 0.1
+        share of the covariance that is replaced by its mean variance times the identity; 0..1
     """
 
     __hash__: typing.ClassVar[None] = None
-    covariance: CovarianceKind
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self, *, covariance: typing.Literal["shared", "full", "diagonal"] = "shared", shrinkage: float = 0.1
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def shrinkage(self) -> float: ...
+    def covariance(self) -> typing.Literal["shared", "full", "diagonal"]:
+        """
+        covariances of the classes
+        """
+    @covariance.setter
+    def covariance(self, arg1: typing.Any) -> None: ...
+    @property
+    def shrinkage(self) -> float:
+        """
+        share of the covariance that is replaced by its mean variance times the identity
+        """
     @shrinkage.setter
-    def shrinkage(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def shrinkage(self, arg1: typing.Any) -> None: ...
 
 class GaussianBayes:
     """
@@ -2397,17 +3000,35 @@ class GaussianBayes:
 class KnnOptions:
     """
     Options of Knn.
+
+    Parameters
+    ----------
+    num_neighbours : int, default 5
+        neighbours that vote; fewer where there are fewer rows; 1..1000
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, num_neighbours: int = 5) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def num_neighbours(self) -> int: ...
+    def num_neighbours(self) -> int:
+        """
+        neighbours that vote; fewer where there are fewer rows
+        """
     @num_neighbours.setter
-    def num_neighbours(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_neighbours(self, arg1: typing.Any) -> None: ...
 
 class Knn:
     """
@@ -2446,60 +3067,52 @@ class Knn:
     @property
     def num_classes(self) -> int: ...
 
-class ClassDistance:
-    """
-    Members:
-
-      euclidean
-
-      manhattan
-
-      mahalanobis
-
-      bhattacharyya
-    """
-
-    __members__: typing.ClassVar[dict[str, ClassDistance]]
-    bhattacharyya: typing.ClassVar[ClassDistance]
-    euclidean: typing.ClassVar[ClassDistance]
-    mahalanobis: typing.ClassVar[ClassDistance]
-    manhattan: typing.ClassVar[ClassDistance]
-    @typing.overload
-    def __eq__(self, other: ClassDistance) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: ClassDistance) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class DistanceClassifierOptions:
     """
     Options of DistanceClassifier.
+
+    Parameters
+    ----------
+    metric : {'euclidean', 'manhattan', 'mahalanobis', 'bhattacharyya'}, default 'euclidean'
+        distance of a row from a class
+    shrinkage : float, default 0.1
+        share of each covariance that is replaced by its mean variance times the identity (mahalanobis, bhattacharyya); 0..1
     """
 
     __hash__: typing.ClassVar[None] = None
-    metric: ClassDistance
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        metric: typing.Literal["euclidean", "manhattan", "mahalanobis", "bhattacharyya"] = "euclidean",
+        shrinkage: float = 0.1,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def shrinkage(self) -> float: ...
+    def metric(self) -> typing.Literal["euclidean", "manhattan", "mahalanobis", "bhattacharyya"]:
+        """
+        distance of a row from a class
+        """
+    @metric.setter
+    def metric(self, arg1: typing.Any) -> None: ...
+    @property
+    def shrinkage(self) -> float:
+        """
+        share of each covariance that is replaced by its mean variance times the identity (mahalanobis, bhattacharyya)
+        """
     @shrinkage.setter
-    def shrinkage(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def shrinkage(self, arg1: typing.Any) -> None: ...
 
 class DistanceClassifier:
     """
@@ -2582,21 +3195,44 @@ class PossibilityClassifier:
 class LogisticRegressionOptions:
     """
     Options of LogisticRegression.
+
+    Parameters
+    ----------
+    penalty : float, default 1.0
+        of half the squared weights, against the sum over rows; 0..1e+12, 0 excluded
+    max_iterations : int, default 50
+        iterations at most; 1..1000
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, penalty: float = 1.0, max_iterations: int = 50) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def max_iterations(self) -> int: ...
+    def max_iterations(self) -> int:
+        """
+        iterations at most
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def penalty(self) -> float: ...
+    def penalty(self) -> float:
+        """
+        of half the squared weights, against the sum over rows
+        """
     @penalty.setter
-    def penalty(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def penalty(self, arg1: typing.Any) -> None: ...
 
 class LogisticRegression:
     """
@@ -2639,63 +3275,62 @@ class LogisticRegression:
 class Topology:
     """
     Which transitions a sequence model has.
+
+    Parameters
+    ----------
+    kind : {'left_right', 'banded', 'ergodic', 'rank_one_plus_band'}, default 'left_right'
+        which transitions exist
+    num_states : int, default 5
+        number of states; 1..4096
+    max_jump : int, default 1
+        farthest state that is reached without a jump; ergodic ignores it; 1..4096
     """
-    class Kind:
-        """
-        Members:
-
-          left_right
-
-          banded
-
-          ergodic
-
-          rank_one_plus_band
-        """
-
-        __members__: typing.ClassVar[dict[str, Topology.Kind]]
-        banded: typing.ClassVar[Topology.Kind]
-        ergodic: typing.ClassVar[Topology.Kind]
-        left_right: typing.ClassVar[Topology.Kind]
-        rank_one_plus_band: typing.ClassVar[Topology.Kind]
-        @typing.overload
-        def __eq__(self, other: Topology.Kind) -> bool: ...
-        @typing.overload
-        def __eq__(self, other: typing.Any) -> bool: ...
-        def __getstate__(self) -> int: ...
-        def __hash__(self) -> int: ...
-        def __index__(self) -> int: ...
-        def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-        def __int__(self) -> int: ...
-        @typing.overload
-        def __ne__(self, other: Topology.Kind) -> bool: ...
-        @typing.overload
-        def __ne__(self, other: typing.Any) -> bool: ...
-        def __repr__(self) -> str: ...
-        def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-        def __str__(self) -> str: ...
-        @property
-        def name(self) -> str: ...
-        @property
-        def value(self) -> int: ...
 
     __hash__: typing.ClassVar[None] = None
-    kind: Topology.Kind
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        kind: typing.Literal["left_right", "banded", "ergodic", "rank_one_plus_band"] = "left_right",
+        num_states: int = 5,
+        max_jump: int = 1,
+    ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
     def allows(
         self, i: typing.SupportsInt | typing.SupportsIndex, j: typing.SupportsInt | typing.SupportsIndex
     ) -> bool: ...
-    def as_dict(self) -> dict: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def max_jump(self) -> int: ...
+    def kind(self) -> typing.Literal["left_right", "banded", "ergodic", "rank_one_plus_band"]:
+        """
+        which transitions exist
+        """
+    @kind.setter
+    def kind(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_jump(self) -> int:
+        """
+        farthest state that is reached without a jump; ergodic ignores it
+        """
     @max_jump.setter
-    def max_jump(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_jump(self, arg1: typing.Any) -> None: ...
     @property
-    def num_states(self) -> int: ...
+    def num_states(self) -> int:
+        """
+        number of states
+        """
     @num_states.setter
-    def num_states(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_states(self, arg1: typing.Any) -> None: ...
 
 class MarkovChain:
     """
@@ -2759,37 +3394,89 @@ class TrainingReport:
 class GaussianMixtureOptions:
     """
     Options of GaussianMixture.
+
+    Parameters
+    ----------
+    num_mixtures : int, default 16
+        Gaussians; 1..4096
+    max_iterations : int, default 15
+        iterations of EM at most; 1..100000
+    tolerance : float, default 0.001
+        training stops when the log-likelihood a frame gains less; 0..1000000
+    variance_floor : float, default 0.01
+        share of the global variance; 0..1000000, 0 excluded
+    wide_weight : float, default 0.0
+        weight of one more component, as wide as five deviations of all rows: a background model then explains also what lies far from its training data; 0..0.5
+    seed : int, default 0
+        of the start by k-means; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        num_mixtures: int = 16,
+        max_iterations: int = 15,
+        tolerance: float = 0.001,
+        variance_floor: float = 0.01,
+        wide_weight: float = 0.0,
+        seed: int = 0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def max_iterations(self) -> int: ...
+    def max_iterations(self) -> int:
+        """
+        iterations of EM at most
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def num_mixtures(self) -> int: ...
+    def num_mixtures(self) -> int:
+        """
+        Gaussians
+        """
     @num_mixtures.setter
-    def num_mixtures(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_mixtures(self, arg1: typing.Any) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """
+        of the start by k-means
+        """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def seed(self, arg1: typing.Any) -> None: ...
     @property
-    def tolerance(self) -> float: ...
+    def tolerance(self) -> float:
+        """
+        training stops when the log-likelihood a frame gains less
+        """
     @tolerance.setter
-    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def tolerance(self, arg1: typing.Any) -> None: ...
     @property
-    def variance_floor(self) -> float: ...
+    def variance_floor(self) -> float:
+        """
+        share of the global variance
+        """
     @variance_floor.setter
-    def variance_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def variance_floor(self, arg1: typing.Any) -> None: ...
     @property
-    def wide_weight(self) -> float: ...
+    def wide_weight(self) -> float:
+        """
+        weight of one more component, as wide as five deviations of all rows: a background model then explains also what lies far from its training data
+        """
     @wide_weight.setter
-    def wide_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def wide_weight(self, arg1: typing.Any) -> None: ...
 
 class GaussianMixture:
     """
@@ -2826,48 +3513,139 @@ class GaussianMixture:
 class GaussianMixtureHmmOptions:
     """
     Options of GaussianMixtureHmm.
+
+    Parameters
+    ----------
+    topology : Topology or dict
+        which transitions exist
+    num_mixtures : int, default 1
+        Gaussians a state; 1..1024
+    max_iterations : int, default 20
+        iterations of Baum-Welch at most; 1..100000
+    tolerance : float, default 0.0001
+        training stops when the log-likelihood a frame gains less; 0..1000000
+    variance_floor : float, default 0.01
+        share of the global variance; 0..1000000, 0 excluded
+    weight_floor : float, default 0.001
+        smallest mixture weight, at most 1 / num_mixtures; 0..1
+    tied_variance : bool, default False
+        one vector of variances for all Gaussians of all states
+    transition_prior : float, default 0.0
+        Dirichlet prior: imagined counts of every transition (and start) that the topology has; 0..1e+12
+    weight_prior : float, default 0.0
+        Dirichlet prior: imagined counts of every Gaussian of a state's mixture; 0..1e+12
+    train_transitions : bool, default True
+        False: start and transitions stay as they began
+    seed : int, default 0
+        of the starts by k-means; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
-    tied_variance: bool
-    topology: Topology
-    train_transitions: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        topology: Topology | collections.abc.Mapping[str, typing.Any] = ...,
+        num_mixtures: int = 1,
+        max_iterations: int = 20,
+        tolerance: float = 0.0001,
+        variance_floor: float = 0.01,
+        weight_floor: float = 0.001,
+        tied_variance: bool = False,
+        transition_prior: float = 0.0,
+        weight_prior: float = 0.0,
+        train_transitions: bool = True,
+        seed: int = 0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def max_iterations(self) -> int: ...
+    def max_iterations(self) -> int:
+        """
+        iterations of Baum-Welch at most
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def num_mixtures(self) -> int: ...
+    def num_mixtures(self) -> int:
+        """
+        Gaussians a state
+        """
     @num_mixtures.setter
-    def num_mixtures(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_mixtures(self, arg1: typing.Any) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """
+        of the starts by k-means
+        """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def seed(self, arg1: typing.Any) -> None: ...
     @property
-    def tolerance(self) -> float: ...
+    def tied_variance(self) -> bool:
+        """
+        one vector of variances for all Gaussians of all states
+        """
+    @tied_variance.setter
+    def tied_variance(self, arg1: typing.Any) -> None: ...
+    @property
+    def tolerance(self) -> float:
+        """
+        training stops when the log-likelihood a frame gains less
+        """
     @tolerance.setter
-    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def tolerance(self, arg1: typing.Any) -> None: ...
     @property
-    def transition_prior(self) -> float: ...
+    def topology(self) -> Topology:
+        """
+        which transitions exist
+        """
+    @topology.setter
+    def topology(self, arg1: typing.Any) -> None: ...
+    @property
+    def train_transitions(self) -> bool:
+        """
+        False: start and transitions stay as they began
+        """
+    @train_transitions.setter
+    def train_transitions(self, arg1: typing.Any) -> None: ...
+    @property
+    def transition_prior(self) -> float:
+        """
+        Dirichlet prior: imagined counts of every transition (and start) that the topology has
+        """
     @transition_prior.setter
-    def transition_prior(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def transition_prior(self, arg1: typing.Any) -> None: ...
     @property
-    def variance_floor(self) -> float: ...
+    def variance_floor(self) -> float:
+        """
+        share of the global variance
+        """
     @variance_floor.setter
-    def variance_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def variance_floor(self, arg1: typing.Any) -> None: ...
     @property
-    def weight_floor(self) -> float: ...
+    def weight_floor(self) -> float:
+        """
+        smallest mixture weight, at most 1 / num_mixtures
+        """
     @weight_floor.setter
-    def weight_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def weight_floor(self, arg1: typing.Any) -> None: ...
     @property
-    def weight_prior(self) -> float: ...
+    def weight_prior(self) -> float:
+        """
+        Dirichlet prior: imagined counts of every Gaussian of a state's mixture
+        """
     @weight_prior.setter
-    def weight_prior(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def weight_prior(self, arg1: typing.Any) -> None: ...
 
 class GaussianMixtureHmm:
     """
@@ -2952,43 +3730,119 @@ class GaussianMixtureHmm:
 class DiscreteHmmOptions:
     """
     Options of DiscreteHmm.
+
+    Parameters
+    ----------
+    topology : Topology or dict
+        which transitions exist
+    num_symbols : int, default 0
+        size of the alphabet; 0: not set, which training refuses; 0..65536
+    max_iterations : int, default 20
+        iterations of Baum-Welch at most; 1..100000
+    tolerance : float, default 0.0001
+        training stops when the log-likelihood a symbol gains less; 0..1000000
+    emission_floor : float, default 0.0001
+        smallest emission probability, at most 1 / num_symbols; 0..1
+    transition_prior : float, default 0.0
+        Dirichlet prior: imagined counts of every transition (and start) that the topology has; 0..1e+12
+    emission_prior : float, default 0.0
+        Dirichlet prior: imagined counts of every symbol in every state; 0..1e+12
+    train_transitions : bool, default True
+        False: start and transitions stay as they began
+    seed : int, default 0
+        of the start of models that are not left-right; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
-    topology: Topology
-    train_transitions: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        topology: Topology | collections.abc.Mapping[str, typing.Any] = ...,
+        num_symbols: int = 0,
+        max_iterations: int = 20,
+        tolerance: float = 0.0001,
+        emission_floor: float = 0.0001,
+        transition_prior: float = 0.0,
+        emission_prior: float = 0.0,
+        train_transitions: bool = True,
+        seed: int = 0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def emission_floor(self) -> float: ...
+    def emission_floor(self) -> float:
+        """
+        smallest emission probability, at most 1 / num_symbols
+        """
     @emission_floor.setter
-    def emission_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def emission_floor(self, arg1: typing.Any) -> None: ...
     @property
-    def emission_prior(self) -> float: ...
+    def emission_prior(self) -> float:
+        """
+        Dirichlet prior: imagined counts of every symbol in every state
+        """
     @emission_prior.setter
-    def emission_prior(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def emission_prior(self, arg1: typing.Any) -> None: ...
     @property
-    def max_iterations(self) -> int: ...
+    def max_iterations(self) -> int:
+        """
+        iterations of Baum-Welch at most
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def num_symbols(self) -> int: ...
+    def num_symbols(self) -> int:
+        """
+        size of the alphabet; 0: not set, which training refuses
+        """
     @num_symbols.setter
-    def num_symbols(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_symbols(self, arg1: typing.Any) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """
+        of the start of models that are not left-right
+        """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def seed(self, arg1: typing.Any) -> None: ...
     @property
-    def tolerance(self) -> float: ...
+    def tolerance(self) -> float:
+        """
+        training stops when the log-likelihood a symbol gains less
+        """
     @tolerance.setter
-    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def tolerance(self, arg1: typing.Any) -> None: ...
     @property
-    def transition_prior(self) -> float: ...
+    def topology(self) -> Topology:
+        """
+        which transitions exist
+        """
+    @topology.setter
+    def topology(self, arg1: typing.Any) -> None: ...
+    @property
+    def train_transitions(self) -> bool:
+        """
+        False: start and transitions stay as they began
+        """
+    @train_transitions.setter
+    def train_transitions(self, arg1: typing.Any) -> None: ...
+    @property
+    def transition_prior(self) -> float:
+        """
+        Dirichlet prior: imagined counts of every transition (and start) that the topology has
+        """
     @transition_prior.setter
-    def transition_prior(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def transition_prior(self, arg1: typing.Any) -> None: ...
 
 class DiscreteHmm:
     """
@@ -3145,58 +3999,69 @@ class GaussianMixtureHmmStream:
 class StateChoiceOptions:
     """
     Options of choose_num_states.
+
+    Parameters
+    ----------
+    criterion : {'bic', 'held_out'}, default 'bic'
+        what the candidates are compared by
+    num_folds : int, default 5
+        held_out: parts of the sequences, at most their number; 2..1000000
+    num_restarts : int, default 3
+        trainings of every candidate, of which the likeliest counts; left-right models are trained once; 1..1000
+    seed : int, default 0
+        of the folds and of the restarts; 0..2^64 - 1
     """
-    class Criterion:
-        """
-        Members:
-
-          bic
-
-          held_out
-        """
-
-        __members__: typing.ClassVar[dict[str, StateChoiceOptions.Criterion]]
-        bic: typing.ClassVar[StateChoiceOptions.Criterion]
-        held_out: typing.ClassVar[StateChoiceOptions.Criterion]
-        @typing.overload
-        def __eq__(self, other: StateChoiceOptions.Criterion) -> bool: ...
-        @typing.overload
-        def __eq__(self, other: typing.Any) -> bool: ...
-        def __getstate__(self) -> int: ...
-        def __hash__(self) -> int: ...
-        def __index__(self) -> int: ...
-        def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-        def __int__(self) -> int: ...
-        @typing.overload
-        def __ne__(self, other: StateChoiceOptions.Criterion) -> bool: ...
-        @typing.overload
-        def __ne__(self, other: typing.Any) -> bool: ...
-        def __repr__(self) -> str: ...
-        def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-        def __str__(self) -> str: ...
-        @property
-        def name(self) -> str: ...
-        @property
-        def value(self) -> int: ...
 
     __hash__: typing.ClassVar[None] = None
-    criterion: StateChoiceOptions.Criterion
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        criterion: typing.Literal["bic", "held_out"] = "bic",
+        num_folds: int = 5,
+        num_restarts: int = 3,
+        seed: int = 0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def num_folds(self) -> int: ...
+    def criterion(self) -> typing.Literal["bic", "held_out"]:
+        """
+        what the candidates are compared by
+        """
+    @criterion.setter
+    def criterion(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_folds(self) -> int:
+        """
+        held_out: parts of the sequences, at most their number
+        """
     @num_folds.setter
-    def num_folds(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_folds(self, arg1: typing.Any) -> None: ...
     @property
-    def num_restarts(self) -> int: ...
+    def num_restarts(self) -> int:
+        """
+        trainings of every candidate, of which the likeliest counts; left-right models are trained once
+        """
     @num_restarts.setter
-    def num_restarts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_restarts(self, arg1: typing.Any) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """
+        of the folds and of the restarts
+        """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def seed(self, arg1: typing.Any) -> None: ...
 
 class StateChoice:
     """
@@ -3229,125 +4094,169 @@ class StateChoice:
         Of the best candidate.
         """
 
-class Conjunction:
-    """
-    Members:
-
-      product
-
-      min
-
-      max
-    """
-
-    __members__: typing.ClassVar[dict[str, Conjunction]]
-    max: typing.ClassVar[Conjunction]
-    min: typing.ClassVar[Conjunction]
-    product: typing.ClassVar[Conjunction]
-    @typing.overload
-    def __eq__(self, other: Conjunction) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: Conjunction) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class PossibilisticRule:
     """
     How a PossibilisticHmmSet is scored.
+
+    Parameters
+    ----------
+    conjunction : {'product', 'min', 'max'}, default 'product'
+        how possibilities are joined
+    conditioned : bool, default True
+        with min: possibilities are conditioned on every frame
+    concentration : float, default 1.5
+        with min, conditioned: power that what a state holds is raised to at a symbol that speaks against it; 1: off; 1..16
     """
 
     __hash__: typing.ClassVar[None] = None
-    conditioned: bool
-    conjunction: Conjunction
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        conjunction: typing.Literal["product", "min", "max"] = "product",
+        conditioned: bool = True,
+        concentration: float = 1.5,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def concentration(self) -> float: ...
+    def concentration(self) -> float:
+        """
+        with min, conditioned: power that what a state holds is raised to at a symbol that speaks against it; 1: off
+        """
     @concentration.setter
-    def concentration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-
-class PossibilisticTraining:
-    """
-    Members:
-
-      all_paths
-
-      best_path
-    """
-
-    __members__: typing.ClassVar[dict[str, PossibilisticTraining]]
-    all_paths: typing.ClassVar[PossibilisticTraining]
-    best_path: typing.ClassVar[PossibilisticTraining]
-    @typing.overload
-    def __eq__(self, other: PossibilisticTraining) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: PossibilisticTraining) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
+    def concentration(self, arg1: typing.Any) -> None: ...
     @property
-    def name(self) -> str: ...
+    def conditioned(self) -> bool:
+        """
+        with min: possibilities are conditioned on every frame
+        """
+    @conditioned.setter
+    def conditioned(self, arg1: typing.Any) -> None: ...
     @property
-    def value(self) -> int: ...
+    def conjunction(self) -> typing.Literal["product", "min", "max"]:
+        """
+        how possibilities are joined
+        """
+    @conjunction.setter
+    def conjunction(self, arg1: typing.Any) -> None: ...
 
 class PossibilisticHmmOptions:
     """
     Options of PossibilisticHmmSet.
+
+    Parameters
+    ----------
+    topology : Topology or dict
+        which transitions exist
+    num_symbols : int, default 0
+        size of the alphabet; 0: not set, which training refuses; 0..65536
+    rule : PossibilisticRule or dict
+        how the set is scored
+    training : {'all_paths', 'best_path'}, default 'all_paths'
+        how the models are trained before they are scaled
+    max_iterations : int, default 20
+        iterations of the training at most; 1..100000
+    tolerance : float, default 0.0001
+        all_paths: training stops when the log-likelihood a symbol gains less; best_path: when no parameter moves more; 0..1000000
+    emission_floor : float, default 0.0001
+        smallest emission share before scaling, at most 1 / num_symbols; 0..1
+    seed : int, default 0
+        of the start of models that are not left-right; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
-    rule: PossibilisticRule
-    topology: Topology
-    training: PossibilisticTraining
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        topology: Topology | collections.abc.Mapping[str, typing.Any] = ...,
+        num_symbols: int = 0,
+        rule: PossibilisticRule | collections.abc.Mapping[str, typing.Any] = ...,
+        training: typing.Literal["all_paths", "best_path"] = "all_paths",
+        max_iterations: int = 20,
+        tolerance: float = 0.0001,
+        emission_floor: float = 0.0001,
+        seed: int = 0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def emission_floor(self) -> float: ...
+    def emission_floor(self) -> float:
+        """
+        smallest emission share before scaling, at most 1 / num_symbols
+        """
     @emission_floor.setter
-    def emission_floor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def emission_floor(self, arg1: typing.Any) -> None: ...
     @property
-    def max_iterations(self) -> int: ...
+    def max_iterations(self) -> int:
+        """
+        iterations of the training at most
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def num_symbols(self) -> int: ...
+    def num_symbols(self) -> int:
+        """
+        size of the alphabet; 0: not set, which training refuses
+        """
     @num_symbols.setter
-    def num_symbols(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_symbols(self, arg1: typing.Any) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def rule(self) -> PossibilisticRule:
+        """
+        how the set is scored
+        """
+    @rule.setter
+    def rule(self, arg1: typing.Any) -> None: ...
+    @property
+    def seed(self) -> int:
+        """
+        of the start of models that are not left-right
+        """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def seed(self, arg1: typing.Any) -> None: ...
     @property
-    def tolerance(self) -> float: ...
+    def tolerance(self) -> float:
+        """
+        all_paths: training stops when the log-likelihood a symbol gains less; best_path: when no parameter moves more
+        """
     @tolerance.setter
-    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def tolerance(self, arg1: typing.Any) -> None: ...
+    @property
+    def topology(self) -> Topology:
+        """
+        which transitions exist
+        """
+    @topology.setter
+    def topology(self, arg1: typing.Any) -> None: ...
+    @property
+    def training(self) -> typing.Literal["all_paths", "best_path"]:
+        """
+        how the models are trained before they are scaled
+        """
+    @training.setter
+    def training(self, arg1: typing.Any) -> None: ...
 
 class PossibilisticHmmSet:
     """
@@ -3556,42 +4465,6 @@ class PossibilisticHmmStream:
     @property
     def num_frames(self) -> int: ...
 
-class DecisionStatus:
-    """
-    Members:
-
-      recognised
-
-      unknown
-
-      no_input
-    """
-
-    __members__: typing.ClassVar[dict[str, DecisionStatus]]
-    no_input: typing.ClassVar[DecisionStatus]
-    recognised: typing.ClassVar[DecisionStatus]
-    unknown: typing.ClassVar[DecisionStatus]
-    @typing.overload
-    def __eq__(self, other: DecisionStatus) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: DecisionStatus) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class NBest:
     """
     One class of the n-best list.
@@ -3620,7 +4493,7 @@ class Decision:
     @property
     def score(self) -> float: ...
     @property
-    def status(self) -> DecisionStatus: ...
+    def status(self) -> typing.Literal["recognised", "unknown", "no_input"]: ...
 
 class UtteranceDecision:
     """
@@ -3633,118 +4506,309 @@ class UtteranceDecision:
     @property
     def last_s(self) -> float: ...
 
-class SequenceModelKind:
-    """
-    Members:
-
-      hmm
-
-      ptbhmm
-    """
-
-    __members__: typing.ClassVar[dict[str, SequenceModelKind]]
-    hmm: typing.ClassVar[SequenceModelKind]
-    ptbhmm: typing.ClassVar[SequenceModelKind]
-    @typing.overload
-    def __eq__(self, other: SequenceModelKind) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: SequenceModelKind) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class SequenceModelOptions:
     """
     The models trained on one front end.
+
+    Parameters
+    ----------
+    model : {'hmm', 'ptbhmm'}, default 'hmm'
+        kind of the models
+    num_states : int, default 8
+        left-right states a class; 1..64
+    num_mixtures : int, default 1
+        Gaussians a state (hmm); 1..64
+    num_codewords : int, default 128
+        size of the codebook (ptbhmm); 2..4096
+    garbage_mixtures : int, default 16
+        Gaussians of the garbage model that rejection compares with (hmm); 1..256
+    max_iterations : int, default 12
+        iterations of Baum-Welch at most; 1..1000
+    seed : int, default 0
+        of everything random in training; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
-    model: SequenceModelKind
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        model: typing.Literal["hmm", "ptbhmm"] = "hmm",
+        num_states: int = 8,
+        num_mixtures: int = 1,
+        num_codewords: int = 128,
+        garbage_mixtures: int = 16,
+        max_iterations: int = 12,
+        seed: int = 0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def garbage_mixtures(self) -> int: ...
+    def garbage_mixtures(self) -> int:
+        """
+        Gaussians of the garbage model that rejection compares with (hmm)
+        """
     @garbage_mixtures.setter
-    def garbage_mixtures(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def garbage_mixtures(self, arg1: typing.Any) -> None: ...
     @property
-    def max_iterations(self) -> int: ...
+    def max_iterations(self) -> int:
+        """
+        iterations of Baum-Welch at most
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def num_codewords(self) -> int: ...
+    def model(self) -> typing.Literal["hmm", "ptbhmm"]:
+        """
+        kind of the models
+        """
+    @model.setter
+    def model(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_codewords(self) -> int:
+        """
+        size of the codebook (ptbhmm)
+        """
     @num_codewords.setter
-    def num_codewords(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_codewords(self, arg1: typing.Any) -> None: ...
     @property
-    def num_mixtures(self) -> int: ...
+    def num_mixtures(self) -> int:
+        """
+        Gaussians a state (hmm)
+        """
     @num_mixtures.setter
-    def num_mixtures(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_mixtures(self, arg1: typing.Any) -> None: ...
     @property
-    def num_states(self) -> int: ...
+    def num_states(self) -> int:
+        """
+        left-right states a class
+        """
     @num_states.setter
-    def num_states(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_states(self, arg1: typing.Any) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """
+        of everything random in training
+        """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def seed(self, arg1: typing.Any) -> None: ...
 
 class WordRecognizerOptions:
     """
     Options of WordRecognizer.
+
+    Parameters
+    ----------
+    model : {'hmm', 'ptbhmm'}, default 'hmm'
+        kind of the models
+    num_states : int, default 8
+        left-right states a class; 1..64
+    num_mixtures : int, default 1
+        Gaussians a state (hmm); 1..64
+    num_codewords : int, default 128
+        size of the codebook (ptbhmm); 2..4096
+    garbage_mixtures : int, default 16
+        Gaussians of the garbage model that rejection compares with (hmm); 1..256
+    max_iterations : int, default 12
+        iterations of Baum-Welch at most; 1..1000
+    seed : int, default 0
+        of everything random in training; 0..2^64 - 1
+    cepstra : CepstraOptions or dict
+        features of the speech
+    activity : ActivityOptions or dict
+        how the word is found in the clip
+    trim : bool, default True
+        trim the clip to the word, and activity.padding_ms before and after it
+    noise_floor_db : float, default 45.0
+        level of the noise added under a trimmed word, below its peak, under which quiet rooms and digital silence are the same; 20..120 dB
+    level_stream : bool, default True
+        a second stream votes, whose cepstra are normalised in level only
+    num_vtlp_factors : int, default 3
+        vocal-tract-length perturbation: training copies with a warped frequency axis, itself included; 1: none; 1..5, odd
+    vtlp_step : float, default 0.08
+        step of the warp factor between these copies; 0..0.2
+    num_noisy_copies : int, default 2
+        noise augmentation: training copies of every word with noise added, warped in turn; 0..10
+    min_snr_db : float, default 10.0
+        least signal-to-noise ratio of the noisy copies; -20..100 dB
+    max_snr_db : float, default 25.0
+        largest; each copy has its own, at random; -20..100 dB
+    false_reject_rate : float, default 0.02
+        share of correct held-out words that the threshold may reject; 0..0.5
     """
 
     __hash__: typing.ClassVar[None] = None
-    activity: ActivityOptions
-    cepstra: CepstraOptions
-    level_stream: bool
-    models: SequenceModelOptions
-    trim: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        model: typing.Literal["hmm", "ptbhmm"] = "hmm",
+        num_states: int = 8,
+        num_mixtures: int = 1,
+        num_codewords: int = 128,
+        garbage_mixtures: int = 16,
+        max_iterations: int = 12,
+        seed: int = 0,
+        cepstra: CepstraOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        activity: ActivityOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        trim: bool = True,
+        noise_floor_db: float = 45.0,
+        level_stream: bool = True,
+        num_vtlp_factors: int = 3,
+        vtlp_step: float = 0.08,
+        num_noisy_copies: int = 2,
+        min_snr_db: float = 10.0,
+        max_snr_db: float = 25.0,
+        false_reject_rate: float = 0.02,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def false_reject_rate(self) -> float: ...
+    def activity(self) -> ActivityOptions:
+        """
+        how the word is found in the clip
+        """
+    @activity.setter
+    def activity(self, arg1: typing.Any) -> None: ...
+    @property
+    def cepstra(self) -> CepstraOptions:
+        """
+        features of the speech
+        """
+    @cepstra.setter
+    def cepstra(self, arg1: typing.Any) -> None: ...
+    @property
+    def false_reject_rate(self) -> float:
+        """
+        share of correct held-out words that the threshold may reject
+        """
     @false_reject_rate.setter
-    def false_reject_rate(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def false_reject_rate(self, arg1: typing.Any) -> None: ...
     @property
-    def floor_db(self) -> float: ...
-    @floor_db.setter
-    def floor_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def garbage_mixtures(self) -> int:
+        """
+        Gaussians of the garbage model that rejection compares with (hmm)
+        """
+    @garbage_mixtures.setter
+    def garbage_mixtures(self, arg1: typing.Any) -> None: ...
     @property
-    def noise_copies(self) -> int: ...
-    @noise_copies.setter
-    def noise_copies(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def level_stream(self) -> bool:
+        """
+        a second stream votes, whose cepstra are normalised in level only
+        """
+    @level_stream.setter
+    def level_stream(self, arg1: typing.Any) -> None: ...
     @property
-    def noise_high_db(self) -> float: ...
-    @noise_high_db.setter
-    def noise_high_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_iterations(self) -> int:
+        """
+        iterations of Baum-Welch at most
+        """
+    @max_iterations.setter
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def noise_low_db(self) -> float: ...
-    @noise_low_db.setter
-    def noise_low_db(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_snr_db(self) -> float:
+        """
+        largest; each copy has its own, at random
+        """
+    @max_snr_db.setter
+    def max_snr_db(self, arg1: typing.Any) -> None: ...
     @property
-    def num_warps(self) -> int: ...
-    @num_warps.setter
-    def num_warps(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def min_snr_db(self) -> float:
+        """
+        least signal-to-noise ratio of the noisy copies
+        """
+    @min_snr_db.setter
+    def min_snr_db(self, arg1: typing.Any) -> None: ...
     @property
-    def warp_step(self) -> float: ...
-    @warp_step.setter
-    def warp_step(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def model(self) -> typing.Literal["hmm", "ptbhmm"]:
+        """
+        kind of the models
+        """
+    @model.setter
+    def model(self, arg1: typing.Any) -> None: ...
+    @property
+    def noise_floor_db(self) -> float:
+        """
+        level of the noise added under a trimmed word, below its peak, under which quiet rooms and digital silence are the same
+        """
+    @noise_floor_db.setter
+    def noise_floor_db(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_codewords(self) -> int:
+        """
+        size of the codebook (ptbhmm)
+        """
+    @num_codewords.setter
+    def num_codewords(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_mixtures(self) -> int:
+        """
+        Gaussians a state (hmm)
+        """
+    @num_mixtures.setter
+    def num_mixtures(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_noisy_copies(self) -> int:
+        """
+        noise augmentation: training copies of every word with noise added, warped in turn
+        """
+    @num_noisy_copies.setter
+    def num_noisy_copies(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_states(self) -> int:
+        """
+        left-right states a class
+        """
+    @num_states.setter
+    def num_states(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_vtlp_factors(self) -> int:
+        """
+        vocal-tract-length perturbation: training copies with a warped frequency axis, itself included; 1: none
+        """
+    @num_vtlp_factors.setter
+    def num_vtlp_factors(self, arg1: typing.Any) -> None: ...
+    @property
+    def seed(self) -> int:
+        """
+        of everything random in training
+        """
+    @seed.setter
+    def seed(self, arg1: typing.Any) -> None: ...
+    @property
+    def trim(self) -> bool:
+        """
+        trim the clip to the word, and activity.padding_ms before and after it
+        """
+    @trim.setter
+    def trim(self, arg1: typing.Any) -> None: ...
+    @property
+    def vtlp_step(self) -> float:
+        """
+        step of the warp factor between these copies
+        """
+    @vtlp_step.setter
+    def vtlp_step(self, arg1: typing.Any) -> None: ...
 
 class WordRecognizer:
     """
@@ -3800,148 +4864,182 @@ class WordRecognizer:
         Score from which a word is recognised.
         """
 
-class GestureSource:
-    """
-    Members:
-
-      silhouettes
-
-      landmarks
-    """
-
-    __members__: typing.ClassVar[dict[str, GestureSource]]
-    landmarks: typing.ClassVar[GestureSource]
-    silhouettes: typing.ClassVar[GestureSource]
-    @typing.overload
-    def __eq__(self, other: GestureSource) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: GestureSource) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class GestureModel:
-    """
-    Members:
-
-      svm
-
-      bayes
-
-      knn
-
-      hmm
-
-      ptbhmm
-
-      trajectory
-
-      rbf
-
-      automatic
-    """
-
-    __members__: typing.ClassVar[dict[str, GestureModel]]
-    automatic: typing.ClassVar[GestureModel]
-    bayes: typing.ClassVar[GestureModel]
-    hmm: typing.ClassVar[GestureModel]
-    knn: typing.ClassVar[GestureModel]
-    ptbhmm: typing.ClassVar[GestureModel]
-    rbf: typing.ClassVar[GestureModel]
-    svm: typing.ClassVar[GestureModel]
-    trajectory: typing.ClassVar[GestureModel]
-    @typing.overload
-    def __eq__(self, other: GestureModel) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: GestureModel) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
 class GestureRecognizerOptions:
     """
     Options of GestureRecognizer.
+
+    Parameters
+    ----------
+    source : {'silhouettes', 'landmarks'}, default 'silhouettes'
+        what the features are taken of
+    hands : HandFinderOptions or dict
+        how hands are found in pictures
+    min_quality : float, default 0.25
+        least quality of an observation that shows a hand: hands have more in any light, walls mostly less; 0..1
+    features : HandFeatureOptions or dict
+        features of a hand (silhouettes)
+    model : {'svm', 'bayes', 'knn', 'hmm', 'ptbhmm', 'trajectory', 'rbf', 'automatic'}, default 'automatic'
+        kind of the models; a trained recogniser says which one automatic became
+    svm_cost : float, default 1.0
+        C of the linear support vector machine (svm, trajectory); 0..1e+12, 0 excluded
+    rbf_cost : float, default 10.0
+        C of rbf; 0..1e+12, 0 excluded
+    rbf_sharpness : float, default 1.5
+        of its kernel, see RbfClassifierOptions; 0..1000000, 0 excluded
+    num_components : int, default 40
+        principal components (bayes, knn, hmm, ptbhmm); 1..1000
+    num_neighbours : int, default 5
+        k of knn; 1..1000
+    num_states : int, default 6
+        left-right states a gesture (hmm, ptbhmm); 1..64
+    num_codewords : int, default 64
+        size of the codebook (ptbhmm); 2..4096
+    max_iterations : int, default 12
+        iterations of Baum-Welch at most; 1..1000
+    false_reject_rate : float, default 0.02
+        share of correct held-out gestures that the threshold may reject; 0..0.5
+    seed : int, default 0
+        of everything random in training; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
-    features: HandFeatureOptions
-    hands: HandFinderOptions
-    model: GestureModel
-    source: GestureSource
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        source: typing.Literal["silhouettes", "landmarks"] = "silhouettes",
+        hands: HandFinderOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        min_quality: float = 0.25,
+        features: HandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        model: typing.Literal["svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf", "automatic"] = "automatic",
+        svm_cost: float = 1.0,
+        rbf_cost: float = 10.0,
+        rbf_sharpness: float = 1.5,
+        num_components: int = 40,
+        num_neighbours: int = 5,
+        num_states: int = 6,
+        num_codewords: int = 64,
+        max_iterations: int = 12,
+        false_reject_rate: float = 0.02,
+        seed: int = 0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def false_reject_rate(self) -> float: ...
+    def false_reject_rate(self) -> float:
+        """
+        share of correct held-out gestures that the threshold may reject
+        """
     @false_reject_rate.setter
-    def false_reject_rate(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def false_reject_rate(self, arg1: typing.Any) -> None: ...
     @property
-    def max_iterations(self) -> int: ...
+    def features(self) -> HandFeatureOptions:
+        """
+        features of a hand (silhouettes)
+        """
+    @features.setter
+    def features(self, arg1: typing.Any) -> None: ...
+    @property
+    def hands(self) -> HandFinderOptions:
+        """
+        how hands are found in pictures
+        """
+    @hands.setter
+    def hands(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_iterations(self) -> int:
+        """
+        iterations of Baum-Welch at most
+        """
     @max_iterations.setter
-    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def min_quality(self) -> float: ...
+    def min_quality(self) -> float:
+        """
+        least quality of an observation that shows a hand: hands have more in any light, walls mostly less
+        """
     @min_quality.setter
-    def min_quality(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_quality(self, arg1: typing.Any) -> None: ...
     @property
-    def num_codewords(self) -> int: ...
+    def model(self) -> typing.Literal["svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf", "automatic"]:
+        """
+        kind of the models; a trained recogniser says which one automatic became
+        """
+    @model.setter
+    def model(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_codewords(self) -> int:
+        """
+        size of the codebook (ptbhmm)
+        """
     @num_codewords.setter
-    def num_codewords(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_codewords(self, arg1: typing.Any) -> None: ...
     @property
-    def num_components(self) -> int: ...
+    def num_components(self) -> int:
+        """
+        principal components (bayes, knn, hmm, ptbhmm)
+        """
     @num_components.setter
-    def num_components(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_components(self, arg1: typing.Any) -> None: ...
     @property
-    def num_neighbours(self) -> int: ...
+    def num_neighbours(self) -> int:
+        """
+        k of knn
+        """
     @num_neighbours.setter
-    def num_neighbours(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_neighbours(self, arg1: typing.Any) -> None: ...
     @property
-    def num_states(self) -> int: ...
+    def num_states(self) -> int:
+        """
+        left-right states a gesture (hmm, ptbhmm)
+        """
     @num_states.setter
-    def num_states(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_states(self, arg1: typing.Any) -> None: ...
     @property
-    def rbf_cost(self) -> float: ...
+    def rbf_cost(self) -> float:
+        """
+        C of rbf
+        """
     @rbf_cost.setter
-    def rbf_cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def rbf_cost(self, arg1: typing.Any) -> None: ...
     @property
-    def rbf_sharpness(self) -> float: ...
+    def rbf_sharpness(self) -> float:
+        """
+        of its kernel, see RbfClassifierOptions
+        """
     @rbf_sharpness.setter
-    def rbf_sharpness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def rbf_sharpness(self, arg1: typing.Any) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """
+        of everything random in training
+        """
     @seed.setter
-    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def seed(self, arg1: typing.Any) -> None: ...
     @property
-    def svm_cost(self) -> float: ...
+    def source(self) -> typing.Literal["silhouettes", "landmarks"]:
+        """
+        what the features are taken of
+        """
+    @source.setter
+    def source(self, arg1: typing.Any) -> None: ...
+    @property
+    def svm_cost(self) -> float:
+        """
+        C of the linear support vector machine (svm, trajectory)
+        """
     @svm_cost.setter
-    def svm_cost(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def svm_cost(self, arg1: typing.Any) -> None: ...
 
 class GestureFeatureComputer:
     """
@@ -4000,37 +5098,89 @@ class GestureRecognizer:
 class SpeakerAdapterOptions:
     """
     Options of SpeakerAdapter.
+
+    Parameters
+    ----------
+    words_per_label : float, default 5.0
+        words a label, on average, from which on each word's model is adapted too; before, only what all have in common; 0..1000
+    shared_frames : float, default 400.0
+        imagined frames that hold back what changes all words; 0..1e+12, 0 excluded
+    prior_frames : float, default 5.0
+        frames a state that weigh as much as the training; 0..1e+12, 0 excluded
+    num_iterations : int, default 3
+        EM iterations of an update; 1..1000
+    trusted_share : float, default 1.0
+        share of the words without a label to learn from, those of the largest margins first; 0..1
+    max_words : int, default 300
+        words remembered; the oldest goes first; 1..100000
     """
 
     __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        words_per_label: float = 5.0,
+        shared_frames: float = 400.0,
+        prior_frames: float = 5.0,
+        num_iterations: int = 3,
+        trusted_share: float = 1.0,
+        max_words: int = 300,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def max_words(self) -> int: ...
+    def max_words(self) -> int:
+        """
+        words remembered; the oldest goes first
+        """
     @max_words.setter
-    def max_words(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def max_words(self, arg1: typing.Any) -> None: ...
     @property
-    def num_iterations(self) -> int: ...
+    def num_iterations(self) -> int:
+        """
+        EM iterations of an update
+        """
     @num_iterations.setter
-    def num_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def num_iterations(self, arg1: typing.Any) -> None: ...
     @property
-    def prior_frames(self) -> float: ...
+    def prior_frames(self) -> float:
+        """
+        frames a state that weigh as much as the training
+        """
     @prior_frames.setter
-    def prior_frames(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def prior_frames(self, arg1: typing.Any) -> None: ...
     @property
-    def shared_frames(self) -> float: ...
+    def shared_frames(self) -> float:
+        """
+        imagined frames that hold back what changes all words
+        """
     @shared_frames.setter
-    def shared_frames(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def shared_frames(self, arg1: typing.Any) -> None: ...
     @property
-    def trusted_share(self) -> float: ...
+    def trusted_share(self) -> float:
+        """
+        share of the words without a label to learn from, those of the largest margins first
+        """
     @trusted_share.setter
-    def trusted_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def trusted_share(self, arg1: typing.Any) -> None: ...
     @property
-    def words_per_label(self) -> float: ...
+    def words_per_label(self) -> float:
+        """
+        words a label, on average, from which on each word's model is adapted too; before, only what all have in common
+        """
     @words_per_label.setter
-    def words_per_label(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def words_per_label(self, arg1: typing.Any) -> None: ...
 
 class SpeakerAdapter:
     """
@@ -4062,137 +5212,129 @@ class SpeakerAdapter:
 class GestureSegmenterOptions:
     """
     When a gesture begins and ends; times in seconds.
+
+    Parameters
+    ----------
+    appear_s : float, default 0.1
+        a hand is there, or moves again, when it was seen, or moving, for so long; 0..1000000, 0 excluded s
+    leave_s : float, default 0.3
+        it has gone when it was not seen for so long; 0..1000000, 0 excluded s
+    rest_s : float, default 0.5
+        a hand that is still for so long ends the segment: it rests, or holds a sign; 0..1000000, 0 excluded s
+    still_change : float, default 0.3
+        it is still while the outlines of now and of compare_s ago differ by less than this share of what they cover together; 0..1, 0 excluded, 1 excluded
+    compare_s : float, default 0.2
+        time between the outlines that are compared; 0..1000000, 0 excluded s
+    min_gesture_s : float, default 0.3
+        a shorter segment that ends in the hand leaving is dropped; 0..1000000, 0 excluded s
+    max_gesture_s : float, default 6.0
+        a longer segment is cut; above min_gesture_s; 0..1000000, 0 excluded s
+    take_away_s : float, default 1.0
+        a hand that rested and leaves within this time is taken away, and shows nothing; 0..1000000, 0 excluded s
+    context_s : float, default 0.1
+        kept before a segment; 0..1000000, 0 excluded s
+    arrivals : bool, default True
+        a hand that comes into view and rests has shown something, such as a sign that it holds; otherwise only what comes after that rest is a gesture
     """
 
     __hash__: typing.ClassVar[None] = None
-    arrivals: bool
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        appear_s: float = 0.1,
+        leave_s: float = 0.3,
+        rest_s: float = 0.5,
+        still_change: float = 0.3,
+        compare_s: float = 0.2,
+        min_gesture_s: float = 0.3,
+        max_gesture_s: float = 6.0,
+        take_away_s: float = 1.0,
+        context_s: float = 0.1,
+        arrivals: bool = True,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def appear_s(self) -> float: ...
+    def appear_s(self) -> float:
+        """
+        a hand is there, or moves again, when it was seen, or moving, for so long
+        """
     @appear_s.setter
-    def appear_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def appear_s(self, arg1: typing.Any) -> None: ...
     @property
-    def compare_s(self) -> float: ...
+    def arrivals(self) -> bool:
+        """
+        a hand that comes into view and rests has shown something, such as a sign that it holds; otherwise only what comes after that rest is a gesture
+        """
+    @arrivals.setter
+    def arrivals(self, arg1: typing.Any) -> None: ...
+    @property
+    def compare_s(self) -> float:
+        """
+        time between the outlines that are compared
+        """
     @compare_s.setter
-    def compare_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def compare_s(self, arg1: typing.Any) -> None: ...
     @property
-    def context_s(self) -> float: ...
+    def context_s(self) -> float:
+        """
+        kept before a segment
+        """
     @context_s.setter
-    def context_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def context_s(self, arg1: typing.Any) -> None: ...
     @property
-    def leave_s(self) -> float: ...
+    def leave_s(self) -> float:
+        """
+        it has gone when it was not seen for so long
+        """
     @leave_s.setter
-    def leave_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def leave_s(self, arg1: typing.Any) -> None: ...
     @property
-    def max_gesture_s(self) -> float: ...
+    def max_gesture_s(self) -> float:
+        """
+        a longer segment is cut; above min_gesture_s
+        """
     @max_gesture_s.setter
-    def max_gesture_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_gesture_s(self, arg1: typing.Any) -> None: ...
     @property
-    def min_gesture_s(self) -> float: ...
+    def min_gesture_s(self) -> float:
+        """
+        a shorter segment that ends in the hand leaving is dropped
+        """
     @min_gesture_s.setter
-    def min_gesture_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def min_gesture_s(self, arg1: typing.Any) -> None: ...
     @property
-    def rest_s(self) -> float: ...
+    def rest_s(self) -> float:
+        """
+        a hand that is still for so long ends the segment: it rests, or holds a sign
+        """
     @rest_s.setter
-    def rest_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def rest_s(self, arg1: typing.Any) -> None: ...
     @property
-    def still_change(self) -> float: ...
+    def still_change(self) -> float:
+        """
+        it is still while the outlines of now and of compare_s ago differ by less than this share of what they cover together
+        """
     @still_change.setter
-    def still_change(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def still_change(self, arg1: typing.Any) -> None: ...
     @property
-    def take_away_s(self) -> float: ...
+    def take_away_s(self) -> float:
+        """
+        a hand that rested and leaves within this time is taken away, and shows nothing
+        """
     @take_away_s.setter
-    def take_away_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-
-class GestureSegmentKind:
-    """
-    Members:
-
-      none
-
-      start
-
-      end
-
-      dropped
-    """
-
-    __members__: typing.ClassVar[dict[str, GestureSegmentKind]]
-    dropped: typing.ClassVar[GestureSegmentKind]
-    end: typing.ClassVar[GestureSegmentKind]
-    none: typing.ClassVar[GestureSegmentKind]
-    start: typing.ClassVar[GestureSegmentKind]
-    @typing.overload
-    def __eq__(self, other: GestureSegmentKind) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: GestureSegmentKind) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
-
-class GestureSegmentReason:
-    """
-    Members:
-
-      none
-
-      rested
-
-      left
-
-      cut
-
-      ended
-
-      arrived
-
-      stalled
-    """
-
-    __members__: typing.ClassVar[dict[str, GestureSegmentReason]]
-    arrived: typing.ClassVar[GestureSegmentReason]
-    cut: typing.ClassVar[GestureSegmentReason]
-    ended: typing.ClassVar[GestureSegmentReason]
-    left: typing.ClassVar[GestureSegmentReason]
-    none: typing.ClassVar[GestureSegmentReason]
-    rested: typing.ClassVar[GestureSegmentReason]
-    stalled: typing.ClassVar[GestureSegmentReason]
-    @typing.overload
-    def __eq__(self, other: GestureSegmentReason) -> bool: ...
-    @typing.overload
-    def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> int: ...
-    def __hash__(self) -> int: ...
-    def __index__(self) -> int: ...
-    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __int__(self) -> int: ...
-    @typing.overload
-    def __ne__(self, other: GestureSegmentReason) -> bool: ...
-    @typing.overload
-    def __ne__(self, other: typing.Any) -> bool: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def __str__(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
+    def take_away_s(self, arg1: typing.Any) -> None: ...
 
 class GestureSegment:
     """
@@ -4206,14 +5348,14 @@ class GestureSegment:
         The hand rested in view before it.
         """
     @property
-    def kind(self) -> typing.Any:
+    def kind(self) -> typing.Literal["none", "start", "end", "dropped"]:
         """
         'none', 'start', 'end' or 'dropped'.
         """
     @property
     def last_s(self) -> float: ...
     @property
-    def reason(self) -> typing.Any:
+    def reason(self) -> typing.Literal["none", "rested", "left", "cut", "ended", "arrived", "stalled"]:
         """
         Why it ended: 'rested', 'left', 'cut', 'ended', 'arrived', 'stalled'.
         """
@@ -4265,7 +5407,17 @@ def activity_frames(
 def approximate(
     x: numpy.typing.NDArray[numpy.float32],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_levels: typing.SupportsInt | typing.SupportsIndex,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
@@ -4276,7 +5428,17 @@ def approximate(
 def approximate(
     x: numpy.typing.NDArray[numpy.float64],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_levels: typing.SupportsInt | typing.SupportsIndex,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -4350,7 +5512,7 @@ def denoise(
     """
 
 def distance(
-    kind: Distance,
+    kind: typing.Literal["euclidean", "manhattan", "cosine", "bhattacharyya"],
     a: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
     b: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
 ) -> float:
@@ -4360,7 +5522,19 @@ def distance(
 
 @typing.overload
 def dwt(
-    x: numpy.typing.NDArray[numpy.float32], wavelet: str, border: Border
+    x: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
 ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
     """
     One level: (approximation, detail), float32 or float64 as x.
@@ -4368,7 +5542,19 @@ def dwt(
 
 @typing.overload
 def dwt(
-    x: numpy.typing.NDArray[numpy.float64], wavelet: str, border: Border
+    x: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
 ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
     """
     One level: (approximation, detail), float32 or float64 as x.
@@ -4376,7 +5562,19 @@ def dwt(
 
 @typing.overload
 def dwt2(
-    image: numpy.typing.NDArray[numpy.float32], wavelet: str, border: Border
+    image: numpy.typing.NDArray[numpy.float32],
+    wavelet: str,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
 ) -> tuple[
     numpy.typing.NDArray[numpy.float32],
     tuple[
@@ -4389,7 +5587,19 @@ def dwt2(
 
 @typing.overload
 def dwt2(
-    image: numpy.typing.NDArray[numpy.float64], wavelet: str, border: Border
+    image: numpy.typing.NDArray[numpy.float64],
+    wavelet: str,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     tuple[
@@ -4450,7 +5660,17 @@ def idwt(
     approx: numpy.typing.NDArray[numpy.float32],
     detail: numpy.typing.NDArray[numpy.float32],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     The inverse of one level.
@@ -4461,7 +5681,17 @@ def idwt(
     approx: numpy.typing.NDArray[numpy.float64],
     detail: numpy.typing.NDArray[numpy.float64],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The inverse of one level.
@@ -4474,7 +5704,17 @@ def idwt2(
     vertical: numpy.typing.NDArray[numpy.float32],
     diagonal: numpy.typing.NDArray[numpy.float32],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
@@ -4488,7 +5728,17 @@ def idwt2(
     vertical: numpy.typing.NDArray[numpy.float64],
     diagonal: numpy.typing.NDArray[numpy.float64],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -4620,7 +5870,17 @@ def reconstruct_packets(
         tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
     ],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     The signal from the nodes of a basis.
@@ -4633,7 +5893,17 @@ def reconstruct_packets(
         tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
     ],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The signal from the nodes of a basis.
@@ -4675,7 +5945,7 @@ def shape_number(contour: typing.Annotated[numpy.typing.ArrayLike, numpy.int32])
 def shrink(
     details: numpy.typing.NDArray[numpy.float32],
     threshold: typing.SupportsFloat | typing.SupportsIndex,
-    shape: ThresholdShape,
+    shape: typing.Literal["soft", "hard", "garrote"],
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Details with a threshold applied.
@@ -4685,7 +5955,7 @@ def shrink(
 def shrink(
     details: numpy.typing.NDArray[numpy.float64],
     threshold: typing.SupportsFloat | typing.SupportsIndex,
-    shape: ThresholdShape,
+    shape: typing.Literal["soft", "hard", "garrote"],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Details with a threshold applied.
@@ -4696,7 +5966,7 @@ def shrinkage_threshold(
     details: numpy.typing.NDArray[numpy.float32],
     noise: typing.SupportsFloat | typing.SupportsIndex,
     num_samples: typing.SupportsInt | typing.SupportsIndex,
-    rule: ThresholdRule,
+    rule: typing.Literal["universal", "sure", "bayes"],
 ) -> float:
     """
     The threshold for the details of one level.
@@ -4707,7 +5977,7 @@ def shrinkage_threshold(
     details: numpy.typing.NDArray[numpy.float64],
     noise: typing.SupportsFloat | typing.SupportsIndex,
     num_samples: typing.SupportsInt | typing.SupportsIndex,
-    rule: ThresholdRule,
+    rule: typing.Literal["universal", "sure", "bayes"],
 ) -> float:
     """
     The threshold for the details of one level.
@@ -4746,7 +6016,17 @@ def trace_contour(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -
 def wavedec(
     x: numpy.typing.NDArray[numpy.float32],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_levels: typing.SupportsInt | typing.SupportsIndex,
 ) -> list:
     """
@@ -4757,7 +6037,17 @@ def wavedec(
 def wavedec(
     x: numpy.typing.NDArray[numpy.float64],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_levels: typing.SupportsInt | typing.SupportsIndex,
 ) -> list:
     """
@@ -4768,7 +6058,17 @@ def wavedec(
 def wavedec2(
     image: numpy.typing.NDArray[numpy.float32],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_levels: typing.SupportsInt | typing.SupportsIndex,
 ) -> list:
     """
@@ -4779,7 +6079,17 @@ def wavedec2(
 def wavedec2(
     image: numpy.typing.NDArray[numpy.float64],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_levels: typing.SupportsInt | typing.SupportsIndex,
 ) -> list:
     """
@@ -4800,7 +6110,17 @@ def wavelet_names() -> list[str]:
 def wavelet_packets(
     x: numpy.typing.NDArray[numpy.float32],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_levels: typing.SupportsInt | typing.SupportsIndex,
 ) -> list:
     """
@@ -4811,7 +6131,17 @@ def wavelet_packets(
 def wavelet_packets(
     x: numpy.typing.NDArray[numpy.float64],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_levels: typing.SupportsInt | typing.SupportsIndex,
 ) -> list:
     """
@@ -4822,7 +6152,17 @@ def wavelet_packets(
 def waverec(
     coefficients: list[numpy.typing.NDArray[numpy.float32]],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_samples: typing.SupportsInt | typing.SupportsIndex,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
@@ -4833,7 +6173,17 @@ def waverec(
 def waverec(
     coefficients: list[numpy.typing.NDArray[numpy.float64]],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     num_samples: typing.SupportsInt | typing.SupportsIndex,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -4845,7 +6195,17 @@ def waverec2(
     approx: numpy.typing.NDArray[numpy.float32],
     details: list[typing.Annotated[list[numpy.typing.NDArray[numpy.float32]], "FixedSize(3)"]],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
@@ -4857,7 +6217,17 @@ def waverec2(
     approx: numpy.typing.NDArray[numpy.float64],
     details: list[typing.Annotated[list[numpy.typing.NDArray[numpy.float64]], "FixedSize(3)"]],
     wavelet: str,
-    border: Border,
+    border: typing.Literal[
+        "symmetric",
+        "zero",
+        "constant",
+        "periodic",
+        "reflect",
+        "periodization",
+        "smooth",
+        "antisymmetric",
+        "antireflect",
+    ],
     shape: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """

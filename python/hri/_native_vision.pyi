@@ -12,7 +12,6 @@ from hri._native import HandColourOptions
 from hri._native import HandFinderOptions
 from hri._native import HandObservation
 from hri._native import MaskSmoothingOptions
-from hri._native import SilhouetteMethod
 from hri._native import SilhouetteOptions
 import numpy
 import numpy.typing
@@ -31,7 +30,6 @@ __all__: list[str] = [
     "HandStream",
     "MaskSmoothingOptions",
     "SilhouetteExtractor",
-    "SilhouetteMethod",
     "SilhouetteOptions",
     "background_of",
     "gesture_features",
@@ -161,22 +159,59 @@ class GestureSpotter:
 class GestureStreamOptions:
     """
     How the gestures of a stream are decided on.
+
+    Parameters
+    ----------
+    segmenter : GestureSegmenterOptions or dict
+        when a gesture begins and ends
+    max_pause_s : float, default 2.5
+        after a longer pause, what was shown before it is another gesture; 0..1000000 s
+    partial_interval_s : float, default 0.5
+        between decisions on a gesture that has not ended; 0..1000000, 0 excluded, or infinite s
     """
 
     __hash__: typing.ClassVar[None] = None
-    segmenter: hri._native.GestureSegmenterOptions
+    @staticmethod
+    def fields() -> list[hri._native.OptionField]:
+        """
+        What each field is, in their order.
+        """
     def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __init__(self, **kwargs) -> None: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        segmenter: hri._native.GestureSegmenterOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        max_pause_s: float = 2.5,
+        partial_interval_s: float = 0.5,
+    ) -> None: ...
     def __repr__(self) -> str: ...
-    def as_dict(self) -> dict: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
     @property
-    def max_pause_s(self) -> float: ...
+    def max_pause_s(self) -> float:
+        """
+        after a longer pause, what was shown before it is another gesture
+        """
     @max_pause_s.setter
-    def max_pause_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def max_pause_s(self, arg1: typing.Any) -> None: ...
     @property
-    def partial_interval_s(self) -> float: ...
+    def partial_interval_s(self) -> float:
+        """
+        between decisions on a gesture that has not ended
+        """
     @partial_interval_s.setter
-    def partial_interval_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def partial_interval_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def segmenter(self) -> hri._native.GestureSegmenterOptions:
+        """
+        when a gesture begins and ends
+        """
+    @segmenter.setter
+    def segmenter(self, arg1: typing.Any) -> None: ...
 
 class GestureEvent:
     """
@@ -185,7 +220,7 @@ class GestureEvent:
     @property
     def decision(self) -> hri._native.Decision: ...
     @property
-    def kind(self) -> str:
+    def kind(self) -> typing.Literal["segment", "partial", "preliminary", "decision"]:
         """
         'segment', 'partial', 'preliminary' or 'decision'.
         """

@@ -89,7 +89,7 @@ def test_kaldi_with_other_settings() -> None:
     changes = {"use_energy": False, "num_bins": 40, "num_ceps": 20, "low_freq": 100, "high_freq": 7600}
     assert_equal(CepstraComputer(options).compute(x), kaldi(x, 16000, **changes))
     options.remove_dc = False
-    options.window = type(options.window).hamming
+    options.window = "hamming"
     changes |= {"remove_dc_offset": False, "window_type": "hamming"}
     assert_equal(CepstraComputer(options).compute(x), kaldi(x, 16000, **changes))
 

@@ -74,9 +74,9 @@ def test_evaluate_by_person_and_by_folders(hri, spoken: Path, tmp_path: Path):
     assert cv2.imread(str(picture)) is not None
     written = json.loads(report.read_text())
     assert written["conditions"]["snr_db"] == 20 and written["num_samples"] == 18
-    assert written["options"]["models"]["num_states"] > 0
+    assert written["options"]["num_states"] > 0
 
-    split = hri("evaluate", "speech", "--train", spoken, "--test", spoken, "--option", "models.num_states=4")
+    split = hri("evaluate", "speech", "--train", spoken, "--test", spoken, "--option", "num_states=4")
     assert split.code == 0 and split.out.splitlines()[-1].startswith("all\t18\t100.0 %")
 
 
@@ -114,9 +114,9 @@ def test_bad_data_ends_with_3_and_one_line(hri, tmp_path: Path, spoken: Path):
         (("recognise", "--gesture", broken), "run 'hri train gesture --data DIR'"),
         (("recognise", "--speech", spoken / "1_low_0.wav", "--speech-model", broken), "broken.wav"),
         (("train", "speech", "--data", tmp_path / "data"), "data"),
-        (("train", "speech", "--data", spoken, "--option", "models.num_stats=4"), "num_states"),
-        (("train", "speech", "--data", spoken, "--option", "models.num_states=few"), "num_states"),
-        (("train", "speech", "--data", spoken, "--option", "models.num_states"), "NAME=VALUE"),
+        (("train", "speech", "--data", spoken, "--option", "num_stats=4"), "num_states"),
+        (("train", "speech", "--data", spoken, "--option", "num_states=few"), "num_states"),
+        (("train", "speech", "--data", spoken, "--option", "num_states"), "NAME=VALUE"),
         (("study", "nonsense"), "no study 'nonsense'; there are: fsdd"),
         (("study", "fsdd"), "HRI_DATA"),
         (("study", "fsdd", "--data", tmp_path), "fsdd/recordings"),
@@ -141,9 +141,9 @@ def test_study_list_names_every_study(hri):
 def test_info_tells_of_the_installation_and_of_models(hri, spoken: Path, tmp_path: Path):
     assert f"version\t{_native.__version__}" in hri("info").out
     model = tmp_path / "words.hri"
-    hri("train", "speech", "--data", spoken, "--out", model, "--option", "models.num_states=5")
+    hri("train", "speech", "--data", spoken, "--out", model, "--option", "num_states=5")
     told = hri("info", model).out.splitlines()
-    assert "labels\t1 2" in told and "option\tmodels.num_states=5" in told and "option\ttrim=true" in told
+    assert "labels\t1 2" in told and "option\tnum_states=5" in told and "option\ttrim=true" in told
 
 
 @pytest.mark.parametrize("name", list(COMMANDS))
@@ -161,13 +161,14 @@ def test_version_and_bare_call(hri):
 
 
 def test_options_are_nested_and_typed():
-    assert parse_options(("models.model=ptbhmm", "models.num_states=4", "trim=false", "warp_step=0.1")) == {
-        "models": {"model": "ptbhmm", "num_states": 4},
+    assert parse_options(("model=ptbhmm", "cepstra.num_filters=30", "trim=false", "vtlp_step=0.1")) == {
+        "model": "ptbhmm",
+        "cepstra": {"num_filters": 30},
         "trim": False,
-        "warp_step": 0.1,
+        "vtlp_step": 0.1,
     }
-    with pytest.raises(InvalidArgument, match="models has a value"):
-        parse_options(("models=3", "models.num_states=4"))
+    with pytest.raises(InvalidArgument, match="cepstra has a value"):
+        parse_options(("cepstra=3", "cepstra.num_filters=30"))
 
 
 def test_ctrl_c_while_training_ends_with_130_and_writes_nothing(

@@ -51,7 +51,7 @@ def test_labels_are_suggested(hri, spoken: Path, tmp_path: Path):
     model = tmp_path / "words.hri"
     paths = [sample.path for sample in dataset]
     names = [{"1": "forward", "2": "backward"}[sample.label] for sample in dataset]
-    WordRecognizer(noise_copies=0, num_warps=1).fit(paths, names, fillers=[]).save(model)
+    WordRecognizer(num_noisy_copies=0, num_vtlp_factors=1).fit(paths, names, fillers=[]).save(model)
     result = hri("remove-word", "--model", model, "--label", "forwrad")
     assert result.code == 3 and "no word 'forwrad'; did you mean 'forward'" in result.err
     result = hri("adapt", "--model", model, "--label", "backwards", "-o", tmp_path / "a.hri", paths[0])

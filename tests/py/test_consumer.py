@@ -64,7 +64,7 @@ def spoken(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("kind", ["hmm", "ptbhmm"])
 def test_cpp_gives_the_scores_of_python_to_the_bit(programs: Path, spoken: Path, tmp_path: Path, kind: str) -> None:
     dataset = hri.Dataset.load(spoken)
-    recognizer = hri.train(dataset, hri.WordRecognizer(models={"model": kind}))
+    recognizer = hri.train(dataset, hri.WordRecognizer(model=kind))
     assert isinstance(recognizer, hri.WordRecognizer)
     model = tmp_path / "words.hri"
     recognizer.save(model)

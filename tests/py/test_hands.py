@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import hri
 import hri.studies
-from hri import _native, _native_vision
+from hri import _native_vision
 from hri.core.errors import InvalidArgument
 from hri.evaluation import expose, gamma, tint
 from hri.media import write_video
@@ -72,7 +72,7 @@ def test_movements_are_told_apart_and_the_model_chosen(tmp_path: Path) -> None:
     clips = [film(right, take) for take in range(4) for right in (True, False)]
     labels = ["right", "down"] * 4
     signs = hri.GestureRecognizer().fit(clips, labels)
-    assert signs._trained.options.model == _native.GestureModel.trajectory
+    assert signs._trained.options.model == "trajectory"
     slow = [frame for frame in film(True, 9) for _ in range(2)]
     assert list(signs.predict([slow, film(False, 9)])) == ["right", "down"]
     signs.save(tmp_path / "signs.hri")

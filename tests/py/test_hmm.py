@@ -49,7 +49,7 @@ def random_chain(topology: Topology, rng: np.random.Generator) -> MarkovChain:
     in_band = initial_transition(topology) > 0
     band = np.where(in_band, rng.uniform(0.1, 1.0, (n, n)), 0.0)
     band /= band.sum(axis=1, keepdims=True)
-    if topology.kind.name != "rank_one_plus_band":
+    if topology.kind != "rank_one_plus_band":
         return MarkovChain(topology, start, band)
     leave = rng.uniform(0.1, 0.6, n)
     return MarkovChain(topology, start, band * (1 - leave[:, None]), leave, rng.dirichlet(np.ones(n)))

@@ -21,7 +21,7 @@ from hri.recognition.inputs import as_audio, as_frames
 @pytest.fixture(scope="module")
 def words(spoken: Path) -> hri.WordRecognizer:
     paths = sorted(spoken.glob("*.wav"))
-    return hri.WordRecognizer(noise_copies=0, num_warps=1).fit(paths, [p.name[0] for p in paths], fillers=[])
+    return hri.WordRecognizer(num_noisy_copies=0, num_vtlp_factors=1).fit(paths, [p.name[0] for p in paths], fillers=[])
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_training_takes_files_and_arrays_alike(spoken: Path) -> None:
     audios = [read_audio(path) for path in paths]
 
     def fitted(clips: list[Any], **rate: int) -> hri.WordRecognizer:
-        return hri.WordRecognizer(noise_copies=0, num_warps=1).fit(clips, labels, fillers=[], **rate)
+        return hri.WordRecognizer(num_noisy_copies=0, num_vtlp_factors=1).fit(clips, labels, fillers=[], **rate)
 
     by_path = fitted(list(paths))
     by_array = fitted([audio.samples for audio in audios], sample_rate_hz=audios[0].sample_rate_hz)
@@ -177,7 +177,7 @@ def test_training_and_evaluation_take_what_says_enough(signed: Path) -> None:
 
 def test_unfitted_recognisers_show_what_differs_from_the_defaults() -> None:
     assert repr(hri.GestureRecognizer()) == "GestureRecognizer(not trained)"
-    assert repr(hri.WordRecognizer(num_warps=1)) == "WordRecognizer(not trained, num_warps=1)"
+    assert repr(hri.WordRecognizer(num_vtlp_factors=1)) == "WordRecognizer(not trained, num_vtlp_factors=1)"
 
 
 def test_a_misspelt_name_of_the_package_is_answered() -> None:

@@ -85,11 +85,12 @@ def test_loading_gives_the_same_projection(tmp_path: Path) -> None:
 
 def test_bad_input_is_named() -> None:
     x, y = rows_and_classes(5)
-    for options in (LdaOptions(num_components=4), LdaOptions(num_components=-1)):
-        with pytest.raises(InvalidArgument, match="num_components"):
-            Lda.train(x, y, 4, options)
+    with pytest.raises(InvalidArgument, match="num_components"):
+        Lda.train(x, y, 4, LdaOptions(num_components=4))
+    with pytest.raises(InvalidArgument, match="num_components"):
+        LdaOptions(num_components=-1)
     with pytest.raises(InvalidArgument, match="shrinkage"):
-        Lda.train(x, y, 4, LdaOptions(shrinkage=1.5))
+        LdaOptions(shrinkage=1.5)
     with pytest.raises(InvalidArgument, match="do not vary"):
         Lda.train(np.ones((8, 2)), np.arange(8) % 2, 2)
     with pytest.raises(InvalidArgument, match="columns"):

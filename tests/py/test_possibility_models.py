@@ -16,7 +16,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.core.errors import InvalidArgument
 from hri.io import ModelFile
 from hri.models import (
@@ -60,7 +59,7 @@ def random_chain(fields: dict, rng: np.random.Generator) -> MarkovChain:
     start = initial_start(topology) * rng.uniform(0.5, 1.0, n)
     band = np.where(initial_transition(topology) > 0, rng.uniform(0.05, 1.0, (n, n)), 0.0)
     band /= band.sum(axis=1, keepdims=True)
-    if topology.kind.name != "rank_one_plus_band":
+    if topology.kind != "rank_one_plus_band":
         return MarkovChain(topology, start / start.sum(), band)
     leave = rng.uniform(0.1, 0.6, n)
     land = rng.dirichlet(np.ones(n))
@@ -159,7 +158,7 @@ def test_results_have_their_dtypes_and_shapes() -> None:
     assert possible.transition(0).shape == (4, 4)
     assert possible.emission(0).shape == (4, NUM_SYMBOLS)
     assert (possible.num_classes, possible.num_states, possible.num_symbols) == (3, 4, NUM_SYMBOLS)
-    assert possible.topology.kind.name == "left_right"
+    assert possible.topology.kind == "left_right"
     assert [m.num_states for m in possible.models] == [4, 4, 4]
 
 
@@ -209,20 +208,14 @@ def test_bad_input_is_refused_by_name() -> None:
 
 def test_rules_refuse_what_they_do_not_know() -> None:
     rule = PossibilisticRule(conjunction="min", concentration=2.0)
-    assert (rule.conjunction, rule.conditioned, rule.concentration) == (_native.Conjunction.min, True, 2.0)
+    assert (rule.conjunction, rule.conditioned, rule.concentration) == ("min", True, 2.0)
     with pytest.raises((TypeError, ValueError), match="conjuction"):
         PossibilisticRule(conjuction="min")
     with pytest.raises((TypeError, ValueError)):
         PossibilisticRule(conjunction="average")
     for concentration in (0.5, 17.0, np.nan, np.inf):
-        bad = PossibilisticRule(conjunction="min", concentration=concentration)
         with pytest.raises(InvalidArgument, match="concentration"):
-            PossibilisticHmmSet(models_of(TOPOLOGIES[0], 2), bad)
-        options = discrete_options(rule=bad, max_iterations=100000, tolerance=0.0)
-        started = time.monotonic()
-        with pytest.raises(InvalidArgument, match="concentration"):  # before any training
-            PossibilisticHmmSet.train([[symbols_of(20000)]] * 2, options)
-        assert time.monotonic() - started < 2
+            PossibilisticRule(conjunction="min", concentration=concentration)
 
 
 def discrete_options(**fields: object) -> PossibilisticHmmOptions:

@@ -26,13 +26,12 @@ from hri.models import (
 
 hmmlearn = pytest.importorskip("hmmlearn.hmm")
 
-KINDS = Topology.Kind
 TOPOLOGIES = [
-    {"kind": KINDS.left_right, "num_states": 5, "max_jump": 1},
-    {"kind": KINDS.left_right, "num_states": 5, "max_jump": 2},
-    {"kind": KINDS.banded, "num_states": 4, "max_jump": 1},
-    {"kind": KINDS.ergodic, "num_states": 4},
-    {"kind": KINDS.ergodic, "num_states": 1},
+    {"kind": "left_right", "num_states": 5, "max_jump": 1},
+    {"kind": "left_right", "num_states": 5, "max_jump": 2},
+    {"kind": "banded", "num_states": 4, "max_jump": 1},
+    {"kind": "ergodic", "num_states": 4},
+    {"kind": "ergodic", "num_states": 1},
 ]
 
 

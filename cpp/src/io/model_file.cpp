@@ -74,6 +74,7 @@ std::map<std::string, std::pair<std::int64_t, std::int64_t>> ModelFile::tensor_s
 const std::string& ModelFile::text(const std::string& key) const {
   const auto found = metadata_.find(key);
   if (found == metadata_.end()) refuse(key, "is missing");
+  read_.insert(key);
   return found->second;
 }
 
@@ -109,6 +110,14 @@ std::vector<std::string> ModelFile::text_list(const std::string& key) const {
   return values;
 }
 
+void ModelFile::require_all_read() const {
+  const auto check = [this](const std::string& name) {
+    if (read_.count(name) == 0) refuse(name, "is unknown to this library");
+  };
+  for (const auto& entry : metadata_) check(entry.first);
+  for (const auto& entry : tensors_) check(entry.first);
+}
+
 void ModelFile::set_text(const std::string& key, const std::string& value) {
   require_utf8(key, value);
   metadata_[key] = value;
@@ -134,6 +143,7 @@ void ModelFile::set_text_list(const std::string& key, const std::vector<std::str
 const ModelFile::Tensor& ModelFile::tensor(const std::string& name, bool is_double) const {
   const auto found = tensors_.find(name);
   if (found == tensors_.end()) refuse(name, "is missing");
+  read_.insert(name);
   if (found->second.is_double != is_double)
     refuse(name, is_double ? "is not of dtype F64" : "is not of dtype F32");
   return found->second;
@@ -201,7 +211,7 @@ std::uint32_t ModelFile::checksum() const {
 
 std::vector<std::uint8_t> ModelFile::serialise() const {
   ModelFile stamped = *this;
-  stamped.set_integer(kVersionKey, kFormatVersion);
+  stamped.set_integer(kVersionKey, version_);
   stamped.metadata_.erase(kChecksumKey);
   stamped.set_text(kChecksumKey, hex(stamped.checksum()));
 

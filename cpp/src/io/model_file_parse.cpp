@@ -78,6 +78,8 @@ ModelFile ModelFile::parse(Span<const std::uint8_t> bytes, const std::string& na
                      std::to_string(kFormatVersion));
   }
 
+  file.version_ = static_cast<int>(version);
+
   std::map<std::uint64_t, std::uint64_t> ranges;
   for (const auto& [key, value] : header.items()) {
     if (key == "__metadata__") continue;

@@ -26,23 +26,11 @@ std::shared_ptr<const SequenceScorer> SequenceScorer::with_class(
   return extend(*this, index, sequences, num_recordings, should_stop);
 }
 
-void check(const SequenceModelOptions& options) {
-  require(options.num_states >= 1 && options.num_states <= 64, "num_states must lie in 1..64");
-  require(options.num_mixtures >= 1 && options.num_mixtures <= 64,
-          "num_mixtures must lie in 1..64");
-  require(options.num_codewords >= 2 && options.num_codewords <= 4096,
-          "num_codewords must lie in 2..4096");
-  require(options.garbage_mixtures >= 1 && options.garbage_mixtures <= 256,
-          "garbage_mixtures must lie in 1..256");
-  require(options.max_iterations >= 1 && options.max_iterations <= 1000,
-          "max_iterations must lie in 1..1000");
-}
-
 std::shared_ptr<const SequenceScorer> train_sequence_scorer(const ClassSequences& sequences,
                                                             const SequenceModelOptions& options,
                                                             const StopCheck& should_stop,
                                                             const FillerModels& fillers) {
-  check(options);
+  validate(options);
   if (options.model == SequenceModelKind::hmm)
     return detail::train_hmm_scorer(sequences, options, should_stop, fillers);
   require(fillers.empty(), "only models of the kind hmm compare with fillers, these are ptbhmm");
@@ -51,7 +39,7 @@ std::shared_ptr<const SequenceScorer> train_sequence_scorer(const ClassSequences
 
 FillerModels train_fillers(const ClassSequences& sequences, const SequenceModelOptions& options,
                            const StopCheck& should_stop) {
-  check(options);
+  validate(options);
   return detail::train_hmms(sequences, options, should_stop);
 }
 
@@ -59,7 +47,7 @@ std::shared_ptr<const SequenceScorer> read_sequence_scorer(const ModelFile& file
                                                            const std::string& prefix,
                                                            const SequenceModelOptions& options,
                                                            int num_classes, int dim) {
-  check(options);
+  validate(options);
   return options.model == SequenceModelKind::hmm
              ? detail::read_hmm_scorer(file, prefix, options, num_classes, dim)
              : detail::read_ptbhmm_scorer(file, prefix, options, num_classes, dim);

@@ -67,18 +67,6 @@ float class_threshold(std::vector<float> right, std::vector<float> wrong, std::s
 
 }  // namespace
 
-const char* status_name(DecisionStatus status) {
-  switch (status) {
-    case DecisionStatus::recognised:
-      return "recognised";
-    case DecisionStatus::unknown:
-      return "unknown";
-    case DecisionStatus::no_input:
-      break;
-  }
-  return "no_input";
-}
-
 Calibration Calibration::fit(const std::vector<HeldOut>& held_out, double false_reject_rate) {
   require(false_reject_rate >= 0 && false_reject_rate <= 0.5,
           "false_reject_rate must lie in 0..0.5");
@@ -149,7 +137,7 @@ Decision Calibration::decide(const VectorF& scores, float score,
     d.nbest.push_back({labels[static_cast<std::size_t>(c)], p[c], scores[c]});
   const bool accepted = score >= static_cast<float>(threshold_);
   d.status = accepted ? DecisionStatus::recognised : DecisionStatus::unknown;
-  d.label = accepted ? d.nbest.front().label : status_name(d.status);
+  d.label = accepted ? d.nbest.front().label : enum_name(d.status);
   d.confidence = d.nbest.front().probability;
   d.score = score;
   if (class_thresholds_.size() > 0) d.class_threshold = class_thresholds_[order.front()];

@@ -25,23 +25,15 @@ constexpr float kMaxRiseInSpeechDbPerS = 2;
 // Frames in a row that make a sound: one alone is a click.
 constexpr std::size_t kOnsetFrames = 2;
 
-void check(const EndpointerOptions& o) {
-  require(o.hangover_ms >= 50 && o.hangover_ms <= 5000, "hangover_ms must lie in 50..5000");
-  require(o.context_ms >= 50 && o.context_ms <= 5000, "context_ms must lie in 50..5000");
-  require(o.max_utterance_ms >= 500 && o.max_utterance_ms <= 60000,
-          "max_utterance_ms must lie in 500..60000");
-}
-
 }  // namespace
 
 class Endpointer::Stream {
  public:
   Stream(int sample_rate_hz, const EndpointerOptions& options)
-      : options_(options),
+      : options_(validated(options)),
         sample_rate_hz_(sample_rate_hz),
         meter_(sample_rate_hz, options.activity),
         finder_(meter_, options_.activity) {
-    check(options);
     hangover_ = frames_in(options.hangover_ms);
     context_ = frames_in(options.context_ms);
     longest_ = frames_in(options.max_utterance_ms);

@@ -160,9 +160,7 @@ void shrink(Span<T> details, double threshold, ThresholdShape shape) {
 
 template <class T>
 std::vector<T> denoise(Span<const T> x, const ShrinkageOptions& options) {
-  require(options.strength >= 0 && std::isfinite(options.strength),
-          "strength must be at least 0 and finite");
-  require(options.num_levels >= 0, "num_levels must lie in 1..62, or be 0");
+  validate(options);
   require(std::all_of(x.begin(), x.end(), [](T v) { return std::isfinite(v); }),
           "signal must be finite");
   const Wavelet& w = wavelet(options.wavelet);

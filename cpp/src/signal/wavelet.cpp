@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/signal/wavelet.hpp"
 
+#include <algorithm>
 #include <unordered_map>
 #include <utility>
 
@@ -80,6 +81,11 @@ const Wavelet& wavelet(std::string_view name) {
   for (const Wavelet& w : all_wavelets()) known += (known.empty() ? "" : ", ") + w.name;
   fail(ErrorKind::invalid_argument,
        "unknown wavelet '" + std::string(name) + "'; there are: " + known);
+}
+
+bool WaveletName::holds(std::string_view name) const {
+  const std::vector<std::string> names = wavelet_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::vector<std::string> wavelet_names() {

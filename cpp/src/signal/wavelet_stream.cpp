@@ -16,8 +16,7 @@ constexpr std::size_t kPiece = 512;
 
 template <class T>
 WaveletStream<T>::WaveletStream(const WaveletStreamOptions& options)
-    : wavelet_(&wavelet(options.wavelet)) {
-  require(options.num_levels >= 1 && options.num_levels <= 30, "num_levels must lie in 1..30");
+    : wavelet_(&wavelet(validated(options).wavelet)) {
   levels_.resize(static_cast<std::size_t>(options.num_levels));
   for (Level& level : levels_) {
     level.waiting.resize(kPiece + 2 * detail::kMaxTaps);

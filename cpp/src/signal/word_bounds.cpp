@@ -33,14 +33,7 @@ constexpr float kSoundGainDb = 12;
 void check(const ActivityOptions& o, int sample_rate_hz) {
   require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000,
           "sample_rate_hz must lie in 1000..384000");
-  require(o.frame_ms >= 1 && o.frame_ms <= 1000 && o.shift_ms >= 1 && o.shift_ms <= 1000,
-          "frame_ms and shift_ms must lie in 1..1000");
-  require(o.silence_dbfs >= -120 && o.silence_dbfs <= 0, "silence_dbfs must lie in -120..0");
-  require(o.margin_db >= 0 && o.margin_db <= 60, "margin_db must lie in 0..60");
-  require(o.max_depth_db >= 1 && o.max_depth_db <= 120, "max_depth_db must lie in 1..120");
-  require(o.min_voicing >= 0 && o.min_voicing <= 10, "min_voicing must lie in 0..10");
-  require(o.max_gap_ms >= 0 && o.max_gap_ms <= 2000, "max_gap_ms must lie in 0..2000");
-  require(o.padding_ms >= 0 && o.padding_ms <= 1000, "padding_ms must lie in 0..1000");
+  validate(o);
 }
 
 Excess excess(const ActivityFrame& frame, const NoiseFloor& noise, const ActivityMeter& meter) {

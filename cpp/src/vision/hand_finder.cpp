@@ -27,7 +27,7 @@ void require_pictures(Span<const ImageView> clip) {
 
 }  // namespace
 
-HandFinder::HandFinder(const HandFinderOptions& options) : options_(options) { validate(options); }
+HandFinder::HandFinder(const HandFinderOptions& options) : options_(validated(options)) {}
 
 HandFinder::HandFinder(const HandFinderOptions& options, ImageView background)
     : HandFinder(options) {

@@ -144,7 +144,7 @@ def hands(
         note(f"{written or clip}: {which} in {num_found} of {len(found)} frames")
 
 
-def _options(method: str | None) -> Any:
+def _options(method: Any) -> Any:
     from hri.vision import SilhouetteOptions
 
     return None if method is None else SilhouetteOptions(method=method)

@@ -38,6 +38,7 @@ COMMANDS = {
     "record": ("hri.cli.record:record", "Record a data set of your own words or gestures."),
     "corpus": ("hri.cli.corpus:corpus", "Make synthetic recordings: words by espeak-ng, signs by drawn persons."),
     "hands": ("hri.cli.hands:hands", "Show the hand found in a clip: mask, outline, track and features."),
+    "options": ("hri.cli.options:options", "List the options of recognisers, with their ranges."),
     "features": ("hri.cli.features:features", "Compute features of sound or of hands, as a table or a plot."),
     "denoise": ("hri.cli.denoise:denoise", "Reduce noise in a recording by wavelets."),
     "study": ("hri.cli.study:study", "Repeat a published measurement (accuracy, rejection, robustness)."),

@@ -22,8 +22,6 @@ CLASSES: dict[str, type[WordRecognizer] | type[GestureRecognizer]] = {
     "gesture": GestureRecognizer,
 }
 
-_SEED_OPTION = {"speech": "models.seed", "gesture": "seed"}
-
 mode_argument = click.argument("mode", type=click.Choice(list(CLASSES)))
 
 pattern_option = click.option(
@@ -37,8 +35,7 @@ options_option = click.option(
     "options",
     multiple=True,
     metavar="NAME=VALUE",
-    help="An option of the recogniser, such as models.num_states=8; may be given several times. 'hri info' with a "
-    "model lists them all.",
+    help="An option of the recogniser, such as num_states=8; may be given several times. 'hri options' lists them all.",
 )
 
 
@@ -70,7 +67,7 @@ def recognizer_factory(
     mode: str, options: tuple[str, ...], seed: int
 ) -> Callable[[], WordRecognizer | GestureRecognizer]:
     """Makes untrained recognisers; NAME=VALUE options are checked here and now, and go before the seed."""
-    fields = parse_options((f"{_SEED_OPTION[mode]}={seed}", *options))
+    fields = parse_options((f"seed={seed}", *options))
     recognizer_class = CLASSES[mode]
 
     def make() -> WordRecognizer | GestureRecognizer:
@@ -93,7 +90,7 @@ def naming_options() -> Iterator[None]:
 
 
 def parse_options(options: tuple[str, ...]) -> dict[str, Any]:
-    """NAME=VALUE texts as nested keywords: "models.num_states=8" is {"models": {"num_states": 8}}.
+    """NAME=VALUE texts as nested keywords: "cepstra.num_filters=30" is {"cepstra": {"num_filters": 30}}.
 
     Values are TOML values; what is none is taken as text.
 

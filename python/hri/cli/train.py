@@ -56,7 +56,7 @@ def train(
     Examples:
       hri train speech --data spoken/
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
-      hri train speech --data spoken/ --out digits.hri --option models.model=ptbhmm
+      hri train speech --data spoken/ --out digits.hri --option model=ptbhmm
     """
     if mode != "speech" and (fillers or no_fillers):
         raise click.UsageError("--fillers and --no-fillers are for speech")

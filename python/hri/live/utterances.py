@@ -20,9 +20,9 @@ StreamResult = tuple[Event, Samples | None]
 """An event; with the end of speech, also the utterance and the noise around it."""
 
 _KINDS = {
-    _native.EndpointKind.speech_start: events.SPEECH_START,
-    _native.EndpointKind.speech_end: events.SPEECH_END,
-    _native.EndpointKind.speech_dropped: events.SPEECH_DROPPED,
+    "speech_start": events.SPEECH_START,
+    "speech_end": events.SPEECH_END,
+    "speech_dropped": events.SPEECH_DROPPED,
 }
 
 
@@ -89,9 +89,9 @@ class UtteranceFinder:
 def _result(endpoint: _native.Endpoint, history: _History, rate: int) -> StreamResult:
     fields = {"first_s": round(endpoint.first / rate, 4), "last_s": round(endpoint.last / rate, 4)}
     event = Event(endpoint.at / rate, _KINDS[endpoint.kind], fields)
-    if endpoint.kind == _native.EndpointKind.speech_start:
+    if endpoint.kind == "speech_start":
         del fields["last_s"]
-    if endpoint.kind != _native.EndpointKind.speech_end:
+    if endpoint.kind != "speech_end":
         return event, None
     fields["cut"] = endpoint.cut
     return event, history.between(endpoint.segment_first, endpoint.segment_last)

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing
 from typing import Any
 
-from hri import _native
 from hri.live import events
 from hri.live.events import Event, decision_fields
 from hri.live.frame_results import FrameResult, GestureEvent, frame_results, segment_event
@@ -90,7 +89,7 @@ class Watcher:
         newest: Decision | None = None
         with ExitStack() as stack:
             landmarks: LandmarkTracker | None = None
-            if self._recognizer.options.source == _native.GestureSource.landmarks:
+            if self._recognizer.options.source == "landmarks":
                 landmarks = stack.enter_context(LandmarkTracker())
             stream = _DecidingStream(self._recognizer, self._options, landmarks, self._locale, self._model_id)
             results = frame_results(source, stream, **self._intervals, model=self._model_id)

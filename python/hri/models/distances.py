@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from hri import _native
 
 Metric = Literal["euclidean", "manhattan", "cosine", "bhattacharyya"]
-_METRICS = _native.Distance.__members__
 
 
 def distance(metric: Metric, a: ArrayLike, b: ArrayLike) -> float:
@@ -23,7 +22,7 @@ def distance(metric: Metric, a: ArrayLike, b: ArrayLike) -> float:
     metric : {"euclidean", "manhattan", "cosine", "bhattacharyya"}
     a, b : array_like, shape (num_features,)
     """
-    return float(_native.distance(_METRICS[metric], np.asarray(a, np.float32), np.asarray(b, np.float32)))
+    return float(_native.distance(metric, np.asarray(a, np.float32), np.asarray(b, np.float32)))
 
 
 def bhattacharyya_gaussian(

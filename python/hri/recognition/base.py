@@ -79,13 +79,13 @@ class Recognizer:
         Parameters
         ----------
         deep : bool
-            Also the fields of options within options, as ``models__num_states``.
+            Also the fields of options within options, as ``cepstra__num_filters``.
         """
         full = dict(self.options.as_dict())
         return full | self._passed | (flat_params(full) if deep else {})
 
     def set_params(self, **params: Any) -> Self:
-        """Change options, for the next `fit`; a field of nested options as ``models__num_states=5``.
+        """Change options, for the next `fit`; a field of nested options as ``cepstra__num_filters=30``.
 
         Raises
         ------

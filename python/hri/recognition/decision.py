@@ -72,7 +72,7 @@ class Decision:
         return cls(
             mode=mode,
             label=native.label,
-            status=native.status.name,
+            status=native.status,
             confidence=native.confidence,
             score=native.score,
             nbest=tuple(NBest(n.label, n.probability, n.log_score) for n in native.nbest),

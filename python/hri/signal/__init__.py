@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Signals: wavelet transforms by PyWavelets' names, noise reduction, end points, resampling, linear prediction."""
 
-from hri.signal.filters import FAMILIES, MODES, Wavelet, dwt_max_level, wavelist
+from hri.signal.arrays import MODES
+from hri.signal.filters import FAMILIES, Wavelet, dwt_max_level, wavelist
 from hri.signal.images import dwt2, idwt2, wavedec2, waverec2
 from hri.signal.noise_reduction import approximation, denoise, noise_level, shrink, shrinkage_threshold
 from hri.signal.packets import (
@@ -18,7 +19,6 @@ from hri.signal.speech import (
     Endpoint,
     Endpointer,
     EndpointerOptions,
-    EndpointKind,
     activity_frames,
     find_speech,
     linear_prediction,
@@ -32,7 +32,6 @@ __all__ = [
     "MODES",
     "ActivityOptions",
     "Endpoint",
-    "EndpointKind",
     "Endpointer",
     "EndpointerOptions",
     "PacketNode",

@@ -14,15 +14,17 @@ from hri.core.errors import InvalidArgument
 
 Array = NDArray[Any]
 
-_MODES: dict[str, Any] = dict(_native.Border.__members__)
+MODES: tuple[str, ...] = tuple(
+    next(field.choices for field in _native.ShrinkageOptions.fields() if field.name == "border")
+)
+"""What stands beyond the ends of a signal, by PyWavelets' names."""
 
 
 def as_mode(name: str) -> Any:
-    """What the C++ library takes for a mode of that name."""
-    try:
-        return _MODES[name]
-    except (KeyError, TypeError):
-        raise InvalidArgument(f"no mode {name!r}; there are: {', '.join(_MODES)}") from None
+    """The name, if there is a mode of that name."""
+    if name not in MODES:
+        raise InvalidArgument(f"no mode {name!r}; there are: {', '.join(MODES)}")
+    return name
 
 
 def as_real(values: ArrayLike) -> Array:

@@ -9,9 +9,6 @@ from dataclasses import dataclass, field
 from hri import _native
 from hri.core.errors import InvalidArgument
 
-MODES: tuple[str, ...] = tuple(_native.Border.__members__)
-"""What stands beyond the ends of a signal, by PyWavelets' names."""
-
 FAMILIES = ("haar", "db", "sym", "coif", "bior", "rbio", "dmey")
 _BIORTHOGONAL = ("bior", "rbio")
 

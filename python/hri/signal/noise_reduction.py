@@ -13,9 +13,8 @@ from hri.core.errors import InvalidArgument
 from hri.signal.arrays import as_contiguous, as_mode
 from hri.signal.filters import Wavelet, name_of
 
-RULES: dict[str, Any] = dict(_native.ThresholdRule.__members__)
-SHAPES: dict[str, Any] = dict(_native.ThresholdShape.__members__)
-NOISES: dict[str, Any] = dict(_native.NoiseEstimate.__members__)
+_CHOICES = {field.name: field.choices for field in _native.ShrinkageOptions.fields()}
+RULES, SHAPES, NOISES = _CHOICES["rule"], _CHOICES["shape"], _CHOICES["noise"]
 
 Array = NDArray[Any]
 
@@ -111,7 +110,7 @@ def shrink(details: ArrayLike, threshold: float, shape: str = "soft") -> Array:
     return _native.shrink(as_contiguous(details), threshold, _named(SHAPES, "shape", shape))
 
 
-def _named(choices: Any, what: str, name: str) -> Any:
+def _named(choices: list[str], what: str, name: str) -> Any:
     if name not in choices:
         raise InvalidArgument(f"no {what} {name!r}; there are: {', '.join(choices)}")
-    return choices[name]
+    return name

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
-from hri._native import ActivityOptions, Endpoint, Endpointer, EndpointerOptions, EndpointKind
+from hri._native import ActivityOptions, Endpoint, Endpointer, EndpointerOptions
 
 __all__ = [
     "ActivityOptions",
     "Endpoint",
-    "EndpointKind",
     "Endpointer",
     "EndpointerOptions",
     "activity_frames",

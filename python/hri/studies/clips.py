@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from hri.media import read_audio
 from hri.media.audio import Audio
@@ -27,9 +28,9 @@ def read_clips(data_dir: Path, name: str, progress: Progress, takes: int | None 
     return clips
 
 
-def fit_clips(clips: Sequence[Clip], model: str) -> WordRecognizer:
+def fit_clips(clips: Sequence[Clip], model: Any) -> WordRecognizer:
     """A recogniser with models of the kind `model` and the defaults otherwise."""
-    return WordRecognizer(models={"model": model}).fit(
+    return WordRecognizer(model=model).fit(
         [sound.samples for _, _, sound in clips],
         [label for label, _, _ in clips],
         sample_rate_hz=[sound.sample_rate_hz for _, _, sound in clips],

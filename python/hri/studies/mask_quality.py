@@ -29,7 +29,7 @@ _FLESH = 0.12
 """Joints lie within the hand: by how much of its size the hull grows."""
 
 
-def _finders(frames: Sequence[NDArray[np.uint8]], ways: Sequence[str]) -> dict[str, Any]:
+def _finders(frames: Sequence[NDArray[np.uint8]], ways: Sequence[Any]) -> dict[str, Any]:
     from hri.vision import HandColours, SilhouetteExtractor, SilhouetteOptions
 
     finders: dict[str, Any] = {}

@@ -28,7 +28,7 @@ NOISES = {
 SNRS_DB = (20, 10, 5, 0)
 TRAINING_SNRS_DB = (20.0, 15.0, 10.0, 5.0, 0.0)
 TRAINING = ("clean", "random", "noisy")
-OPTIONS = {"clean": {"noise_copies": 0}}
+OPTIONS = {"clean": {"num_noisy_copies": 0}}
 LISTENING = ("alone", "adapting")
 TARGETS = {"clean": 0.78, "noisy": 0.85}
 """White noise at 10 dB, by what was trained on, while adapting to speaker and noise."""

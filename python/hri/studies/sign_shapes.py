@@ -83,7 +83,7 @@ def _fit_svm(rows: Vectors, classes: NDArray[np.int64]) -> Predict:
     return lambda test: trained.predict(scale * test)
 
 
-def _nearest(metric: str) -> Fit:
+def _nearest(metric: Any) -> Fit:
     return partial(_fit, partial(DistanceClassifier, metric=metric))
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +36,7 @@ class Material(NamedTuple):
 
     folder: str
     pattern: str | None
-    source: str
+    source: Literal["silhouettes", "landmarks"]
 
 
 DATA = {
@@ -86,7 +86,7 @@ def _folds(dataset: Dataset) -> list[Fold]:
 
 
 def _measure(
-    dataset: Dataset, source: str, rows: Sequence[Rows], num_halves: int | None, progress: Progress
+    dataset: Dataset, source: Any, rows: Sequence[Rows], num_halves: int | None, progress: Progress
 ) -> tuple[Row, dict[str, Any]]:
     measured: dict[str, dict[str, float]] = {}
     chosen, folds = halves(dataset.labels, NUM_HALVES, SEED)[:num_halves], _folds(dataset)

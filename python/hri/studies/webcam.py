@@ -78,7 +78,7 @@ def _load(data_dir: Path) -> Dataset:
     return Dataset.load(data_dir / FOLDER, "gesture", PATTERN)
 
 
-def _features(dataset: Dataset, source: str, lights: Sequence[str], progress: Progress) -> dict[str, list[Rows]]:
+def _features(dataset: Dataset, source: Any, lights: Sequence[str], progress: Progress) -> dict[str, list[Rows]]:
     """Rows of every clip in every light; every clip is read once."""
     recognizer = GestureRecognizer(source=source)
     found: dict[str, list[Rows]] = {light: [] for light in lights}
@@ -90,7 +90,7 @@ def _features(dataset: Dataset, source: str, lights: Sequence[str], progress: Pr
     return found
 
 
-def _train(dataset: Dataset, rows: Sequence[Rows], fold: Fold, source: str) -> GestureRecognizer:
+def _train(dataset: Dataset, rows: Sequence[Rows], fold: Fold, source: Any) -> GestureRecognizer:
     return GestureRecognizer(source=source).fit_features(
         [rows[i] for i in fold.train], [dataset.samples[i].label for i in fold.train]
     )

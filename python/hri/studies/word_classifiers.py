@@ -83,7 +83,7 @@ def _fit_ptbhmm(frames: Sequence[Frames], classes: Sequence[int], count: int) ->
     return lambda test: np.array([np.argmax(trained.log_possibilities(book.predict(f))) for f in test])
 
 
-def _nearest(metric: str) -> Fit:
+def _nearest(metric: Any) -> Fit:
     return partial(_fit_vectors, partial(DistanceClassifier, metric=metric))
 
 

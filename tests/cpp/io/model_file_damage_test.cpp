@@ -76,11 +76,11 @@ TEST(ModelFileDamage, IsNamedWithFileAndField) {
     const char* named;
   };
   const Case cases[] = {
-      {R"("format_version":"1")", R"("format_version":"2")", "format version 2"},
-      {R"("format_version":"1")", R"("format_version":"0")", "format version 0"},
-      {R"("format_version":"1")", R"("format_version":"x")", "format_version"},
-      {R"("format_version":"1")", R"("format_version":1)", "format_version"},
-      {R"("format_version":"1",)", "", "format_version"},
+      {R"("format_version":"2")", R"("format_version":"3")", "format version 3"},
+      {R"("format_version":"2")", R"("format_version":"0")", "format version 0"},
+      {R"("format_version":"2")", R"("format_version":"x")", "format_version"},
+      {R"("format_version":"2")", R"("format_version":1)", "format_version"},
+      {R"("format_version":"2",)", "", "format_version"},
       {R"("kind":"sample")", R"("kind":"simple")", "checksum"},
       {"__metadata__", "__metadatA__", "__metadata__"},
       {"checksum", "checksun", "checksum"},

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,10 +20,11 @@
 namespace hri {
 
 /// A named set of matrices and metadata. Getters throw FormatError that names the file and the
-/// field; every number they give is finite. Not thread-safe while being changed.
+/// field; every number they give is finite. Not thread-safe:
+/// what was read is kept.
 class HRI_API ModelFile {
  public:
-  static constexpr int kFormatVersion = 1;
+  static constexpr int kFormatVersion = 2;
 
   /// Reads a whole file. Throws IoError where it cannot be read and FormatError for anything but a
   /// sound model: sizes are bounded by the real file size before memory is taken, tensors must fill
@@ -38,6 +40,9 @@ class HRI_API ModelFile {
 
   /// What the file was read from, for messages; "model" for a new one.
   [[nodiscard]] const std::string& name() const { return name_; }
+
+  /// Of the format that the file was written in.
+  [[nodiscard]] int version() const { return version_; }
 
   [[nodiscard]] const std::string& kind() const { return text("kind"); }
   void set_kind(const std::string& kind) { set_text("kind", kind); }
@@ -66,6 +71,10 @@ class HRI_API ModelFile {
   void set_vector(const std::string& name, const VectorD& values);
   void set_vector(const std::string& name, const VectorF& values);
 
+  /// Throws FormatError that names a field or tensor which no getter has given yet: a newer library
+  /// wrote it, and what it means is not known here.
+  void require_all_read() const;
+
  private:
   struct Tensor {
     bool is_double = false;
@@ -78,6 +87,8 @@ class HRI_API ModelFile {
   [[nodiscard]] std::uint32_t checksum() const;
 
   std::string name_ = "model";
+  int version_ = kFormatVersion;
+  mutable std::set<std::string> read_;
   std::map<std::string, Tensor> tensors_;
   std::map<std::string, std::string> metadata_;
 };

@@ -5,12 +5,14 @@
 // Markov models or possibility-theory HMMs behind one interface, for words and for gestures.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -22,26 +24,50 @@ enum class SequenceModelKind : std::uint8_t {
   hmm,     ///< Gaussian-mixture HMM a class, forward score
   ptbhmm,  ///< vector quantisation and the possibility-theory HMM set, product conjunction
 };
+constexpr auto enum_names(SequenceModelKind) { return std::array{"hmm", "ptbhmm"}; }
 
 struct SequenceModelOptions {
   SequenceModelKind model = SequenceModelKind::hmm;
-  int num_states = 8;       ///< left-right states a class, 1..64
-  int num_mixtures = 1;     ///< Gaussians a state (hmm), 1..64
-  int num_codewords = 128;  ///< codebook size (ptbhmm), 2..4096
-  int garbage_mixtures =
-      16;  ///< Gaussians of the garbage model that rejection compares with (hmm), 1..256
-  int max_iterations = 12;  ///< Baum-Welch iterations, 1..1000
+  int num_states = 8;
+  int num_mixtures = 1;
+  int num_codewords = 128;
+  int garbage_mixtures = 16;
+  int max_iterations = 12;
   std::uint64_t seed = 0;
+
+  static constexpr const char* kName = "SequenceModelOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("model", o.model, any_value, "kind of the models");
+    v("num_states", o.num_states, within(1, 64), "left-right states a class");
+    v("num_mixtures", o.num_mixtures, within(1, 64), "Gaussians a state (hmm)");
+    v("num_codewords", o.num_codewords, within(2, 4096), "size of the codebook (ptbhmm)");
+    v("garbage_mixtures", o.garbage_mixtures, within(1, 256),
+      "Gaussians of the garbage model that rejection compares with (hmm)");
+    v("max_iterations", o.max_iterations, within(1, 1000), "iterations of Baum-Welch at most");
+    v("seed", o.seed, any_seed, "of everything random in training");
+  }
 };
 
 /// Adaptation to a speaker, a microphone or a room: first one linear transform of all models
 /// (linear_adaptation.hpp), then maximum a posteriori estimation of each (map_adaptation.hpp).
 struct AdaptationOptions {
-  double shared_frames = 400;  ///< prior weight of the unchanged models in frames, > 0
-  double prior_frames = 5;     ///< prior weight of each state in frames, > 0
-  int num_iterations = 3;      ///< EM iterations of the second step, 1..1000
-  bool each_class = true;      ///< false leaves the second step out
+  double shared_frames = 400;
+  double prior_frames = 5;
+  int num_iterations = 3;
+  bool each_class = true;
   StopCheck should_stop;
+
+  static constexpr const char* kName = "AdaptationOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("shared_frames", o.shared_frames, above(0, 1e12),
+      "imagined frames that hold the common change back");
+    v("prior_frames", o.prior_frames, above(0, 1e12),
+      "frames a state that weigh as much as the training");
+    v("num_iterations", o.num_iterations, within(1, 1000), "EM iterations of the second part");
+    v("each_class", o.each_class, any_value, "False leaves the second part out");
+  }
 };
 
 /// How the best path of one class explains a sequence.
@@ -103,9 +129,6 @@ class HRI_API SequenceScorer {
 
   virtual void write(ModelFile& file, const std::string& prefix) const = 0;
 };
-
-/// Throws InvalidArgument that names the field out of range.
-HRI_API void check(const SequenceModelOptions& options);
 
 /// Trains one model a class, no class empty. Throws InvalidArgument for options out of range and
 /// for fillers where the kind is ptbhmm, which cannot compare with them; Interrupted.

@@ -4,11 +4,13 @@
 // What a recogniser says of one utterance or gesture.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 
 namespace hri {
 
@@ -17,9 +19,9 @@ enum class DecisionStatus : std::uint8_t {
   unknown,     ///< something was said or shown, but no class of the vocabulary explains it
   no_input,    ///< silence, or no hand in view
 };
-
-/// The name of a status as it stands in JSON: "recognised", "unknown" or "no_input".
-HRI_API const char* status_name(DecisionStatus status);
+constexpr auto enum_names(DecisionStatus) {
+  return std::array{"recognised", "unknown", "no_input"};
+}
 
 /// One class of the n-best list.
 struct NBest {

@@ -5,6 +5,7 @@
 // PyWavelets.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -37,6 +38,10 @@ enum class Border : std::uint8_t {
   antisymmetric,
   antireflect
 };
+constexpr auto enum_names(Border) {
+  return std::array{"symmetric",     "zero",   "constant",      "periodic",   "reflect",
+                    "periodization", "smooth", "antisymmetric", "antireflect"};
+}
 
 /// Coefficients of one level: (n + taps - 1) / 2, or (n + 1) / 2 for periodization.
 HRI_API std::size_t dwt_length(std::size_t num_samples, std::size_t num_taps, Border border);

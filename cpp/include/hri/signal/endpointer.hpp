@@ -6,11 +6,13 @@
 // find_speech would give for the utterance and the silence around it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/activity.hpp"
 
@@ -18,9 +20,20 @@ namespace hri {
 
 struct EndpointerOptions {
   ActivityOptions activity;
-  double hangover_ms = 300;        ///< silence that ends an utterance, 50..5000
-  double context_ms = 300;         ///< noise kept before an utterance, to know it by, 50..5000
-  double max_utterance_ms = 5000;  ///< what goes on for longer is cut, 500..60000
+  double hangover_ms = 300;
+  double context_ms = 300;
+  double max_utterance_ms = 5000;
+
+  static constexpr const char* kName = "EndpointerOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("activity", o.activity, any_value, "how speech is found");
+    v("hangover_ms", o.hangover_ms, within(50, 5000), "silence that ends an utterance");
+    v("context_ms", o.context_ms, within(50, 5000),
+      "noise kept from before an utterance, to estimate its level");
+    v("max_utterance_ms", o.max_utterance_ms, within(500, 60000),
+      "longest utterance; a longer one is cut");
+  }
 };
 
 enum class EndpointKind : std::uint8_t {
@@ -29,6 +42,9 @@ enum class EndpointKind : std::uint8_t {
   speech_end,      ///< and has ended: [first, last) is the utterance
   speech_dropped,  ///< what seemed to be speech was none
 };
+constexpr auto enum_names(EndpointKind) {
+  return std::array{"none", "speech_start", "speech_end", "speech_dropped"};
+}
 
 /// An event in the stream; all positions are samples since its beginning.
 struct Endpoint {

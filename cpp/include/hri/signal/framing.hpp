@@ -4,6 +4,7 @@
 // Cutting a signal into overlapping frames, and the window that is laid over each.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,9 @@ enum class WindowKind : std::uint8_t {
   povey,          ///< hann to the power of 0.85, as Kaldi uses
   rectangular,
 };
+constexpr auto enum_names(WindowKind) {
+  return std::array{"hamming", "hann", "hann_periodic", "povey", "rectangular"};
+}
 
 /// A window of `size` >= 1 samples.
 HRI_API std::vector<float> make_window(WindowKind kind, int size);

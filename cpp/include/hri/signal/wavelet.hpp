@@ -32,4 +32,10 @@ HRI_API const Wavelet& wavelet(std::string_view name);
 
 HRI_API std::vector<std::string> wavelet_names();
 
+/// Range of an options field that names a wavelet.
+struct HRI_API WaveletName {
+  [[nodiscard]] bool holds(std::string_view name) const;
+  [[nodiscard]] std::string text() const { return "the name of a wavelet, such as 'db4'"; }
+};
+
 }  // namespace hri

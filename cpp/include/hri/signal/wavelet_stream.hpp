@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/signal/wavelet.hpp"
 
@@ -17,7 +18,14 @@ namespace hri {
 
 struct WaveletStreamOptions {
   std::string wavelet = "db4";
-  int num_levels = 3;  ///< 1..30
+  int num_levels = 3;
+
+  static constexpr const char* kName = "WaveletStreamOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("wavelet", o.wavelet, WaveletName{}, "wavelet of the transform");
+    v("num_levels", o.num_levels, within(1, 30), "levels of the transform");
+  }
 };
 
 /// T is float or double. After the constructor nothing is allocated, however long the pieces are.

@@ -75,9 +75,8 @@ std::vector<std::uint8_t> shape_number(Span<const ContourPoint> contour) {
   return turns;
 }
 
-ChainCodeComputer::ChainCodeComputer(const ChainCodeOptions& options) : options_(options) {
-  require(options.num_parts >= 1 && options.num_parts <= 64, "num_parts must lie in 1..64");
-}
+ChainCodeComputer::ChainCodeComputer(const ChainCodeOptions& options)
+    : options_(validated(options)) {}
 
 void ChainCodeComputer::compute(Span<const ContourPoint> contour, Span<float> out) const {
   require(!contour.empty(), "contour is empty");

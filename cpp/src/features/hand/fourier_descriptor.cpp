@@ -13,18 +13,15 @@ namespace {
 
 using Complex = std::complex<float>;
 
-FourierDescriptorOptions checked(const FourierDescriptorOptions& o) {
-  require(o.num_points >= 16 && o.num_points <= 4096 && o.num_points % 2 == 0,
-          "num_points must be even and lie in 16..4096");
-  require(o.num_harmonics >= 1 && o.num_harmonics < o.num_points / 2,
-          "num_harmonics must lie in 1..num_points / 2 - 1");
-  return o;
-}
-
 }  // namespace
 
+const char* FourierDescriptorOptions::conflict() const {
+  return num_harmonics < num_points / 2 ? nullptr
+                                        : "num_harmonics must be less than num_points / 2";
+}
+
 FourierDescriptorComputer::FourierDescriptorComputer(const FourierDescriptorOptions& options)
-    : options_(checked(options)), fft_(options.num_points) {}
+    : options_(validated(options)), fft_(options.num_points) {}
 
 void FourierDescriptorComputer::compute(Span<const ContourPoint> contour, Span<float> out) const {
   require(out.size() == static_cast<std::size_t>(num_features()),

@@ -17,17 +17,21 @@ constexpr float kPadding = 0.08F;
 
 }  // namespace
 
+const char* HandFeatureOptions::conflict() const {
+  if (histogram.num_cells > crop_px) return "histogram.num_cells must not exceed crop_px";
+  if (!use_grey && !use_silhouette && !use_cepstrum && !use_wavelet && !use_moments &&
+      !use_fourier && !use_chain_code) {
+    return "use_grey, use_silhouette, use_cepstrum, use_wavelet, use_moments, use_fourier and "
+           "use_chain_code must not all be off";
+  }
+  return nullptr;
+}
+
 HandFeatureComputer::HandFeatureComputer(const HandFeatureOptions& options)
-    : options_(options),
+    : options_(validated(options)),
       cepstrum_(options.cepstrum),
       fourier_(options.fourier),
       chain_code_(options.chain_code) {
-  require(options.crop_px >= 16 && options.crop_px <= 256, "crop_px must lie in 16..256");
-  require(options.histogram.num_cells <= options.crop_px,
-          "histogram.num_cells must not exceed crop_px");
-  require(options.cepstrum_weight > 0, "cepstrum_weight must be positive");
-  require(options.descriptor_weight > 0, "descriptor_weight must be positive");
-  validate(options.wavelet);
   if (options.use_wavelet) wavelet_.emplace(options.wavelet);
   const int histogram = orientation_histogram_size(options.histogram);
   num_features_ = (options.use_grey ? histogram : 0) + (options.use_silhouette ? histogram : 0) +
@@ -36,9 +40,6 @@ HandFeatureComputer::HandFeatureComputer(const HandFeatureOptions& options)
                   (options.use_fourier ? fourier_.num_features() : 0) +
                   (options.use_chain_code ? chain_code_.num_features() : 0) +
                   (options.use_moments ? kNumHuMoments : 0);
-  require(num_features_ > 0,
-          "use_grey, use_silhouette, use_cepstrum, use_wavelet, use_fourier, "
-          "use_chain_code and use_moments must not all be off");
 }
 
 void HandFeatureComputer::compute(ImageView grey, ImageView mask, Span<float> out) const {

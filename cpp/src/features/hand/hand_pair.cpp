@@ -19,12 +19,7 @@ double squared(double v) { return v * v; }
 
 }  // namespace
 
-HandPairTracker::HandPairTracker(const HandPairOptions& options) : options_(options) {
-  require(options.min_area >= 0 && options.min_area <= 1, "min_area must lie in 0..1");
-  require(options.min_share >= 0 && options.min_share <= 1, "min_share must lie in 0..1");
-  require(options.num_kept_frames >= 0 && options.num_kept_frames <= 1000,
-          "num_kept_frames must lie in 0..1000");
-}
+HandPairTracker::HandPairTracker(const HandPairOptions& options) : options_(validated(options)) {}
 
 void HandPairTracker::reset() {
   for (Track& t : tracks_) t.known = false;

@@ -28,13 +28,8 @@ bool place(ImageView mask, float* row) {
 
 }  // namespace
 
-HandTrackComputer::HandTrackComputer(const HandTrackOptions& options) : options_(options) {
-  require(options.frames_per_second > 0 && std::isfinite(options.frames_per_second),
-          "frames_per_second must be positive");
-  require(options.delta_orders >= 0 && options.delta_orders <= 2, "delta_orders must lie in 0..2");
-  require(options.delta_window >= 1 && options.delta_window <= 10,
-          "delta_window must lie in 1..10");
-}
+HandTrackComputer::HandTrackComputer(const HandTrackOptions& options)
+    : options_(validated(options)) {}
 
 Eigen::Index HandTrackComputer::compute(Span<const ImageView> masks, MatrixRefF out) const {
   require(out.rows() == static_cast<Eigen::Index>(masks.size()) && out.cols() == num_features(),

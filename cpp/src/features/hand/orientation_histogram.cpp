@@ -18,11 +18,6 @@ constexpr float kClip = 0.2F;
 constexpr float kFlat = 0.1F;  // length below which a block counts as flat, in units of the image
 constexpr float kLargest = 1e6F;  // sums of squares of gradients of larger values may overflow
 
-void check(const OrientationHistogramOptions& o) {
-  require(o.num_cells >= 1 && o.num_cells <= 64, "num_cells must lie in 1..64");
-  require(o.num_bins >= 2 && o.num_bins <= 72, "num_bins must lie in 2..72");
-}
-
 HRI_SIMD_CLONES bool all_within(const float* values, std::size_t count) {
   int outside = 0;
   for (std::size_t i = 0; i < count; ++i) outside += std::abs(values[i]) <= kLargest ? 0 : 1;
@@ -111,7 +106,7 @@ void normalise_block(float* block, int size) {
 }  // namespace
 
 int orientation_histogram_size(const OrientationHistogramOptions& options) {
-  check(options);
+  validate(options);
   if (options.num_cells == 1) return options.num_bins;
   return (options.num_cells - 1) * (options.num_cells - 1) * 4 * options.num_bins;
 }

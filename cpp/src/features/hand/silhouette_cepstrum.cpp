@@ -17,10 +17,6 @@ namespace {
 constexpr int kPointsPerSecond = 1000;
 
 CepstraOptions cepstra_options(const SilhouetteCepstrumOptions& o) {
-  require(o.num_levels >= 0 && o.num_levels <= 4, "num_levels must lie in 0..4");
-  require(o.mask_px >= 64 && o.mask_px <= 1024, "mask_px must lie in 64..1024");
-  require(o.num_points >= 64 && o.num_points <= 4096, "num_points must lie in 64..4096");
-  require(o.num_filters >= 2 && o.num_filters <= 64, "num_filters must lie in 2..64");
   CepstraOptions c;
   c.sample_rate_hz = kPointsPerSecond;
   c.frame_length_ms = o.num_points / 2.0 > 1000 ? 1000 : o.num_points / 2.0;
@@ -37,11 +33,12 @@ CepstraOptions cepstra_options(const SilhouetteCepstrumOptions& o) {
 
 }  // namespace
 
-SilhouetteCepstrumComputer::SilhouetteCepstrumComputer(const SilhouetteCepstrumOptions& options)
-    : options_(options), cepstra_(cepstra_options(options)) {
-  static_cast<void>(
-      wavelet(options.wavelet));  // refuses an unknown name now rather than at the first mask
+const char* SilhouetteCepstrumOptions::conflict() const {
+  return num_cepstra < num_filters ? nullptr : "num_cepstra must be less than num_filters";
 }
+
+SilhouetteCepstrumComputer::SilhouetteCepstrumComputer(const SilhouetteCepstrumOptions& options)
+    : options_(validated(options)), cepstra_(cepstra_options(options)) {}
 
 std::vector<float> SilhouetteCepstrumComputer::contour_signal(ImageView mask) const {
   const HandBox box = hand_box(mask);

@@ -86,17 +86,8 @@ double b_spline_wavelet(double r) {
          std::cos(2 * kPi * kF0 * u) * std::exp(-u * u / (2 * kVariance * (kDegree + 1)));
 }
 
-void validate(const WaveletDescriptorOptions& options) {
-  require(options.source <= WaveletDescriptorSource::contour,
-          "source must be silhouette or contour");
-  require(options.num_scales >= 1 && options.num_scales <= 6, "num_scales must lie in 1..6");
-  require(options.num_frequencies >= 1 && options.num_frequencies <= 32,
-          "num_frequencies must lie in 1..32");
-}
-
 WaveletDescriptorComputer::WaveletDescriptorComputer(const WaveletDescriptorOptions& options)
-    : options_(options) {
-  validate(options);
+    : options_(validated(options)) {
   wavelets_ = wavelet_table(options.num_scales);
 }
 

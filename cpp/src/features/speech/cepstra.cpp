@@ -17,11 +17,8 @@ constexpr double kDecibelsPerNeper = 4.342944819032518;  // of power: 10 / ln 10
 
 CepstraOptions checked(const CepstraOptions& options) {
   validate(options);
+  require(options.sample_rate_hz > 0, "CepstraOptions.sample_rate_hz must be set");
   return options;
-}
-
-int samples_of(double ms, int rate_hz) {
-  return std::max(1, static_cast<int>(std::lround(ms * rate_hz / 1000.0)));
 }
 
 int fft_size_of(const CepstraOptions& o, int frame_length) {
@@ -30,24 +27,7 @@ int fft_size_of(const CepstraOptions& o, int frame_length) {
     while (size < frame_length) size *= 2;
     return size;
   }
-  require(o.fft_size >= frame_length, "fft_size must not be less than the samples of a frame");
   return o.fft_size;
-}
-
-FilterBankOptions bank_options(const CepstraOptions& o) {
-  FilterBankOptions bank;
-  bank.kind = o.filter_bank;
-  bank.num_filters = o.num_filters;
-  bank.low_hz = o.low_hz;
-  bank.high_hz = o.high_hz;
-  bank.erb_factor = o.erb_factor;
-  bank.warp = o.warp;
-  bank.warp_low_hz = o.warp_low_hz;
-  bank.warp_high_hz = o.warp_high_hz;
-  bank.mel_scale = o.mel_scale;
-  bank.axis = o.filter_axis;
-  bank.unit_area = o.unit_area;
-  return bank;
 }
 
 std::vector<float> scaled_window(const CepstraOptions& o, int frame_length) {
@@ -70,11 +50,11 @@ std::vector<double> lifts(const CepstraOptions& o) {
 
 CepstraComputer::CepstraComputer(const CepstraOptions& options)
     : options_(checked(options)),
-      frame_length_(samples_of(options.frame_length_ms, options.sample_rate_hz)),
-      frame_shift_(samples_of(options.frame_shift_ms, options.sample_rate_hz)),
+      frame_length_(options.samples_of(options.frame_length_ms)),
+      frame_shift_(options.samples_of(options.frame_shift_ms)),
       c0_column_(options.use_c0 ? (options.htk_c0 ? options.num_cepstra : 0) : -1),
       fft_(fft_size_of(options, frame_length_)),
-      bank_(bank_options(options), options.sample_rate_hz, fft_.size()),
+      bank_(options.filter_bank_options(), options.sample_rate_hz, fft_.size()),
       window_(scaled_window(options, frame_length_)),
       lifts_(lifts(options)) {
   if (options.kind == CepstraKind::filter_bank) set_dct();

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/features/speech/cepstra_options.hpp"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <string>
-
-#include "hri/core/error.hpp"
 
 namespace hri {
 namespace {
@@ -19,12 +17,6 @@ CepstraOptions plain(int sample_rate_hz) {
   o.normalisation = Normalisation::none;
   o.delta_orders = 0;
   return o;
-}
-
-void check_ms(double ms, const char* field) {
-  if (ms >= 1 && ms <= 1000) return;
-  fail(ErrorKind::invalid_argument,
-       std::string(field) + " must lie in 1..1000 ms, got " + std::to_string(ms));
 }
 
 }  // namespace
@@ -71,33 +63,39 @@ CepstraOptions CepstraOptions::librosa(int sample_rate_hz) {
   return o;
 }
 
-void validate(const CepstraOptions& o) {
-  require(o.sample_rate_hz >= 1000 && o.sample_rate_hz <= 384000,
-          "sample_rate_hz must lie in 1000..384000");
-  check_ms(o.frame_length_ms, "frame_length_ms");
-  check_ms(o.frame_shift_ms, "frame_shift_ms");
-  require(o.sample_scale > 0 && o.sample_scale <= 1e6, "sample_scale must lie in 0..1e6, not 0");
-  require(o.pre_emphasis >= 0 && o.pre_emphasis <= 1, "pre_emphasis must lie in 0..1");
-  require(o.fft_size >= 0 && o.fft_size <= (1 << 20) && o.fft_size % 2 == 0,
-          "fft_size must be even and at most 2^20");
-  require(o.energy_floor >= 1e-30 && o.energy_floor <= 1e30,
-          "energy_floor must lie in 1e-30..1e30");
-  require(o.top_db >= 0 && std::isfinite(o.top_db), "top_db must be finite and not negative");
-  require(std::isfinite(o.lifter) && o.lifter >= 0, "lifter must be finite and not negative");
-  if (o.kind == CepstraKind::filter_bank) {
-    require(o.num_filters >= 1 && o.num_filters <= 512, "num_filters must lie in 1..512");
-    require(o.num_cepstra >= 1 && o.num_cepstra < o.num_filters,
-            "num_cepstra must lie in 1..num_filters - 1");
+int CepstraOptions::samples_of(double ms) const {
+  return std::max(1, static_cast<int>(std::lround(ms * sample_rate_hz / 1000.0)));
+}
+
+FilterBankOptions CepstraOptions::filter_bank_options() const {
+  FilterBankOptions bank;
+  bank.kind = filter_bank;
+  bank.num_filters = num_filters;
+  bank.low_hz = low_hz;
+  bank.high_hz = high_hz;
+  bank.erb_factor = erb_factor;
+  bank.warp = warp;
+  bank.warp_low_hz = warp_low_hz;
+  bank.warp_high_hz = warp_high_hz;
+  bank.mel_scale = mel_scale;
+  bank.axis = filter_axis;
+  bank.unit_area = unit_area;
+  return bank;
+}
+
+const char* CepstraOptions::conflict() const {
+  if (kind == CepstraKind::filter_bank) {
+    if (num_cepstra >= num_filters) return "num_cepstra must be less than num_filters";
   } else {
-    require(o.lpc_order >= 1 && o.lpc_order <= 64, "lpc_order must lie in 1..64");
-    require(o.num_cepstra >= 1 && o.num_cepstra <= 64, "num_cepstra must lie in 1..64");
-    require(o.top_db == 0, "top_db needs a filter bank");
+    if (num_cepstra > 64) return "num_cepstra of linear prediction must lie in 1..64";
+    if (top_db != 0) return "top_db needs a filter bank";
   }
-  require(o.use_c0 || !o.use_energy, "use_energy needs use_c0");
-  require(o.rasta_pole >= 0 && o.rasta_pole < 1, "rasta_pole must lie in 0..1, 1 excluded");
-  require(o.running_s > 0 && std::isfinite(o.running_s), "running_s must be greater than 0");
-  require(o.delta_orders >= 0 && o.delta_orders <= 2, "delta_orders must lie in 0..2");
-  require(o.delta_window >= 1 && o.delta_window <= 10, "delta_window must lie in 1..10");
+  if (use_energy && !use_c0) return "use_energy needs use_c0";
+  const FilterBankOptions bank = filter_bank_options();
+  if (sample_rate_hz == 0) return bank.conflict();
+  if (fft_size != 0 && fft_size < samples_of(frame_length_ms))
+    return "fft_size must not be less than the samples of a frame";
+  return bank.conflict_at(sample_rate_hz);
 }
 
 }  // namespace hri

@@ -47,25 +47,6 @@ std::vector<double> equally_spaced_in_mel(double from_hz, double to_hz, int coun
   return result;
 }
 
-void check(const FilterBankOptions& o, int sample_rate_hz) {
-  require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000,
-          "sample_rate_hz must lie in 1000..384000");
-  require(o.num_filters >= 1 && o.num_filters <= 512, "num_filters must lie in 1..512");
-  require(o.high_hz >= 0, "high_hz must not be negative");
-  const double high = o.high_hz > 0 ? o.high_hz : sample_rate_hz / 2.0;
-  require(o.low_hz >= 0 && o.low_hz < high, "low_hz must lie in 0..high_hz");
-  require(high <= sample_rate_hz / 2.0, "high_hz must not exceed half the sample rate");
-  require(o.erb_factor >= 0.1 && o.erb_factor <= 10, "erb_factor must lie in 0.1..10");
-  require(o.warp >= 0.5 && o.warp <= 2, "warp must lie in 0.5..2");
-  if (o.warp_low_hz == 0 && o.warp_high_hz == 0) return;
-  require(o.warp_low_hz > o.low_hz && o.warp_low_hz < high,
-          "warp_low_hz must lie between low_hz and high_hz, or both bends be 0");
-  require(o.warp_high_hz > o.warp_low_hz && o.warp_high_hz < high,
-          "warp_high_hz must lie between warp_low_hz and high_hz, or both bends be 0");
-  require(o.warp_low_hz * std::max(1.0, 1 / o.warp) < o.warp_high_hz * std::min(1.0, 1 / o.warp),
-          "warp_low_hz and warp_high_hz lie too close for this warp");
-}
-
 // Where the warp takes a frequency (see FilterBankOptions).
 double warped(double hz, const FilterBankOptions& o, double high_hz) {
   if (o.warp_low_hz == 0 && o.warp_high_hz == 0) return o.warp * hz;
@@ -100,12 +81,34 @@ double mel_to_hz(double mel, MelScale scale) {
   return kSlaneyCornerHz * std::exp((mel - kSlaneyCornerMel) * kSlaneyLogStep);
 }
 
+const char* FilterBankOptions::conflict() const {
+  return conflict_at(high_hz > 0 ? 2 * high_hz : 384000);
+}
+
+const char* FilterBankOptions::conflict_at(double sample_rate_hz) const {
+  const double high = high_hz > 0 ? high_hz : sample_rate_hz / 2;
+  if (low_hz >= high) return "low_hz must be less than high_hz, or half the sample rate";
+  if (high > sample_rate_hz / 2) return "high_hz must not exceed half the sample rate";
+  if (warp_low_hz == 0 && warp_high_hz == 0) return nullptr;
+  if (warp_low_hz <= low_hz || warp_low_hz >= high)
+    return "warp_low_hz must lie between low_hz and high_hz, or both bends be 0";
+  if (warp_high_hz <= warp_low_hz || warp_high_hz >= high)
+    return "warp_high_hz must lie between warp_low_hz and high_hz, or both bends be 0";
+  if (warp_low_hz * std::max(1.0, 1 / warp) >= warp_high_hz * std::min(1.0, 1 / warp))
+    return "warp_low_hz and warp_high_hz lie too close for this warp";
+  return nullptr;
+}
+
 double equivalent_rectangular_bandwidth(double centre_hz, double erb_factor) {
   return erb_factor * (kErbA * centre_hz * centre_hz + kErbB * centre_hz + kErbC);
 }
 
 std::vector<FilterTriangle> filter_triangles(const FilterBankOptions& options, int sample_rate_hz) {
-  check(options, sample_rate_hz);
+  require(sample_rate_hz >= 1000 && sample_rate_hz <= 384000,
+          "sample_rate_hz must lie in 1000..384000");
+  validate(options);
+  const char* conflict = options.conflict_at(sample_rate_hz);
+  require(conflict == nullptr, conflict);
   const double high = options.high_hz > 0 ? options.high_hz : sample_rate_hz / 2.0;
   std::vector<FilterTriangle> triangles;
   if (options.kind == FilterBankKind::mel) {

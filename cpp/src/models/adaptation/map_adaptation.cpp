@@ -14,13 +14,6 @@ namespace {
 // A Gaussian that met few frames, all alike, must not become a needle.
 constexpr double kLeastVariance = 0.1;
 
-void check(const MapAdaptationOptions& options) {
-  require(options.prior_frames > 0 && std::isfinite(options.prior_frames),
-          "prior_frames must be finite and positive");
-  require(options.num_iterations >= 1 && options.num_iterations <= 1000,
-          "num_iterations must lie in 1..1000");
-}
-
 MixtureBank with_variance_floor(const MixtureBank& bank, const MixtureBank& prior) {
   return {bank.weights(), bank.means(),
           bank.variances().cwiseMax(kLeastVariance * prior.variances())};
@@ -28,7 +21,7 @@ MixtureBank with_variance_floor(const MixtureBank& bank, const MixtureBank& prio
 
 MixtureBank adapt(const MarkovChain& chain, const MixtureBank& prior,
                   const std::vector<MatrixF>& sequences, const MapAdaptationOptions& options) {
-  check(options);
+  validate(options);
   detail::check_adaptation_data(sequences, prior.dim());
   MixtureBank bank = prior;
   const VectorD no_floor = VectorD::Constant(prior.dim(), 1e-10);

@@ -7,6 +7,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/models/row_checks.hpp"
+#include "io/option_fields.hpp"
 #include "models/classifiers/class_statistics.hpp"
 
 namespace hri {
@@ -14,6 +15,7 @@ namespace hri {
 DistanceClassifier DistanceClassifier::train(ConstMatrixRefF rows, Span<const int> classes,
                                              int num_classes,
                                              const DistanceClassifierOptions& options) {
+  validate(options);
   const detail::ClassStatistics statistics = detail::class_statistics(rows, classes, num_classes);
   DistanceClassifier model;
   model.metric_ = options.metric;
@@ -87,19 +89,14 @@ VectorF DistanceClassifier::decision_values(Span<const float> row) const {
 }
 
 void DistanceClassifier::write(ModelFile& file, const std::string& prefix) const {
-  file.set_integer(prefix + "metric", static_cast<std::int64_t>(metric_));
+  detail::write_enum(metric_, file, prefix + "metric");
   file.set_matrix(prefix + "means", means_);
   if (num_covariances() > 0) file.set_matrix(prefix + "covariances", covariances_);
 }
 
 DistanceClassifier DistanceClassifier::read(const ModelFile& file, const std::string& prefix) {
-  const std::int64_t metric = file.integer(prefix + "metric");
-  if (metric < 0 || metric > static_cast<std::int64_t>(ClassDistance::bhattacharyya)) {
-    fail(ErrorKind::format,
-         file.name() + ": field '" + prefix + "metric' is " + std::to_string(metric));
-  }
   DistanceClassifier model;
-  model.metric_ = static_cast<ClassDistance>(metric);
+  model.metric_ = detail::read_enum<ClassDistance>(file, prefix + "metric");
   model.means_ = file.matrix_f(prefix + "means");
   if (model.means_.rows() < 2 || model.dim() < 1)
     fail(ErrorKind::format, file.name() + ": field '" + prefix + "means' is empty");

@@ -17,6 +17,7 @@ constexpr double kLog2Pi = 1.8378770664093454835606594728112;
 
 GaussianBayes GaussianBayes::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                                    const GaussianBayesOptions& options) {
+  validate(options);
   const detail::ClassStatistics statistics = detail::class_statistics(rows, classes, num_classes);
   const Eigen::Index dim = statistics.dim();
   GaussianBayes model;

@@ -14,8 +14,7 @@ namespace hri {
 Knn Knn::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                const KnnOptions& options) {
   validate_rows(rows, classes, num_classes);
-  require(options.num_neighbours >= 1 && options.num_neighbours <= 1000,
-          "num_neighbours must lie in 1..1000");
+  validate(options);
   Knn model;
   model.rows_ = rows;
   model.classes_.assign(classes.begin(), classes.end());

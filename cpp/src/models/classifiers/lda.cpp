@@ -27,9 +27,8 @@ MatrixD whitening(const MatrixD& within) {
 Lda Lda::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                const LdaOptions& options) {
   validate_rows(rows, classes, num_classes);
-  require(options.num_components >= 0 && options.num_components < num_classes,
-          "num_components must lie in 0..num_classes - 1");
-  require(options.shrinkage >= 0 && options.shrinkage <= 1, "shrinkage must lie in 0..1");
+  validate(options);
+  require(options.num_components < num_classes, "num_components must lie in 0..num_classes - 1");
   require(rows.rows() > num_classes, "rows must be more than classes");
   const Eigen::Index dim = rows.cols();
   const VectorD mean = rows.cast<double>().colwise().mean();

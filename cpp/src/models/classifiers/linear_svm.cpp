@@ -77,10 +77,7 @@ Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
 LinearSvm LinearSvm::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                            const LinearSvmOptions& options) {
   validate_rows(rows, classes, num_classes, kNoClass);
-  require(options.cost > 0, "cost must be positive");
-  require(options.bias_feature > 0, "bias_feature must be positive");
-  require(options.max_iterations >= 1, "max_iterations must be at least 1");
-  require(options.tolerance > 0, "tolerance must be positive");
+  validate(options);
   MatrixF weights(num_classes, rows.cols());
   VectorF biases(num_classes);
   for (int c = 0; c < num_classes; ++c) {

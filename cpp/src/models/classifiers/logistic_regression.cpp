@@ -17,9 +17,7 @@ constexpr double kConverged = 1e-10;  // largest step that still counts
 
 void check(ConstMatrixRefD rows, Span<const int> yes, Span<const double> row_weights,
            const LogisticRegressionOptions& options) {
-  require(options.penalty > 0 && std::isfinite(options.penalty), "penalty must be positive");
-  require(options.max_iterations >= 1 && options.max_iterations <= 1000,
-          "max_iterations must lie in 1..1000");
+  validate(options);
   require(rows.rows() == static_cast<Eigen::Index>(yes.size()) &&
               yes.size() == row_weights.size() && rows.cols() > 0,
           "rows, yes and row_weights differ in length");

@@ -65,8 +65,7 @@ Usual usual_of(const Eigen::MatrixXd& squares, const std::vector<Eigen::Index>& 
 RbfClassifier RbfClassifier::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                                    const RbfClassifierOptions& options) {
   validate_rows(rows, classes, num_classes);
-  require(options.cost > 0, "cost must be positive");
-  require(options.sharpness > 0, "sharpness must be positive");
+  validate(options);
   const Eigen::Index count = rows.rows();
   require(count <= kMaxRows, "rows must not be more than 20000");
   RbfClassifier model;

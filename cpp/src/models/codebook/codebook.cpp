@@ -121,13 +121,7 @@ MatrixF run_kmeans(MatrixF centroids, const CodebookOptions& options, Assignment
 }
 
 void check(ConstMatrixRefF rows, const CodebookOptions& options) {
-  require(options.num_codewords >= 1 && options.num_codewords <= 65536,
-          "num_codewords must lie in 1..65536");
-  require(options.max_iterations >= 1 && options.max_iterations <= 100000,
-          "max_iterations must lie in 1..100000");
-  require(options.tolerance >= 0, "tolerance must not be negative");
-  require(options.split_epsilon > 0 && std::isfinite(options.split_epsilon),
-          "split_epsilon must be positive and finite");
+  validate(options);
   require(rows.rows() > 0 && rows.cols() > 0, "training needs at least one row and column");
   validate(rows, "rows");
 }

@@ -24,21 +24,11 @@ const char* emission_fault(int num_states, const MatrixD& emission) {
   return nullptr;
 }
 
-void check_start(const DiscreteHmmOptions& o) {
-  validate(o.topology);
-  require(o.num_symbols >= 1 && o.num_symbols <= 65536, "num_symbols must lie in 1..65536");
-}
-
+// A model that is trained on has its own number of symbols.
 void check(const DiscreteHmmOptions& o, int num_symbols) {
-  require(o.max_iterations >= 1 && o.max_iterations <= 100000,
-          "max_iterations must lie in 1..100000");
-  require(o.tolerance >= 0, "tolerance must not be negative");
-  require(o.emission_floor >= 0 && o.emission_floor * num_symbols <= 1,
-          "emission_floor must lie in 0..1/num_symbols");
-  require(o.transition_prior >= 0 && std::isfinite(o.transition_prior),
-          "transition_prior must be finite and not negative");
-  require(o.emission_prior >= 0 && std::isfinite(o.emission_prior),
-          "emission_prior must be finite and not negative");
+  validate(o);
+  require(num_symbols > 0, "DiscreteHmmOptions.num_symbols must be set");
+  require(o.emission_floor * num_symbols <= 1, "emission_floor must not exceed 1 / num_symbols");
 }
 
 // Raises what lies below the floor to it and scales the rest, so that rows sum to 1: the likeliest
@@ -88,6 +78,11 @@ detail::Rows<double> rows_by(Span<const std::int32_t> symbols, const detail::Pad
 
 }  // namespace
 
+const char* DiscreteHmmOptions::conflict() const {
+  return emission_floor * num_symbols <= 1 ? nullptr
+                                           : "emission_floor must not exceed 1 / num_symbols";
+}
+
 void validate_symbols(const std::vector<SymbolSequence>& sequences, int num_symbols,
                       const std::string& where) {
   require(!sequences.empty(), "training needs at least one sequence");
@@ -136,7 +131,6 @@ void DiscreteHmm::validate_all(Span<const std::int32_t> symbols) const {
 
 DiscreteHmm DiscreteHmm::train(const std::vector<SymbolSequence>& sequences,
                                const DiscreteHmmOptions& options, TrainingReport* report) {
-  check_start(options);
   check(options, options.num_symbols);
   validate_symbols(sequences, options.num_symbols);
   return DiscreteHmm(MarkovChain::initial(options.topology), initial_emission(sequences, options))

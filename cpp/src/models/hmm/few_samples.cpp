@@ -11,13 +11,6 @@
 namespace hri {
 namespace {
 
-void check(const FewSampleOptions& options) {
-  require(options.num_recordings >= 1 && options.num_recordings <= 1000000,
-          "num_recordings must lie in 1..1000000");
-  require(options.max_iterations >= 1 && options.max_iterations <= 100000,
-          "max_iterations must lie in 1..100000");
-}
-
 // The mean variance inside the states of all known classes, feature by feature.
 Eigen::RowVectorXd pooled_variance(const std::vector<GaussianMixtureHmm>& known) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(known.front().dim());
@@ -108,7 +101,7 @@ void check_known(const std::vector<Model>& known) {
 GaussianMixtureHmm train_few(const std::vector<GaussianMixtureHmm>& known,
                              const std::vector<MatrixF>& sequences,
                              const FewSampleOptions& options) {
-  check(options);
+  validate(options);
   check_known(known);
   for (const GaussianMixtureHmm& model : known)
     require(model.dim() == known.front().dim(), "the known models need one dimension");
@@ -149,7 +142,7 @@ GaussianMixtureHmm train_few(const std::vector<GaussianMixtureHmm>& known,
 DiscreteHmm train_few(const std::vector<DiscreteHmm>& known,
                       const std::vector<SymbolSequence>& sequences, double emission_floor,
                       const FewSampleOptions& options) {
-  check(options);
+  validate(options);
   check_known(known);
   const int num_symbols = known.front().num_symbols();
   // P(symbol | another symbol), by way of the state that emits both.

@@ -32,13 +32,7 @@ GaussianMixture::GaussianMixture(MixtureBank bank) : bank_(std::move(bank)) {
 
 GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtureOptions& options,
                                        TrainingReport* report) {
-  require(options.num_mixtures >= 1 && options.num_mixtures <= 4096,
-          "num_mixtures must lie in 1..4096");
-  require(options.max_iterations >= 1 && options.max_iterations <= 100000,
-          "max_iterations must lie in 1..100000");
-  require(options.tolerance >= 0, "tolerance must not be negative");
-  require(options.variance_floor > 0, "variance_floor must be positive");
-  require(options.wide_weight >= 0 && options.wide_weight <= 0.5, "wide_weight must lie in 0..0.5");
+  validate(options);
   require(rows.rows() > 0, "training needs at least one row");
   const std::vector<MatrixF> sequence{rows};
   const GlobalStatistics all = global_statistics(sequence);

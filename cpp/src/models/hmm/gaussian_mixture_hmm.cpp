@@ -12,22 +12,10 @@
 namespace hri {
 namespace {
 
-void check_start(const GaussianMixtureHmmOptions& o) {
-  validate(o.topology);
-  require(o.num_mixtures >= 1 && o.num_mixtures <= 1024, "num_mixtures must lie in 1..1024");
-}
-
+// A model that is trained on has its own number of Gaussians.
 void check(const GaussianMixtureHmmOptions& o, int num_mixtures) {
-  require(o.max_iterations >= 1 && o.max_iterations <= 100000,
-          "max_iterations must lie in 1..100000");
-  require(o.tolerance >= 0, "tolerance must not be negative");
-  require(o.variance_floor > 0, "variance_floor must be positive");
-  require(o.weight_floor >= 0 && o.weight_floor * num_mixtures <= 1,
-          "weight_floor must lie in 0..1/num_mixtures");
-  require(o.transition_prior >= 0 && std::isfinite(o.transition_prior),
-          "transition_prior must be finite and not negative");
-  require(o.weight_prior >= 0 && std::isfinite(o.weight_prior),
-          "weight_prior must be finite and not negative");
+  validate(o);
+  require(o.weight_floor * num_mixtures <= 1, "weight_floor must not exceed 1 / num_mixtures");
 }
 
 // The state every frame starts in: equal parts for left-right models, clusters otherwise.
@@ -76,6 +64,11 @@ double forward(const MarkovChain& chain, const detail::Rows<Scalar>& log_b) {
 
 }  // namespace
 
+const char* GaussianMixtureHmmOptions::conflict() const {
+  return weight_floor * num_mixtures <= 1 ? nullptr
+                                          : "weight_floor must not exceed 1 / num_mixtures";
+}
+
 GaussianMixtureHmm::GaussianMixtureHmm(MarkovChain chain, MixtureBank bank)
     : chain_(std::move(chain)), bank_(std::move(bank)) {
   require(bank_.num_states() == chain_.num_states(),
@@ -85,7 +78,6 @@ GaussianMixtureHmm::GaussianMixtureHmm(MarkovChain chain, MixtureBank bank)
 GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequences,
                                              const GaussianMixtureHmmOptions& options,
                                              TrainingReport* report) {
-  check_start(options);
   check(options, options.num_mixtures);
   const GlobalStatistics global = global_statistics(sequences);
   const VectorD floor = floor_of(global.variance, options.variance_floor);

@@ -70,7 +70,7 @@ template <class Model>
 HmmStream<Model>::HmmStream(std::vector<Model> models, const HmmStreamOptions& options)
     : state_(std::make_unique<State>()) {
   require(!models.empty(), "a stream needs at least one model");
-  require(options.beam > 0, "beam must be positive");
+  validate(options);
   for (const Model& model : models) {
     require(width_of(model) == width_of(models.front()),
             "all models of a stream need the same number of symbols or dimensions");

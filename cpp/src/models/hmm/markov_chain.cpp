@@ -30,7 +30,7 @@ struct Fault {
 
 Fault chain_fault(const Topology& topology, const VectorD& start, const MatrixD& band,
                   const VectorD& leave, const VectorD& land) {
-  if (const char* fault = topology_fault(topology)) return {"topology", fault};
+  if (!options_fault(topology).empty()) return {"topology", "topology is out of range"};
   const Eigen::Index n = topology.num_states;
   const bool jumps = topology.kind == Topology::Kind::rank_one_plus_band;
   const Eigen::Index num_jumps = jumps ? n : 0;
@@ -61,7 +61,7 @@ Fault chain_fault(const Topology& topology, const VectorD& start, const MatrixD&
 }  // namespace
 
 MarkovChain::MarkovChain(const Topology& topology, VectorD start, MatrixD transition)
-    : topology_(topology), start_(std::move(start)), transition_(std::move(transition)) {
+    : topology_(validated(topology)), start_(std::move(start)), transition_(std::move(transition)) {
   require(!jumps(), "a chain of topology rank_one_plus_band needs leave and land");
   const Fault fault = chain_fault(topology_, start_, transition_, leave_, land_);
   require(fault.what == nullptr, fault.what);
@@ -70,7 +70,7 @@ MarkovChain::MarkovChain(const Topology& topology, VectorD start, MatrixD transi
 
 MarkovChain::MarkovChain(const Topology& topology, VectorD start, MatrixD band, VectorD leave,
                          VectorD land)
-    : topology_(topology),
+    : topology_(validated(topology)),
       start_(std::move(start)),
       band_(std::move(band)),
       leave_(std::move(leave)),

@@ -94,11 +94,10 @@ StateChoice choose(const std::vector<Sequence>& sequences, Options options,
                    Span<const int> candidates, const StateChoiceOptions& choice) {
   require(!candidates.empty(), "candidates must name at least one number of states");
   require(!sequences.empty(), "training needs at least one sequence");
-  require(choice.num_restarts >= 1 && choice.num_restarts <= 1000,
-          "num_restarts must lie in 1..1000");
+  validate(choice);
   const bool held_out = choice.criterion == StateChoiceOptions::Criterion::held_out;
   if (held_out) {
-    require(choice.num_folds >= 2 && static_cast<std::size_t>(choice.num_folds) <= sequences.size(),
+    require(static_cast<std::size_t>(choice.num_folds) <= sequences.size(),
             "num_folds must lie in 2..number of sequences");
   }
   double frames = 0;

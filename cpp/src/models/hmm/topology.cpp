@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hri/core/error.hpp"
+#include "io/option_fields.hpp"
 
 namespace hri {
 
@@ -31,18 +32,6 @@ bool Topology::allows(int i, int j) const {
   return j >= first_next(i) && j < end_next(i);
 }
 
-const char* topology_fault(const Topology& topology) {
-  if (topology.num_states < 1 || topology.num_states > 4096)
-    return "num_states must lie in 1..4096";
-  if (topology.max_jump < 1 || topology.max_jump > 4096) return "max_jump must lie in 1..4096";
-  return nullptr;
-}
-
-void validate(const Topology& topology) {
-  const char* fault = topology_fault(topology);
-  require(fault == nullptr, fault);
-}
-
 VectorD initial_start(const Topology& topology) {
   if (topology.kind == Topology::Kind::left_right) return VectorD::Unit(topology.num_states, 0);
   return VectorD::Constant(topology.num_states, 1.0 / topology.num_states);
@@ -65,7 +54,7 @@ MatrixD initial_transition(const Topology& topology, double stay) {
 }
 
 void write_topology(const Topology& topology, ModelFile& file, const std::string& prefix) {
-  file.set_integer(prefix + "topology", static_cast<std::int64_t>(topology.kind));
+  detail::write_enum(topology.kind, file, prefix + "topology");
   file.set_integer(prefix + "num_states", topology.num_states);
   file.set_integer(prefix + "max_jump", topology.max_jump);
 }
@@ -80,7 +69,7 @@ Topology read_topology(const ModelFile& file, const std::string& prefix) {
     return static_cast<int>(value);
   };
   Topology topology;
-  topology.kind = static_cast<Topology::Kind>(field("topology", 0, 3));
+  topology.kind = detail::read_enum<Topology::Kind>(file, prefix + "topology");
   topology.num_states = field("num_states", 1, 4096);
   topology.max_jump = field("max_jump", 1, 4096);
   return topology;

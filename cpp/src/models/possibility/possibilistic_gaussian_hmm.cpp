@@ -52,7 +52,7 @@ PossibilisticGaussianHmmSet::PossibilisticGaussianHmmSet(std::vector<GaussianMix
                                                          const PossibilisticRule& rule)
     : models_(std::move(models)), rule_(rule) {
   require(!models_.empty(), "a set needs at least one model");
-  detail::validate(rule_);
+  validate(rule_);
   std::vector<const MarkovChain*> chains;
   for (const GaussianMixtureHmm& m : models_) {
     require(same_shape(m, models_.front()),
@@ -67,7 +67,7 @@ PossibilisticGaussianHmmSet PossibilisticGaussianHmmSet::train(
     const std::vector<std::vector<MatrixF>>& per_class, const GaussianMixtureHmmOptions& options,
     const PossibilisticRule& rule) {
   require(!per_class.empty(), "training needs at least one class");
-  detail::validate(rule);
+  validate(rule);
   for (std::size_t c = 0; c < per_class.size(); ++c) {
     if (per_class[c].empty())
       fail(ErrorKind::invalid_argument, "class " + std::to_string(c) + " has no sequence");

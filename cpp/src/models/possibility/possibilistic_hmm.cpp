@@ -27,7 +27,7 @@ PossibilisticHmmSet::PossibilisticHmmSet(std::vector<DiscreteHmm> models,
                                          const PossibilisticRule& rule)
     : models_(std::move(models)), rule_(rule) {
   require(!models_.empty(), "a set needs at least one model");
-  detail::validate(rule_);
+  validate(rule_);
   largest_ = VectorD::Zero(num_symbols());
   for (const DiscreteHmm& m : models_) {
     require(same_shape(m, models_.front()),

@@ -27,9 +27,6 @@ ChainRule<T> chain_rule(const PossibilisticRule& rule) {
   return result;
 }
 
-/// Throws InvalidArgument naming the field.
-void validate(const PossibilisticRule& rule);
-
 bool same_topology(const Topology& a, const Topology& b);
 
 /// The rule and the number of classes.

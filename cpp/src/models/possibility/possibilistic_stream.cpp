@@ -35,7 +35,7 @@ PossibilisticHmmStream::PossibilisticHmmStream(const PossibilisticHmmSet& set,
       beam_(options.beam),
       tables_(set.tables_),
       state_(std::make_unique<State>()) {
-  require(options.beam > 0, "beam must be positive");
+  validate(options);
   state_->blocks.resize(static_cast<std::size_t>(tables_->scorer.num_blocks()));
   state_->scores.resize(static_cast<std::size_t>(num_classes_));
   reset();

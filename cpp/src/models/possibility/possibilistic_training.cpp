@@ -14,15 +14,9 @@
 namespace hri {
 namespace {
 
-void check(const PossibilisticHmmOptions& o) {
-  validate(o.topology);
-  require(o.num_symbols >= 1 && o.num_symbols <= 65536, "num_symbols must lie in 1..65536");
-  require(o.max_iterations >= 1 && o.max_iterations <= 100000,
-          "max_iterations must lie in 1..100000");
-  require(o.emission_floor >= 0 && o.emission_floor * o.num_symbols <= 1,
-          "emission_floor must lie in 0..1/num_symbols");
-  require(o.tolerance >= 0, "tolerance must not be negative");
-  detail::validate(o.rule);
+void check(const PossibilisticHmmOptions& options) {
+  validate(options);
+  require(options.num_symbols > 0, "PossibilisticHmmOptions.num_symbols must be set");
 }
 
 // Counts one step of a path. With jumps a step in the band may have been either; it is shared as
@@ -103,6 +97,11 @@ DiscreteHmm train_class(const std::vector<SymbolSequence>& sequences,
 }
 
 }  // namespace
+
+const char* PossibilisticHmmOptions::conflict() const {
+  return emission_floor * num_symbols <= 1 ? nullptr
+                                           : "emission_floor must not exceed 1 / num_symbols";
+}
 
 PossibilisticHmmSet PossibilisticHmmSet::train(
     const std::vector<std::vector<SymbolSequence>>& per_class,

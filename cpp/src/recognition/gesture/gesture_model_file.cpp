@@ -4,9 +4,9 @@
 // GestureRecognizer to and from a model file.
 #include "hri/core/error.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
+#include "io/option_fields.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
 #include "recognition/gesture/gesture_verifier.hpp"
-#include "recognition/option_fields.hpp"
 #include "recognition/reading.hpp"
 
 namespace hri {
@@ -20,8 +20,7 @@ ModelFile GestureRecognizer::to_model_file() const {
   ModelFile file;
   file.set_kind(kKind);
   file.set_text_list("labels", labels_);
-  detail::visit_gesture(detail::FieldWriter{file}, options_);
-  detail::visit_hands(detail::FieldWriter{file}, options_);
+  detail::write_options(options_, file);
   calibration_.write(file);
   write_gesture_verifier(verifier_, file);
   scorer_->write(file);
@@ -38,15 +37,10 @@ GestureRecognizer GestureRecognizer::from_model_file(const ModelFile& file) {
 
 GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
   GestureRecognizer result;
-  detail::visit_gesture(detail::FieldReader{file}, result.options_);
-  if (file.has("min_quality")) detail::visit_hands(detail::FieldReader{file}, result.options_);
-  if (result.options_.source > GestureSource::landmarks)
-    fail(ErrorKind::format, file.name() + ": field 'source' is out of range");
-  if (result.options_.model > GestureModel::rbf)
-    fail(ErrorKind::format, file.name() + ": field 'model' is out of range");
-  // These refuse options out of range.
+  detail::read_options(file, &result.options_);
+  if (result.options_.model == GestureModel::automatic)
+    fail(ErrorKind::format, file.name() + ": field 'model' is 'automatic': training decides it");
   result.front_end_.emplace(result.options_.features, result.options_.min_quality);
-  validate(result.options_.hands);
   result.labels_ = sorted_labels(file.text_list("labels"));
   if (result.labels_ != file.text_list("labels"))
     fail(ErrorKind::format, file.name() + ": labels are not sorted");
@@ -54,6 +48,7 @@ GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
   result.scorer_ =
       read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
   result.verifier_ = read_gesture_verifier(file, result.scorer_->num_confidence_features());
+  file.require_all_read();
   return result;
 }
 

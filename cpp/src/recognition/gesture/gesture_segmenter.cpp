@@ -58,30 +58,14 @@ void require_mask(ImageView mask) {
   require(!mask.empty() && mask.channels == 1, "mask must have one channel and at least one pixel");
 }
 
-void require_positive(double value, const char* name) {
-  if (!(value > 0) || !std::isfinite(value))
-    fail(ErrorKind::invalid_argument, std::string(name) + " must be positive and finite");
-}
-
 }  // namespace
 
-void validate(const GestureSegmenterOptions& o) {
-  require_positive(o.appear_s, "appear_s");
-  require_positive(o.leave_s, "leave_s");
-  require_positive(o.rest_s, "rest_s");
-  require_positive(o.still_change, "still_change");
-  require_positive(o.compare_s, "compare_s");
-  require_positive(o.min_gesture_s, "min_gesture_s");
-  require_positive(o.max_gesture_s, "max_gesture_s");
-  require_positive(o.take_away_s, "take_away_s");
-  require_positive(o.context_s, "context_s");
-  require(o.still_change < 1, "still_change must be below 1");
-  require(o.max_gesture_s > o.min_gesture_s, "max_gesture_s must be above min_gesture_s");
+const char* GestureSegmenterOptions::conflict() const {
+  return max_gesture_s > min_gesture_s ? nullptr : "max_gesture_s must be above min_gesture_s";
 }
 
-GestureSegmenter::GestureSegmenter(const GestureSegmenterOptions& options) : options_(options) {
-  validate(options);
-}
+GestureSegmenter::GestureSegmenter(const GestureSegmenterOptions& options)
+    : options_(validated(options)) {}
 
 std::optional<double> GestureSegmenter::may_have_begun_s() const {
   if (phase_ == Phase::away) return seen_since_s_;

@@ -22,13 +22,6 @@ bool learns_colours(const GestureRecognizer& recognizer) {
 
 }  // namespace
 
-void validate(const GestureStreamOptions& o) {
-  validate(o.segmenter);
-  require(o.max_pause_s >= 0 && std::isfinite(o.max_pause_s),
-          "max_pause_s must be finite and not negative");
-  require(o.partial_interval_s > 0, "partial_interval_s must be positive");
-}
-
 GestureStreamOptions GestureStream::options_for(const GestureRecognizer& recognizer) {
   GestureStreamOptions options;
   if (learns_colours(recognizer)) options.segmenter.still_change = kLearnedStillChange;
@@ -39,10 +32,8 @@ GestureStreamOptions GestureStream::options_for(const GestureRecognizer& recogni
 GestureStream::GestureStream(GestureRecognizer recognizer, std::unique_ptr<HandStream> hands,
                              const GestureStreamOptions& options)
     : recognizer_(std::move(recognizer)),
-      options_(options),
-      spotter_(std::move(hands), options.segmenter) {
-  validate(options);
-}
+      options_(validated(options)),
+      spotter_(std::move(hands), options.segmenter) {}
 
 GestureStream::GestureStream(const GestureRecognizer& recognizer, const HandSource& source)
     : GestureStream(recognizer, source.stream(recognizer.is_dynamic()), options_for(recognizer)) {}

@@ -134,10 +134,9 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
                                            const TrainingProgress& progress,
                                            const StopCheck& should_stop) {
   GestureRecognizer result;
-  result.options_ = options;
+  result.options_ = validated(options);
   if (options.model == GestureModel::automatic) result.options_.model = model_for(samples);
   result.front_end_.emplace(options.features, options.min_quality);
-  validate(options.hands);
   result.labels_ = labels_of(samples);
   std::vector<int> classes;
   std::vector<std::string> groups;

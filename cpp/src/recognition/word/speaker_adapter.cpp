@@ -15,18 +15,6 @@ namespace {
 constexpr int kUpdateShare = 8;  // an update is due when one word in so many is new
 constexpr int kNoLabel = -1;
 
-void check(const SpeakerAdapterOptions& o) {
-  require(o.words_per_label >= 0 && o.words_per_label <= 1000,
-          "words_per_label must lie in 0..1000");
-  require(o.shared_frames > 0 && std::isfinite(o.shared_frames),
-          "shared_frames must be finite and positive");
-  require(o.prior_frames > 0 && std::isfinite(o.prior_frames),
-          "prior_frames must be finite and positive");
-  require(o.num_iterations >= 1 && o.num_iterations <= 1000, "num_iterations must lie in 1..1000");
-  require(o.trusted_share >= 0 && o.trusted_share <= 1, "trusted_share must lie in 0..1");
-  require(o.max_words >= 1 && o.max_words <= 100000, "max_words must lie in 1..100000");
-}
-
 // How far the best score lies above the second.
 float margin_of(const VectorF& scores, Eigen::Index best) {
   float second = -1e30F;
@@ -39,8 +27,7 @@ float margin_of(const VectorF& scores, Eigen::Index best) {
 }  // namespace
 
 SpeakerAdapter::SpeakerAdapter(WordRecognizer recognizer, const SpeakerAdapterOptions& options)
-    : options_(options), base_(std::move(recognizer)), adapted_(base_) {
-  check(options);
+    : options_(validated(options)), base_(std::move(recognizer)), adapted_(base_) {
   require(base_.scorer().kind() == SequenceModelKind::hmm,
           "only recognisers of the model hmm adapt, this one is ptbhmm");
 }

@@ -15,24 +15,11 @@ namespace {
 // 1, 1 - step, 1 + step, 1 - 2 step, 1 + 2 step: as many as asked for.
 std::vector<double> warp_factors(const WordRecognizerOptions& options) {
   std::vector<double> factors{1.0};
-  for (int i = 1; static_cast<int>(factors.size()) < options.num_warps; ++i) {
-    factors.push_back(1.0 - i * options.warp_step);
-    factors.push_back(1.0 + i * options.warp_step);
+  for (int i = 1; static_cast<int>(factors.size()) < options.num_vtlp_factors; ++i) {
+    factors.push_back(1.0 - i * options.vtlp_step);
+    factors.push_back(1.0 + i * options.vtlp_step);
   }
   return factors;
-}
-
-// Also those of loaded recognisers, whose files may hold any number here.
-void check(const WordRecognizerOptions& options) {
-  require(options.num_warps == 1 || options.num_warps == 3 || options.num_warps == 5,
-          "num_warps must be 1, 3 or 5");
-  require(options.noise_copies >= 0 && options.noise_copies <= 10,
-          "noise_copies must lie in 0..10");
-  require(options.noise_low_db >= -20 && options.noise_low_db <= options.noise_high_db &&
-              options.noise_high_db <= 100,
-          "noise_low_db and noise_high_db must lie in -20..100, in this order");
-  require(options.floor_db >= 20 && options.floor_db <= 120, "floor_db must lie in 20..120");
-  require(options.warp_step >= 0 && options.warp_step <= 0.2, "warp_step must lie in 0..0.2");
 }
 
 void check(const WordSample& sample, const std::string& name, double frame_ms) {
@@ -51,8 +38,8 @@ void check(const WordSample& sample, const std::string& name, double frame_ms) {
 
 }  // namespace
 
-WordAugmentation::WordAugmentation(const WordRecognizerOptions& options) : options_(options) {
-  check(options);
+WordAugmentation::WordAugmentation(const WordRecognizerOptions& options)
+    : options_(validated(options)) {
   for (const double factor : warp_factors(options)) front_ends_.emplace_back(options, factor);
 }
 
@@ -66,10 +53,10 @@ std::vector<StreamFrames> WordAugmentation::copies(Span<const float> word,
   std::vector<StreamFrames> result;
   result.reserve(front_ends_.size());
   for (const WordFrontEnd& front_end : front_ends_) result.push_back(front_end.frames(word));
-  Random random(options_.models.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
-  for (int copy = 0; copy < options_.noise_copies; ++copy) {
+  Random random(options_.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
+  for (int copy = 0; copy < options_.num_noisy_copies; ++copy) {
     const double snr_db =
-        options_.noise_low_db + random.uniform() * (options_.noise_high_db - options_.noise_low_db);
+        options_.min_snr_db + random.uniform() * (options_.max_snr_db - options_.min_snr_db);
     const std::vector<float> noisy = with_noise(word, snr_db, &random);
     const std::size_t warp = (index + static_cast<std::size_t>(copy)) % front_ends_.size();
     result.push_back(front_ends_[warp].frames(noisy));

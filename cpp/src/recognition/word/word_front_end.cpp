@@ -38,7 +38,7 @@ WordFrontEnd::WordFrontEnd(const WordRecognizerOptions& options, double warp_fac
     : sample_rate_hz_(options.cepstra.sample_rate_hz),
       activity_(options.activity),
       trim_(options.trim),
-      floor_db_(options.floor_db) {
+      noise_floor_db_(options.noise_floor_db) {
   CepstraOptions cepstra = options.cepstra;
   cepstra.warp *= warp_factor;
   streams_.emplace_back(cepstra);
@@ -70,7 +70,7 @@ TrimmedWord WordFrontEnd::trim(Span<const float> audio, int sample_rate_hz) cons
   if (!speech.found) return word;
   if (speech.num_utterances > 1) word.notes.push_back(utterances_note(speech.num_utterances));
   if (trim_) {
-    word.samples = detail::trim_to_word(audio, speech, sample_rate_hz_, activity_, floor_db_);
+    word.samples = detail::trim_to_word(audio, speech, sample_rate_hz_, activity_, noise_floor_db_);
   } else {
     word.samples.assign(audio.begin(), audio.end());
   }

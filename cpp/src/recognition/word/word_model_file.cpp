@@ -6,7 +6,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
-#include "recognition/option_fields.hpp"
+#include "io/option_fields.hpp"
 #include "recognition/reading.hpp"
 
 namespace hri {
@@ -20,7 +20,7 @@ ModelFile WordRecognizer::to_model_file() const {
   ModelFile file;
   file.set_kind(kKind);
   file.set_text_list("labels", labels_);
-  detail::visit_word(detail::FieldWriter{file}, options_);
+  detail::write_options(options_, file);
   verifier_.write(file, scorer_);
   calibration_.write(file);
   scorer_.write(file);
@@ -37,17 +37,18 @@ WordRecognizer WordRecognizer::from_model_file(const ModelFile& file) {
 
 WordRecognizer WordRecognizer::read(const ModelFile& file) {
   WordRecognizerOptions options;
-  detail::visit_word(detail::FieldReader{file}, options);
+  detail::read_options(file, &options, "", "models.");
   std::vector<std::string> labels = sorted_labels(file.text_list("labels"));
   if (labels != file.text_list("labels"))
     fail(ErrorKind::format, file.name() + ": labels are not sorted");
   const WordFrontEnd front_end(options);
   MultiStreamScorer scorer =
-      MultiStreamScorer::read(file, options.models, front_end.num_streams(),
+      MultiStreamScorer::read(file, options, front_end.num_streams(),
                               static_cast<int>(labels.size()), front_end.num_features());
   WordVerifier verifier = WordVerifier::read(file, scorer);
-  return {options, std::move(labels), std::move(scorer), std::move(verifier),
-          Calibration::read(file)};
+  const Calibration calibration = Calibration::read(file);
+  file.require_all_read();
+  return {options, std::move(labels), std::move(scorer), std::move(verifier), calibration};
 }
 
 }  // namespace hri

@@ -9,10 +9,14 @@
 
 namespace hri {
 
+const char* WordRecognizerOptions::conflict() const {
+  return min_snr_db <= max_snr_db ? nullptr : "min_snr_db must not exceed max_snr_db";
+}
+
 WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
                                std::vector<std::string> labels, MultiStreamScorer scorer,
                                WordVerifier verifier, const Calibration& calibration)
-    : options_(options),
+    : options_(validated(options)),
       labels_(std::move(labels)),
       front_end_(options),
       scorer_(std::move(scorer)),

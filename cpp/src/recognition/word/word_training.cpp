@@ -62,7 +62,7 @@ class WordTrainer {
       : options_(options),
         labels_(sorted_labels(words_of(samples))),
         augmentation_(options),
-        non_words_(options.cepstra.sample_rate_hz, options.models.seed),
+        non_words_(options.cepstra.sample_rate_hz, options.seed),
         source_step_(1 + samples.size() / kNonWordSources),
         should_stop_(std::move(should_stop)) {}
 
@@ -90,7 +90,7 @@ class WordTrainer {
  private:
   // Words without speech are left out.
   void train_fillers(const std::vector<WordSample>& fillers) {
-    if (fillers.empty() || options_.models.model == SequenceModelKind::ptbhmm) return;
+    if (fillers.empty() || options_.model == SequenceModelKind::ptbhmm) return;
     std::vector<std::string> words = words_of(fillers);
     std::sort(words.begin(), words.end());
     words.erase(std::unique(words.begin(), words.end()), words.end());
@@ -110,8 +110,8 @@ class WordTrainer {
       sequences.emplace_back();
       for (const StreamFrames& copy : list) sequences.back().push_back(&copy);
     }
-    fillers_ = hri::train_fillers(sequences, augmentation_.front_end().num_streams(),
-                                  options_.models, should_stop_);
+    fillers_ = hri::train_fillers(sequences, augmentation_.front_end().num_streams(), options_,
+                                  should_stop_);
   }
 
   // Samples without speech are left out; train_without() refuses a label that has no other.
@@ -174,7 +174,7 @@ class WordTrainer {
              "label '" + labels_[c] + "': no sample with speech in it");
       }
     }
-    return MultiStreamScorer::train(sequences, options_.models, fillers_, should_stop_);
+    return MultiStreamScorer::train(sequences, options_, fillers_, should_stop_);
   }
 
   [[nodiscard]] bool has_every_class_without(int fold) const {
@@ -239,9 +239,7 @@ WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
                                      const WordRecognizerOptions& options,
                                      const TrainingProgress& progress, const StopCheck& should_stop,
                                      const std::vector<WordSample>& fillers) {
-  require(options.false_reject_rate >= 0 && options.false_reject_rate <= 0.5,
-          "false_reject_rate must lie in 0..0.5");
-  check(options.models);
+  validate(options);
   WordRecognizerOptions used = options;
   used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);
   return WordTrainer(samples, used, should_stop).run(samples, fillers, progress);

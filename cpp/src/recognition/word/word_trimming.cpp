@@ -38,14 +38,14 @@ void add_noise_floor(double deviation, std::vector<float>* audio) {
 
 std::vector<float> trim_to_word(Span<const float> audio, const SpeechBounds& speech,
                                 int sample_rate_hz, const ActivityOptions& activity,
-                                double floor_db) {
+                                double noise_floor_db) {
   float peak = 0;
   for (std::size_t i = speech.first; i < speech.last; ++i)
     peak = std::max(peak, std::abs(audio[i]));
   const auto margin =
       static_cast<std::size_t>((activity.padding_ms + kMarginMs) * sample_rate_hz / 1000);
   std::vector<float> word = around(audio, speech, margin);
-  add_noise_floor(static_cast<double>(peak) * std::pow(10.0, -floor_db / 20), &word);
+  add_noise_floor(static_cast<double>(peak) * std::pow(10.0, -noise_floor_db / 20), &word);
   // End points depend on the noise around the word, which is the noise floor from here on.
   SpeechBounds bounds = find_speech(word, sample_rate_hz, activity);
   if (!bounds.found) bounds = {margin, word.size() - margin, true, 1};

@@ -14,9 +14,9 @@ namespace hri::detail {
 
 /// The word in `audio`, which lies within `speech` (end points without padding), and
 /// activity.padding_ms before and after it, zero-padded where the recording ends, with white noise
-/// `floor_db` below the peak of the word. The noise is the same every time.
+/// `noise_floor_db` below the peak of the word. The noise is the same every time.
 std::vector<float> trim_to_word(Span<const float> audio, const SpeechBounds& speech,
                                 int sample_rate_hz, const ActivityOptions& activity,
-                                double floor_db);
+                                double noise_floor_db);
 
 }  // namespace hri::detail

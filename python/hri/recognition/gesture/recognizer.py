@@ -7,7 +7,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from hri import _native
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import ClipInput, as_clips, as_frames
+from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.vision.landmarks import find_landmarks, landmark_features
 
@@ -43,6 +44,10 @@ class GestureRecognizer(Recognizer):
     mode = "gesture"
     _native_class = _native.GestureRecognizer
     _options_class = _native.GestureRecognizerOptions
+    options: _native.GestureRecognizerOptions
+
+    def __init__(self, **options: Unpack[GestureRecognizerKeywords]) -> None:
+        super().__init__(**options)
 
     def features(self, clip: ClipInput) -> NDArray[np.float32]:
         """Features of every frame that shows a hand, float32, shape (num_frames_with_hand, num_features).
@@ -70,7 +75,7 @@ class GestureRecognizer(Recognizer):
 
     @property
     def _by_landmarks(self) -> bool:
-        return bool(self.options.source == _native.GestureSource.landmarks)
+        return bool(self.options.source == "landmarks")
 
     @property
     def model(self) -> Any:

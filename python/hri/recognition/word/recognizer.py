@@ -8,6 +8,7 @@ import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from hri.core.suggest import did_you_mean
 from hri.recognition.base import Recognizer, best_labels, posteriors
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio, as_audios
+from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.word.fillers import FillerWord, filler_words
 
@@ -67,6 +69,10 @@ class WordRecognizer(Recognizer):
     mode = "speech"
     _native_class = _native.WordRecognizer
     _options_class = _native.WordRecognizerOptions
+    options: _native.WordRecognizerOptions
+
+    def __init__(self, **options: Unpack[WordRecognizerKeywords]) -> None:
+        super().__init__(**options)
 
     def fit(
         self,

@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Unpack
 
 from hri import _native
 from hri.core.suggest import did_you_mean
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio
+from hri.recognition.keywords import SpeakerAdapterKeywords
 from hri.recognition.word.recognizer import WordRecognizer
 
 
@@ -42,7 +43,7 @@ class SpeakerAdapter:
     >>> adapter.recognizer.save("words-of-asha.hri")                 # doctest: +SKIP
     """
 
-    def __init__(self, recognizer: WordRecognizer, **options: Any) -> None:
+    def __init__(self, recognizer: WordRecognizer, **options: Unpack[SpeakerAdapterKeywords]) -> None:
         self.options = _native.SpeakerAdapterOptions(**options)
         self._labels = [str(known) for known in recognizer.classes_]
         self._native = _native.SpeakerAdapter(recognizer._trained, self.options)

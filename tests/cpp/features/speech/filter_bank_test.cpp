@@ -189,7 +189,7 @@ TEST(FilterBank, NamesTheFieldThatIsOutOfRange) {
   };
   const auto keep = [](FilterBankOptions&) {};
   const auto names = [](const std::string& message, const char* field) {
-    EXPECT_EQ(message.rfind(field, 0), 0U) << message << ", not " << field;
+    EXPECT_PRED_FORMAT2(::testing::IsSubstring, std::string(field) + " ", message);
   };
   for (const int value : {0, -1, 513})
     names(refusal([&](auto& o) { o.num_filters = value; }), "num_filters");

@@ -77,7 +77,7 @@ TYPED_TEST(PossibilisticFiles, AreRefusedByTheNameOfTheFieldThatIsWrong) {
   const std::vector<std::pair<std::string, std::function<void(ModelFile*)>>> faults{
       {"conjunction", [](ModelFile* f) { f->set_integer("p.conjunction", 3); }},
       {"conjunction", [](ModelFile* f) { f->set_integer("p.conjunction", -1); }},
-      {"conjunction", [](ModelFile* f) { f->set_text("p.conjunction", "product"); }},
+      {"conjunction", [](ModelFile* f) { f->set_text("p.conjunction", "sum"); }},
       {"conditioned", [](ModelFile* f) { f->set_integer("p.conditioned", 2); }},
       {"conditioned", [](ModelFile* f) { f->set_number("p.conditioned", 0.5); }},
       {"concentration", [](ModelFile* f) { f->set_number("p.concentration", 0.5); }},

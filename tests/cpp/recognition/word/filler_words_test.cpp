@@ -41,8 +41,8 @@ Fillers fillers() {
 WordRecognizer trained(const std::vector<WordSample>& others,
                        SequenceModelKind kind = SequenceModelKind::hmm) {
   WordRecognizerOptions options;
-  options.models.model = kind;
-  options.models.max_iterations = 4;
+  options.model = kind;
+  options.max_iterations = 4;
   return WordRecognizer::train(tone_clips().samples, options, {}, {}, others);
 }
 

@@ -16,8 +16,8 @@ using testing_data::tone_clips;
 
 WordRecognizer trained(SequenceModelKind kind = SequenceModelKind::hmm) {
   WordRecognizerOptions options;
-  options.models.model = kind;
-  options.models.max_iterations = 4;
+  options.model = kind;
+  options.max_iterations = 4;
   return WordRecognizer::train(tone_clips().samples, options);
 }
 
@@ -62,7 +62,7 @@ TEST(SpeakerAdapter, AdaptsUnsupervised) {
   options.trusted_share = 1;
   WordRecognizerOptions lax;
   lax.false_reject_rate = 0;
-  lax.models.max_iterations = 4;
+  lax.max_iterations = 4;
   const WordRecognizer recognizer = WordRecognizer::train(tone_clips().samples, lax);
   SpeakerAdapter adapter(recognizer, options);
   // The voices of the training at another level of noise are accepted for certain.

@@ -40,7 +40,7 @@ bool mentions(const std::vector<std::string>& notes, const std::string& part) {
 
 WordRecognizer trained() {
   WordRecognizerOptions options;
-  options.models.max_iterations = 4;
+  options.max_iterations = 4;
   options.false_reject_rate = 0;
   return WordRecognizer::train(tone_clips().samples, options);
 }

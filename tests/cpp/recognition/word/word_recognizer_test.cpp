@@ -23,7 +23,7 @@ class WordRecognizerOf : public ::testing::TestWithParam<SequenceModelKind> {
  protected:
   static WordRecognizerOptions options() {
     WordRecognizerOptions o;
-    o.models.model = GetParam();
+    o.model = GetParam();
     return o;
   }
 };

@@ -50,7 +50,7 @@ TEST(WordTrimming, PausesDoNotMatter) {
 
 TEST(WordTrimming, NoiseFloorMasksWhatLiesBelowIt) {
   WordRecognizerOptions low;
-  low.floor_db = 120;
+  low.noise_floor_db = 120;
   const WordRecognizer open = trained(low);
   const WordRecognizer closed = trained();
   const auto difference = [](const WordRecognizer& r) {
@@ -73,7 +73,7 @@ TEST(WordTrimming, GivesTheSameEveryTimeAndAtEveryLevel) {
 TEST(WordTrimming, RefusesANoiseFloorOutOfRange) {
   for (const double floor : {19.0, 121.0, std::nan("")}) {
     WordRecognizerOptions options;
-    options.floor_db = floor;
+    options.noise_floor_db = floor;
     EXPECT_THROW(trained(options), InvalidArgument) << floor;
   }
 }

@@ -10,6 +10,7 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/contour.hpp"
 
@@ -31,9 +32,17 @@ HRI_API std::size_t least_start(Span<const std::uint8_t> code);
 HRI_API std::vector<std::uint8_t> shape_number(Span<const ContourPoint> contour);
 
 struct ChainCodeOptions {
-  int num_parts = 1;       ///< of equal length, of which each has a histogram, 1..64. From 2 on the
-                           ///< start counts: the first pixel of the outline in reading order
-  bool use_turns = false;  ///< turns instead of directions
+  int num_parts = 1;
+  bool use_turns = false;
+
+  static constexpr const char* kName = "ChainCodeOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("num_parts", o.num_parts, within(1, 64),
+      "parts of equal length with a histogram each; from 2 on the start counts, the first pixel of "
+      "the outline in reading order");
+    v("use_turns", o.use_turns, any_value, "turns instead of directions");
+  }
 };
 
 /// Histograms of chain codes. Immutable; const calls are safe from several threads.

@@ -8,17 +8,31 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/contour.hpp"
 #include "hri/signal/fft.hpp"
 
 namespace hri {
 
-struct FourierDescriptorOptions {
-  int num_points = 128;    ///< along the outline, even, 16..4096; powers of two are fastest
-  int num_harmonics = 16;  ///< of each sign, 1..num_points / 2 - 1
-  bool use_phase = false;  ///< real and imaginary parts, with the start moved to where the first
-                           ///< harmonic is real: they tell how far a shape is turned
+struct HRI_API FourierDescriptorOptions {
+  int num_points = 128;
+  int num_harmonics = 16;
+  bool use_phase = false;
+
+  static constexpr const char* kName = "FourierDescriptorOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("num_points", o.num_points, within(16, 4096).even(),
+      "points along the outline; powers of two are fastest");
+    v("num_harmonics", o.num_harmonics, within(1, 2047),
+      "harmonics of each sign, below num_points / 2");
+    v("use_phase", o.use_phase, any_value,
+      "real and imaginary parts, with the start where the first harmonic is real: they show how "
+      "far a shape is turned");
+  }
+  /// nullptr, or which fields do not go together.
+  [[nodiscard]] const char* conflict() const;
 };
 
 /// Immutable; const calls are safe from several threads.

@@ -10,6 +10,7 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/chain_code.hpp"
 #include "hri/features/hand/fourier_descriptor.hpp"
@@ -20,24 +21,48 @@
 
 namespace hri {
 
-struct HandFeatureOptions {
-  int crop_px = 64;                       ///< side of the square the hand is scaled to, 16..256
-  OrientationHistogramOptions histogram;  ///< grid of cells and bins
-  bool use_grey = true;  ///< histogram of the grey crop (square root of grey against uneven light)
-  bool use_silhouette = true;  ///< histogram of the mask crop
-  bool use_cepstrum = true;    ///< silhouette cepstrum
+struct HRI_API HandFeatureOptions {
+  int crop_px = 64;
+  OrientationHistogramOptions histogram;
+  bool use_grey = true;
+  bool use_silhouette = true;
+  bool use_cepstrum = true;
   SilhouetteCepstrumOptions cepstrum;
-  double cepstrum_weight =
-      0.1;  ///< scale of the cepstrum beside the histograms (blocks of length 1), > 0
-  bool use_wavelet = false;  ///< moment-invariant wavelet descriptor of the mask
+  double cepstrum_weight = 0.1;
+  bool use_wavelet = false;
   WaveletDescriptorOptions wavelet;
-  bool use_moments = false;  ///< roots of Hu's moments of the mask
-  bool use_fourier = false;  ///< Fourier descriptor of the outline
+  bool use_moments = false;
+  bool use_fourier = false;
   FourierDescriptorOptions fourier;
-  bool use_chain_code = false;  ///< chain code histograms of the outline
+  bool use_chain_code = false;
   ChainCodeOptions chain_code;
-  double descriptor_weight = 1.0;  ///< length that each of these four is scaled to, > 0; they leave
-                                   ///< out the forearm that hand_box() cuts off
+  double descriptor_weight = 1.0;
+
+  static constexpr const char* kName = "HandFeatureOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("crop_px", o.crop_px, within(16, 256), "side of the square that the hand is scaled to");
+    v("histogram", o.histogram, any_value, "cells and bins of the orientation histograms");
+    v("use_grey", o.use_grey, any_value,
+      "histogram of the grey crop (square root of grey, against uneven light)");
+    v("use_silhouette", o.use_silhouette, any_value, "histogram of the mask crop");
+    v("use_cepstrum", o.use_cepstrum, any_value, "cepstrum of the silhouette");
+    v("cepstrum", o.cepstrum, any_value, "options of the cepstrum");
+    v("cepstrum_weight", o.cepstrum_weight, above(0, 1e6),
+      "scale of the cepstrum beside the histograms, which are blocks of length 1");
+    v("use_wavelet", o.use_wavelet, any_value, "moment-invariant wavelet descriptor of the mask");
+    v("wavelet", o.wavelet, any_value, "options of the wavelet descriptor");
+    v("use_moments", o.use_moments, any_value, "roots of Hu's moments of the mask");
+    v("use_fourier", o.use_fourier, any_value, "Fourier descriptor of the outline");
+    v("fourier", o.fourier, any_value, "options of the Fourier descriptor");
+    v("use_chain_code", o.use_chain_code, any_value, "chain-code histograms of the outline");
+    v("chain_code", o.chain_code, any_value, "options of the chain code");
+    v("descriptor_weight", o.descriptor_weight, above(0, 1e6),
+      "length that each of these four descriptors is scaled to; they leave out the forearm that "
+      "hand_box() cuts off");
+  }
+  /// nullptr, or which fields do not go together.
+  [[nodiscard]] const char* conflict() const;
 };
 
 /// Immutable; const calls are safe from several threads.

@@ -11,14 +11,25 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 #include "hri/features/hand/regions.hpp"
 
 namespace hri {
 
 struct HandPairOptions {
-  double min_area = 0.004;  ///< smallest share of the picture a hand covers, 0..1
-  double min_share = 0.25;  ///< of the larger region, that the smaller must have to be a hand, 0..1
-  int num_kept_frames = 10;  ///< for how long the place of a hand out of sight is kept, 0..1000
+  double min_area = 0.004;
+  double min_share = 0.25;
+  int num_kept_frames = 10;
+
+  static constexpr const char* kName = "HandPairOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("min_area", o.min_area, within(0, 1), "smallest share of the picture that a hand covers");
+    v("min_share", o.min_share, within(0, 1),
+      "least area of the smaller region, as a share of the larger, to be a hand");
+    v("num_kept_frames", o.num_kept_frames, within(0, 1000),
+      "frames for which the place of a hand out of sight is kept");
+  }
 };
 
 /// One of two hands in a frame. `mask` has the size of the frame's; without a hand it is all 0.

@@ -9,14 +9,23 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
 
 struct HandTrackOptions {
-  double frames_per_second = 30;  ///< of the clip, > 0
-  int delta_orders = 1;           ///< 0..2
-  int delta_window = 2;           ///< frames on each side, 1..10
+  double frames_per_second = 30;
+  int delta_orders = 1;
+  int delta_window = 2;
+
+  static constexpr const char* kName = "HandTrackOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("frames_per_second", o.frames_per_second, above(0, 100000), "frame rate of the clip");
+    v("delta_orders", o.delta_orders, within(0, 2), "derivatives appended");
+    v("delta_window", o.delta_window, within(1, 10), "frames on each side of the regression");
+  }
 };
 
 constexpr int kNumHandTrackColumns = 8;

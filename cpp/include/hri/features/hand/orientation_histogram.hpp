@@ -6,13 +6,22 @@
 #pragma once
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 
 namespace hri {
 
 struct OrientationHistogramOptions {
-  int num_cells = 8;  ///< cells along each side, 1..64; 1 gives the one histogram of the thesis
-  int num_bins = 9;   ///< orientations over 180 degrees, 2..72 (18 bins are 10 degrees each)
+  int num_cells = 8;
+  int num_bins = 9;
+
+  static constexpr const char* kName = "OrientationHistogramOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("num_cells", o.num_cells, within(1, 64),
+      "cells along each side; 1 gives the single histogram of the thesis");
+    v("num_bins", o.num_bins, within(2, 72), "orientations over 180 degrees");
+  }
 };
 
 /// Values it gives: blocks of 2 x 2 cells, each (2 * 2 * num_bins) long; num_bins where there is

@@ -11,18 +11,34 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
+#include "hri/signal/wavelet.hpp"
 
 namespace hri {
 
-struct SilhouetteCepstrumOptions {
+struct HRI_API SilhouetteCepstrumOptions {
   std::string wavelet = "db2";
-  int num_levels = 3;    ///< of the DWT, 0 (none) .. 4
-  int mask_px = 256;     ///< side of the square the mask is scaled to before the DWT, 64..1024
-  int num_points = 256;  ///< samples along the contour, 64..4096
-  int num_filters = 20;  ///< 2..64
-  int num_cepstra = 13;  ///< 1..num_filters - 1
+  int num_levels = 3;
+  int mask_px = 256;
+  int num_points = 256;
+  int num_filters = 20;
+  int num_cepstra = 13;
+
+  static constexpr const char* kName = "SilhouetteCepstrumOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("wavelet", o.wavelet, WaveletName{}, "wavelet of the transform");
+    v("num_levels", o.num_levels, within(0, 4), "levels of the DWT; 0: none");
+    v("mask_px", o.mask_px, within(64, 1024),
+      "side of the square that the mask is scaled to before the DWT");
+    v("num_points", o.num_points, within(64, 4096), "samples along the contour");
+    v("num_filters", o.num_filters, within(2, 64), "filters over their spectrum");
+    v("num_cepstra", o.num_cepstra, within(1, 63), "coefficients kept, below num_filters");
+  }
+  /// nullptr, or which fields do not go together.
+  [[nodiscard]] const char* conflict() const;
 };
 
 /// Immutable; const calls are safe from several threads.

@@ -6,10 +6,12 @@
 // coordinates about its centroid, with a cubic B-spline wavelet along the radius.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/contour.hpp"
 
@@ -19,15 +21,21 @@ enum class WaveletDescriptorSource : std::uint8_t {
   silhouette,  ///< every pixel of the mask
   contour,     ///< the outline of its largest region, as a line
 };
+constexpr auto enum_names(WaveletDescriptorSource) { return std::array{"silhouette", "contour"}; }
 
 struct WaveletDescriptorOptions {
   WaveletDescriptorSource source = WaveletDescriptorSource::silhouette;
-  int num_scales = 4;       ///< m = 0 .. num_scales - 1, 1..6
-  int num_frequencies = 4;  ///< b = 0 .. num_frequencies - 1, 1..32
-};
+  int num_scales = 4;
+  int num_frequencies = 4;
 
-/// Throws InvalidArgument naming the field that is out of range.
-HRI_API void validate(const WaveletDescriptorOptions& options);
+  static constexpr const char* kName = "WaveletDescriptorOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("source", o.source, any_value, "pixels that are described");
+    v("num_scales", o.num_scales, within(1, 6), "radial scales m = 0 .. num_scales - 1");
+    v("num_frequencies", o.num_frequencies, within(1, 32), "angular frequencies, from 0");
+  }
+};
 
 /// The wavelet psi(r) of thesis eq. 3.22.
 HRI_API double b_spline_wavelet(double r);

@@ -5,6 +5,7 @@
 // filtering (Hermansky and Morgan, IEEE Trans. Speech and Audio Processing 2(4), 1994), deltas.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,10 @@ enum class Normalisation : std::uint8_t {
   running_mean,   ///< subtract the mean so far, of every coefficient: fit for streams
   running_mean_variance,  ///< the same, then divide by the standard deviation so far
 };
+constexpr auto enum_names(Normalisation) {
+  return std::array{"none",          "level",        "mean",
+                    "mean_variance", "running_mean", "running_mean_variance"};
+}
 
 /// Whether frames can be normalised before the utterance has ended.
 constexpr bool is_running(Normalisation kind) {

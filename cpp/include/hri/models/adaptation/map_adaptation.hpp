@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/gaussian_mixture.hpp"
@@ -17,11 +18,19 @@
 namespace hri {
 
 struct MapAdaptationOptions {
-  /// Frames of new data that weigh as much as the prior, a state (shared by its Gaussians as their
-  /// weights say), > 0.
   double prior_frames = 10;
-  int num_iterations = 3;  ///< of expectation and maximisation, 1..1000
-  StopCheck should_stop;   ///< polled before every sequence of every iteration
+  int num_iterations = 3;
+  StopCheck should_stop;  ///< polled before every sequence of every iteration
+
+  static constexpr const char* kName = "MapAdaptationOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("prior_frames", o.prior_frames, above(0, 1e12),
+      "frames of new data that weigh as much as the prior, a state; its Gaussians share them by "
+      "their weights");
+    v("num_iterations", o.num_iterations, within(1, 1000),
+      "iterations of expectation and maximisation");
+  }
 };
 
 /// Means, variances and weights of `model` adapted to `sequences`; its chain stays. Variances do

@@ -5,11 +5,13 @@
 // Bhattacharyya; Mahalanobis as in chapter 4).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -22,11 +24,22 @@ enum class ClassDistance : std::uint8_t {
   bhattacharyya,  ///< between the Gaussian of the class and one about the row that has the
                   ///< covariance within all classes
 };
+constexpr auto enum_names(ClassDistance) {
+  return std::array{"euclidean", "manhattan", "mahalanobis", "bhattacharyya"};
+}
 
 struct DistanceClassifierOptions {
   ClassDistance metric = ClassDistance::euclidean;
-  double shrinkage = 0.1;  ///< share of each covariance replaced by its mean variance times the
-                           ///< identity, 0..1 (mahalanobis, bhattacharyya)
+  double shrinkage = 0.1;
+
+  static constexpr const char* kName = "DistanceClassifierOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("metric", o.metric, any_value, "distance of a row from a class");
+    v("shrinkage", o.shrinkage, within(0, 1),
+      "share of each covariance that is replaced by its mean variance times the identity "
+      "(mahalanobis, bhattacharyya)");
+  }
 };
 
 /// Immutable; const calls are safe from several threads.

@@ -5,6 +5,7 @@
 // first three).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "hri/core/export.hpp"
@@ -19,6 +20,9 @@ enum class Distance : std::uint8_t {
   bhattacharyya,  ///< of two histograms: -log sum sqrt(p q) after scaling each to sum 1; entries
                   ///< must be >= 0
 };
+constexpr auto enum_names(Distance) {
+  return std::array{"euclidean", "manhattan", "cosine", "bhattacharyya"};
+}
 
 /// Distance of two vectors of one length, accumulated in double. Throws InvalidArgument for lengths
 /// that differ, and for what bhattacharyya cannot take: negative entries or a sum of zero. Disjoint

@@ -4,11 +4,13 @@
 // Bayes classifier with one Gaussian a class (thesis eq. 5.15 and 6.15).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -19,11 +21,19 @@ enum class CovarianceKind : std::uint8_t {
   full,      ///< one a class
   diagonal,  ///< one diagonal a class
 };
+constexpr auto enum_names(CovarianceKind) { return std::array{"shared", "full", "diagonal"}; }
 
 struct GaussianBayesOptions {
   CovarianceKind covariance = CovarianceKind::shared;
-  double shrinkage =
-      0.1;  ///< share of the covariance replaced by its mean variance times the identity, 0..1
+  double shrinkage = 0.1;
+
+  static constexpr const char* kName = "GaussianBayesOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("covariance", o.covariance, any_value, "covariances of the classes");
+    v("shrinkage", o.shrinkage, within(0, 1),
+      "share of the covariance that is replaced by its mean variance times the identity");
+  }
 };
 
 /// Immutable; const calls are safe from several threads. Class priors are the shares of the

@@ -8,13 +8,21 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
 namespace hri {
 
 struct KnnOptions {
-  int num_neighbours = 5;  ///< k, 1..1000; fewer where there are fewer rows
+  int num_neighbours = 5;
+
+  static constexpr const char* kName = "KnnOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("num_neighbours", o.num_neighbours, within(1, 1000),
+      "neighbours that vote; fewer where there are fewer rows");
+  }
 };
 
 /// Immutable; const calls are safe from several threads.

@@ -9,15 +9,25 @@
 #include <string>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
 namespace hri {
 
 struct LdaOptions {
-  int num_components = 0;  ///< at most num_classes - 1; 0: as many as there are
-  double shrinkage = 0;    ///< share of the covariance within classes that is replaced by its mean
-                           ///< variance times the identity, 0..1
+  int num_components = 0;
+  double shrinkage = 0;
+
+  static constexpr const char* kName = "LdaOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("num_components", o.num_components, within(0, 1e6),
+      "at most the number of classes less 1; 0: as many as there are");
+    v("shrinkage", o.shrinkage, within(0, 1),
+      "share of the covariance within classes that is replaced by its mean variance times the "
+      "identity");
+  }
 };
 
 /// Immutable; const calls are safe from several threads. Invariant: projected rows of the training

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -17,12 +18,23 @@
 namespace hri {
 
 struct LinearSvmOptions {
-  double cost = 1.0;          ///< C > 0: larger fits the training rows more closely
-  double bias_feature = 1.0;  ///< constant feature that carries the bias, > 0
-  int max_iterations = 1000;  ///< passes over the rows, 1..1000000
-  double tolerance = 1e-3;    ///< stop when the projected gradient's range falls below, > 0
-  std::uint64_t seed = 0;     ///< of the order of the rows
+  double cost = 1.0;
+  double bias_feature = 1.0;
+  int max_iterations = 1000;
+  double tolerance = 1e-3;
+  std::uint64_t seed = 0;
   StopCheck should_stop;
+
+  static constexpr const char* kName = "LinearSvmOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("cost", o.cost, above(0, 1e12), "C: larger fits the training rows more closely");
+    v("bias_feature", o.bias_feature, above(0, 1e6), "constant feature that carries the bias");
+    v("max_iterations", o.max_iterations, within(1, 1000000), "passes over the rows at most");
+    v("tolerance", o.tolerance, above(0, 1e6),
+      "training stops when the range of the projected gradient falls below");
+    v("seed", o.seed, any_seed, "of the order of the rows");
+  }
 };
 
 /// Immutable; const calls are safe from several threads.

@@ -9,14 +9,23 @@
 #include <string>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
 namespace hri {
 
 struct LogisticRegressionOptions {
-  double penalty = 1;       ///< of half the squared weights, against the sum over rows, > 0
-  int max_iterations = 50;  ///< 1..1000
+  double penalty = 1;
+  int max_iterations = 50;
+
+  static constexpr const char* kName = "LogisticRegressionOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("penalty", o.penalty, above(0, 1e12),
+      "of half the squared weights, against the sum over rows");
+    v("max_iterations", o.max_iterations, within(1, 1000), "iterations at most");
+  }
 };
 
 /// Immutable; const calls are safe from several threads.

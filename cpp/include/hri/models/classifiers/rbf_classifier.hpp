@@ -9,6 +9,7 @@
 #include <string>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -16,10 +17,18 @@
 namespace hri {
 
 struct RbfClassifierOptions {
-  double cost = 10;  ///< of a squared error, against the weights; larger fits more closely, > 0
-  double sharpness = 1.5;  ///< the kernel is exp(-sharpness) at the root mean square distance of
-                           ///< the training rows, > 0
+  double cost = 10;
+  double sharpness = 1.5;
   StopCheck should_stop;
+
+  static constexpr const char* kName = "RbfClassifierOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("cost", o.cost, above(0, 1e12),
+      "of a squared error, against the weights: larger fits more closely");
+    v("sharpness", o.sharpness, above(0, 1e6),
+      "the kernel is exp(-sharpness) at the root mean square distance of the training rows");
+  }
 };
 
 /// Where a row lies by the training rows of one class.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -22,12 +23,24 @@ class CodewordTable;
 }
 
 struct CodebookOptions {
-  int num_codewords = 64;   ///< 1..65536; fewer come out where the data have fewer different rows
-  int max_iterations = 50;  ///< of k-means after each split, 1..100000
-  double tolerance = 1e-4;  ///< stop when the distortion falls by a smaller share, >= 0
-  double split_epsilon =
-      0.01;  ///< a codeword splits into c + e s and c - e s, s the deviation of its cell, > 0
+  int num_codewords = 64;
+  int max_iterations = 50;
+  double tolerance = 1e-4;
+  double split_epsilon = 0.01;
   StopCheck should_stop;
+
+  static constexpr const char* kName = "CodebookOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("num_codewords", o.num_codewords, within(1, 65536),
+      "codewords; fewer come out where the data have fewer different rows");
+    v("max_iterations", o.max_iterations, within(1, 100000),
+      "iterations of k-means after each split");
+    v("tolerance", o.tolerance, within(0, 1e6),
+      "training stops when the distortion falls by a smaller share");
+    v("split_epsilon", o.split_epsilon, above(0, 1000),
+      "a codeword splits into c + e s and c - e s, s the deviation of its cell");
+  }
 };
 
 /// How the training of a codebook went: one entry an iteration of k-means.

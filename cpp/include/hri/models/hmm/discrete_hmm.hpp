@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -28,19 +29,39 @@ class HmmStream;
 
 using SymbolSequence = std::vector<std::int32_t>;
 
-struct DiscreteHmmOptions {
+struct HRI_API DiscreteHmmOptions {
   Topology topology;
-  int num_symbols = 0;           ///< 1..65536
-  int max_iterations = 20;       ///< Baum-Welch iterations, 1..100000
-  double tolerance = 1e-4;       ///< stop when the log-likelihood a symbol gains less, >= 0
-  double emission_floor = 1e-4;  ///< smallest emission probability, 0..1 / num_symbols
-  /// Dirichlet priors: imagined counts of every transition (and start) that the topology has, and
-  /// of every symbol in every state, >= 0. Training then maximises the posterior.
+  int num_symbols = 0;
+  int max_iterations = 20;
+  double tolerance = 1e-4;
+  double emission_floor = 1e-4;
   double transition_prior = 0;
   double emission_prior = 0;
-  bool train_transitions = true;  ///< false: start and transitions stay as they began
-  std::uint64_t seed = 0;         ///< of the start of models that are not left-right
-  StopCheck should_stop;          ///< polled before every sequence of every iteration
+  bool train_transitions = true;
+  std::uint64_t seed = 0;
+  StopCheck should_stop;  ///< polled before every sequence of every iteration
+
+  static constexpr const char* kName = "DiscreteHmmOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("topology", o.topology, any_value, "which transitions exist");
+    v("num_symbols", o.num_symbols, within(0, 65536),
+      "size of the alphabet; 0: not set, which training refuses");
+    v("max_iterations", o.max_iterations, within(1, 100000), "iterations of Baum-Welch at most");
+    v("tolerance", o.tolerance, within(0, 1e6),
+      "training stops when the log-likelihood a symbol gains less");
+    v("emission_floor", o.emission_floor, within(0, 1),
+      "smallest emission probability, at most 1 / num_symbols");
+    v("transition_prior", o.transition_prior, within(0, 1e12),
+      "Dirichlet prior: imagined counts of every transition (and start) that the topology has");
+    v("emission_prior", o.emission_prior, within(0, 1e12),
+      "Dirichlet prior: imagined counts of every symbol in every state");
+    v("train_transitions", o.train_transitions, any_value,
+      "False: start and transitions stay as they began");
+    v("seed", o.seed, any_seed, "of the start of models that are not left-right");
+  }
+  /// nullptr, or which fields do not go together.
+  [[nodiscard]] const char* conflict() const;
 };
 
 /// Immutable; const calls are safe from several threads. Invariant: the rows of emission sum to 1.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/discrete_hmm.hpp"
@@ -18,11 +19,17 @@
 namespace hri {
 
 struct FewSampleOptions {
-  /// Recordings that the sequences stand for, 1..1000000: copies of a recording are no more
-  /// score.
   int num_recordings = 1;
-  int max_iterations = 12;  ///< of Baum-Welch, 1..100000
-  StopCheck should_stop;    ///< polled before every sequence of every iteration
+  int max_iterations = 12;
+  StopCheck should_stop;  ///< polled before every sequence of every iteration
+
+  static constexpr const char* kName = "FewSampleOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("num_recordings", o.num_recordings, within(1, 1000000),
+      "recordings that the sequences stand for: copies of a recording are no further evidence");
+    v("max_iterations", o.max_iterations, within(1, 100000), "iterations of Baum-Welch at most");
+  }
 };
 
 /// One Gaussian a state, in the topology of `known`, left-right in all. Its mean is that of the

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -18,15 +19,27 @@
 namespace hri {
 
 struct GaussianMixtureOptions {
-  int num_mixtures = 16;         ///< 1..4096
-  int max_iterations = 15;       ///< EM iterations, 1..100000
-  double tolerance = 1e-3;       ///< stop when the log-likelihood a frame gains less, >= 0
-  double variance_floor = 0.01;  ///< share of the global variance, > 0
-  /// Weight of one more component, as wide as five deviations of all rows, 0..0.5: as a background
-  /// model the mixture then explains also what lies far from its training data.
+  int num_mixtures = 16;
+  int max_iterations = 15;
+  double tolerance = 1e-3;
+  double variance_floor = 0.01;
   double wide_weight = 0;
-  std::uint64_t seed = 0;  ///< of the k-means start
+  std::uint64_t seed = 0;
   StopCheck should_stop;
+
+  static constexpr const char* kName = "GaussianMixtureOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("num_mixtures", o.num_mixtures, within(1, 4096), "Gaussians");
+    v("max_iterations", o.max_iterations, within(1, 100000), "iterations of EM at most");
+    v("tolerance", o.tolerance, within(0, 1e6),
+      "training stops when the log-likelihood a frame gains less");
+    v("variance_floor", o.variance_floor, above(0, 1e6), "share of the global variance");
+    v("wide_weight", o.wide_weight, within(0, 0.5),
+      "weight of one more component, as wide as five deviations of all rows: a background model "
+      "then explains also what lies far from its training data");
+    v("seed", o.seed, any_seed, "of the start by k-means");
+  }
 };
 
 /// Immutable; const calls are safe from several threads.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -26,21 +27,43 @@ class ForwardPass;
 template <class Model>
 class HmmStream;
 
-struct GaussianMixtureHmmOptions {
+struct HRI_API GaussianMixtureHmmOptions {
   Topology topology;
-  int num_mixtures = 1;          ///< Gaussians a state, 1..1024
-  int max_iterations = 20;       ///< Baum-Welch iterations, 1..100000
-  double tolerance = 1e-4;       ///< stop when the log-likelihood a frame gains less, >= 0
-  double variance_floor = 0.01;  ///< share of the global variance, > 0
-  double weight_floor = 1e-3;    ///< smallest mixture weight, 0..1 / num_mixtures
-  bool tied_variance = false;    ///< one vector of variances for all Gaussians of all states
-  /// Dirichlet priors: imagined counts of every transition (and start) that the topology has, and
-  /// of every Gaussian of a state's mixture, >= 0. Training then maximises the posterior.
+  int num_mixtures = 1;
+  int max_iterations = 20;
+  double tolerance = 1e-4;
+  double variance_floor = 0.01;
+  double weight_floor = 1e-3;
+  bool tied_variance = false;
   double transition_prior = 0;
   double weight_prior = 0;
-  bool train_transitions = true;  ///< false: start and transitions stay as they began
-  std::uint64_t seed = 0;         ///< of the k-means starts
-  StopCheck should_stop;          ///< polled before every sequence of every iteration
+  bool train_transitions = true;
+  std::uint64_t seed = 0;
+  StopCheck should_stop;  ///< polled before every sequence of every iteration
+
+  static constexpr const char* kName = "GaussianMixtureHmmOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("topology", o.topology, any_value, "which transitions exist");
+    v("num_mixtures", o.num_mixtures, within(1, 1024), "Gaussians a state");
+    v("max_iterations", o.max_iterations, within(1, 100000), "iterations of Baum-Welch at most");
+    v("tolerance", o.tolerance, within(0, 1e6),
+      "training stops when the log-likelihood a frame gains less");
+    v("variance_floor", o.variance_floor, above(0, 1e6), "share of the global variance");
+    v("weight_floor", o.weight_floor, within(0, 1),
+      "smallest mixture weight, at most 1 / num_mixtures");
+    v("tied_variance", o.tied_variance, any_value,
+      "one vector of variances for all Gaussians of all states");
+    v("transition_prior", o.transition_prior, within(0, 1e12),
+      "Dirichlet prior: imagined counts of every transition (and start) that the topology has");
+    v("weight_prior", o.weight_prior, within(0, 1e12),
+      "Dirichlet prior: imagined counts of every Gaussian of a state's mixture");
+    v("train_transitions", o.train_transitions, any_value,
+      "False: start and transitions stay as they began");
+    v("seed", o.seed, any_seed, "of the starts by k-means");
+  }
+  /// nullptr, or which fields do not go together.
+  [[nodiscard]] const char* conflict() const;
 };
 
 /// Immutable; const calls are safe from several threads. Invariant: the bank has one mixture a

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/hmm/discrete_hmm.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
@@ -17,9 +18,15 @@
 namespace hri {
 
 struct HmmStreamOptions {
-  /// Models whose log-likelihood falls this much below the best (natural log, of all frames so far)
-  /// are dropped until reset(); > 0. The default drops none.
   double beam = std::numeric_limits<double>::infinity();
+
+  static constexpr const char* kName = "HmmStreamOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("beam", o.beam, above(0, 1e12).or_infinity(),
+      "models whose log-likelihood falls this much below the best (natural log, of all frames so "
+      "far) are dropped until reset()");
+  }
 };
 
 /// What one frame of a model is.

@@ -4,10 +4,12 @@
 // The number of states of an HMM from data.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/models/hmm/discrete_hmm.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
 
@@ -19,11 +21,23 @@ struct StateChoiceOptions {
     held_out,  ///< log-likelihood a frame of sequences that training did not see
   };
   Criterion criterion = Criterion::bic;
-  int num_folds = 5;       ///< held_out: parts of the sequences, 2..number of sequences
-  int num_restarts = 3;    ///< trainings of every candidate, the likeliest counts, 1..1000; models
-                           ///< that are left-right begin alike and are trained once
-  std::uint64_t seed = 0;  ///< of the folds and of the restarts
+  int num_folds = 5;
+  int num_restarts = 3;
+  std::uint64_t seed = 0;
+
+  static constexpr const char* kName = "StateChoiceOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("criterion", o.criterion, any_value, "what the candidates are compared by");
+    v("num_folds", o.num_folds, within(2, 1000000),
+      "held_out: parts of the sequences, at most their number");
+    v("num_restarts", o.num_restarts, within(1, 1000),
+      "trainings of every candidate, of which the likeliest counts; left-right models are trained "
+      "once");
+    v("seed", o.seed, any_seed, "of the folds and of the restarts");
+  }
 };
+constexpr auto enum_names(StateChoiceOptions::Criterion) { return std::array{"bic", "held_out"}; }
 
 struct StateChoice {
   struct Candidate {

@@ -4,10 +4,12 @@
 // Which transitions a sequence model has. Structural zeros stay zero through training.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 
@@ -22,8 +24,8 @@ struct HRI_API Topology {
                          ///< of one factor of i and one of j; starts anywhere
   };
   Kind kind = Kind::left_right;
-  int num_states = 5;  ///< 1..4096
-  int max_jump = 1;    ///< 1..num_states, ignored by ergodic
+  int num_states = 5;
+  int max_jump = 1;
 
   /// Whether the transition from i to j exists.
   [[nodiscard]] bool allows(int i, int j) const;
@@ -33,12 +35,19 @@ struct HRI_API Topology {
   /// The first and one past the last state from which j can be reached without a jump.
   [[nodiscard]] int first_previous(int j) const;
   [[nodiscard]] int end_previous(int j) const;
-};
 
-/// nullptr, or what is wrong with the fields.
-HRI_API const char* topology_fault(const Topology& topology);
-/// Throws InvalidArgument naming the field.
-HRI_API void validate(const Topology& topology);
+  static constexpr const char* kName = "Topology";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("kind", o.kind, any_value, "which transitions exist");
+    v("num_states", o.num_states, within(1, 4096), "number of states");
+    v("max_jump", o.max_jump, within(1, 4096),
+      "farthest state that is reached without a jump; ergodic ignores it");
+  }
+};
+constexpr auto enum_names(Topology::Kind) {
+  return std::array{"left_right", "banded", "ergodic", "rank_one_plus_band"};
+}
 
 /// Start probabilities: all on state 0 for left_right, uniform otherwise, shape (num_states,).
 HRI_API VectorD initial_start(const Topology& topology);

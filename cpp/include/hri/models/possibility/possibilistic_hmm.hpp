@@ -7,12 +7,14 @@
 // max_i phi(i) s_ij, with emissions scaled over all classes (eq. 5.14). See docs/ptbhmm.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
@@ -32,6 +34,7 @@ enum class Conjunction : std::uint8_t {
   min,      ///< qualitative (eq. 2.4)
   max,      ///< literal eq. 4.11; degenerate: kept to show that it tells no classes apart
 };
+constexpr auto enum_names(Conjunction) { return std::array{"product", "min", "max"}; }
 
 /// How a set is scored.
 struct PossibilisticRule {
@@ -39,10 +42,20 @@ struct PossibilisticRule {
   /// min: possibilities are conditioned on every frame. Its best state in the class becomes fully
   /// possible, before the symbol is joined and after, and what that takes goes into the score.
   bool conditioned = true;
-  /// min, conditioned: at a symbol that speaks against a state, what that state holds is raised to
-  /// this power first, 1..16. min alone is idempotent: a state contradicted ten times would be as
-  /// alive as one contradicted once, and the order of symbols would be forgotten. 1 turns it off.
+  /// min alone is idempotent: a state contradicted ten times would be as alive as one contradicted
+  /// once, and the order of symbols would be forgotten.
   double concentration = 1.5;
+
+  static constexpr const char* kName = "PossibilisticRule";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("conjunction", o.conjunction, any_value, "how possibilities are joined");
+    v("conditioned", o.conditioned, any_value,
+      "with min: possibilities are conditioned on every frame");
+    v("concentration", o.concentration, within(1, 16),
+      "with min, conditioned: power that what a state holds is raised to at a symbol that speaks "
+      "against it; 1: off");
+  }
 };
 
 /// How the models of a set are trained before they are scaled.
@@ -50,18 +63,37 @@ enum class PossibilisticTraining : std::uint8_t {
   all_paths,  ///< Baum-Welch
   best_path,  ///< counts along the best path, eq. 4.22-4.28 with max for the sums
 };
+constexpr auto enum_names(PossibilisticTraining) { return std::array{"all_paths", "best_path"}; }
 
-struct PossibilisticHmmOptions {
+struct HRI_API PossibilisticHmmOptions {
   Topology topology;
-  int num_symbols = 0;  ///< 1..65536
+  int num_symbols = 0;
   PossibilisticRule rule;
   PossibilisticTraining training = PossibilisticTraining::all_paths;
-  int max_iterations = 20;       ///< of the training, 1..100000
-  double tolerance = 1e-4;       ///< all_paths: stop when the log-likelihood a symbol gains less;
-                                 ///< best_path: when no parameter moves more, >= 0
-  double emission_floor = 1e-4;  ///< smallest emission share before scaling, 0..1 / num_symbols
-  std::uint64_t seed = 0;        ///< of the start of models that are not left-right
+  int max_iterations = 20;
+  double tolerance = 1e-4;
+  double emission_floor = 1e-4;
+  std::uint64_t seed = 0;
   StopCheck should_stop;
+
+  static constexpr const char* kName = "PossibilisticHmmOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("topology", o.topology, any_value, "which transitions exist");
+    v("num_symbols", o.num_symbols, within(0, 65536),
+      "size of the alphabet; 0: not set, which training refuses");
+    v("rule", o.rule, any_value, "how the set is scored");
+    v("training", o.training, any_value, "how the models are trained before they are scaled");
+    v("max_iterations", o.max_iterations, within(1, 100000), "iterations of the training at most");
+    v("tolerance", o.tolerance, within(0, 1e6),
+      "all_paths: training stops when the log-likelihood a symbol gains less; best_path: when no "
+      "parameter moves more");
+    v("emission_floor", o.emission_floor, within(0, 1),
+      "smallest emission share before scaling, at most 1 / num_symbols");
+    v("seed", o.seed, any_seed, "of the start of models that are not left-right");
+  }
+  /// nullptr, or which fields do not go together.
+  [[nodiscard]] const char* conflict() const;
 };
 
 /// Immutable; const calls are safe from several threads. Invariant: possibilities lie in 0..1, and

@@ -6,6 +6,7 @@
 // are scored whole by sequence models.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,6 +16,7 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/hand/hand_features.hpp"
 #include "hri/features/hand/hand_finder_options.hpp"
@@ -40,6 +42,9 @@ enum class GestureModel : std::uint8_t {
   automatic,   ///< rbf; svm for more than 3000 frames; trajectory where most training gestures have
                ///< 8 frames or more; a trained recogniser's options say which it became
 };
+constexpr auto enum_names(GestureModel) {
+  return std::array{"svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf", "automatic"};
+}
 
 /// What the rows of features are made from. C++ makes them from silhouettes; landmarks come from
 /// outside and feed the same classifiers.
@@ -47,25 +52,50 @@ enum class GestureSource : std::uint8_t {
   silhouettes,  ///< hand features of masks and grey pictures
   landmarks,    ///< joints of the hand as a tracker gives them
 };
+constexpr auto enum_names(GestureSource) { return std::array{"silhouettes", "landmarks"}; }
 
 struct GestureRecognizerOptions {
   GestureSource source = GestureSource::silhouettes;
-  HandFinderOptions hands;    ///< how hands are found in pictures
-  double min_quality = 0.25;  ///< of an observation that shows a hand, 0..1: hands have more in any
-                              ///< light, walls without one mostly less
+  HandFinderOptions hands;
+  double min_quality = 0.25;
   HandFeatureOptions features;
   GestureModel model = GestureModel::automatic;
-  double svm_cost = 1.0;       ///< C of the linear SVM (svm, trajectory), > 0
-  double rbf_cost = 10;        ///< C of rbf, > 0
-  double rbf_sharpness = 1.5;  ///< of its kernel, see RbfClassifierOptions, > 0
-  int num_components = 40;     ///< principal components (bayes, knn, hmm, ptbhmm), 1..1000
-  int num_neighbours = 5;      ///< k of knn, 1..1000
-  int num_states = 6;          ///< left-right states a gesture (hmm, ptbhmm), 1..64
-  int num_codewords = 64;      ///< codebook size (ptbhmm), 2..4096
-  int max_iterations = 12;     ///< Baum-Welch iterations, 1..1000
-  double false_reject_rate =
-      0.02;  ///< share of correct held-out gestures that the threshold may reject, 0..0.5
+  double svm_cost = 1.0;
+  double rbf_cost = 10;
+  double rbf_sharpness = 1.5;
+  int num_components = 40;
+  int num_neighbours = 5;
+  int num_states = 6;
+  int num_codewords = 64;
+  int max_iterations = 12;
+  double false_reject_rate = 0.02;
   std::uint64_t seed = 0;
+
+  static constexpr const char* kName = "GestureRecognizerOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("source", o.source, any_value, "what the features are taken of");
+    v("hands", o.hands, any_value, "how hands are found in pictures");
+    v("min_quality", o.min_quality, within(0, 1),
+      "least quality of an observation that shows a hand: hands have more in any light, walls "
+      "mostly less");
+    v("features", o.features, any_value, "features of a hand (silhouettes)");
+    v("model", o.model, any_value,
+      "kind of the models; a trained recogniser says which one automatic became");
+    v("svm_cost", o.svm_cost, above(0, 1e12),
+      "C of the linear support vector machine (svm, trajectory)");
+    v("rbf_cost", o.rbf_cost, above(0, 1e12), "C of rbf");
+    v("rbf_sharpness", o.rbf_sharpness, above(0, 1e6), "of its kernel, see RbfClassifierOptions");
+    v("num_components", o.num_components, within(1, 1000),
+      "principal components (bayes, knn, hmm, ptbhmm)");
+    v("num_neighbours", o.num_neighbours, within(1, 1000), "k of knn");
+    v("num_states", o.num_states, within(1, 64), "left-right states a gesture (hmm, ptbhmm)");
+    v("num_codewords", o.num_codewords, within(2, 4096), "size of the codebook (ptbhmm)");
+    v("max_iterations", o.max_iterations, within(1, 1000), "iterations of Baum-Welch at most");
+    v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
+      "share of correct held-out gestures that the threshold may reject");
+    v("seed", o.seed, any_seed, "of everything random in training");
+  }
 };
 
 /// One training gesture: a row of features a frame, as GestureRecognizer::features gives them.

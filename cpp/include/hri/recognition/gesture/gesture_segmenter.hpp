@@ -7,6 +7,7 @@
 // leaves.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -15,6 +16,7 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/image_view.hpp"
+#include "hri/core/options.hpp"
 
 namespace hri {
 
@@ -22,26 +24,44 @@ namespace hri {
 /// movements are no rest.
 constexpr double kLearnedStillChange = 0.12;
 
-struct GestureSegmenterOptions {
-  double appear_s = 0.1;  ///< a hand is there, or moves again, when it has been seen, or moving,
-                          ///< for so long, > 0
-  double leave_s = 0.3;   ///< it has gone when it has not been seen for so long, > 0
-  double rest_s = 0.5;    ///< a hand that is still for so long ends the segment: it rests, or holds
-                          ///< a sign, > 0
-  double still_change = 0.3;  ///< it is still while the outlines of now and of compare_s ago differ
-                              ///< by less than this share of what they cover together, 0..1
-  double compare_s = 0.2;     ///< > 0
-  double min_gesture_s = 0.3;  ///< what is shorter, and ends in the hand leaving, was nothing, > 0
-  double max_gesture_s = 6.0;  ///< what is longer is cut, > min_gesture_s
-  double take_away_s = 1.0;  ///< a hand that rested and leaves within this time is taken away, and
-                             ///< shows nothing, > 0
-  double context_s = 0.1;    ///< kept before a segment, > 0
-  bool arrivals = true;  ///< a hand that comes into view and rests has shown something: a sign that
-                         ///< it holds, say; else only what comes after that rest is a gesture
-};
+struct HRI_API GestureSegmenterOptions {
+  double appear_s = 0.1;
+  double leave_s = 0.3;
+  double rest_s = 0.5;
+  double still_change = 0.3;
+  double compare_s = 0.2;
+  double min_gesture_s = 0.3;
+  double max_gesture_s = 6.0;
+  double take_away_s = 1.0;
+  double context_s = 0.1;
+  bool arrivals = true;
 
-/// Throws InvalidArgument naming the field that is out of range.
-HRI_API void validate(const GestureSegmenterOptions& options);
+  static constexpr const char* kName = "GestureSegmenterOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("appear_s", o.appear_s, above(0, 1e6),
+      "a hand is there, or moves again, when it was seen, or moving, for so long");
+    v("leave_s", o.leave_s, above(0, 1e6), "it has gone when it was not seen for so long");
+    v("rest_s", o.rest_s, above(0, 1e6),
+      "a hand that is still for so long ends the segment: it rests, or holds a sign");
+    v("still_change", o.still_change, Range{0, 1, true, true},
+      "it is still while the outlines of now and of compare_s ago differ by less than this share "
+      "of what they cover together");
+    v("compare_s", o.compare_s, above(0, 1e6), "time between the outlines that are compared");
+    v("min_gesture_s", o.min_gesture_s, above(0, 1e6),
+      "a shorter segment that ends in the hand leaving is dropped");
+    v("max_gesture_s", o.max_gesture_s, above(0, 1e6),
+      "a longer segment is cut; above min_gesture_s");
+    v("take_away_s", o.take_away_s, above(0, 1e6),
+      "a hand that rested and leaves within this time is taken away, and shows nothing");
+    v("context_s", o.context_s, above(0, 1e6), "kept before a segment");
+    v("arrivals", o.arrivals, any_value,
+      "a hand that comes into view and rests has shown something, such as a sign that it holds; "
+      "otherwise only what comes after that rest is a gesture");
+  }
+  /// nullptr, or which fields do not go together.
+  [[nodiscard]] const char* conflict() const;
+};
 
 enum class GestureSegmentKind : std::uint8_t {
   none,
@@ -49,6 +69,9 @@ enum class GestureSegmentKind : std::uint8_t {
   end,      ///< and has ended: [first_s, last_s] is the segment
   dropped,  ///< what seemed to be a gesture was none
 };
+constexpr auto enum_names(GestureSegmentKind) {
+  return std::array{"none", "start", "end", "dropped"};
+}
 
 /// Why a segment ended.
 enum class GestureSegmentReason : std::uint8_t {
@@ -60,6 +83,9 @@ enum class GestureSegmentReason : std::uint8_t {
   arrived,  ///< dropped: the hand only came into view
   stalled,  ///< dropped: the stream was interrupted
 };
+constexpr auto enum_names(GestureSegmentReason) {
+  return std::array{"none", "rested", "left", "cut", "ended", "arrived", "stalled"};
+}
 
 /// An event in the stream; times are the caller's.
 struct GestureSegment {

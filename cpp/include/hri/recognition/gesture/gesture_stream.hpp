@@ -15,12 +15,14 @@
 // follows, the decision on that takes its place.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/gesture/gesture_spotter.hpp"
 
@@ -28,13 +30,19 @@ namespace hri {
 
 struct GestureStreamOptions {
   GestureSegmenterOptions segmenter;
-  double max_pause_s = 2.5;  ///< after a longer one, what was shown before it is another gesture,
-                             ///< >= 0
-  double partial_interval_s = 0.5;  ///< between looks at a gesture that has not ended, > 0
-};
+  double max_pause_s = 2.5;
+  double partial_interval_s = 0.5;
 
-/// Throws InvalidArgument naming the field that is out of range.
-HRI_API void validate(const GestureStreamOptions& options);
+  static constexpr const char* kName = "GestureStreamOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("segmenter", o.segmenter, any_value, "when a gesture begins and ends");
+    v("max_pause_s", o.max_pause_s, within(0, 1e6),
+      "after a longer pause, what was shown before it is another gesture");
+    v("partial_interval_s", o.partial_interval_s, above(0, 1e6).or_infinity(),
+      "between decisions on a gesture that has not ended");
+  }
+};
 
 enum class GestureEventKind : std::uint8_t {
   segment,      ///< one began, ended or was dropped: see `segment`
@@ -42,6 +50,9 @@ enum class GestureEventKind : std::uint8_t {
   preliminary,  ///< on a segment that may be part of a gesture
   decision,     ///< final: to be obeyed
 };
+constexpr auto enum_names(GestureEventKind) {
+  return std::array{"segment", "partial", "preliminary", "decision"};
+}
 
 struct GestureEvent {
   GestureEventKind kind = GestureEventKind::segment;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/recognition/decision.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
@@ -18,15 +19,28 @@
 namespace hri {
 
 struct SpeakerAdapterOptions {
-  /// Words a label, on average, from which on each word's model is adapted too; before, only what
-  /// all have in common, 0..1000.
   double words_per_label = 5;
-  double shared_frames = 400;  ///< imagined frames that hold back what changes all words, > 0
-  double prior_frames = 5;     ///< frames a state that weigh as much as the training, > 0
-  int num_iterations = 3;      ///< EM iterations of an update, 1..1000
-  double trusted_share = 1;    ///< share of the words without a label to learn from, those of the
-                               ///< largest margins first, 0..1
-  int max_words = 300;         ///< words remembered; the oldest goes first, 1..100000
+  double shared_frames = 400;
+  double prior_frames = 5;
+  int num_iterations = 3;
+  double trusted_share = 1;
+  int max_words = 300;
+
+  static constexpr const char* kName = "SpeakerAdapterOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("words_per_label", o.words_per_label, within(0, 1000),
+      "words a label, on average, from which on each word's model is adapted too; before, only "
+      "what all have in common");
+    v("shared_frames", o.shared_frames, above(0, 1e12),
+      "imagined frames that hold back what changes all words");
+    v("prior_frames", o.prior_frames, above(0, 1e12),
+      "frames a state that weigh as much as the training");
+    v("num_iterations", o.num_iterations, within(1, 1000), "EM iterations of an update");
+    v("trusted_share", o.trusted_share, within(0, 1),
+      "share of the words without a label to learn from, those of the largest margins first");
+    v("max_words", o.max_words, within(1, 100000), "words remembered; the oldest goes first");
+  }
 };
 
 /// Not safe from several threads at once. Invariant: recognizer() is the recogniser it was made

@@ -62,7 +62,7 @@ class HRI_API WordFrontEnd {
   int sample_rate_hz_;
   ActivityOptions activity_;
   bool trim_;
-  double floor_db_;
+  double noise_floor_db_;
   std::vector<CepstraComputer> streams_;
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
 #include "hri/io/model_file.hpp"
@@ -24,27 +25,57 @@
 
 namespace hri {
 
-struct WordRecognizerOptions {
+/// The fields of SequenceModelOptions are those of the models trained on each stream.
+struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   WordRecognizerOptions() {
     cepstra.sample_rate_hz = 0;
     activity.padding_ms = 60;
   }
 
-  CepstraOptions
-      cepstra;  ///< sample_rate_hz 0 (default) takes the lowest training rate, at most 16000
-  ActivityOptions activity;     ///< how the word is found in the clip
-  SequenceModelOptions models;  ///< the models trained on each stream
-  bool trim = true;      ///< cut the clip to the word and activity.padding_ms before and after it
-  double floor_db = 45;  ///< of a word that is cut: noise this far below its peak, under which
-                         ///< quiet rooms and digital silence are the same, 20..120
-  bool level_stream = true;  ///< a second stream votes, whose cepstra are normalised in level only
-  int num_warps = 3;         ///< training copies with warped frequency axis: 1 (none), 3 or 5
-  int noise_copies = 2;  ///< training copies of every word with noise added, warped in turn, 0..10
-  double noise_low_db = 10;   ///< least signal-to-noise ratio of these copies, -20..100
-  double noise_high_db = 25;  ///< and the largest; each copy has its own, at random
-  double warp_step = 0.08;    ///< step of the warp factor between copies, 0..0.2
-  double false_reject_rate =
-      0.02;  ///< share of correct held-out words that the threshold may reject, 0..0.5
+  CepstraOptions cepstra;
+  ActivityOptions activity;
+  bool trim = true;
+  double noise_floor_db = 45;
+  bool level_stream = true;
+  int num_vtlp_factors = 3;
+  double vtlp_step = 0.08;
+  int num_noisy_copies = 2;
+  double min_snr_db = 10;
+  double max_snr_db = 25;
+  double false_reject_rate = 0.02;
+
+  static constexpr const char* kName = "WordRecognizerOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    SequenceModelOptions::visit(o, v);
+    v("cepstra", o.cepstra, any_value, "features of the speech");
+    v("activity", o.activity, any_value, "how the word is found in the clip");
+    v("trim", o.trim, any_value,
+      "trim the clip to the word, and activity.padding_ms before and after it");
+    v("noise_floor_db", o.noise_floor_db, within(20, 120),
+      "level of the noise added under a trimmed word, below its peak, under which quiet rooms and "
+      "digital silence are the same",
+      formerly("floor_db"));
+    v("level_stream", o.level_stream, any_value,
+      "a second stream votes, whose cepstra are normalised in level only");
+    v("num_vtlp_factors", o.num_vtlp_factors, within(1, 5).odd(),
+      "vocal-tract-length perturbation: training copies with a warped frequency axis, itself "
+      "included; 1: none",
+      formerly("num_warps"));
+    v("vtlp_step", o.vtlp_step, within(0, 0.2), "step of the warp factor between these copies",
+      formerly("warp_step"));
+    v("num_noisy_copies", o.num_noisy_copies, within(0, 10),
+      "noise augmentation: training copies of every word with noise added, warped in turn",
+      formerly("noise_copies"));
+    v("min_snr_db", o.min_snr_db, within(-20, 100),
+      "least signal-to-noise ratio of the noisy copies", formerly("noise_low_db"));
+    v("max_snr_db", o.max_snr_db, within(-20, 100), "largest; each copy has its own, at random",
+      formerly("noise_high_db"));
+    v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
+      "share of correct held-out words that the threshold may reject");
+  }
+  /// nullptr, or which fields do not go together.
+  [[nodiscard]] const char* conflict() const;
 };
 
 /// One training word. `group` is the speaker: calibration holds whole groups out.
