@@ -49,45 +49,73 @@ Share share_of(float position) {
   return {static_cast<int>(below), position - below};
 }
 
-// Shares out one gradient among 2 x 2 cells and 2 bins.
-class CellHistogram {
- public:
-  CellHistogram(int num_cells, int num_bins, std::vector<float>* values)
-      : num_cells_(num_cells), num_bins_(num_bins), values_(values) {
-    values_->assign(static_cast<std::size_t>(num_cells) * num_cells * num_bins, 0.0F);
+// Working memory of one thread.
+struct Workspace {
+  std::vector<Share> columns;
+  std::vector<float> x, y, magnitude;  // gradients of one row
+  std::vector<float> position;         // their angles, then the shares of the upper of two bins
+  std::vector<int> bin;                // the lower
+  std::vector<float> cells;            // with a border that takes what falls beside them
+  void resize(std::size_t count) {
+    for (std::vector<float>* values : {&x, &y, &magnitude, &position}) values->resize(count);
+    bin.resize(count);
   }
-  void add(Share y, Share x, float angle, float magnitude) {
-    const Share bin = share_of(angle / kPi * static_cast<float>(num_bins_) - 0.5F);
-    const int b0 = wrapped(bin.first);
-    const int b1 = wrapped(b0 + 1);
-    const float lower = 1 - bin.weight;
-    for (int dy = 0; dy < 2; ++dy) {
-      const int cy = y.first + dy;
-      if (cy < 0 || cy >= num_cells_) continue;
-      for (int dx = 0; dx < 2; ++dx) {
-        const int cx = x.first + dx;
-        if (cx < 0 || cx >= num_cells_) continue;
-        const float w =
-            magnitude * (dy == 1 ? y.weight : 1 - y.weight) * (dx == 1 ? x.weight : 1 - x.weight);
-        float* cell =
-            values_->data() + (static_cast<std::ptrdiff_t>(cy) * num_cells_ + cx) * num_bins_;
-        cell[b0] += w * lower;
-        cell[b1] += w * bin.weight;
-      }
-    }
-  }
-
- private:
-  // Bins lie on a circle; only neighbours of its ends are asked for.
-  [[nodiscard]] int wrapped(int bin) const {
-    if (bin < 0) return bin + num_bins_;
-    return bin >= num_bins_ ? bin - num_bins_ : bin;
-  }
-
-  int num_cells_;
-  int num_bins_;
-  std::vector<float>* values_;
 };
+
+HRI_SIMD_CLONES void row_gradients(const float* above, const float* row, const float* below,
+                                   std::size_t count, Workspace* w) {
+  float* gx = w->x.data();
+  float* gy = w->y.data();
+  float* magnitude = w->magnitude.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    gx[i] = row[i + 2] - row[i];
+    gy[i] = below[i + 1] - above[i + 1];
+    magnitude[i] = std::sqrt(gx[i] * gx[i] + gy[i] * gy[i]);
+  }
+}
+
+HRI_SIMD_CLONES void row_bins(std::size_t count, float num_bins, Workspace* w) {
+  float* position = w->position.data();
+  int* bin = w->bin.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float angle = position[i] < 0 ? position[i] + kPi : position[i];
+    const float place = angle / kPi * num_bins - 0.5F;
+    const auto nearer_zero = static_cast<int>(place);
+    const int whole = nearer_zero - (static_cast<float>(nearer_zero) > place ? 1 : 0);
+    position[i] = place - static_cast<float>(whole);
+    bin[i] = whole;
+  }
+}
+
+// Shares out the gradients of one row, each among 2 x 2 cells and 2 bins.
+void add_row(const Workspace& w, std::size_t count, Share row, int num_cells, int num_bins,
+             float* cells) {
+  const std::ptrdiff_t cell_row = static_cast<std::ptrdiff_t>(num_cells + 2) * num_bins;
+  float* top = cells + (row.first + 1) * cell_row;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(w.magnitude[i] > 0)) continue;
+    // Bins lie on a circle; only neighbours of its ends are met.
+    int b0 = w.bin[i];
+    if (b0 < 0) b0 += num_bins;
+    if (b0 >= num_bins) b0 -= num_bins;
+    const int b1 = b0 + 1 == num_bins ? 0 : b0 + 1;
+    const float upper = w.position[i];
+    const float lower = 1 - upper;
+    const Share column = w.columns[i + 1];
+    const float above = w.magnitude[i] * (1 - row.weight);
+    const float below = w.magnitude[i] * row.weight;
+    const float left = 1 - column.weight;
+    const auto add = [&](float* cell, float weight) {
+      cell[b0] += weight * lower;
+      cell[b1] += weight * upper;
+    };
+    float* cell = top + static_cast<std::ptrdiff_t>(column.first + 1) * num_bins;
+    add(cell, above * left);
+    add(cell + num_bins, above * column.weight);
+    add(cell + cell_row, below * left);
+    add(cell + cell_row + num_bins, below * column.weight);
+  }
+}
 
 void normalise_block(float* block, int size) {
   float squares = 0;
@@ -121,29 +149,31 @@ void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOpti
   require(rows >= std::max(3, n) && cols >= std::max(3, n),
           "image must have at least 3 and num_cells rows and columns");
   check_values(image);
-  thread_local std::vector<float> cells;
-  CellHistogram histogram(n, options.num_bins, &cells);
-  thread_local std::vector<Share> columns;
-  columns.resize(static_cast<std::size_t>(cols));
+  thread_local Workspace workspace;
+  Workspace& w = workspace;
+  const int bins = options.num_bins;
+  const std::ptrdiff_t cell_row = static_cast<std::ptrdiff_t>(n + 2) * bins;
+  w.cells.assign(static_cast<std::size_t>((n + 2) * cell_row), 0.0F);
+  w.columns.resize(static_cast<std::size_t>(cols));
   for (int x = 0; x < cols; ++x) {
-    columns[static_cast<std::size_t>(x)] = share_of(
+    w.columns[static_cast<std::size_t>(x)] = share_of(
         (static_cast<float>(x) + 0.5F) * static_cast<float>(n) / static_cast<float>(cols) - 0.5F);
   }
+  const auto count = static_cast<std::size_t>(cols - 2);
+  w.resize(count);
   for (int y = 1; y + 1 < rows; ++y) {
-    const Share sy = share_of(
+    const Share share = share_of(
         (static_cast<float>(y) + 0.5F) * static_cast<float>(n) / static_cast<float>(rows) - 0.5F);
-    for (int x = 1; x + 1 < cols; ++x) {
-      const float gx = image(y, x + 1) - image(y, x - 1);
-      const float gy = image(y + 1, x) - image(y - 1, x);
-      if (gx == 0 && gy == 0) continue;
-      float angle = std::atan2(gy, gx);
-      if (angle < 0) angle += kPi;
-      histogram.add(sy, columns[static_cast<std::size_t>(x)], angle, std::sqrt(gx * gx + gy * gy));
-    }
+    const float* row = image.data() + y * image.outerStride();
+    row_gradients(row - image.outerStride(), row, row + image.outerStride(), count, &w);
+    for (std::size_t i = 0; i < count; ++i)
+      w.position[i] = w.magnitude[i] > 0 ? std::atan2(w.y[i], w.x[i]) : 0.0F;
+    row_bins(count, static_cast<float>(bins), &w);
+    add_row(w, count, share, n, bins, w.cells.data());
   }
-  const int bins = options.num_bins;
+  const float* cells = w.cells.data() + cell_row + bins;
   if (n == 1) {
-    std::copy(cells.begin(), cells.end(), out.begin());
+    std::copy(cells, cells + bins, out.begin());
     normalise_block(out.data(), bins);
     return;
   }
@@ -151,7 +181,7 @@ void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOpti
   for (int y = 0; y + 1 < n; ++y) {
     for (int x = 0; x + 1 < n; ++x, block += 4 * bins) {
       for (int dy = 0; dy < 2; ++dy) {
-        const float* from = cells.data() + (static_cast<std::ptrdiff_t>(y + dy) * n + x) * bins;
+        const float* from = cells + (y + dy) * cell_row + static_cast<std::ptrdiff_t>(x) * bins;
         std::copy(from, from + 2 * bins, block + 2 * bins * dy);
       }
       normalise_block(block, 4 * bins);
