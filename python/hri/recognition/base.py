@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.display import short_list, summary
-from hri.core.errors import FormatError
+from hri.core.errors import FormatError, InvalidArgument
 from hri.core.estimator import flat_params, not_fitted, replaced_params
 from hri.core.sklearn_tags import make_tags
 from hri.io import ModelFile
@@ -135,8 +135,8 @@ class Recognizer:
             return np.log(self.predict_proba(X))
 
     def score(self, X: Sequence[Any], y: Sequence[str]) -> float:
-        """Share of items whose best label is right, 0..1."""
-        return float(np.mean(self.predict(X) == np.asarray(y)))
+        """Share of items whose best label is right, 0..1; labels that are not text are read as `fit` reads them."""
+        return share_right(self.predict(X), y)
 
 
 def _flat(options: dict[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -159,3 +159,10 @@ def posteriors(decisions: Sequence[Decision], classes: NDArray[np.str_]) -> NDAr
         for entry in decision.nbest:
             row[column[entry.label]] = entry.probability
     return result
+
+
+def share_right(predicted: NDArray[np.str_], y: Sequence[str]) -> float:
+    """Share of labels that are those of `y`, 0..1."""
+    if len(predicted) != len(y):
+        raise InvalidArgument(f"X and y differ in length: {len(predicted)}, {len(y)}")
+    return float(np.mean(predicted == np.asarray([str(label) for label in y])))

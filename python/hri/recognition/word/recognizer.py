@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.suggest import did_you_mean
-from hri.recognition.base import Recognizer, best_labels, posteriors
+from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio, as_audios
 from hri.recognition.keywords import WordRecognizerKeywords
@@ -60,9 +60,8 @@ class WordRecognizer(Recognizer):
 
     Examples
     --------
-    >>> recognizer = WordRecognizer(model="hmm")            # doctest: +SKIP
-    >>> recognizer.fit(clips, labels, sample_rate_hz=16000)  # doctest: +SKIP
-    >>> recognizer.recognise(clip, 16000).label              # doctest: +SKIP
+    >>> words = WordRecognizer(model="hmm", num_states=4).fit(clips, labels, sample_rate_hz=16000)
+    >>> words.recognise(samples, 16000).label
     'seven'
     """
 
@@ -190,8 +189,10 @@ class WordRecognizer(Recognizer):
 
         Examples
         --------
-        >>> words.recognise("seven.wav").label     # doctest: +SKIP
-        >>> words.recognise(samples, 16000).label  # doctest: +SKIP
+        >>> words.recognise("seven.wav").label
+        'seven'
+        >>> words.recognise(samples, 16000).label
+        'seven'
         """
         clip = as_audio(audio, sample_rate_hz)
         decision = Decision.from_native(self.mode, self._trained.recognise(clip.samples, clip.sample_rate_hz))
@@ -249,8 +250,8 @@ class WordRecognizer(Recognizer):
     def score(
         self, X: Sequence[AudioInput], y: Sequence[str], sample_rate_hz: int | Sequence[int] | None = None
     ) -> float:
-        """Share of clips whose best label is right, 0..1."""
-        return float(np.mean(self.predict(X, sample_rate_hz) == np.asarray(y)))
+        """Share of clips whose best label is right, 0..1; labels that are not text are read as `fit` reads them."""
+        return share_right(self.predict(X, sample_rate_hz), y)
 
     @property
     def threshold(self) -> float:

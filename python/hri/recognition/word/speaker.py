@@ -37,10 +37,10 @@ class SpeakerAdapter:
 
     Examples
     --------
-    >>> adapter = SpeakerAdapter(WordRecognizer.load("words.hri"))  # doctest: +SKIP
-    >>> adapter.recognise(clip, 16000).label                         # doctest: +SKIP
+    >>> adapter = SpeakerAdapter(WordRecognizer.load("words.hri"))
+    >>> adapter.recognise(samples, 16000).label
     'seven'
-    >>> adapter.recognizer.save("words-of-asha.hri")                 # doctest: +SKIP
+    >>> adapter.recognizer.save("words-of-asha.hri")
     """
 
     def __init__(self, recognizer: WordRecognizer, **options: Unpack[SpeakerAdapterKeywords]) -> None:
