@@ -22,7 +22,7 @@ ModelFile GestureRecognizer::to_model_file() const {
   file.set_text_list("labels", labels_);
   detail::write_options(options_, file);
   calibration_.write(file);
-  write_gesture_verifier(verifier_, file);
+  detail::write_gesture_verifier(verifier_, file);
   scorer_->write(file);
   return file;
 }
@@ -46,8 +46,8 @@ GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
     fail(ErrorKind::format, file.name() + ": labels are not sorted");
   result.calibration_ = Calibration::read(file);
   result.scorer_ =
-      read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
-  result.verifier_ = read_gesture_verifier(file, result.scorer_->num_confidence_features());
+      detail::read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
+  result.verifier_ = detail::read_gesture_verifier(file, result.scorer_->num_confidence_features());
   file.require_all_read();
   return result;
 }

@@ -32,7 +32,7 @@ Decision GestureRecognizer::recognise_features(ConstMatrixRefF features) const {
   const VectorF s = scores(features);
   const float score = verifier_.dim() == 0
                           ? scorer_->verification_score(features, s)
-                          : log_odds(verifier_, scorer_->confidence_features(features, s));
+                          : detail::log_odds(verifier_, scorer_->confidence_features(features, s));
   return calibration_.decide(s, score, labels_);
 }
 

@@ -4,7 +4,7 @@
 
 #include "hri/core/error.hpp"
 
-namespace hri {
+namespace hri::detail {
 namespace {
 
 bool has_states(GestureModel model) {
@@ -12,8 +12,6 @@ bool has_states(GestureModel model) {
 }
 
 }  // namespace
-
-namespace detail {
 
 StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class) {
   Eigen::Index count = 0;
@@ -35,26 +33,21 @@ StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class) {
   return all;
 }
 
-}  // namespace detail
-
 std::shared_ptr<const GestureScorer> train_gesture_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop) {
   if (options.model == GestureModel::trajectory)
-    return detail::train_trajectory_scorer(per_class, options, should_stop);
-  return has_states(options.model)
-             ? detail::train_sequence_gesture_scorer(per_class, options, should_stop)
-             : detail::train_vote_scorer(per_class, options, should_stop);
+    return train_trajectory_scorer(per_class, options, should_stop);
+  return has_states(options.model) ? train_sequence_gesture_scorer(per_class, options, should_stop)
+                                   : train_vote_scorer(per_class, options, should_stop);
 }
 
 std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
                                                          const GestureRecognizerOptions& options,
                                                          int num_classes) {
-  if (options.model == GestureModel::trajectory)
-    return detail::read_trajectory_scorer(file, num_classes);
-  return has_states(options.model)
-             ? detail::read_sequence_gesture_scorer(file, options, num_classes)
-             : detail::read_vote_scorer(file, options, num_classes);
+  if (options.model == GestureModel::trajectory) return read_trajectory_scorer(file, num_classes);
+  return has_states(options.model) ? read_sequence_gesture_scorer(file, options, num_classes)
+                                   : read_vote_scorer(file, options, num_classes);
 }
 
-}  // namespace hri
+}  // namespace hri::detail

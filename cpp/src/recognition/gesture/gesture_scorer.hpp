@@ -13,7 +13,7 @@
 #include "hri/io/model_file.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 
-namespace hri {
+namespace hri::detail {
 
 class GestureScorer {
  public:
@@ -50,8 +50,6 @@ std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
                                                          const GestureRecognizerOptions& options,
                                                          int num_classes);
 
-namespace detail {
-
 std::shared_ptr<const GestureScorer> train_vote_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop);
@@ -78,5 +76,4 @@ struct StackedRows {
 };
 StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class);
 
-}  // namespace detail
-}  // namespace hri
+}  // namespace hri::detail

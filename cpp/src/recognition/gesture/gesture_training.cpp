@@ -82,7 +82,7 @@ class Trials {
       : samples_(samples), classes_(classes), folds_(folds) {}
 
   // A scorer of all classes decides on the gestures of a fold.
-  void decide(const GestureScorer& scorer, int fold) {
+  void decide(const detail::GestureScorer& scorer, int fold) {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       if (folds_[i] != fold || samples_[i].features.rows() == 0) continue;
       const MatrixF& rows = samples_[i].features;
@@ -93,7 +93,7 @@ class Trials {
   }
 
   // A scorer that knows nothing of class `left_out` decides on what the fold has of it.
-  void decide_unknown(const GestureScorer& scorer, int fold, int left_out) {
+  void decide_unknown(const detail::GestureScorer& scorer, int fold, int left_out) {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const MatrixF& rows = samples_[i].features;
       if (folds_[i] == fold && classes_[i] == left_out && rows.rows() > 0)
@@ -109,10 +109,10 @@ class Trials {
       held_out_[i].scores.maxCoeff(&best);
       if (best == held_out_[i].truth) right.push_back(confidence_features_[i]);
     }
-    LogisticRegression verifier = train_gesture_verifier(right, unknown_);
+    LogisticRegression verifier = detail::train_gesture_verifier(right, unknown_);
     if (verifier.dim() == 0) return verifier;
     for (std::size_t i = 0; i < held_out_.size(); ++i)
-      held_out_[i].score = log_odds(verifier, confidence_features_[i]);
+      held_out_[i].score = detail::log_odds(verifier, confidence_features_[i]);
     return verifier;
   }
 
@@ -159,16 +159,16 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
     if (progress) progress(fold, num_folds + 1);
     const auto rest = by_class(samples, classes, folds, result.labels_.size(), fold);
     if (any_empty(rest)) continue;  // without every class there is nothing to calibrate on
-    const auto scorer = train_gesture_scorer(rest, result.options_, should_stop);
+    const auto scorer = detail::train_gesture_scorer(rest, result.options_, should_stop);
     trials.decide(*scorer, fold);
     if (scorer->num_confidence_features() == 0 || num_classes < 3) continue;
     const int left_out = fold % num_classes;
     trials.decide_unknown(
-        *train_gesture_scorer(without(rest, left_out), result.options_, should_stop), fold,
+        *detail::train_gesture_scorer(without(rest, left_out), result.options_, should_stop), fold,
         left_out);
   }
   if (progress) progress(num_folds, num_folds + 1);
-  result.scorer_ = train_gesture_scorer(all, result.options_, should_stop);
+  result.scorer_ = detail::train_gesture_scorer(all, result.options_, should_stop);
   result.verifier_ = trials.learn_verifier();
   result.calibration_ = Calibration::fit(trials.held_out(), options.false_reject_rate);
   if (progress) progress(num_folds + 1, num_folds + 1);

@@ -6,7 +6,7 @@
 
 #include "hri/core/error.hpp"
 
-namespace hri {
+namespace hri::detail {
 namespace {
 
 constexpr const char* kPrefix = "verifier.";
@@ -54,4 +54,4 @@ LogisticRegression read_gesture_verifier(const ModelFile& file,
   return verifier;
 }
 
-}  // namespace hri
+}  // namespace hri::detail

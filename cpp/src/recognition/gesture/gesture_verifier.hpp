@@ -12,7 +12,7 @@
 #include "hri/io/model_file.hpp"
 #include "hri/models/classifiers/logistic_regression.hpp"
 
-namespace hri {
+namespace hri::detail {
 
 /// Empty where there are too few of either kind to learn from.
 LogisticRegression train_gesture_verifier(const std::vector<VectorD>& right,
@@ -27,4 +27,4 @@ void write_gesture_verifier(const LogisticRegression& verifier, ModelFile& file)
 LogisticRegression read_gesture_verifier(const ModelFile& file,
                                          Eigen::Index num_confidence_features);
 
-}  // namespace hri
+}  // namespace hri::detail

@@ -10,7 +10,7 @@
 #include "hri/models/classifiers/pca.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
 
-namespace hri {
+namespace hri::detail {
 namespace {
 
 constexpr int kDeltaWindow = 2;
@@ -18,7 +18,7 @@ constexpr float kTrackScale = 10.0F;  // a tenth of the picture counts as much a
 
 // Shape components and track, with their deltas behind them.
 MatrixF sequence_rows(ConstMatrixRefF rows, const Pca& pca) {
-  const int track = detail::kNumTrackColumns;
+  const int track = kNumTrackColumns;
   const int width = pca.num_components() + track;
   require(rows.cols() == pca.dim() + track,
           "features do not have as many columns as the model was trained on");
@@ -66,8 +66,6 @@ class SequenceGestureScorer : public GestureScorer {
 
 }  // namespace
 
-namespace detail {
-
 std::shared_ptr<const GestureScorer> train_sequence_gesture_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop) {
@@ -91,5 +89,4 @@ std::shared_ptr<const GestureScorer> read_sequence_gesture_scorer(
   return std::make_shared<SequenceGestureScorer>(std::move(pca), std::move(models));
 }
 
-}  // namespace detail
-}  // namespace hri
+}  // namespace hri::detail

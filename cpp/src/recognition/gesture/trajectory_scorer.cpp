@@ -23,15 +23,8 @@
 #include "recognition/gesture/trajectory.hpp"
 #include "recognition/gesture/trajectory_centres.hpp"
 
-namespace hri {
+namespace hri::detail {
 namespace {
-
-using detail::KnownTrajectory;
-using detail::kNumPoints;
-using detail::max_displacement;
-using detail::Rests;
-using detail::trajectory_vector;
-using detail::TrajectoryCentres;
 
 constexpr const char* kMotion = "path.movement.";
 constexpr const char* kStartsAtRest = "path.starts_at_rest";
@@ -129,8 +122,6 @@ LinearSvm separate(const std::vector<KnownTrajectory>& trajectories,
 
 }  // namespace
 
-namespace detail {
-
 std::shared_ptr<const GestureScorer> train_trajectory_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop) {
@@ -203,5 +194,4 @@ std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& fil
                                             file.integer(kPauses) != 0, std::move(motion));
 }
 
-}  // namespace detail
-}  // namespace hri
+}  // namespace hri::detail

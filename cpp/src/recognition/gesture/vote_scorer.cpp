@@ -18,7 +18,7 @@
 #include "hri/recognition/gesture/key_frames.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
 
-namespace hri {
+namespace hri::detail {
 namespace {
 
 constexpr float kLeastDistance = 1e-3F;  // of a frame that was trained on
@@ -37,7 +37,7 @@ bool needs_components(GestureModel model) {
 }
 
 MatrixF held_rows(ConstMatrixRefF rows) {
-  const FrameRange held = key_frames(rows, detail::kNumTrackColumns);
+  const FrameRange held = key_frames(rows, kNumTrackColumns);
   return rows.middleRows(held.first, held.last - held.first);
 }
 
@@ -134,8 +134,6 @@ class VoteScorer : public GestureScorer {
 
 }  // namespace
 
-namespace detail {
-
 std::shared_ptr<const GestureScorer> train_vote_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop) {
@@ -196,5 +194,4 @@ std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file,
   return scorer;
 }
 
-}  // namespace detail
-}  // namespace hri
+}  // namespace hri::detail

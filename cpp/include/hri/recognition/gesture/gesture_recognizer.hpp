@@ -106,8 +106,9 @@ struct GestureSample {
   std::string group;
 };
 
-/// Turns the features of one gesture into scores; one implementation a GestureModel.
-class GestureScorer;
+namespace detail {
+class GestureScorer;  // turns the features of one gesture into scores
+}
 
 /// Immutable once made; const calls are safe from several threads.
 class HRI_API GestureRecognizer {
@@ -161,7 +162,7 @@ class HRI_API GestureRecognizer {
   GestureRecognizerOptions options_;
   std::optional<GestureFeatureComputer> front_end_;
   std::vector<std::string> labels_;
-  std::shared_ptr<const GestureScorer> scorer_;
+  std::shared_ptr<const detail::GestureScorer> scorer_;
   LogisticRegression
       verifier_;  // of the scorer's confidence features; empty where nothing was learned
   Calibration calibration_;
