@@ -61,10 +61,10 @@ struct type_caster<E, std::enable_if_t<hri::has_enum_names<E>>> {
 
   bool load(handle source, bool /*convert*/) {
     if (!isinstance<str>(source)) return false;
-    const auto name = pybind11::cast<std::string>(source);
-    if (!hri::parse_enum(name, &value)) {
+    const auto text = pybind11::cast<std::string>(source);
+    if (!hri::parse_enum(text, &value)) {
       hri::fail(hri::ErrorKind::invalid_argument,
-                "must be one of " + hri::enum_list<E>() + ", got '" + name + "'");
+                "must be one of " + hri::enum_list<E>() + ", got '" + text + "'");
     }
     return true;
   }

@@ -100,7 +100,7 @@ void expect_model_file_keeps() {
     }
     if constexpr (std::is_floating_point_v<T>) {
       hri::ModelFile broken = file;
-      broken.set_number(std::string("o.") + name, -1e308);
+      broken.set_text(std::string("o.") + name, "-1e308");
       O target{};
       EXPECT_THROW(hri::detail::read_options(broken, &target, "o."), hri::FormatError)
           << O::kName << "." << name;

@@ -5,6 +5,22 @@
 #include <cstdio>
 
 namespace hri {
+namespace {
+
+std::string number_text(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
+  char text[32];
+  // Whole numbers in full, such as 100000 and not 1e+05.
+  if (std::fabs(value) < 1e9 && value == std::floor(value)) {
+    std::snprintf(text, sizeof text, "%.0f", value);
+  } else {
+    std::snprintf(text, sizeof text, "%.6g", value);
+  }
+  return text;
+}
+
+}  // namespace
 
 bool Range::holds(double value) const {
   if (with_zero && value == 0) return true;
@@ -18,12 +34,16 @@ bool Range::holds(double value) const {
 
 std::string Range::text() const {
   if (high == any_seed.high) return "0..2^64 - 1";
-  std::string text = detail::number_text(low) + ".." + detail::number_text(high);
+  std::string text = number_text(low) + ".." + number_text(high);
   if (parity >= 0) text += parity == 1 ? ", odd" : ", even";
-  if (without_low) text += ", " + detail::number_text(low) + " excluded";
-  if (without_high) text += ", " + detail::number_text(high) + " excluded";
+  if (without_low) text += ", " + number_text(low) + " excluded";
+  if (without_high) text += ", " + number_text(high) + " excluded";
   if (with_zero) text += ", or 0";
   return with_infinity ? text + ", or infinite" : text;
+}
+
+std::string Range::fault(double value) const {
+  return holds(value) ? std::string() : "must lie in " + text() + ", got " + number_text(value);
 }
 
 std::string unit_of(std::string_view field) {
@@ -38,19 +58,6 @@ std::string unit_of(std::string_view field) {
       return u.unit;
   }
   return {};
-}
-
-std::string detail::number_text(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-  char text[32];
-  // Whole numbers in full, such as 100000 and not 1e+05.
-  if (std::fabs(value) < 1e9 && value == std::floor(value)) {
-    std::snprintf(text, sizeof text, "%.0f", value);
-  } else {
-    std::snprintf(text, sizeof text, "%.6g", value);
-  }
-  return text;
 }
 
 }  // namespace hri

@@ -22,6 +22,19 @@ namespace {
 constexpr const char* kVersionKey = "format_version";
 constexpr const char* kChecksumKey = "checksum";
 
+// "" or what is wrong with the values. A comparison that NaN fails.
+template <class M>
+std::string values_fault(const M& values) {
+  constexpr double kLargest = sizeof(typename M::Scalar) == sizeof(float)
+                                  ? ModelFile::kLargestFloat
+                                  : ModelFile::kLargestNumber;
+  const auto largest = static_cast<typename M::Scalar>(kLargest);
+  if ((values.array().abs() <= largest).all()) return {};
+  if (!values.allFinite()) return "holds a value that is not finite";
+  return std::string("holds a value beyond ") +
+         (sizeof(largest) == sizeof(float) ? "1e15" : "1e30");
+}
+
 template <class T>
 Matrix<T> from_bytes(const std::vector<std::uint8_t>& bytes, std::int64_t rows, std::int64_t cols) {
   Matrix<T> m(rows, cols);
@@ -34,8 +47,8 @@ std::vector<std::uint8_t> to_bytes(const std::string& name, const M& values) {
   using T = typename M::Scalar;
   const Matrix<T> dense = values;
   // Refused here, where the model still exists, and not when its file is read.
-  if (!dense.allFinite())
-    fail(ErrorKind::invalid_argument, "field '" + name + "' holds a value that is not finite");
+  if (const std::string wrong = values_fault(dense); !wrong.empty())
+    fail(ErrorKind::invalid_argument, "field '" + name + "' " + wrong);
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(dense.size()) * sizeof(T));
   if (!bytes.empty()) std::memcpy(bytes.data(), dense.data(), bytes.size());
   return bytes;
@@ -96,6 +109,7 @@ double ModelFile::number(const std::string& key) const {
   if (!(in >> parsed) || in.peek() != std::istringstream::traits_type::eof() ||
       !std::isfinite(parsed))
     refuse(key, "is not a finite number: '" + value + "'");
+  if (std::fabs(parsed) > kLargestNumber) refuse(key, "is beyond 1e30: " + value);
   return parsed;
 }
 
@@ -129,6 +143,8 @@ void ModelFile::set_integer(const std::string& key, std::int64_t value) {
 
 void ModelFile::set_number(const std::string& key, double value) {
   if (!std::isfinite(value)) fail(ErrorKind::invalid_argument, "field '" + key + "' is not finite");
+  if (std::fabs(value) > kLargestNumber)
+    fail(ErrorKind::invalid_argument, "field '" + key + "' is beyond 1e30");
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out << std::setprecision(17) << value;
@@ -152,14 +168,14 @@ const ModelFile::Tensor& ModelFile::tensor(const std::string& name, bool is_doub
 MatrixD ModelFile::matrix_d(const std::string& name) const {
   const Tensor& t = tensor(name, true);
   MatrixD m = from_bytes<double>(t.bytes, t.rows, t.cols);
-  if (!m.allFinite()) refuse(name, "holds a value that is not finite");
+  if (const std::string wrong = values_fault(m); !wrong.empty()) refuse(name, wrong);
   return m;
 }
 
 MatrixF ModelFile::matrix_f(const std::string& name) const {
   const Tensor& t = tensor(name, false);
   MatrixF m = from_bytes<float>(t.bytes, t.rows, t.cols);
-  if (!m.allFinite()) refuse(name, "holds a value that is not finite");
+  if (const std::string wrong = values_fault(m); !wrong.empty()) refuse(name, wrong);
   return m;
 }
 

@@ -42,6 +42,9 @@ double best_scale(const std::vector<HeldOut>& held_out) {
   return std::pow(10.0, 0.5 * (low + high));
 }
 
+// Held-out scores give at most 1e3 (best_scale).
+constexpr double kMaxScale = 1e6;
+
 Eigen::Index argmax(const VectorF& scores) {
   Eigen::Index best = 0;
   scores.maxCoeff(&best);
@@ -125,8 +128,23 @@ VectorF Calibration::posterior(const VectorF& scores) const {
   return p / p.sum();
 }
 
+namespace {
+
+Decision unknown_decision() {
+  Decision d;
+  d.status = DecisionStatus::unknown;
+  d.label = enum_name(d.status);
+  return d;
+}
+
+}  // namespace
+
 Decision Calibration::decide(const VectorF& scores, float score,
                              const std::vector<std::string>& labels) const {
+  // A class may be impossible; a score that is no number, or is beyond all, decides nothing.
+  if (scores.hasNaN() || !std::isfinite(scores.maxCoeff()) || std::isnan(score) ||
+      score > std::numeric_limits<float>::max())
+    return unknown_decision();
   const VectorF p = posterior(scores);
   std::vector<Eigen::Index> order(labels.size());
   std::iota(order.begin(), order.end(), 0);
@@ -155,12 +173,18 @@ Calibration Calibration::read(const ModelFile& file) {
   Calibration result;
   result.scale_ = file.number("calibration.scale");
   result.threshold_ = file.number("calibration.threshold");
-  if (!(result.scale_ > 0)) fail(ErrorKind::format, "calibration.scale must be positive");
+  if (!(result.scale_ > 0 && result.scale_ <= kMaxScale)) {
+    fail(ErrorKind::format, file.name() +
+                                ": field 'calibration.scale' must lie in 0..1e6, 0 excluded, got " +
+                                file.text("calibration.scale"));
+  }
   if (file.has("calibration.class_thresholds")) {
     const VectorF thresholds = file.vector_f("calibration.class_thresholds");
     if (static_cast<std::size_t>(thresholds.size()) != file.text_list("labels").size() ||
         thresholds.minCoeff() < 0 || thresholds.maxCoeff() > 1) {
-      fail(ErrorKind::format, "calibration.class_thresholds must be one number in 0..1 a label");
+      fail(ErrorKind::format,
+           file.name() +
+               ": field 'calibration.class_thresholds' must be one number in 0..1 a label");
     }
     result.class_thresholds_ = thresholds;
   }

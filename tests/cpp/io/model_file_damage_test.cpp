@@ -151,7 +151,7 @@ TEST(ModelFileDamage, SidesBeyondSixtyThreeBitsAreRefusedEvenIfForged) {
   }
 }
 
-TEST(ModelFileDamage, WeightsThatAreNotFiniteAreRefusedEvenIfForged) {
+TEST(ModelFileDamage, WeightsThatAreNotFiniteOrAbsurdAreRefusedEvenIfForged) {
   const std::string header = header_of(small().serialise());
   for (const std::size_t last_byte : {15U, 31U}) {  // of the last value of "a", of "b"
     Bytes data = data_of(small().serialise());
@@ -163,6 +163,13 @@ TEST(ModelFileDamage, WeightsThatAreNotFiniteAreRefusedEvenIfForged) {
                                     : message_of<FormatError>([&] { (void)file.matrix_f("b"); });
     EXPECT_EQ(message.rfind("robot.hri: ", 0), 0U) << message;
     EXPECT_NE(message.find("finite"), std::string::npos) << message;
+
+    data[last_byte] = 0x7E;  // 8e300 and 1e38
+    const ModelFile large = ModelFile::parse(forged(header, data), "robot.hri");
+    EXPECT_PRED_FORMAT2(::testing::IsSubstring, "holds a value beyond 1e",
+                        message_of<FormatError>([&] {
+                          last_byte == 15 ? (void)large.matrix_d("a") : (void)large.matrix_f("b");
+                        }));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "hri/recognition/calibration.hpp"
 #include "hri/recognition/gesture/key_frames.hpp"
 #include "hri/recognition/training.hpp"
+#include "models/model_testing.hpp"
 
 namespace hri {
 namespace {
@@ -36,6 +37,36 @@ TEST(Calibration, FindsHowMuchTooSureScoresAre) {
   for (const double sharpness : {0.2, 1.0, 20.0}) {
     const Calibration c = Calibration::fit(held_out(sharpness, 3000), 0.02);
     EXPECT_NEAR(c.scale() * sharpness, 1.0, 0.15) << sharpness;
+  }
+}
+
+TEST(Calibration, NeverRecognisesWhatIsNoNumber) {
+  const Calibration c = Calibration::fit(held_out(1.0, 3000), 0.02);
+  const float nan = std::nanf("");
+  const float infinity = std::numeric_limits<float>::infinity();
+  const auto decide = [&c](float a, float b, float score) {
+    VectorF scores(2);
+    scores << a, b;
+    return c.decide(scores, score, {"a", "b"});
+  };
+  EXPECT_EQ(decide(3, -infinity, 9).status, DecisionStatus::recognised);  // one is impossible
+  for (const Decision& d :
+       {decide(nan, 1, 9), decide(1, nan, 9), decide(1, infinity, 9),
+        decide(-infinity, -infinity, 9), decide(1, 2, nan), decide(1, 2, infinity)}) {
+    EXPECT_EQ(d.status, DecisionStatus::unknown);
+    EXPECT_EQ(d.label, "unknown");
+    EXPECT_EQ(d.confidence, 0);
+    EXPECT_TRUE(d.nbest.empty());
+  }
+}
+
+TEST(Calibration, RefusesScalesThatNoTrainingGives) {
+  ModelFile file;
+  Calibration::fit(held_out(1.0, 300), 0.02).write(file);
+  for (const char* scale : {"0", "-1", "1e7", "1e308", "nan"}) {
+    file.set_text("calibration.scale", scale);
+    EXPECT_PRED_FORMAT2(::testing::IsSubstring, "field 'calibration.scale'",
+                        testing_data::message_of<FormatError>([&] { Calibration::read(file); }));
   }
 }
 

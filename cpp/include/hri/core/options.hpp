@@ -62,6 +62,8 @@ struct HRI_API Range {
 
   [[nodiscard]] bool holds(double value) const;
   [[nodiscard]] std::string text() const;  ///< "1..1000", "above 0, up to 10", "0 or odd, 1..9"
+  /// "", or what is wrong with the value, as in "must lie in 1..64, got 0".
+  [[nodiscard]] std::string fault(double value) const;
 };
 
 constexpr Range within(double low, double high) { return {low, high}; }
@@ -145,8 +147,6 @@ HRI_API std::string unit_of(std::string_view field);
 
 namespace detail {
 
-HRI_API std::string number_text(double value);
-
 template <class T, class = void>
 inline constexpr bool has_conflict = false;
 template <class T>
@@ -164,9 +164,7 @@ std::string value_fault(const T& value, const R& range) {
     return is_named(value) ? std::string() : "must be one of " + enum_list<T>();
   } else if constexpr (std::is_arithmetic_v<T>) {
     static_assert(std::is_same_v<R, Range>, "a number needs a range");
-    const auto number = static_cast<double>(value);
-    return range.holds(number) ? std::string()
-                               : "must lie in " + range.text() + ", got " + number_text(number);
+    return range.fault(static_cast<double>(value));
   } else {
     static_assert(!std::is_same_v<R, AnyValue>, "text needs a range");
     return range.holds(value) ? std::string() : "must be " + range.text() + ", got '" + value + "'";

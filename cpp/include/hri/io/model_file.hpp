@@ -20,11 +20,15 @@
 namespace hri {
 
 /// A named set of matrices and metadata. Getters throw FormatError that names the file and the
-/// field; every number they give is finite. Not thread-safe:
-/// what was read is kept.
+/// field; every number they give is finite and not absurdly large. Not thread-safe: what was read
+/// is kept.
 class HRI_API ModelFile {
  public:
   static constexpr int kFormatVersion = 2;
+  /// No model comes near to these; squares and sums of what is larger overflow, and decisions made
+  /// of them mean nothing.
+  static constexpr double kLargestFloat = 1e15;   ///< in tensors of float32
+  static constexpr double kLargestNumber = 1e30;  ///< in tensors of float64, and of single numbers
 
   /// Reads a whole file. Throws IoError where it cannot be read and FormatError for anything but a
   /// sound model: sizes are bounded by the real file size before memory is taken, tensors must fill
@@ -55,7 +59,8 @@ class HRI_API ModelFile {
   [[nodiscard]] std::int64_t integer(const std::string& key) const;
   [[nodiscard]] double number(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> text_list(const std::string& key) const;
-  /// Setters throw InvalidArgument for text that is not UTF-8 and a number that is not finite.
+  /// Setters throw InvalidArgument for what the getters would refuse: text that is not UTF-8, a
+  /// number that is not finite or too large.
   void set_text(const std::string& key, const std::string& value);
   void set_integer(const std::string& key, std::int64_t value);
   void set_number(const std::string& key,

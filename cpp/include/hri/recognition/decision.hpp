@@ -38,7 +38,8 @@ struct Decision {
   float score = 0;  ///< what the rejection threshold is compared with (see the recogniser)
   float class_threshold = 0;  ///< confidence from which the best class is sure, by its false alarms
                               ///< and misses on held-out people; 0 where training found none
-  std::vector<NBest> nbest;   ///< every class in falling order; empty without input
+  std::vector<NBest> nbest;   ///< every class in falling order; empty without input, and
+                              ///< where the model's numbers overflow: that is unknown
   std::vector<std::string> notes;  ///< what was converted or assumed on the way
 };
 
