@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # check_builds.sh [VARIANT...]: builds of libhri that ./run test does not make, each with the tests that concern it. All
 # without names. Logs go to build/variants/; only those of failures are printed.
-#   asan      address and undefined-behaviour sanitizers: what reads files, and the recognisers
+#   asan      Clang, with address and undefined-behaviour sanitizers: all tests of the core, all instruction sets
 #   tsan      thread sanitizer: the tests that start threads
-#   clang     Clang, core only: all kernels of all instruction sets
 #   shared    shared libraries: what they export, and a program that uses them
 #   small     no exceptions, no training: a program that only recognises, and its size
 #   minimum   the oldest CMake, pybind11 and NumPy that are promised
@@ -42,18 +41,13 @@ install_and_use() {
 }
 
 check_asan() {
-  cmake --preset asan -DHRI_BUILD_VISION=OFF
-  tests_of asan core_tests io_tests recognition_tests
+  cmake --preset asan
+  tests_of asan core_tests io_tests signal_tests features_tests models_tests recognition_tests
 }
 
 check_tsan() {
   cmake --preset tsan -DHRI_BUILD_VISION=OFF
   filter='*Thread*:File.OfManyWriters*' tests_of tsan io_tests signal_tests features_tests models_tests recognition_tests
-}
-
-check_clang() {
-  configure clang -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DHRI_BUILD_TESTS=ON
-  tests_of clang core_tests signal_tests features_tests models_tests
 }
 
 check_shared() {
@@ -98,7 +92,7 @@ else:
 PYTHON
 }
 
-all=(asan tsan clang shared small minimum)
+all=(asan tsan shared small minimum)
 (($#)) || set -- "${all[@]}"
 failed=()
 for variant in "$@"; do
