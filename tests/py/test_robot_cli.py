@@ -14,7 +14,10 @@ testing = pytest.importorskip("click.testing")
 
 @pytest.fixture
 def run():
+    from hri.cli.messages import set_verbosity
     from hri.cli.robot import robot
+
+    set_verbosity(0)
 
     def invoke(*arguments):
         return testing.CliRunner().invoke(robot, [str(argument) for argument in arguments])
@@ -91,3 +94,12 @@ def test_lists(run):
     assert f"9\t{gesture_trajectory('9').duration_s:.1f}\tboth arms high" in listed
     assert len(run("joints").output.splitlines()) == len(HOAP2) + 1
     assert "| head_joint_2 | head pitch" in run("joints", "--markdown").output
+
+
+def test_a_stop_label_moves_no_robot(tmp_path):
+    from hri.cli.recognise import _answer
+    from hri.fusion import FusedDecision
+
+    stop = FusedDecision("stop", "recognised", 0.9, "stop: recognised in speech", (), None, None)
+    answer = _answer(stop, tmp_path / "stop.png", "kinematic", gui=False)
+    assert answer == {"moved": False, "reason": "stop"} and not (tmp_path / "stop.png").exists()

@@ -143,6 +143,8 @@ def test_stop_slows_down_and_holds(robot):
     assert abs(speeds[-1]) < 0.3, "it slows down"
     assert len(commanded) < 1.2 / robot.step_s
     assert abs(commanded[-1] - trajectory.positions_rad[-1, index]) > 0.5
+    assert not robot.perform(gesture_trajectory("rest")) and robot.stopped
+    robot.resume()
     assert robot.perform(gesture_trajectory("rest")), "it moves again when told"
 
 

@@ -72,7 +72,7 @@ def test_a_motion_is_sent_from_where_the_robot_stands(udp_robot, controller):
         with pytest.raises(TrajectoryError):
             robot.perform(Trajectory(["head_joint_2"], 0.1, [[0.0], [2.0]]))
     assert controller.received[0] == {}, "the first datagram commands nothing"
-    sent = np.array([positions["head_joint_2"] for positions in controller.received[1:]])
+    sent = np.array([positions["head_joint_2"] for positions in controller.received if positions])
     assert abs(sent[0]) < 0.01 and sent.max() == pytest.approx(0.3, abs=0.01) and sent[-1] == pytest.approx(0.0)
     assert np.abs(np.diff(sent)).max() / 0.02 <= HOAP2.max_speed_rad_s
     assert len(log.states) == len(sent)
@@ -83,3 +83,44 @@ def test_a_silent_controller_is_an_error(udp_robot):
     with udp_robot("127.0.0.1", controller.port, timeout_s=0.1) as robot, pytest.raises(IoError, match="not answer"):
         robot.hold(1.0)
     assert len(controller.received) == 6
+
+
+def test_stop_and_resume(udp_robot, controller):
+    slow = Trajectory(["head_joint_2"], 5.0, [[0.0], [1.0]])
+    with udp_robot("127.0.0.1", controller.port) as robot:
+        timer = threading.Timer(0.3, robot.stop)
+        timer.start()
+        assert robot.perform(slow) is False
+        at_rest = controller.positions["head_joint_2"]
+        assert 0.0 < at_rest < 0.5
+        count = len([positions for positions in controller.received if positions])
+        assert [robot.perform(slow) for _ in range(3)] == [False] * 3
+        assert len([positions for positions in controller.received if positions]) == count, "nothing was sent"
+        robot.hold(0.1)
+        assert controller.positions["head_joint_2"] == at_rest
+        robot.resume()
+        assert robot.perform(Trajectory(["head_joint_2"], 0.1, [[at_rest], [at_rest]]))
+
+
+def test_a_lost_link_stops_and_the_joints_are_asked_for_afterwards(udp_robot, controller):
+    nod = Trajectory(["head_joint_2"], 0.1, [[0.3], [0.2], [0.1]])
+    with udp_robot("127.0.0.1", controller.port, timeout_s=0.1) as robot:
+        controller.answers = 10
+        with pytest.raises(IoError, match="not answer"):
+            robot.perform(nod)
+        assert robot.stopped and robot.events[-1].kind == "fault" and robot.perform(nod) is False
+        controller.answers = 10**9
+        controller.positions |= {"head_joint_1": 0.5, "head_joint_2": 0.9}  # somebody turned the head meanwhile
+        robot.resume()
+        count = len(controller.received)
+        assert robot.perform(nod)
+    assert controller.received[count] == {}
+    sent = controller.received[count + 1 :]
+    assert sent[0]["head_joint_2"] == pytest.approx(0.9, abs=0.01), "it begins where the joints are"
+    assert {positions["head_joint_1"] for positions in sent} == {0.5}, "and the others stay"
+
+
+def test_a_position_that_is_no_number_is_an_error(udp_robot, controller):
+    controller.positions["head_joint_2"] = float("nan")
+    with pytest.raises(IoError, match="nonsense"):
+        udp_robot("127.0.0.1", controller.port)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from hri.cli.progress import progress_bars
 from hri.cli.recognizers import kept_model
 from hri.core.errors import Error, InvalidArgument
 from hri.core.suggest import did_you_mean
-from hri.fusion import RULES, FusedDecision, fuse
+from hri.fusion import RULES, FusedDecision, FusionOptions, fuse
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, kind_of_file, write_image
 from hri.recognition import Decision, GestureRecognizer, WordRecognizer
 from hri.recognition.decision import RECOGNISED
@@ -134,11 +135,14 @@ def _describe(decision: Decision, path: str, top: int) -> None:
 
 def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool) -> dict[str, Any]:
     """Let the robot show the label, on film, in a window, or both; what it did."""
-    from hri.robot import gesture_trajectory, load_gestures, open_robot, render_video
+    from hri.robot import gesture_trajectory, load_gestures, open_robot, render_video, stopped_by_signals
 
     if decision.status != RECOGNISED:
         note(f"robot: not moved, because the answer is {decision.label}")
         return {"moved": False, "reason": decision.label}
+    if decision.label in FusionOptions().stop_labels:
+        note("robot: not moved, because the answer is to stop")
+        return {"moved": False, "reason": "stop"}
     if decision.label not in load_gestures():
         raise InvalidArgument(
             f"the robot has no gesture named {decision.label!r}; "
@@ -146,8 +150,11 @@ def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool)
         )
     trajectory = gesture_trajectory(decision.label)
     if gui:
-        with open_robot(backend, gui=True) as robot:
+        with open_robot(backend, gui=True) as robot, stopped_by_signals(robot) as signals:
             robot.perform(trajectory)
+        if signals:
+            note("robot: stopped")
+            sys.exit(128 + signals[0])
     if path is not None:
         path.parent.mkdir(parents=True, exist_ok=True)
     if path is not None and path.suffix.lower() in IMAGE_SUFFIXES:

@@ -4,10 +4,7 @@
 
 from __future__ import annotations
 
-import signal
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import click
@@ -17,8 +14,8 @@ from hri.cli.groups import SuggestingGroup
 from hri.cli.imitate import imitate
 from hri.cli.messages import note
 from hri.core.errors import InvalidArgument
-from hri.robot.control.backend import Robot
 from hri.robot.control.state import MotionLog
+from hri.robot.control.stopping import stopped_by_signals
 from hri.robot.model.joints import HOAP2, ROBOTS, JointTable
 from hri.robot.model.postures import POSTURES
 from hri.robot.motion.checks import check_pulse_csv, check_trajectory, require_safe
@@ -35,7 +32,7 @@ from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_
 
 EXIT_BAD_DATA = 3
 EXIT_FELL = 1
-EXIT_INTERRUPTED = 130
+EXIT_SIGNAL = 128  # and the signal's number, as in a shell
 
 _backend = click.option(
     "--backend",
@@ -132,7 +129,8 @@ def play(
     """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
 
     A robot on its feet begins with the motion's first row, standing or lying; where it ends, and whether it fell (exit
-    code 1), is reported on stderr. Ctrl-C stops the robot, within its limits of speed and acceleration: exit code 130.
+    code 1), is reported on stderr. Ctrl-C or SIGTERM stops the robot, within its limits of speed and acceleration: exit
+    code 130 or 143.
 
     \b
     Example:
@@ -148,7 +146,7 @@ def play(
         if stand:
             first = trajectory.positions_rad[0].tolist()
             opened.reset(dict(zip(trajectory.joint_names, first, strict=True)), posture)
-        with _stopped_by_interrupt(opened):
+        with stopped_by_signals(opened) as signals:
             opened.perform(trajectory, log=log)
         for name, position in opened.joint_positions_rad().items():
             click.echo(f"{name}\t{position:.4f}")
@@ -163,7 +161,7 @@ def play(
         log.write(log_path)
         note(f"log: {log_path}")
     if opened.events:
-        sys.exit(EXIT_FELL if opened.events[-1].kind == "fall" else EXIT_INTERRUPTED)
+        sys.exit(EXIT_FELL if opened.events[-1].kind == "fall" else EXIT_SIGNAL + signals[0])
 
 
 @robot.command(short_help="Film a motion.")
@@ -284,21 +282,6 @@ def gestures() -> None:
     """
     for gesture in load_gestures().values():
         click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
-
-
-@contextmanager
-def _stopped_by_interrupt(moving: Robot) -> Iterator[None]:
-    """Ctrl-C stops the robot, which takes a moment; a second one ends the program at once."""
-
-    def stop(number: int, frame: object) -> None:
-        signal.signal(signal.SIGINT, before)
-        moving.stop()
-
-    before = signal.signal(signal.SIGINT, stop)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _motion(motion: str, table: JointTable) -> Trajectory:

@@ -4,6 +4,7 @@
 
 from hri.robot.control.backend import Robot
 from hri.robot.control.state import Contact, Event, MotionLog, RobotState
+from hri.robot.control.stopping import stopped_by_signals
 from hri.robot.model.joints import HOAP2, NAO, ROBOTS, Camera, Joint, JointTable
 from hri.robot.model.kinematics import link_poses
 from hri.robot.model.physics import Physics
@@ -70,6 +71,7 @@ __all__ = [
     "slow_to_limits",
     "smooth",
     "spline",
+    "stopped_by_signals",
     "urdf_text",
     "with_nao_arms",
     "write_gallery",

@@ -6,37 +6,37 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import InvalidArgument
+from hri.core.errors import Error, InvalidArgument
 from hri.robot.control.braking import brake
+from hri.robot.control.filming import Film, Image, OnFrame
+from hri.robot.control.playing import approach_to, rows_to_send
 from hri.robot.control.state import Event, MotionLog, RobotState
+from hri.robot.control.stopping import StopLatch
 from hri.robot.model.joints import HOAP2, JointTable
-from hri.robot.motion.checks import SPEED_WINDOW_S, require_safe
-from hri.robot.motion.gestures import minimum_jerk
+from hri.robot.model.postures import require_posture
+from hri.robot.motion.checks import require_safe, require_within
 from hri.robot.motion.trajectory import Trajectory
-
-Image = NDArray[np.uint8]
-OnFrame = Callable[[Image, float], None]
 
 FALL_TILT_DEG = 60.0
 UPRIGHT_TILT_DEG = 20.0
 _UPRIGHT_S = 0.5
 _HOLD_AFTER_FALL_S = 1.0
 _LOOK_S = 0.01
-_NEAR_RAD = 0.01
-_CHUNK = 512
 
 
 class Robot(ABC):
     """A robot that carries out trajectories; `hri.robot.open_robot` makes one.
 
-    One thread uses it, except for `stop`, which any thread, and `on_frame`, may call. It is a
+    STOP latches: after `stop` no motion begins until `resume`. Any thread, `on_frame` and a signal handler may call
+    these two; everything else is for one thread at a time, and a second motion during one is refused. A robot is a
     context manager that closes itself. A robot of one's own is a subclass with the abstract methods.
 
     Parameters
@@ -56,7 +56,11 @@ class Robot(ABC):
     def __init__(self, table: JointTable = HOAP2) -> None:
         self.table = table
         self.events: list[Event] = []
-        self._stop = threading.Event()
+        self._stop = StopLatch()
+        self._moves = threading.Lock()
+        self._mover: int | None = None
+        self._closed = False
+        self._link_lost = False
         self._commanded: dict[str, float] = {}
         self._upright_s = 0.0
         self._steps = 0
@@ -65,6 +69,11 @@ class Robot(ABC):
     def time_s(self) -> float:
         """The robot's own time since it was opened."""
         return self._steps * self.step_s
+
+    @property
+    def stopped(self) -> bool:
+        """Whether `stop` was called, and `resume` not since."""
+        return self._stop.engaged
 
     def perform(
         self,
@@ -91,59 +100,67 @@ class Robot(ABC):
         Returns
         -------
         bool
-            False when `stop` or a fall ended it: `events` says which. The joints then hold.
+            False when `stop` or a fall ended it, and, with nothing moved, when the robot was stopped before: `events`
+            says which. The joints then hold. They also come to rest before an exception of `on_frame` goes on.
 
         Raises
         ------
         TrajectoryError
             When the check finds errors; the robot has not moved.
+        InvalidArgument
+            When this robot cannot make the motion, as one of its joints is locked; it has not moved.
+        Error
+            When the robot is closed, or carries out another motion. What the link to a robot raises when it fails in
+            mid-motion comes through; the robot is then stopped.
         """
-        if not 0.0 < fps < np.inf:
-            raise InvalidArgument(f"fps is {fps}, must be above 0 and finite")
-        self._stop.clear()  # before the check, which takes a while: a stop during it concerns this motion
-        require_safe(trajectory, self.table)
-        names = trajectory.joint_names
-        begin = self._positions_sent(names)
-        approach = self._approach(trajectory, begin)
-        approach_s = approach.duration_s if approach else 0.0
-
-        def positions_at(times_s: NDArray[np.float64]) -> NDArray[np.float64]:
-            after = trajectory.at(times_s - approach_s)
-            if approach is None or times_s[0] >= approach_s:
-                return after
-            return np.where((times_s < approach_s)[:, np.newaxis], approach.at(times_s), after)
-
-        steps = round((approach_s + trajectory.duration_s) / self.step_s) + 1
-        frames = 0
-        start = self._steps
-        for row in _rows(positions_at, steps, self.step_s):
-            time_s = (self._steps - start) * self.step_s
-            if on_frame is not None and time_s * fps >= frames - 1e-9:
-                on_frame(self.render(*size), time_s)
-                frames += 1
-            fallen = self._fallen()
-            if fallen or self._stop.is_set():
-                now = self._positions_sent(names)
-                window_s = min(SPEED_WINDOW_S, time_s)
-                before = positions_at(np.array([time_s - self.step_s - window_s]))[0] if window_s > 0.0 else now
-                speeds = (now - before) / max(window_s, self.step_s)
-                self._end(names, now, speeds, fallen, log)
+        film = Film(on_frame, fps, size)
+        stops = self._stop.mark()  # before the check, which takes a while: a stop during it concerns this motion
+        with self._one_at_a_time():
+            if self._stop.engaged:
+                self._event("stop", "not begun: stopped until resume()", log)
                 return False
-            self._send(dict(zip(names, row, strict=True)), log)
-        return True
+            why_not = self._why_not(trajectory)
+            if why_not:
+                raise InvalidArgument(why_not)
+            if self._link_lost:
+                self._commanded.update(self._joint_positions())
+                self._link_lost = False
+            require_safe(trajectory, self.table)
+            begin = self._positions_sent(trajectory.joint_names)
+            approach = approach_to(trajectory, begin, self.table)
+            rows = rows_to_send(approach, trajectory, self.step_s)
+            return self._play(trajectory.joint_names, begin, rows, stops, film, log)
 
     def hold(self, duration_s: float, log: MotionLog | None = None) -> bool:
-        """Keep the joints where they were sent for a time; False when the robot falls meanwhile."""
-        for _ in range(round(duration_s / self.step_s)):
-            if self._fallen():
-                self._event("fall", "fell while holding", log)
-                return False
-            self._send({}, log)
-        return True
+        """Keep the joints where they were sent for a time, also when stopped; False when the robot falls meanwhile.
+
+        Parameters
+        ----------
+        duration_s : float
+            0 or more, finite.
+        log : MotionLog, optional
+
+        Raises
+        ------
+        Error
+            When the robot is closed, or carries out a motion.
+        """
+        if not 0.0 <= duration_s < np.inf:
+            raise InvalidArgument(f"duration_s is {duration_s}, must be 0 or more and finite")
+        with self._one_at_a_time():
+            return self._hold(duration_s, log)
 
     def stop(self) -> None:
-        """End the motion under way: the joints slow down within their limits, then hold."""
-        self._stop.set()
+        """Stop, and stay stopped until `resume`.
+
+        The joints of a motion under way slow down within their limits, then hold. Motions that are asked for afterwards
+        do not begin, and `reset` is refused. May be called at any time, by any thread and by signal handlers.
+        """
+        self._stop.engage()
+
+    def resume(self) -> None:
+        """Allow new motions; the one that `stop` ended does not go on. May be called by any thread."""
+        self._stop.release()
 
     def reset(self, positions_rad: Mapping[str, float], posture: str | None = None) -> None:
         """Put joints into a position at once, without moving there; a simulation can.
@@ -151,38 +168,94 @@ class Robot(ABC):
         Parameters
         ----------
         positions_rad : mapping of joint name to float
+            Within the joints' limits.
         posture : "standing", "back" or "front", optional
             Also put a robot that is not held onto the floor, on its soles or lying, and let it settle for a second.
-        """
-        for name in positions_rad:
-            self.table.index(name)
-        self._commanded.update(positions_rad)
-        self._upright_s = 0.0
-        self._place(positions_rad, posture)
 
-    @abstractmethod
+        Raises
+        ------
+        InvalidArgument
+            For a joint that the robot does not have, a position that is not finite or not within the joint's limits,
+            and another posture; nothing has moved.
+        Error
+            When the robot is stopped, closed, or carries out a motion.
+        """
+        for name, position in positions_rad.items():
+            require_within(self.table[name], position)
+        if posture is not None:
+            require_posture(posture)
+        with self._one_at_a_time():
+            if self._stop.engaged:
+                raise Error("the robot is stopped until resume()")
+            before = dict(self._commanded)
+            self._commanded.update(positions_rad)
+            try:
+                self._place(positions_rad, posture)
+            except BaseException:
+                self._commanded = before
+                raise
+            self._upright_s = 0.0
+
     def render(self, width: int = 480, height: int = 360) -> Image:
         """Take a picture from the front: RGB, uint8, shape (height, width, 3)."""
+        self._require_open()
+        return self._render(width, height)
 
-    @abstractmethod
     def state(self) -> RobotState:
         """What the robot is doing now."""
-
-    @abstractmethod
-    def close(self) -> None:
-        """Let go of the robot, which cannot be used any more. May be called twice."""
+        self._require_open()
+        return self._state()
 
     def joint_positions_rad(self) -> dict[str, float]:
         """Where the joints are, by name."""
-        return self.state().positions_rad
+        self._require_open()
+        return self._joint_positions()
+
+    def close(self) -> None:
+        """Let go of the robot, which cannot be used any more; a motion of another thread is stopped first.
+
+        May be called twice.
+
+        Raises
+        ------
+        Error
+            When `on_frame` calls it.
+        """
+        if self._mover == threading.get_ident():
+            raise Error("a robot cannot be closed during its motion: stop it")
+        self._stop.engage()
+        with self._moves:
+            if not self._closed:
+                self._closed = True
+                self._close()
 
     @abstractmethod
     def _command(self, positions_rad: Mapping[str, float]) -> None:
         """Send joints to positions, the others as before, and let `step_s` go by."""
 
     @abstractmethod
+    def _state(self) -> RobotState:
+        """Do what `state` says."""
+
+    @abstractmethod
     def _place(self, positions_rad: Mapping[str, float], posture: str | None) -> None:
-        """Do what `reset` says; the names are known to be joints."""
+        """Do what `reset` says; names, positions and posture are known to be valid."""
+
+    @abstractmethod
+    def _render(self, width: int, height: int) -> Image:
+        """Do what `render` says."""
+
+    @abstractmethod
+    def _close(self) -> None:
+        """Do what `close` says; called once."""
+
+    def _joint_positions(self) -> dict[str, float]:
+        """Do what `joint_positions_rad` says."""
+        return self._state().positions_rad
+
+    def _why_not(self, trajectory: Trajectory) -> str:
+        """Why this robot cannot make a motion that its table allows; "" when it can."""
+        return ""
 
     def _tilt_deg(self) -> float:
         """Angle between the base's z axis and the vertical; 0 for a robot that cannot fall or has no such sensor."""
@@ -203,17 +276,93 @@ class Robot(ABC):
     ) -> None:
         self.close()
 
+    def _require_open(self) -> None:
+        if self._closed:
+            raise Error("the robot is closed")
+
+    @contextmanager
+    def _one_at_a_time(self) -> Iterator[None]:
+        """Keep a second motion, of this thread or another, from sending joints elsewhere."""
+        if not self._moves.acquire(blocking=False):
+            raise Error("the robot carries out a motion: one at a time")
+        try:
+            self._mover = threading.get_ident()
+            self._require_open()
+            yield
+        finally:
+            self._mover = None
+            self._moves.release()
+
+    def _play(
+        self,
+        names: tuple[str, ...],
+        begin: NDArray[np.float64],
+        rows: Iterable[list[float]],
+        stops: object,
+        film: Film,
+        log: MotionLog | None,
+    ) -> bool:
+        before = now = begin.tolist()
+        start = self._steps
+        fallen = False
+        try:
+            for row in rows:
+                film.show(self._render, (self._steps - start) * self.step_s)
+                fallen = self._fallen()
+                if fallen or self._stop.since(stops):
+                    break
+                before, now = now, row
+                self._send(dict(zip(names, row, strict=True)), log)
+            else:
+                return True
+        except BaseException:
+            if not self._link_lost:
+                self._brake(names, before, now, log)
+            raise
+        if fallen:
+            self._event("fall", f"the base leans by {self._tilt_deg():.0f} degrees", log)
+            self._upright_s = 0.0
+        else:
+            self._event("stop", "stopped on request", log)
+        self._brake(names, before, now, log)
+        if fallen:
+            self._hold(_HOLD_AFTER_FALL_S, log)
+        return False
+
+    def _brake(self, names: tuple[str, ...], before: list[float], now: list[float], log: MotionLog | None) -> None:
+        """Bring joints to rest that were sent to these two positions, a step apart."""
+        limits = self.table.limits_rad[[self.table.index(name) for name in names]]
+        positions = np.array(now)
+        speeds = (positions - np.array(before)) / self.step_s
+        most = self.table.max_acceleration_rad_s2
+        for row in brake(positions, speeds, limits, self.table.max_speed_rad_s, most, self.step_s).tolist():
+            self._send(dict(zip(names, row, strict=True)), log)
+
+    def _hold(self, duration_s: float, log: MotionLog | None) -> bool:
+        for _ in range(round(duration_s / self.step_s)):
+            if self._fallen():
+                self._event("fall", "fell while holding", log)
+                return False
+            self._send({}, log)
+        return True
+
     def _send(self, positions_rad: dict[str, float], log: MotionLog | None) -> None:
         self._commanded.update(positions_rad)
-        self._command(positions_rad)
+        try:
+            self._command(positions_rad)
+        except Exception as error:
+            self._link_lost = True
+            self._stop.engage()
+            self._event("fault", f"stopped, as the robot does not take commands: {error}", log)
+            raise
         self._steps += 1
         if log is not None and self._steps % max(1, round(log.period_s / self.step_s)) == 0:
-            log.states.append(self.state())
+            log.states.append(self._state())
 
     def _positions_sent(self, names: tuple[str, ...]) -> NDArray[np.float64]:
         missing = [name for name in names if name not in self._commanded]
         if missing:
-            there = self.joint_positions_rad()
+            there = self._joint_positions()
             self._commanded.update((name, there[name]) for name in missing)
         return np.array([self._commanded[name] for name in names])
 
@@ -229,50 +378,8 @@ class Robot(ABC):
             return False
         return tilt > FALL_TILT_DEG or (tilt > UPRIGHT_TILT_DEG and not on_feet)
 
-    def _end(
-        self,
-        names: tuple[str, ...],
-        positions: NDArray[np.float64],
-        speeds: NDArray[np.float64],
-        fallen: bool,
-        log: MotionLog | None,
-    ) -> None:
-        if fallen:
-            self._event("fall", f"the base leans by {self._tilt_deg():.0f} degrees", log)
-            self._upright_s = 0.0
-        else:
-            self._event("stop", "stopped on request", log)
-        limits = self.table.limits_rad[[self.table.index(name) for name in names]]
-        acceleration = self.table.max_acceleration_rad_s2
-        for row in brake(positions, speeds, limits, self.table.max_speed_rad_s, acceleration, self.step_s).tolist():
-            self._send(dict(zip(names, row, strict=True)), log)
-        if fallen:
-            self.hold(_HOLD_AFTER_FALL_S, log)
-
     def _event(self, kind: str, message: str, log: MotionLog | None) -> None:
         event = Event(self.time_s, kind, message)
         self.events.append(event)
         if log is not None:
             log.events.append(event)
-
-    def _approach(self, trajectory: Trajectory, begin: NDArray[np.float64]) -> Trajectory | None:
-        """Go to the first row at no more than half the motors' speed and acceleration."""
-        keys = np.stack((begin, trajectory.positions_rad[0]))
-        distance = float(np.abs(keys[1] - keys[0]).max())
-        if distance < _NEAR_RAD:
-            return None
-        fastest_s = 1.875 * distance / (0.5 * self.table.max_speed_rad_s)
-        gentlest_s = np.sqrt(5.78 * distance / (0.5 * self.table.max_acceleration_rad_s2))
-        duration_s = max(0.2, fastest_s, gentlest_s)
-        times_s = 0.01 * np.arange(int(duration_s / 0.01) + 2, dtype=np.float64)
-        positions = minimum_jerk(np.array([0.0, times_s[-1]]), keys, times_s)
-        return Trajectory(trajectory.joint_names, 0.01, positions)
-
-
-def _rows(
-    positions_at: Callable[[NDArray[np.float64]], NDArray[np.float64]], steps: int, step_s: float
-) -> Iterator[list[float]]:
-    """Positions at every step, worked out in chunks: long motions need no memory, short ones no time."""
-    for first in range(0, steps, _CHUNK):
-        times_s = step_s * np.arange(first, min(first + _CHUNK, steps), dtype=np.float64)
-        yield from positions_at(times_s).tolist()

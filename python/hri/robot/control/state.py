@@ -28,7 +28,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Event:
-    """Something that ended a motion: `kind` is "stop" or "fall"."""
+    """Something that ended a motion: `kind` is "stop", "fall", or "fault", a robot that takes no commands."""
 
     time_s: float
     kind: str

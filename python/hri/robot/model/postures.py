@@ -16,6 +16,12 @@ POSTURES = ("standing", "back", "front")
 _CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 
 
+def require_posture(posture: str) -> None:
+    """Raise InvalidArgument for a posture that is none of POSTURES."""
+    if posture not in POSTURES:
+        raise InvalidArgument(f"posture is {posture!r}, must be one of {', '.join(POSTURES)}")
+
+
 def base_pose(positions_rad: Mapping[str, float], posture: str, table: JointTable) -> Pose:
     """Pose of the base link with which the robot rests on the floor, z = 0.
 
@@ -31,8 +37,7 @@ def base_pose(positions_rad: Mapping[str, float], posture: str, table: JointTabl
     ndarray of float64, shape (4, 4)
         Above the origin, facing along x; on the back the feet point there, on the front the head.
     """
-    if posture not in POSTURES:
-        raise InvalidArgument(f"posture is {posture!r}, must be one of {', '.join(POSTURES)}")
+    require_posture(posture)
     poses = link_poses(positions_rad, np.eye(4), table)
     base = np.eye(4)
     if posture == "standing":

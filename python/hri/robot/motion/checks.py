@@ -9,6 +9,7 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.errors import InvalidArgument
 from hri.robot.model.joints import HOAP2, Joint, JointTable
 from hri.robot.motion.pulse_csv import parse_pulse_csv, trajectory_from_counts
 from hri.robot.motion.self_collision import self_collisions
@@ -64,6 +65,13 @@ def require_safe(trajectory: Trajectory, table: JointTable = HOAP2, source: str 
     if errors:
         raise TrajectoryError(errors, source)
     return findings
+
+
+def require_within(joint: Joint, position_rad: float) -> None:
+    """Raise InvalidArgument for a position that is not finite or not within the joint's limits."""
+    if not joint.lower_rad - LIMIT_TOLERANCE_RAD <= position_rad <= joint.upper_rad + LIMIT_TOLERANCE_RAD:
+        low, high, degrees = np.degrees((joint.lower_rad, joint.upper_rad, position_rad))
+        raise InvalidArgument(f"{joint.name}: {degrees:.1f} deg is outside {low:.1f} to {high:.1f} deg")
 
 
 def _touches(trajectory: Trajectory, table: JointTable) -> list[Finding]:

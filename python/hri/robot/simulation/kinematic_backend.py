@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from hri.robot.control.backend import Image, Robot
+from hri.robot.control.backend import Robot
+from hri.robot.control.filming import Image
 from hri.robot.control.state import RobotState
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.model.kinematics import link_poses
@@ -23,10 +24,10 @@ class KinematicRobot(Robot):
         self._positions = table.rest_rad
         self._commanded.update(self._positions)
 
-    def render(self, width: int = 480, height: int = 360) -> Image:
+    def _render(self, width: int, height: int) -> Image:
         return draw_robot(link_poses(self._positions, table=self.table), self.table, width, height)
 
-    def state(self) -> RobotState:
+    def _state(self) -> RobotState:
         return RobotState(
             self.time_s,
             base_position_m=(0.0, 0.0, self.table.standing_height_m),
@@ -34,7 +35,7 @@ class KinematicRobot(Robot):
             positions_rad=dict(self._positions),
         )
 
-    def close(self) -> None:
+    def _close(self) -> None:
         """Do nothing: there is nothing to let go of."""
 
     def _command(self, positions_rad: Mapping[str, float]) -> None:

@@ -17,14 +17,16 @@ from numpy.typing import NDArray
 
 from hri.core.errors import Error, InvalidArgument
 from hri.core.optional import import_optional
-from hri.robot.control.backend import Image, Robot
+from hri.robot.control.backend import Robot
 from hri.robot.control.balance import Balance
+from hri.robot.control.filming import Image
 from hri.robot.control.state import FLOOR, Contact, RobotState
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.model.kinematics import Pose
 from hri.robot.model.physics import Physics
 from hri.robot.model.postures import base_pose
 from hri.robot.model.urdf import urdf_text
+from hri.robot.motion.trajectory import Trajectory
 from hri.robot.simulation import scene
 
 # A base that stands on its feet needs soft joints; arms on a held base follow better with stiff.
@@ -86,7 +88,7 @@ class PyBulletRobot(Robot):
             self.close()
             raise
 
-    def state(self) -> RobotState:
+    def _state(self) -> RobotState:
         bullet = self._bullet
         position, turn = self._base()
         states = bullet.getJointStates(self._body, self._moving, physicsClientId=self._client)
@@ -105,12 +107,13 @@ class PyBulletRobot(Robot):
             tuple(Contact(*pair, force) for pair, force in sorted(forces.items())),
         )
 
-    def joint_positions_rad(self) -> dict[str, float]:
+    def _joint_positions(self) -> dict[str, float]:
         states = self._bullet.getJointStates(self._body, self._moving, physicsClientId=self._client)
         return self._by_name(states, 0, self._offsets)
 
     def link_positions_m(self) -> dict[str, tuple[float, float, float]]:
         """Origins of the links' frames in the world, by name of the joint that carries them."""
+        self._require_open()
         indices = [self._indices[name] for name in self.table.names]
         states = self._bullet.getLinkStates(
             self._body, indices, computeForwardKinematics=1, physicsClientId=self._client
@@ -119,13 +122,14 @@ class PyBulletRobot(Robot):
 
     def self_contacts(self, margin_m: float = 0.0) -> list[tuple[str, str]]:
         """Pairs of solid links nearer than a margin, by joint, but for those that adjoin (`JointTable.adjoining`)."""
+        self._require_open()
         joints = {joint.child: joint.name for joint in self.table.joints}
         points = self._bullet.getClosestPoints(self._body, self._body, margin_m, physicsClientId=self._client)
         pairs = {frozenset((self._links[point[3]], self._links[point[4]])) for point in points}
         far = (sorted(pair) for pair in pairs if len(pair) == 2 and pair not in self.table.adjoining)
         return sorted((joints.get(first, "base"), joints.get(second, "base")) for first, second in far)
 
-    def render(self, width: int = 480, height: int = 360) -> Image:
+    def _render(self, width: int, height: int) -> Image:
         scene.check_size(width, height)
         bullet = self._bullet
         eye, target = scene.camera(self._base()[0] if not self._fixed_base else None)
@@ -149,7 +153,7 @@ class PyBulletRobot(Robot):
         nothing = np.asarray(mask).reshape(height, width, 1) < 0
         return np.where(nothing, scene.backdrop(width, height), image)
 
-    def close(self) -> None:
+    def _close(self) -> None:
         if self._client >= 0:
             client, self._client = self._client, -1
             self._bullet.disconnect(client)
@@ -241,7 +245,9 @@ class PyBulletRobot(Robot):
 
     def _place(self, positions_rad: Mapping[str, float], posture: str | None) -> None:
         bullet, client = self._bullet, self._client
-        self._refuse_locked(positions_rad)
+        for name in self._locked.intersection(positions_rad):
+            if abs(positions_rad[name] - self.table[name].rest_rad) > 1e-9:
+                raise InvalidArgument(f"joint {name} is locked")
         for name, index, offset in zip(self._names, self._moving, self._offsets, strict=True):
             if name in positions_rad:
                 bullet.resetJointState(self._body, index, positions_rad[name] + offset, physicsClientId=client)
@@ -261,7 +267,6 @@ class PyBulletRobot(Robot):
 
     def _command(self, positions_rad: Mapping[str, float]) -> None:
         bullet = self._bullet
-        self._refuse_locked(positions_rad)
         if self._balance is not None:
             self._keep_balance(self._balance)
         sent = self._commanded
@@ -311,10 +316,11 @@ class PyBulletRobot(Robot):
                 row[:] = force, *((np.array(moment) / force - state[4]) @ turn)[:2]
         return found
 
-    def _refuse_locked(self, positions_rad: Mapping[str, float]) -> None:
-        for name in self._locked.intersection(positions_rad):
-            if abs(positions_rad[name] - self.table[name].rest_rad) > 1e-9:
-                raise InvalidArgument(f"joint {name} is locked")
+    def _why_not(self, trajectory: Trajectory) -> str:
+        for name, positions in zip(trajectory.joint_names, trajectory.positions_rad.T, strict=True):
+            if name in self._locked and not (np.abs(positions - self.table[name].rest_rad) <= 1e-9).all():
+                return f"joint {name} is locked"
+        return ""
 
     def _tilt_deg(self) -> float:
         if self._fixed_base:

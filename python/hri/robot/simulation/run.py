@@ -11,7 +11,8 @@ import numpy as np
 
 from hri.core.errors import InvalidArgument
 from hri.media import write_image, write_video
-from hri.robot.control.backend import Image, Robot
+from hri.robot.control.backend import Robot
+from hri.robot.control.filming import Image
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.model.physics import Physics
 from hri.robot.motion.checks import require_safe
