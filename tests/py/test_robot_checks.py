@@ -111,7 +111,7 @@ def test_a_million_rows_come_back_byte_for_byte(tmp_path):
 
 def test_an_acceleration_within_the_speed_limit_is_found():
     times = np.arange(0.0, 1.0, 0.001)
-    swing = 0.2 + 0.08 * np.sin(2 * np.pi * 7.0 * times)  # 3.5 rad/s, 155 rad/s2
+    swing = 0.2 + 0.08 * np.cos(2 * np.pi * 7.0 * times)  # 3.5 rad/s, 155 rad/s2
     (finding, *_) = found = check_trajectory(Trajectory(["larm_joint_1"], 0.001, swing[:, np.newaxis]))
     assert all("rad/s2" in finding.value and finding.severity == "error" for finding in found)
     assert finding.joint == "larm_joint_1" and finding.column == "S"

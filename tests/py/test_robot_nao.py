@@ -91,6 +91,11 @@ def test_a_still_is_taken(tmp_path):
     assert first.shape == (120, 160, 3) and (first != second).any()
     with pytest.raises(InvalidArgument, match="at_s"):
         render_still(motion, tmp_path / "late.png", 1e3, "kinematic", table=NAO)
+    odd = Trajectory(motion.joint_names, 0.0137, motion.positions_rad)  # ends between two steps
+    render_still(odd, tmp_path / "end.png", odd.duration_s, "kinematic", (160, 120), NAO)
+    render_still(odd, tmp_path / "middle.png", odd.duration_s / 2.0, "kinematic", (160, 120), NAO)
+    end, middle = (cv2.imread(str(tmp_path / f"{name}.png")) for name in ("end", "middle"))
+    assert np.abs(end.astype(int) - first).max() < 8 < np.abs(middle.astype(int) - first).max()
 
 
 @needs_pybullet

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from hri.core.errors import Error, InvalidArgument
 from hri.robot.control.braking import brake
 from hri.robot.control.filming import Film, Image, OnFrame
-from hri.robot.control.playing import approach_to, rows_to_send
+from hri.robot.control.playing import Playback, approach_to
 from hri.robot.control.state import Event, MotionLog, RobotState
 from hri.robot.control.stopping import StopLatch
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.model.postures import require_posture
-from hri.robot.motion.checks import require_safe, require_within
+from hri.robot.motion.checks import LIMIT_TOLERANCE_RAD, require_safe, require_safe_approach, require_within
 from hri.robot.motion.trajectory import Trajectory
 
 FALL_TILT_DEG = 60.0
@@ -30,6 +30,7 @@ UPRIGHT_TILT_DEG = 20.0
 _UPRIGHT_S = 0.5
 _HOLD_AFTER_FALL_S = 1.0
 _LOOK_S = 0.01
+_TOLERANCES_RAD = np.array([-LIMIT_TOLERANCE_RAD, LIMIT_TOLERANCE_RAD])
 
 
 class Robot(ABC):
@@ -106,7 +107,8 @@ class Robot(ABC):
         Raises
         ------
         TrajectoryError
-            When the check finds errors; the robot has not moved.
+            When the check finds errors in the motion or on the way to its first row, the joints that it does not name
+            being where they are; the robot has not moved.
         InvalidArgument
             When this robot cannot make the motion, as one of its joints is locked; it has not moved.
         Error
@@ -125,11 +127,13 @@ class Robot(ABC):
             if self._link_lost:
                 self._commanded.update(self._joint_positions())
                 self._link_lost = False
-            require_safe(trajectory, self.table)
-            begin = self._positions_sent(trajectory.joint_names)
+            others = dict(zip(self.table.names, self._positions_sent(self.table.names).tolist(), strict=True))
+            require_safe(trajectory, self.table, others_rad=others)
+            begin = np.array([others[name] for name in trajectory.joint_names])
             approach = approach_to(trajectory, begin, self.table)
-            rows = rows_to_send(approach, trajectory, self.step_s)
-            return self._play(trajectory.joint_names, begin, rows, stops, film, log)
+            if approach is not None:
+                require_safe_approach(approach, self.table, others)
+            return self._play(Playback(begin, approach, trajectory), stops, film, log)
 
     def hold(self, duration_s: float, log: MotionLog | None = None) -> bool:
         """Keep the joints where they were sent for a time, also when stopped; False when the robot falls meanwhile.
@@ -293,21 +297,13 @@ class Robot(ABC):
             self._mover = None
             self._moves.release()
 
-    def _play(
-        self,
-        names: tuple[str, ...],
-        begin: NDArray[np.float64],
-        rows: Iterable[list[float]],
-        stops: object,
-        film: Film,
-        log: MotionLog | None,
-    ) -> bool:
-        before = now = begin.tolist()
-        start = self._steps
+    def _play(self, playback: Playback, stops: object, film: Film, log: MotionLog | None) -> bool:
+        names = playback.trajectory.joint_names
+        before = now = playback.begin_rad.tolist()
         fallen = False
         try:
-            for row in rows:
-                film.show(self._render, (self._steps - start) * self.step_s)
+            for step, row in enumerate(playback.rows(self.step_s)):
+                film.show(self._render, step * self.step_s - playback.lead_s, playback.duration_s)
                 fallen = self._fallen()
                 if fallen or self._stop.since(stops):
                     break
@@ -331,7 +327,7 @@ class Robot(ABC):
 
     def _brake(self, names: tuple[str, ...], before: list[float], now: list[float], log: MotionLog | None) -> None:
         """Bring joints to rest that were sent to these two positions, a step apart."""
-        limits = self.table.limits_rad[[self.table.index(name) for name in names]]
+        limits = self.table.limits_rad[[self.table.index(name) for name in names]] + _TOLERANCES_RAD
         positions = np.array(now)
         speeds = (positions - np.array(before)) / self.step_s
         most = self.table.max_acceleration_rad_s2

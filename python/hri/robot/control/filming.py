@@ -35,8 +35,8 @@ class Film:
         self._size = size
         self._frames = 0
 
-    def show(self, render: Callable[[int, int], Image], time_s: float) -> None:
-        """Take the picture that is due at this time, if any."""
-        if self._on_frame is not None and time_s * self._fps >= self._frames - 1e-9:
+    def show(self, render: Callable[[int, int], Image], time_s: float, end_s: float) -> None:
+        """Take the picture that is due at this time, if any; none is due before 0 or after the end."""
+        if self._on_frame is not None and self._frames <= min(time_s, end_s) * self._fps + 1e-9:
             self._on_frame(render(*self._size), time_s)
             self._frames += 1

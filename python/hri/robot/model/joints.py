@@ -141,6 +141,7 @@ class JointTable:
     name: str
     max_speed_rad_s: float
     max_acceleration_rad_s2: float
+    peak_acceleration_rad_s2: float
     max_torque_n_m: float
     standing_height_m: float
     feet: tuple[str, ...]
@@ -218,6 +219,7 @@ def load_joint_table(resource: str = "hoap2.toml") -> JointTable:
         name=table["name"],
         max_speed_rad_s=table["max_speed_rad_s"],
         max_acceleration_rad_s2=table["max_acceleration_rad_s2"],
+        peak_acceleration_rad_s2=table["peak_acceleration_rad_s2"],
         max_torque_n_m=table["max_torque_n_m"],
         standing_height_m=table["standing_height_m"],
         feet=tuple(table["feet"]),

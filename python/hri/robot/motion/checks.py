@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from itertools import chain
 from os import PathLike
 
 import numpy as np
@@ -11,22 +13,34 @@ from numpy.typing import NDArray
 
 from hri.core.errors import InvalidArgument
 from hri.robot.model.joints import HOAP2, Joint, JointTable
+from hri.robot.motion.jumps import find_jumps, without_jumps
 from hri.robot.motion.pulse_csv import parse_pulse_csv, trajectory_from_counts
+from hri.robot.motion.rates import SHORT_S, SMOOTHING_S, calm_joints, short_measures, smoothed_measures
 from hri.robot.motion.self_collision import self_collisions
 from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
 
-SPEED_WINDOW_S = 0.05
-LIMIT_TOLERANCE_RAD = np.radians(1.5 / 209.0)  # limits are written in whole pulses, or rounded
+LIMIT_TOLERANCE_RAD = float(np.radians(1.5 / 209.0))  # limits are written in whole pulses, or rounded
+_BEYOND_REASON_RAD = 1e6  # an error anyway; squares of what is measured stay finite
 
 
-def check_trajectory(trajectory: Trajectory, table: JointTable = HOAP2) -> list[Finding]:
+def check_trajectory(
+    trajectory: Trajectory, table: JointTable = HOAP2, others_rad: Mapping[str, float] | None = None
+) -> list[Finding]:
     """Look over a whole motion before any of it is carried out.
 
-    Errors are an unknown joint, a position that is not finite or outside its joint's limits, a mean
-    speed over 50 ms above the motor's, a change of it within 50 ms above the most acceleration, and
-    links that overlap (`self_collisions`). A step from one row to the next that is too fast, while
-    the 50 ms about it are not, is a warning: a dropped sample. Rows in succession with the same
-    fault of one joint make one finding, at the first of them. Nothing is clamped.
+    Errors are an unknown joint, a position that is not finite or outside its joint's limits, a speed, acceleration or
+    jerk above the motors' (`rates`), jumps to single rows that are no isolated glitch (`jumps`), and links that overlap
+    (`self_collisions`). A step to one row that is too fast, while the 10 ms about it are not, is a warning: a dropped
+    sample. The motion counts as held before its first row and after its last. Rows in succession with the same fault of
+    one joint make one finding, at the first of them; of several faults there of speed and what follows from it only the
+    first is reported. Nothing is clamped.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+    table : JointTable
+    others_rad : mapping of joint name to float, optional
+        Where joints are that the motion does not name; the others rest. A robot says where its own are.
 
     Returns
     -------
@@ -34,13 +48,21 @@ def check_trajectory(trajectory: Trajectory, table: JointTable = HOAP2) -> list[
         By row; empty when nothing is amiss.
     """
     findings: list[Finding] = []
+    measured: list[tuple[Joint, NDArray[np.float64]]] = []
     for name, positions in zip(trajectory.joint_names, trajectory.positions_rad.T, strict=True):
         if name not in table.names:
             findings.append(Finding(1, "", name, name, f"{table.name} has no such joint"))
             continue
-        findings += _check_joint(table[name], positions, trajectory.period_s, table)
+        found = _check_positions(table[name], positions)
+        findings += found
+        if np.isfinite(positions).all():
+            measured.append((table[name], np.clip(positions, -_BEYOND_REASON_RAD, _BEYOND_REASON_RAD)))
+    if measured:
+        rows = np.stack([positions for _, positions in measured])
+        moved = np.flatnonzero(~calm_joints(rows, trajectory.period_s, table))
+        findings += _check_rates([measured[place][0] for place in moved], rows[moved], trajectory, table)
     if all(name in table.names for name in trajectory.joint_names):
-        findings += _touches(trajectory, table)
+        findings += _touches(trajectory, table, others_rad)
     return sorted(findings, key=lambda finding: (finding.row, finding.severity))
 
 
@@ -58,13 +80,32 @@ def check_pulse_csv(path: str | PathLike[str], table: JointTable = HOAP2) -> lis
     return check_trajectory(trajectory_from_counts(period_s, counts, table), table)
 
 
-def require_safe(trajectory: Trajectory, table: JointTable = HOAP2, source: str = "") -> list[Finding]:
+def require_safe(
+    trajectory: Trajectory,
+    table: JointTable = HOAP2,
+    source: str = "",
+    others_rad: Mapping[str, float] | None = None,
+) -> list[Finding]:
     """Raise TrajectoryError, which names the source, when a motion has errors; return its warnings."""
-    findings = check_trajectory(trajectory, table)
+    findings = check_trajectory(trajectory, table, others_rad)
     errors = [finding for finding in findings if finding.severity == "error"]
     if errors:
         raise TrajectoryError(errors, source)
     return findings
+
+
+def require_safe_approach(approach: Trajectory, table: JointTable, others_rad: Mapping[str, float]) -> None:
+    """Raise TrajectoryError when the way to a motion's first row has errors.
+
+    Links that overlap where the way begins, as somebody put them there, may move apart.
+    """
+    findings = [
+        Finding(1, finding.column, finding.joint, finding.value, f"on the way to this row, {finding.message}")
+        for finding in check_trajectory(approach, table, others_rad)
+        if finding.severity == "error" and finding.row > 1
+    ]
+    if findings:
+        raise TrajectoryError(findings)
 
 
 def require_within(joint: Joint, position_rad: float) -> None:
@@ -74,10 +115,10 @@ def require_within(joint: Joint, position_rad: float) -> None:
         raise InvalidArgument(f"{joint.name}: {degrees:.1f} deg is outside {low:.1f} to {high:.1f} deg")
 
 
-def _touches(trajectory: Trajectory, table: JointTable) -> list[Finding]:
+def _touches(trajectory: Trajectory, table: JointTable, others_rad: Mapping[str, float] | None) -> list[Finding]:
     carriers = {joint.child: joint for joint in table.joints}
     findings = []
-    for touch in self_collisions(trajectory, table):
+    for touch in self_collisions(trajectory, table, others_rad):
         joint = carriers[touch.link]
         value = f"{1000.0 * touch.depth_m:.1f} mm"
         message = f"{touch.link} and {touch.other} overlap by {value}"
@@ -85,43 +126,63 @@ def _touches(trajectory: Trajectory, table: JointTable) -> list[Finding]:
     return findings
 
 
-def _check_joint(joint: Joint, positions: NDArray[np.float64], period_s: float, table: JointTable) -> list[Finding]:
+def _check_positions(joint: Joint, positions: NDArray[np.float64]) -> list[Finding]:
     findings: list[Finding] = []
-    max_speed, max_acceleration = table.max_speed_rad_s, table.max_acceleration_rad_s2
-
-    def report(rows: NDArray[np.bool_], values: NDArray[np.float64], unit: str, text: str) -> None:
-        for first, last in _runs(rows):
-            worst = first + int(np.argmax(np.abs(values[first : last + 1])))
-            value = f"{values[worst]:.1f} {unit}" if unit else "nan"
-            message = text.format(value=value) + (f", to row {last + 1}" if last > first else "")
-            findings.append(Finding(first + 1, joint.column, joint.name, value, message))
-
     finite = np.isfinite(positions)
-    report(~finite, np.where(finite, 0.0, 1.0), "", "the position is not known")
+    for first, last in _runs(~finite):
+        findings.append(_finding(joint, first, last, "nan", "the position is not known"))
     low, high = np.degrees((joint.lower_rad, joint.upper_rad))
-    beyond = (positions < joint.lower_rad - LIMIT_TOLERANCE_RAD) | (positions > joint.upper_rad + LIMIT_TOLERANCE_RAD)
-    report(beyond, np.degrees(positions), "deg", f"{{value}} is outside {low:.1f} to {high:.1f} deg")
+    outside = (positions < joint.lower_rad - LIMIT_TOLERANCE_RAD) | (positions > joint.upper_rad + LIMIT_TOLERANCE_RAD)
+    for first, last in _runs(finite & outside):
+        run = positions[first : last + 1]
+        worst = np.degrees(run[np.argmax(np.maximum(joint.lower_rad - run, run - joint.upper_rad))])
+        value = f"{worst:.1f} deg"
+        findings.append(_finding(joint, first, last, value, f"{value} is outside {low:.1f} to {high:.1f} deg"))
+    return findings
 
-    window = max(1, round(SPEED_WINDOW_S / period_s))
-    window = min(window, max(1, len(positions) - 1))
-    mean_speed = (positions[window:] - positions[:-window]) / (window * period_s)
-    fast = np.abs(mean_speed) > max_speed
-    limit = f"above {max_speed:g} rad/s"
-    report(fast, mean_speed, "rad/s", f"a speed of {{value}} over 50 ms is {limit}")
-    change = (mean_speed[window:] - mean_speed[:-window]) / (window * period_s)
-    limit = f"above {max_acceleration:g} rad/s2"
-    report(np.abs(change) > max_acceleration, change, "rad/s2", f"an acceleration of {{value}} over 50 ms is {limit}")
-    limit = f"above {max_speed:g} rad/s"
-    if window > 1:
-        jumps = np.diff(positions) / period_s
-        in_fast = np.zeros(len(positions), dtype=bool)
-        for first, last in _runs(fast):
-            in_fast[first : last + window] = True
-        for row in np.flatnonzero((np.abs(jumps) > max_speed) & ~in_fast[: len(jumps)]):
-            value = f"{jumps[row]:.1f} rad/s"
-            message = f"a jump of {value} to this row alone is {limit}"
+
+def _check_rates(
+    joints: list[Joint], positions: NDArray[np.float64], trajectory: Trajectory, table: JointTable
+) -> list[Finding]:
+    period_s, rows = trajectory.period_s, len(trajectory)
+    reach = round(2.0 * SMOOTHING_S / period_s)
+    jumps = find_jumps(positions, period_s, table)
+    findings: list[Finding] = []
+    faulty = np.zeros((len(joints), rows), dtype=bool)
+    for jump in jumps:
+        if jump.why_not:
+            value = f"{jump.size_rad / period_s:.1f} rad/s"
+            message = f"a jump of {value} to a single row, {jump.why_not}"
+            findings.append(_finding(joints[jump.joint], jump.first + 1, jump.last + 1, value, message))
+            faulty[jump.joint, max(0, jump.first - reach) : jump.last + reach + 2] = True
+    even = without_jumps(positions, period_s, jumps)
+    for measure in chain(smoothed_measures(positions, period_s, table), short_measures(even, period_s, table)):
+        beyond = np.abs(measure.values) > measure.limit * (1.0 + 1e-9)
+        for place in np.flatnonzero(beyond.any(axis=1)).tolist():
+            for first, last in _runs(beyond[place]):
+                begin, end = (min(max(row + measure.first_row, 0), rows - 1) for row in (first, last))
+                if faulty[place, begin : end + 1].any():
+                    continue
+                faulty[place, max(0, begin - reach) : end + reach + 1] = True
+                run = measure.values[place, first : last + 1]
+                value = f"{run[np.argmax(np.abs(run))]:.1f} {measure.unit}"
+                message = f"{measure.text.format(value)} is above {measure.limit:g} {measure.unit}"
+                findings.append(_finding(joints[place], begin, end, value, message))
+    if period_s < SHORT_S:
+        speeds = np.diff(positions) / period_s
+        single = (np.abs(speeds) > table.max_speed_rad_s) & ~faulty[:, 1:]
+        for place, row in zip(*np.nonzero(single), strict=True):
+            value = f"{speeds[place, row]:.1f} rad/s"
+            message = f"a jump of {value} to this row alone is above {table.max_speed_rad_s:g} rad/s"
+            joint = joints[place]
             findings.append(Finding(int(row) + 2, joint.column, joint.name, value, message, "warning"))
     return findings
+
+
+def _finding(joint: Joint, first: int, last: int, value: str, message: str) -> Finding:
+    """For rows counted from 0."""
+    rows = f", to row {last + 1}" if last > first else ""
+    return Finding(first + 1, joint.column, joint.name, value, message + rows)
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
@@ -29,11 +30,14 @@ class Touch:
     depth_m: float
 
 
-def self_collisions(trajectory: Trajectory, table: JointTable = HOAP2) -> list[Touch]:
+def self_collisions(
+    trajectory: Trajectory, table: JointTable = HOAP2, others_rad: Mapping[str, float] | None = None
+) -> list[Touch]:
     """Pairs of links whose solid shapes overlap by more than a millimetre.
 
-    Joints that the motion does not name rest. Links that adjoin (`JointTable.adjoining`) are left out. A row is looked
-    at whenever a joint has moved by 0.08 rad; a row with an unknown position is passed over.
+    Joints that the motion does not name are at `others_rad`, and rest where that does not name them either. Links that
+    adjoin (`JointTable.adjoining`) are left out. A row is looked at whenever a joint has moved by 0.08 rad; a row with
+    an unknown position is passed over.
 
     Returns
     -------
@@ -43,7 +47,7 @@ def self_collisions(trajectory: Trajectory, table: JointTable = HOAP2) -> list[T
     rows = _rows_to_look_at(trajectory.positions_rad)
     if not len(rows):
         return []
-    places = _link_frames(trajectory, rows, table)
+    places = _link_frames(trajectory, rows, table, table.rest_rad | dict(others_rad or {}))
     touches: list[Touch] = []
     for (first, a), (second, b) in _shape_pairs(table):
         depths = _depths(a, places[first], b, places[second])
@@ -65,7 +69,9 @@ def _rows_to_look_at(positions: Floats) -> NDArray[np.intp]:
     return known[np.union1d(chosen, [len(known) - 1])]
 
 
-def _link_frames(trajectory: Trajectory, rows: NDArray[np.intp], table: JointTable) -> dict[str, tuple[Floats, Floats]]:
+def _link_frames(
+    trajectory: Trajectory, rows: NDArray[np.intp], table: JointTable, others_rad: Mapping[str, float]
+) -> dict[str, tuple[Floats, Floats]]:
     """Rotations, shape (rows, 3, 3), and origins, (rows, 3), of all links in the base's frame."""
     count = len(rows)
     places = {table.base.name: (np.tile(np.eye(3), (count, 1, 1)), np.zeros((count, 3)))}
@@ -74,7 +80,7 @@ def _link_frames(trajectory: Trajectory, rows: NDArray[np.intp], table: JointTab
         turn, origin = places[joint.parent]
         place = origin + turn @ np.array(joint.origin_m)
         column = columns.get(joint.name)
-        angle = trajectory.positions_rad[rows, column] if column is not None else np.full(count, joint.rest_rad)
+        angle = trajectory.positions_rad[rows, column] if column is not None else np.full(count, others_rad[joint.name])
         x, y, z = joint.axis
         cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
         sine, cosine = np.sin(angle)[:, None, None], np.cos(angle)[:, None, None]

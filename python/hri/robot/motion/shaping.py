@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from hri.core.errors import InvalidArgument
 from hri.robot.model.joints import HOAP2, JointTable
-from hri.robot.motion.checks import SPEED_WINDOW_S
 from hri.robot.motion.gestures import minimum_jerk
+from hri.robot.motion.rates import excess
 from hri.robot.motion.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
@@ -94,23 +94,12 @@ def slow_to_limits(trajectory: Trajectory, table: JointTable = HOAP2) -> Traject
         raise InvalidArgument("the motion cannot be slowed to the limits: a position is not finite")
     factor = 1.0
     slower = trajectory
-    while (excess := _excess(slower, table)) > 1.0:
-        factor *= max(excess, 1.001)
+    while (beyond := excess(slower.positions_rad.T, slower.period_s, table)) > 1.0 + 1e-9:
+        factor *= max(beyond, 1.001)
         rows = int(np.ceil(trajectory.duration_s * factor / trajectory.period_s - 1e-9)) + 1
         times = trajectory.period_s / factor * np.arange(rows, dtype=np.float64)
         slower = Trajectory(trajectory.joint_names, trajectory.period_s, trajectory.at(times))
     return slower
-
-
-def _excess(trajectory: Trajectory, table: JointTable) -> float:
-    """How many times slower a motion must be for its speeds and accelerations over the check's window."""
-    positions, period_s = trajectory.positions_rad, trajectory.period_s
-    window = min(max(1, round(SPEED_WINDOW_S / period_s)), max(1, len(positions) - 1))
-    speeds = (positions[window:] - positions[:-window]) / (window * period_s)
-    changes = (speeds[window:] - speeds[:-window]) / (window * period_s)
-    fastest = float(np.abs(speeds).max(initial=0.0)) / table.max_speed_rad_s
-    hardest = float(np.abs(changes).max(initial=0.0)) / table.max_acceleration_rad_s2
-    return max(fastest, float(np.sqrt(hardest)))
 
 
 def concatenate(trajectories: Sequence[Trajectory], blend_s: float = 0.5, table: JointTable = HOAP2) -> Trajectory:

@@ -14,6 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from hri.core.errors import FormatError, InvalidArgument, IoError
 
+_PERIODS_S = (1e-6, 3600.0)
+
 
 class Trajectory:
     """Positions of some joints at a fixed rate; immutable.
@@ -21,9 +23,9 @@ class Trajectory:
     Parameters
     ----------
     joint_names : sequence of str
-        Without repeats; joints not named are not commanded.
+        At least one, without repeats; joints not named are not commanded.
     period_s : float
-        From one row to the next, above 0.
+        From one row to the next, a microsecond to an hour.
     positions_rad : array_like of float64, shape (rows, joints)
         At least one row. NaN means that the joint's position is unknown in that row; a check
         reports it as an error.
@@ -41,12 +43,19 @@ class Trajectory:
     def __init__(self, joint_names: Sequence[str], period_s: float, positions_rad: ArrayLike) -> None:
         self.joint_names = tuple(joint_names)
         self.period_s = float(period_s)
-        self.positions_rad = np.array(positions_rad, dtype=np.float64)
-        self.positions_rad.setflags(write=False)
+        if isinstance(joint_names, str) or not all(isinstance(name, str) for name in self.joint_names):
+            raise InvalidArgument(f"joint_names is {joint_names!r}, must be a sequence of names")
+        if not self.joint_names:
+            raise InvalidArgument("joint_names names no joint")
         if len(set(self.joint_names)) != len(self.joint_names):
             raise InvalidArgument("joint_names names a joint twice")
-        if not 0.0 < self.period_s < np.inf:
-            raise InvalidArgument(f"period_s is {period_s}, must be above 0 and finite")
+        if not _PERIODS_S[0] <= self.period_s <= _PERIODS_S[1]:
+            raise InvalidArgument(f"period_s is {period_s}, must be {_PERIODS_S[0]:g} to {_PERIODS_S[1]:g}")
+        try:
+            self.positions_rad = np.array(positions_rad, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InvalidArgument(f"positions_rad is no array of numbers: {error}") from error
+        self.positions_rad.setflags(write=False)
         shape = self.positions_rad.shape
         if len(shape) != 2 or shape[0] == 0 or shape[1] != len(self.joint_names):
             raise InvalidArgument(

@@ -157,8 +157,12 @@ def render_still(
     with open_robot(backend, table=table) as robot:
         first = trajectory.positions_rad[0].tolist()
         robot.reset(dict(zip(trajectory.joint_names, first, strict=True)))
-        rows = round(at_s / trajectory.period_s) + 1
-        if rows > 1:
-            robot.perform(Trajectory(trajectory.joint_names, trajectory.period_s, trajectory.positions_rad[:rows]))
-        image = robot.render(*size)
-    write_image(path, np.ascontiguousarray(image[:, :, ::-1]))
+        images: list[Image] = []
+
+        def keep(image: Image, time_s: float) -> None:
+            images.append(image)
+            if time_s >= at_s - 1e-9:
+                robot.stop()
+
+        robot.perform(trajectory, keep, 1.0 / max(at_s, trajectory.period_s), size)
+    write_image(path, np.ascontiguousarray(images[-1][:, :, ::-1]))
