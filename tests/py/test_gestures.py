@@ -188,11 +188,11 @@ def test_a_place_is_reached_with_the_elbow_nearest_to_the_one_wanted():
     [
         ('[{ left = "nowhere" }]', "key 1, left: no arm pose 'nowhere'"),
         ('[{}, { right = "down", hold = 2 }]', "key 2: no field hold"),
-        ("[{ right = [1, 2] }]", "key 1, right: 2 angles"),
+        ("[{ right = [1, 2] }]", "key 1, right: must be a list of 4 or 5 numbers"),
         ("[{ left = [200, 0, 0, 0] }]", "key 1: larm_joint_1 would be at 200.0 degrees"),
         ("[{ left = { at_cm = [30, 0, 0] } }]", r"key 1, left: the arm reaches \[30, 0, 0\] cm not at all"),
         ("[{ left = { at_cm = [3, 0.5, -9] } }]", "left: the arm reaches .* only through the body"),
-        ("[{ left = { elbow = 3 } }]", "left: fields elbow, must be at_cm"),
+        ("[{ left = { elbow = 3 } }]", "left: at_cm is missing"),
         ("[", "gestures: "),
     ],
 )

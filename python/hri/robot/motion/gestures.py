@@ -19,6 +19,7 @@ from hri.core.suggest import did_you_mean
 from hri.robot.model.arm import MIRROR, arm_angles, arm_of, arm_points
 from hri.robot.model.clearance import body_clearance, body_of, forearm_balls
 from hri.robot.model.joints import HOAP2
+from hri.robot.motion.toml_fields import field_of, number_in, numbers_of, only_fields
 from hri.robot.motion.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
@@ -35,6 +36,23 @@ _CLEARANCE_M = 0.001
 _JERK_SPEED, _JERK_ACCELERATION = 1.875, 5.774  # of a least-jerk move of length and duration 1, at most
 _ARM_FIELDS = {"at_cm", "elbow", "hand"}
 _KEY_FIELDS = {"left", "right", "head", "hold_s", "slower"}
+_GESTURE_FIELDS = {"name", "meaning", "lacks", "keys"}
+_RATES = {  # and what they must be
+    "period_s": (0.001, 1.0),
+    "speed_rad_s": (0.01, 100.0),
+    "acceleration_rad_s2": (0.01, 10_000.0),
+    "least_move_s": (0.0, 60.0),
+}
+
+
+@dataclass(frozen=True)
+class GestureRates:
+    """How gestures move: period of the rows; speed and acceleration of the fastest joint, and the shortest move."""
+
+    period_s: float
+    speed_rad_s: float
+    acceleration_rad_s2: float
+    least_move_s: float
 
 
 @dataclass(frozen=True)
@@ -104,15 +122,24 @@ def parse_gestures(text: str) -> dict[str, Gesture]:
     Raises
     ------
     InvalidArgument
-        Names the gesture, the key and the arm: an unknown pose or field, a place that the arm cannot reach, an angle
-        beyond its limit.
+        Names the gesture, the key and the arm: text that is no TOML, a field that is missing, unknown, of another kind
+        or out of range, an unknown pose, a place that the arm cannot reach, an angle beyond its limit.
     """
     try:
         table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:  # also a number of more digits than Python reads
         raise InvalidArgument(f"gestures: {error}") from error
-    gestures = [_gesture(entry, table) for entry in table["gesture"]]
-    return {gesture.name: gesture for gesture in gestures}
+    rates = GestureRates(**{name: number_in(table, name, "gestures", *ends) for name, ends in _RATES.items()})
+    arms = field_of(table, "arms", dict, "gestures")
+    gestures: dict[str, Gesture] = {}
+    for number, entry in enumerate(field_of(table, "gesture", list, "gestures"), start=1):
+        if not isinstance(entry, dict):
+            raise InvalidArgument(f"gestures: gesture {number} is no table")
+        gesture = _gesture(entry, arms, rates, f"gesture {number}")
+        if gesture.name in gestures:
+            raise InvalidArgument(f"gesture {gesture.name!r} is there twice")
+        gestures[gesture.name] = gesture
+    return gestures
 
 
 def gesture_trajectory(name: str) -> Trajectory:
@@ -131,31 +158,39 @@ def rest_positions() -> dict[str, float]:
     return positions
 
 
-def _gesture(entry: dict[str, Any], table: dict[str, Any]) -> Gesture:
-    times_s, poses = [0.0], [_pose({}, table, entry["name"])]
-    for number, key in enumerate([*entry["keys"], {}], start=1):
-        where = f"gesture {entry['name']!r}, key {number}"
-        unknown = set(key) - _KEY_FIELDS
-        if unknown:
-            raise InvalidArgument(f"{where}: no field {', '.join(sorted(unknown))}")
-        pose = _pose(key, table, where)
+def _gesture(entry: dict[str, Any], arms: dict[str, Any], rates: GestureRates, where: str) -> Gesture:
+    name = field_of(entry, "name", str, where)
+    where = f"gesture {name!r}"
+    only_fields(entry, _GESTURE_FIELDS, where)
+    keys = field_of(entry, "keys", list, where)
+    times_s, poses = [0.0], [_pose({}, arms, where)]
+    for number, key in enumerate([*keys, {}], start=1):
+        at = f"{where}, key {number}"
+        if not isinstance(key, dict):
+            raise InvalidArgument(f"{at}: is no table")
+        only_fields(key, _KEY_FIELDS, at)
+        pose = _pose(key, arms, at)
+        slower = number_in(key, "slower", at, 0.0, 100.0, 1.0)
         distance = float(np.abs(pose - poses[-1]).max())
         if distance > 0.0:
             fastest_s = max(
-                _JERK_SPEED * distance / table["speed_rad_s"],
-                (_JERK_ACCELERATION * distance / table["acceleration_rad_s2"]) ** 0.5,
-                table["least_move_s"],
+                _JERK_SPEED * distance / rates.speed_rad_s,
+                (_JERK_ACCELERATION * distance / rates.acceleration_rad_s2) ** 0.5,
+                rates.least_move_s,
             )
-            _add(times_s, poses, fastest_s * max(1.0, key.get("slower", 1.0)), pose, table["period_s"])
-        if key.get("hold_s", 0.0) > 0.0:
-            _add(times_s, poses, key["hold_s"], pose, table["period_s"])
+            _add(times_s, poses, fastest_s * max(1.0, slower), pose, rates.period_s)
+        hold_s = number_in(key, "hold_s", at, 0.0, 60.0, 0.0)
+        if hold_s > 0.0:
+            _add(times_s, poses, hold_s, pose, rates.period_s)
+    if len(times_s) < 2:
+        raise InvalidArgument(f"{where}: no key moves or holds anything")
     return Gesture(
-        name=entry["name"],
-        meaning=entry["meaning"],
-        lacks=entry.get("lacks", ""),
+        name=name,
+        meaning=field_of(entry, "meaning", str, where),
+        lacks=field_of(entry, "lacks", str, where) if "lacks" in entry else "",
         times_s=np.array(times_s),
         poses_rad=np.array(poses),
-        period_s=table["period_s"],
+        period_s=rates.period_s,
     )
 
 
@@ -166,10 +201,10 @@ def _add(times_s: list[float], poses: list[Floats], duration_s: float, pose: Flo
     poses.append(pose)
 
 
-def _pose(key: dict[str, Any], table: dict[str, Any], where: str) -> Floats:
-    left = _arm(key.get("left", "down"), table["arms"], f"{where}, left")
-    right = _arm(key.get("right", "down"), table["arms"], f"{where}, right") * _MIRROR
-    head = np.radians(np.array(key.get("head", (0.0, 0.0)), dtype=np.float64))
+def _pose(key: dict[str, Any], arms: dict[str, Any], where: str) -> Floats:
+    left = _arm(key.get("left", "down"), arms, f"{where}, left")
+    right = _arm(key.get("right", "down"), arms, f"{where}, right") * _MIRROR
+    head = np.radians(numbers_of(key.get("head", [0, 0]), (2,), f"{where}, head"))
     pose = np.concatenate((left, right, head))
     limits = HOAP2.limits_rad[[HOAP2.index(name) for name in GESTURE_JOINTS]]
     beyond = np.flatnonzero((pose < limits[:, 0]) | (pose > limits[:, 1]))
@@ -187,22 +222,22 @@ def _arm(value: Any, arms: dict[str, Any], where: str) -> Floats:
         value = arms[value]
     if isinstance(value, dict):
         return _placed(value, where)
-    if len(value) not in (4, 5):
-        raise InvalidArgument(f"{where}: {len(value)} angles, must be 4 or 5")
-    return np.radians(np.array([*value, 0.0][:5], dtype=np.float64))
+    angles = numbers_of(value, (4, 5), where)
+    return np.radians(np.append(angles, 0.0)[:5])
 
 
 def _placed(value: dict[str, Any], where: str) -> Floats:
     """Angles that bring the hand to a place given from the middle between the shoulders."""
-    if "at_cm" not in value or set(value) - _ARM_FIELDS:
-        raise InvalidArgument(f"{where}: fields {', '.join(sorted(value))}, must be at_cm, and may be elbow and hand")
+    only_fields(value, _ARM_FIELDS, where)
+    at_cm = numbers_of(field_of(value, "at_cm", list, where), (3,), f"{where}, at_cm")
     arm = arm_of("left")
-    place = np.array(value["at_cm"], dtype=np.float64) / 100.0 - (0.0, abs(arm.shoulder_m[1]), 0.0)
-    elbows = value.get("elbow", _ELBOW_DEG) + np.array(sorted(range(-180, 180), key=abs))
+    place = at_cm / 100.0 - (0.0, abs(arm.shoulder_m[1]), 0.0)
+    elbows = number_in(value, "elbow", where, -360.0, 360.0, _ELBOW_DEG) + np.array(sorted(range(-180, 180), key=abs))
     choices = arm_angles(arm, np.broadcast_to(place, (len(elbows), 3)), np.radians(elbows))
     possible = arm.within(choices) & (np.linalg.norm(place) <= arm.reach_m)
     clear = body_clearance(body_of(arm), *forearm_balls(arm, *arm_points(arm, choices))) > _CLEARANCE_M
     if not (possible & clear).any():
         why = "only through the body" if possible.any() else "not at all"
         raise InvalidArgument(f"{where}: the arm reaches {value['at_cm']} cm {why}")
-    return np.append(choices[np.flatnonzero(possible & clear)[0]], np.radians(value.get("hand", 0.0)))
+    hand = np.radians(number_in(value, "hand", where, -360.0, 360.0, 0.0))
+    return np.append(choices[np.flatnonzero(possible & clear)[0]], hand)
