@@ -72,6 +72,8 @@ def test_a_motion_is_slowed_no_more_than_it_must():
     assert fast.duration_s < slower.duration_s < 8.0 * fast.duration_s
     np.testing.assert_allclose(slower.positions_rad[-1], fast.positions_rad[-1])
     assert slow_to_limits(slower) is slower
+    with pytest.raises(InvalidArgument, match="too rough"):
+        slow_to_limits(Trajectory(["larm_joint_1"], 0.01, [[0.0], [1e300], [0.0]]))
     with pytest.raises(InvalidArgument, match="not finite"):
         slow_to_limits(Trajectory(["larm_joint_1"], 0.01, [[0.0], [np.nan], [0.0]]))
 

@@ -16,6 +16,8 @@ from hri.robot.motion.rates import excess
 from hri.robot.motion.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
+_SLOWEST = 1000.0
+_BEYOND_REASON_RAD = 1e6
 _FASTEST_OF_MINIMUM_JERK, _HARDEST_OF_MINIMUM_JERK = 1.875, 5.7736
 
 
@@ -89,16 +91,28 @@ def slow_to_limits(trajectory: Trajectory, table: JointTable = HOAP2) -> Traject
     """Play the whole motion so much slower that no joint is too fast or accelerates too hard, as the check has it.
 
     The period stays; a motion within the limits comes back as it is.
+
+    Raises
+    ------
+    InvalidArgument
+        When a position is not finite, or the motion would take more than 1000 times as long.
     """
     if not np.isfinite(trajectory.positions_rad).all():
         raise InvalidArgument("the motion cannot be slowed to the limits: a position is not finite")
     factor = 1.0
     slower = trajectory
-    while (beyond := excess(slower.positions_rad.T, slower.period_s, table)) > 1.0 + 1e-9:
+    reasonable = np.clip(trajectory.positions_rad, -_BEYOND_REASON_RAD, _BEYOND_REASON_RAD)
+    beyond = excess(reasonable.T, trajectory.period_s, table)
+    while beyond > 1.0 + 1e-9:
         factor *= max(beyond, 1.001)
+        if factor > _SLOWEST:
+            raise InvalidArgument(
+                f"the motion is too rough: within the limits it would last {factor:.0f} times as long"
+            )
         rows = int(np.ceil(trajectory.duration_s * factor / trajectory.period_s - 1e-9)) + 1
         times = trajectory.period_s / factor * np.arange(rows, dtype=np.float64)
         slower = Trajectory(trajectory.joint_names, trajectory.period_s, trajectory.at(times))
+        beyond = excess(slower.positions_rad.T, slower.period_s, table)
     return slower
 
 
