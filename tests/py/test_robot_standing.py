@@ -133,6 +133,9 @@ def test_physics_counts():
     assert weight == pytest.approx(1.5 * 7.16 * 9.81, rel=0.05)
     with pytest.raises(InvalidArgument, match="friction"):
         Physics(friction=0.0)
+    for offset in (float("nan"), float("inf"), -2.0):
+        with pytest.raises(InvalidArgument, match="joint_offsets_rad of head_joint_1"):
+            Physics(joint_offsets_rad={"head_joint_1": offset})
     with pytest.raises(InvalidArgument, match="solver_iterations"):
         Physics(solver_iterations=0)
     with pytest.raises(InvalidArgument, match="no joint 'tail'"):

@@ -276,7 +276,11 @@ def test_the_play_command_ends_with_the_signals_code(number, monkeypatch):
     [
         ({"larm_joint_1": float("nan")}, None, "larm_joint_1"),
         ({"larm_joint_1": float("inf")}, None, "larm_joint_1"),
-        ({"larm_joint_1": 3.0}, None, r"larm_joint_1: 171\.9 deg is outside -91\.0 to 151\.0"),
+        ({"larm_joint_1": 10**400}, None, "larm_joint_1"),
+        ({"larm_joint_1": "0.1"}, None, "larm_joint_1: '0.1' is no number"),
+        ({"larm_joint_1": None}, None, "no number"),
+        ({"larm_joint_1": [0.1]}, None, "no number"),
+        ({"larm_joint_1": 3.0}, None, r"larm_joint_1: 3\.0 rad is outside .*-91\.0 to 151\.0 deg"),
         ({"head_joint_1": 0.1, "larm_joint_4": 0.5}, "standing", "larm_joint_4"),
         ({"head_joint_1": 0.1, "tail": 0.5}, None, "tail"),
         ({"head_joint_1": 0.1}, "sitting", "posture"),

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 
 from hri.core.errors import InvalidArgument
 
+_MOST_OFFSET_RAD = 1.0
+
 
 @dataclass(frozen=True)
 class Physics:
@@ -21,7 +23,7 @@ class Physics:
     mass_scale : float
         Multiplies all masses and inertias, above 0.
     joint_offsets_rad : mapping of joint name to float
-        By how much a joint is off from where its motor believes it to be, as after a poor calibration.
+        By how much a joint is off from where its motor believes it to be, as after a poor calibration; up to 1.
     balance : bool
         A robot on its feet keeps upright and on its course by what its gyroscope and soles feel (`Balance`).
     solver_iterations : int
@@ -39,5 +41,8 @@ class Physics:
             value = getattr(self, name)
             if not 0.0 < value < float("inf"):
                 raise InvalidArgument(f"{name} is {value}, must be above 0 and finite")
+        for name, offset in self.joint_offsets_rad.items():
+            if not abs(offset) <= _MOST_OFFSET_RAD:
+                raise InvalidArgument(f"joint_offsets_rad of {name} is {offset}, must be at most {_MOST_OFFSET_RAD}")
         if not 1 <= self.solver_iterations <= 1000:
             raise InvalidArgument(f"solver_iterations is {self.solver_iterations}, must be 1 to 1000")

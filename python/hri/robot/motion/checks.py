@@ -109,10 +109,13 @@ def require_safe_approach(approach: Trajectory, table: JointTable, others_rad: M
 
 
 def require_within(joint: Joint, position_rad: float) -> None:
-    """Raise InvalidArgument for a position that is not finite or not within the joint's limits."""
+    """Raise InvalidArgument for a position that is no number, not finite or not within the joint's limits."""
+    if not isinstance(position_rad, int | float | np.integer | np.floating):
+        raise InvalidArgument(f"{joint.name}: {position_rad!r} is no number")
     if not joint.lower_rad - LIMIT_TOLERANCE_RAD <= position_rad <= joint.upper_rad + LIMIT_TOLERANCE_RAD:
-        low, high, degrees = np.degrees((joint.lower_rad, joint.upper_rad, position_rad))
-        raise InvalidArgument(f"{joint.name}: {degrees:.1f} deg is outside {low:.1f} to {high:.1f} deg")
+        low, high = np.degrees((joint.lower_rad, joint.upper_rad))
+        limits = f"{joint.lower_rad:.4f} to {joint.upper_rad:.4f} rad ({low:.1f} to {high:.1f} deg)"
+        raise InvalidArgument(f"{joint.name}: {str(position_rad)[:20]} rad is outside {limits}")
 
 
 def _touches(trajectory: Trajectory, table: JointTable, others_rad: Mapping[str, float] | None) -> list[Finding]:
