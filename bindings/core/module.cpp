@@ -55,6 +55,17 @@ PyObject* make_error(py::module_& m, const char* name, PyObject* base, PyObject*
   return type;
 }
 
+// A message names files, whose names need not be UTF-8: other bytes become what Python's own names
+// of files have in their place.
+void raise(PyObject* type, const std::exception& error) {
+  const std::string text = error.what();
+  PyObject* message =
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape");
+  if (message == nullptr) return;  // MemoryError is set
+  PyErr_SetObject(type, message);
+  Py_DECREF(message);
+}
+
 void bind_errors(py::module_& m) {
   PyObject* root = make_error(m, "Error", PyExc_Exception, nullptr, "Root of hri's errors.");
   g_invalid_argument = make_error(m, "InvalidArgument", root, PyExc_ValueError,
@@ -69,11 +80,11 @@ void bind_errors(py::module_& m) {
     try {
       if (p) std::rethrow_exception(p);
     } catch (const hri::InvalidArgument& e) {
-      PyErr_SetString(g_invalid_argument, e.what());
+      raise(g_invalid_argument, e);
     } catch (const hri::FormatError& e) {
-      PyErr_SetString(g_format_error, e.what());
+      raise(g_format_error, e);
     } catch (const hri::IoError& e) {
-      PyErr_SetString(g_io_error, e.what());
+      raise(g_io_error, e);
     } catch (const hri::Interrupted& e) {
       // A pending KeyboardInterrupt raised by the stop check would otherwise be reported twice.
       PyErr_Clear();

@@ -1,33 +1,96 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Model files and WAV files.
+// Files: whole ones in and out, model files, WAV files.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include "core/arrays.hpp"
+#include "core/paths.hpp"
+#include "hri/io/file.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/io/video_container.hpp"
 #include "hri/io/wav.hpp"
 
 namespace py = pybind11;
 
+namespace {
+
+hri::Span<const std::uint8_t> as_bytes(const py::bytes& data) {
+  const std::string_view view(data);
+  return {reinterpret_cast<const std::uint8_t*>(view.data()), view.size()};
+}
+
+void bind_whole_files(py::module_& m) {
+  py::class_<hri::AtomicFile>(m, "AtomicFile",
+                              "A file that appears whole or not at all, written beside its place.")
+      .def(py::init([](const hri_bind::Path& path) {
+             const py::gil_scoped_release release;
+             return std::make_unique<hri::AtomicFile>(path.text);
+           }),
+           py::arg("path"), "Raises IoError where it could not be written.")
+      .def_property_readonly(
+          "temporary_path",
+          [](const hri::AtomicFile& self) {
+            const std::string& path = self.temporary_path();
+            return py::reinterpret_steal<py::str>(PyUnicode_DecodeFSDefaultAndSize(
+                path.data(), static_cast<py::ssize_t>(path.size())));
+          },
+          "Where it is until then; with the suffix of its place.")
+      .def(
+          "write",
+          [](hri::AtomicFile& self, const py::bytes& data) {
+            const auto bytes = as_bytes(data);
+            const py::gil_scoped_release release;
+            self.write(bytes);
+          },
+          py::arg("data"), "Appends; raises IoError.")
+      .def("commit", &hri::AtomicFile::commit, py::call_guard<py::gil_scoped_release>(),
+           "Syncs it to the disk and gives it its name; raises IoError.")
+      .def("discard", &hri::AtomicFile::discard, py::call_guard<py::gil_scoped_release>(),
+           "Leaves nothing behind; after `commit` this does nothing.");
+  m.def(
+      "read_file",
+      [](const hri_bind::Path& path, std::uint64_t max_bytes) {
+        const std::vector<std::uint8_t> data = [&] {
+          const py::gil_scoped_release release;
+          return hri::read_file(path.text, max_bytes);
+        }();
+        return py::bytes(reinterpret_cast<const char*>(data.data()), data.size());
+      },
+      py::arg("path"), py::arg("max_bytes"),
+      "The bytes of a regular file; raises IoError, and FormatError for a larger one.");
+  m.def(
+      "require_whole_video",
+      [](const hri_bind::Path& path) {
+        const py::gil_scoped_release release;
+        hri::require_whole_video(path.text);
+      },
+      py::arg("path"), "Raises FormatError for a video that is shorter than it says, and IoError.");
+}
+
+}  // namespace
+
 void bind_files(py::module_& m) {
+  bind_whole_files(m);
   py::class_<hri::ModelFile>(m, "ModelFile",
                              "Tensors and metadata in the safetensors layout; strict reader.")
       .def(py::init<>())
-      .def_static("read", &hri::ModelFile::read, py::arg("path"),
-                  py::call_guard<py::gil_scoped_release>(),
-                  "Reads a whole file; raises IoError, or FormatError naming file and field.")
-      .def("write", &hri::ModelFile::write, py::arg("path"),
-           py::call_guard<py::gil_scoped_release>(),
-           "Writes beside the old file, syncs, and renames.")
+      .def_static(
+          "read", [](const hri_bind::Path& path) { return hri::ModelFile::read(path.text); },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+          "Reads a whole file; raises IoError, or FormatError naming file and field.")
+      .def(
+          "write",
+          [](const hri::ModelFile& self, const hri_bind::Path& path) { self.write(path.text); },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+          "Writes beside the old file, syncs, and renames.")
       .def_static(
           "from_bytes",
           [](const py::bytes& data, const std::string& name) {
-            const std::string_view view(data);
+            const auto bytes = as_bytes(data);
             const py::gil_scoped_release release;
-            return hri::ModelFile::parse(
-                {reinterpret_cast<const std::uint8_t*>(view.data()), view.size()}, name);
+            return hri::ModelFile::parse(bytes, name);
           },
           py::arg("data"), py::arg("name") = "bytes", "Reads what `to_bytes` gave, as strictly.")
       .def(
@@ -80,23 +143,24 @@ void bind_files(py::module_& m) {
       .def_readonly("sample_rate_hz", &hri::Wav::sample_rate_hz)
       .def_readonly("num_channels", &hri::Wav::num_channels)
       .def_readonly("notes", &hri::Wav::notes);
-  m.def("read_wav", &hri::read_wav, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
-        "Reads PCM or float WAV, averaged to mono; raises FormatError naming file and field.");
+  m.def(
+      "read_wav", [](const hri_bind::Path& path) { return hri::read_wav(path.text); },
+      py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+      "Reads PCM or float WAV, averaged to mono; raises FormatError naming file and field.");
   m.def(
       "parse_wav",
       [](const py::bytes& data, const std::string& name) {
-        const std::string_view view(data);
+        const auto bytes = as_bytes(data);
         const py::gil_scoped_release release;
-        return hri::parse_wav({reinterpret_cast<const std::uint8_t*>(view.data()), view.size()},
-                              name);
+        return hri::parse_wav(bytes, name);
       },
       py::arg("data"), py::arg("name") = "bytes");
   m.def(
       "write_wav_pcm16",
-      [](const std::string& path, const hri_bind::FloatArray& samples, int sample_rate_hz) {
+      [](const hri_bind::Path& path, const hri_bind::FloatArray& samples, int sample_rate_hz) {
         const auto x = hri_bind::as_span(samples, "samples");
         const py::gil_scoped_release release;
-        hri::write_wav_pcm16(path, x, sample_rate_hz);
+        hri::write_wav_pcm16(path.text, x, sample_rate_hz);
       },
       py::arg("path"), py::arg("samples"), py::arg("sample_rate_hz"));
 }

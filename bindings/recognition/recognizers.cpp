@@ -9,6 +9,7 @@
 
 #include "core/arrays.hpp"
 #include "core/options.hpp"
+#include "core/paths.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 
@@ -128,10 +129,13 @@ void bind_words(py::module_& m) {
                   py::arg("filler_labels") = std::vector<std::string>{})
       .def("with_word", &with_word, py::arg("label"), py::arg("clips"), py::arg("sample_rates_hz"))
       .def("without_word", &hri::WordRecognizer::without_word, py::arg("label"))
-      .def_static("load", &hri::WordRecognizer::load, py::arg("path"),
-                  py::call_guard<py::gil_scoped_release>())
-      .def("save", &hri::WordRecognizer::save, py::arg("path"),
-           py::call_guard<py::gil_scoped_release>())
+      .def_static(
+          "load", [](const hri_bind::Path& path) { return hri::WordRecognizer::load(path.text); },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>())
+      .def(
+          "save",
+          [](const hri::WordRecognizer& self, const hri_bind::Path& path) { self.save(path.text); },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>())
       .def_static("from_model_file", &hri::WordRecognizer::from_model_file, py::arg("file"))
       .def("to_model_file", &hri::WordRecognizer::to_model_file)
       .def(
@@ -225,10 +229,16 @@ void bind_gestures(py::module_& m) {
                   py::arg("groups"), py::arg("options"), py::arg("progress") = nullptr)
       .def_static("features", &gesture_features, py::arg("greys"), py::arg("masks"),
                   py::arg("options"))
-      .def_static("load", &hri::GestureRecognizer::load, py::arg("path"),
-                  py::call_guard<py::gil_scoped_release>())
-      .def("save", &hri::GestureRecognizer::save, py::arg("path"),
-           py::call_guard<py::gil_scoped_release>())
+      .def_static(
+          "load",
+          [](const hri_bind::Path& path) { return hri::GestureRecognizer::load(path.text); },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>())
+      .def(
+          "save",
+          [](const hri::GestureRecognizer& self, const hri_bind::Path& path) {
+            self.save(path.text);
+          },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>())
       .def(
           "recognise",
           [](const hri::GestureRecognizer& self, const std::vector<hri::HandObservation>& hands) {

@@ -21,7 +21,7 @@ CPP = {
     "features": {"core", "signal"},
     "models": {"core", "io"},
     "recognition": {"core", "io", "signal", "features", "models"},
-    "vision": {"core", "signal", "features"},
+    "vision": {"core", "io", "signal", "features"},
 }
 PYTHON = {
     "core": set(),

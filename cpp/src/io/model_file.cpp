@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/io/model_file.hpp"
 
-#include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +15,7 @@
 #include "hri/core/error.hpp"
 #include "hri/io/crc32.hpp"
 #include "hri/io/file.hpp"
+#include "io/model_header.hpp"
 
 namespace hri {
 namespace {
@@ -93,11 +94,10 @@ const std::string& ModelFile::text(const std::string& key) const {
 
 std::int64_t ModelFile::integer(const std::string& key) const {
   const std::string& value = text(key);
-  char* end = nullptr;
-  errno = 0;
-  const long long parsed = std::strtoll(value.c_str(), &end, 10);
-  if (value.empty() || *end != '\0' || errno != 0)
-    refuse(key, "is not an integer: '" + value + "'");
+  const char* const end = value.data() + value.size();
+  std::int64_t parsed = 0;
+  const auto [stopped, error] = std::from_chars(value.data(), end, parsed);
+  if (error != std::errc() || stopped != end) refuse(key, "is not an integer: '" + value + "'");
   return parsed;
 }
 
@@ -106,6 +106,7 @@ double ModelFile::number(const std::string& key) const {
   std::istringstream in(value);
   in.imbue(std::locale::classic());  // a program may have set a locale with decimal commas
   double parsed = 0;
+  in >> std::noskipws;
   if (!(in >> parsed) || in.peek() != std::istringstream::traits_type::eof() ||
       !std::isfinite(parsed))
     refuse(key, "is not a finite number: '" + value + "'");
@@ -114,14 +115,9 @@ double ModelFile::number(const std::string& key) const {
 }
 
 std::vector<std::string> ModelFile::text_list(const std::string& key) const {
-  const auto json = nlohmann::json::parse(text(key), nullptr, false);
-  if (!json.is_array()) refuse(key, "is not a list of texts");
-  std::vector<std::string> values;
-  for (const auto& item : json) {
-    if (!item.is_string()) refuse(key, "is not a list of texts");
-    values.push_back(item.get_ref<const std::string&>());
-  }
-  return values;
+  auto values = detail::read_text_list(text(key));
+  if (!values) refuse(key, "is not a list of texts");
+  return *std::move(values);
 }
 
 void ModelFile::require_all_read() const {
@@ -243,6 +239,8 @@ std::vector<std::uint8_t> ModelFile::serialise() const {
   std::string text = header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   text.append((8 - text.size() % 8) % 8,
               ' ');  // tensors start on a multiple of 8, as the layout asks
+
+  require(text.size() <= detail::kMaxHeaderBytes, "the names and texts of a model take too much");
 
   std::vector<std::uint8_t> out;
   out.reserve(8 + text.size() + offset);

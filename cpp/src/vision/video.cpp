@@ -3,11 +3,11 @@
 #include "hri/vision/video.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <opencv2/videoio.hpp>
 
 #include "hri/core/error.hpp"
+#include "hri/io/video_container.hpp"
 
 namespace hri {
 
@@ -20,9 +20,7 @@ struct VideoReader::Capture {
 };
 
 VideoReader::VideoReader(const std::string& path) : capture_(std::make_unique<Capture>()) {
-  std::FILE* const file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) fail(ErrorKind::io, path + ": cannot be opened");
-  std::fclose(file);
+  require_whole_video(path);
   capture_->path = path;
   if (!capture_->video.open(path))
     fail(ErrorKind::format, path + ": not a video that OpenCV reads");

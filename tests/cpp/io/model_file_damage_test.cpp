@@ -3,6 +3,8 @@
 //
 // Model files that were changed on purpose: every kind of wrong header is refused by name.
 
+#include <sys/resource.h>
+
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 #include "hri/io/model_file.hpp"
@@ -82,7 +84,8 @@ TEST(ModelFileDamage, IsNamedWithFileAndField) {
       {R"("format_version":"2")", R"("format_version":1)", "format_version"},
       {R"("format_version":"2",)", "", "format_version"},
       {R"("kind":"sample")", R"("kind":"simple")", "checksum"},
-      {"__metadata__", "__metadatA__", "__metadata__"},
+      {"__metadata__", "__metadatA__", "'__metadatA__' needs"},
+      {R"("__metadata__":{)", R"("__metadata__":"","x":{)", "'__metadata__' is missing"},
       {"checksum", "checksun", "checksum"},
       {R"("dtype":"F64")", R"("dtype":"I64")", "'a': dtype"},
       {R"("dtype":"F64")", R"("dtype":64)", "'a': dtype"},
@@ -100,7 +103,7 @@ TEST(ModelFileDamage, IsNamedWithFileAndField) {
       {R"([16,32])", "[8,24]", "overlap"},
       {R"("b":{)", R"("a":{)", "'a' stands twice"},
       {R"("kind":)", R"("kind":"other","kind":)", "'kind' stands twice"},
-      {R"("b":{)", R"("b":[)", "JSON"},
+      {R"("b":{)", R"("b":[)", "'b' needs"},
       {R"({"__metadata__")", R"(["__metadata__")", "JSON"},
   };
   for (const Case& c : cases) {
@@ -108,6 +111,43 @@ TEST(ModelFileDamage, IsNamedWithFileAndField) {
         message_of<FormatError>([&] { ModelFile::parse(with(c.from, c.to), "robot.hri"); });
     EXPECT_EQ(message.rfind("robot.hri: ", 0), 0U) << message;
     EXPECT_NE(message.find(c.named), std::string::npos) << c.to << ": " << message;
+  }
+}
+
+// Read as any JSON, each of these takes 70 bytes of memory and more for every byte of the file.
+TEST(ModelFileDamage, BracketsWithoutEndAreRefusedWhereTheyBegin) {
+  const std::size_t size = std::size_t{15} << 20U;
+  std::string objects;
+  while (objects.size() < size) objects += R"({"a":)";
+  std::string pairs = "[";
+  while (pairs.size() < size) pairs += "[],";
+  for (const std::string& text :
+       {std::string(size, '['), objects, pairs, R"({"a":)" + std::string(size, '['),
+        R"({"a":)" + pairs, R"({"__metadata__":{"a":)" + objects, R"({"a":{"shape":)" + pairs}) {
+    rusage before{};
+    rusage after{};
+    getrusage(RUSAGE_SELF, &before);
+    message_of<FormatError>([&] { ModelFile::parse(packed(text, {}), "x"); });
+    getrusage(RUSAGE_SELF, &after);
+    EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 64 << 10) << text.substr(0, 40);
+  }
+  ModelFile file = small();
+  for (const std::string& text : {std::string(size, '['), pairs, "[\"a\"" + std::string(99, ']'),
+                                  std::string("[\"a\",[\"b\"]]"), std::string("\"a\"")}) {
+    file.set_text("labels", text);
+    EXPECT_NE(message_of<FormatError>([&] { (void)file.text_list("labels"); }).find("'labels'"),
+              std::string::npos);
+  }
+}
+
+TEST(ModelFileDamage, TextIsNoNumberForItsFirstCharacters) {
+  ModelFile file = small();
+  for (const std::string& text :
+       {std::string(1, '\0'), std::string("1\0", 2), std::string(), std::string(" 1"),
+        std::string("1 "), std::string("1_0"), std::string("0x1"), std::string("१")}) {
+    file.set_text("n", text);
+    message_of<FormatError>([&] { (void)file.integer("n"); });
+    message_of<FormatError>([&] { (void)file.number("n"); });
   }
 }
 

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstring>
+#include <string>
+
+#include "hri/core/error.hpp"
+
+namespace hri::detail {
+
+[[noreturn]] inline void fail_io(const std::string& path, const char* what, int error) {
+  fail(ErrorKind::io, path + ": " + what + ": " + std::strerror(error));
+}
+
+// The system ends a path at the first NUL: "model.hri\0.bak" would be model.hri.
+inline void require_path(const std::string& path) {
+  if (path.find('\0') != std::string::npos)
+    fail(ErrorKind::invalid_argument,
+         std::string(path.c_str()) + ": the path goes on after a NUL character");
+}
+
+}  // namespace hri::detail

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/io/video_container.hpp"
+
+#include <fstream>
+
+#include "hri/core/error.hpp"
+#include "io/io_testing.hpp"
+
+namespace hri {
+namespace {
+
+using io_testing::Folder;
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes operator+(Bytes a, const Bytes& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+Bytes text(const std::string& s) { return {s.begin(), s.end()}; }
+
+Bytes little(std::uint32_t v) {
+  return {static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(v >> 8U),
+          static_cast<std::uint8_t>(v >> 16U), static_cast<std::uint8_t>(v >> 24U)};
+}
+
+Bytes big(std::uint32_t v) {
+  const Bytes b = little(v);
+  return {b[3], b[2], b[1], b[0]};
+}
+
+Bytes riff(std::uint32_t size) { return text("RIFF") + little(size) + text("AVI ") + Bytes(96); }
+Bytes box(const char* type, std::uint32_t size) { return big(size) + text(type) + Bytes(92); }
+
+// An EBML header of 3 bytes, and a segment of 100 bytes that says to have `size`.
+Bytes matroska(const Bytes& size) {
+  return Bytes{0x1A, 0x45, 0xDF, 0xA3, 0x83, 1, 2, 3, 0x18, 0x53, 0x80, 0x67} + size + Bytes(100);
+}
+
+// "" for a file taken as whole, else the message.
+std::string verdict(const Folder& folder, const Bytes& content) {
+  std::ofstream(folder / "clip", std::ios::binary)
+      .write(reinterpret_cast<const char*>(content.data()),
+             static_cast<std::streamsize>(content.size()));
+  try {
+    require_whole_video(folder / "clip");
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(VideoContainer, IsWholeWhenItIsAsLongAsItSays) {
+  const Folder folder;
+  EXPECT_EQ(verdict(folder, riff(100)), "");
+  EXPECT_EQ(verdict(folder, riff(100) + riff(100)), "");
+  EXPECT_EQ(verdict(folder, riff(108)), "") << "as programs write that count the head";
+  EXPECT_EQ(verdict(folder, riff(0)), "") << "never filled in";
+  EXPECT_EQ(verdict(folder, box("ftyp", 100) + box("mdat", 100)), "");
+  EXPECT_EQ(verdict(folder, box("ftyp", 100) + box("mdat", 0)), "") << "to the end";
+  EXPECT_EQ(
+      verdict(folder, box("ftyp", 100) + big(1) + text("mdat") + big(0) + big(50) + Bytes(34)), "");
+  EXPECT_EQ(verdict(folder, matroska({0xE4})), "");
+  EXPECT_EQ(verdict(folder, matroska({0xFF})), "") << "a stream";
+  EXPECT_EQ(verdict(folder, matroska({0x01, 255, 255, 255, 255, 255, 255, 255})), "") << "a stream";
+  EXPECT_EQ(verdict(folder, text("something else entirely")), "");
+  EXPECT_EQ(verdict(folder, {}), "");
+}
+
+TEST(VideoContainer, ThatWasCutSaysByHowMuch) {
+  const Folder folder;
+  EXPECT_NE(verdict(folder, riff(200)).find("108 of 208 bytes are there"), std::string::npos);
+  EXPECT_NE(verdict(folder, riff(100) + riff(300)), "");
+  EXPECT_NE(verdict(folder, box("ftyp", 100) + box("mdat", 101)).find("200 of 201 "),
+            std::string::npos);
+  EXPECT_NE(verdict(folder, box("ftyp", 100) + big(1) + text("mdat") + big(9) + big(9) + Bytes(34)),
+            "");
+  EXPECT_NE(verdict(folder, box("mdat", 0xFFFFFFFF)), "");
+  EXPECT_NE(verdict(folder, big(1) + text("mdat") + Bytes(8, 0xFF)), "");
+  EXPECT_NE(verdict(folder, matroska({0xE5})), "");
+  EXPECT_NE(verdict(folder, matroska({0x01, 255, 255, 255, 255, 255, 255, 254})), "");
+}
+
+TEST(VideoContainer, OfAnyLengthEndsWell) {
+  const Folder folder;
+  for (const Bytes& whole : {riff(100), box("ftyp", 16) + box("moov", 8), matroska({0x40, 100}),
+                             matroska({0}), box("free", 9)}) {
+    for (std::size_t length = 0; length <= whole.size(); ++length)
+      verdict(folder, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
+  }
+}
+
+}  // namespace
+}  // namespace hri
