@@ -9,10 +9,12 @@ from __future__ import annotations
 import collections.abc
 import numpy
 import numpy.typing
+import os
 import typing
 
 __all__: list[str] = [
     "ActivityOptions",
+    "AtomicFile",
     "CepstraComputer",
     "CepstraOptions",
     "CepstraStream",
@@ -144,8 +146,10 @@ __all__: list[str] = [
     "parse_wav",
     "possibilities",
     "possibility_of",
+    "read_file",
     "read_wav",
     "reconstruct_packets",
+    "require_whole_video",
     "resample",
     "resample_contour",
     "shape_axis",
@@ -230,6 +234,32 @@ class OptionField:
         Empty for a field without one.
         """
 
+class AtomicFile:
+    """
+    A file that appears whole or not at all, written beside its place.
+    """
+    def __init__(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Raises IoError where it could not be written.
+        """
+    def commit(self) -> None:
+        """
+        Syncs it to the disk and gives it its name; raises IoError.
+        """
+    def discard(self) -> None:
+        """
+        Leaves nothing behind; after `commit` this does nothing.
+        """
+    def write(self, data: bytes) -> None:
+        """
+        Appends; raises IoError.
+        """
+    @property
+    def temporary_path(self) -> str:
+        """
+        Where it is until then; with the suffix of its place.
+        """
+
 class ModelFile:
     """
     Tensors and metadata in the safetensors layout; strict reader.
@@ -242,7 +272,7 @@ class ModelFile:
         Reads what `to_bytes` gave, as strictly.
         """
     @staticmethod
-    def read(path: str) -> ModelFile:
+    def read(path: str | bytes | os.PathLike[str]) -> ModelFile:
         """
         Reads a whole file; raises IoError, or FormatError naming file and field.
         """
@@ -272,7 +302,7 @@ class ModelFile:
         """
         What `write` writes.
         """
-    def write(self, path: str) -> None:
+    def write(self, path: str | bytes | os.PathLike[str]) -> None:
         """
         Writes beside the old file, syncs, and renames.
         """
@@ -4817,7 +4847,7 @@ class WordRecognizer:
     @staticmethod
     def from_model_file(file: ModelFile) -> WordRecognizer: ...
     @staticmethod
-    def load(path: str) -> WordRecognizer: ...
+    def load(path: str | bytes | os.PathLike[str]) -> WordRecognizer: ...
     @staticmethod
     def train(
         samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
@@ -4840,7 +4870,7 @@ class WordRecognizer:
         audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
     ) -> list[UtteranceDecision]: ...
-    def save(self, path: str) -> None: ...
+    def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
     def scores(
         self,
         audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
@@ -5068,7 +5098,7 @@ class GestureRecognizer:
     @staticmethod
     def from_model_file(file: ModelFile) -> GestureRecognizer: ...
     @staticmethod
-    def load(path: str) -> GestureRecognizer: ...
+    def load(path: str | bytes | os.PathLike[str]) -> GestureRecognizer: ...
     @staticmethod
     def train(
         features: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
@@ -5079,7 +5109,7 @@ class GestureRecognizer:
     ) -> GestureRecognizer: ...
     def recognise(self, hands: collections.abc.Sequence[HandObservation]) -> Decision: ...
     def recognise_features(self, features: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> Decision: ...
-    def save(self, path: str) -> None: ...
+    def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
     def scores(
         self, features: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -5858,7 +5888,12 @@ def possibility_of(
     Pi(A) = max over the event (thesis eq. 4.1).
     """
 
-def read_wav(path: str) -> Wav:
+def read_file(path: str | bytes | os.PathLike[str], max_bytes: typing.SupportsInt | typing.SupportsIndex) -> bytes:
+    """
+    The bytes of a regular file; raises IoError, and FormatError for a larger one.
+    """
+
+def read_wav(path: str | bytes | os.PathLike[str]) -> Wav:
     """
     Reads PCM or float WAV, averaged to mono; raises FormatError naming file and field.
     """
@@ -5907,6 +5942,11 @@ def reconstruct_packets(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The signal from the nodes of a basis.
+    """
+
+def require_whole_video(path: str | bytes | os.PathLike[str]) -> None:
+    """
+    Raises FormatError for a video that is shorter than it says, and IoError.
     """
 
 def resample(
@@ -6235,7 +6275,7 @@ def waverec2(
     """
 
 def write_wav_pcm16(
-    path: str,
+    path: str | bytes | os.PathLike[str],
     samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
     sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
 ) -> None: ...

@@ -228,7 +228,7 @@ def test_faulty_manifest_names_file_table_and_row(tmp_path: Path, text: str, mes
 
 def test_manifest_that_is_no_text_is_refused(tmp_path: Path) -> None:
     (tmp_path / "dataset.toml").write_bytes(b"\xff\xfe\x00kind")
-    with pytest.raises(FormatError, match="not a TOML file"):
+    with pytest.raises(FormatError, match="row 1: not UTF-8"):
         Dataset.load(tmp_path)
 
 

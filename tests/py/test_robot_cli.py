@@ -85,7 +85,7 @@ def test_a_motion_that_is_not_safe_is_named_by_its_file(run, tmp_path):
     path.write_text("time_s,larm_joint_4\n0,0\n1,90\n")
     for command in (("play", path), ("render", path, tmp_path / "v.mp4")):
         error = run(*command, "--backend", "kinematic").exception
-        assert isinstance(error, TrajectoryError) and str(error).startswith(f"{path}: row 2")
+        assert isinstance(error, TrajectoryError) and str(error).startswith(f"{path}: row 3, column B")
 
 
 def test_lists(run):

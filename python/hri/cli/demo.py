@@ -15,6 +15,7 @@ from hri.cli.messages import note
 from hri.cli.output import write_json
 from hri.cli.progress import progress_bars
 from hri.core.errors import InvalidArgument, IoError
+from hri.core.files import write_text
 from hri.core.optional import import_opencv, import_optional
 from hri.media import write_image
 
@@ -89,7 +90,7 @@ def demo(out: Path, seed: int, backend: str, keep_corpus: bool, quick: bool) -> 
         seconds = round(time.monotonic() - started)
         _say("writing the page")
         page = make_page(scenes, trained, film, {**facts, "seconds": seconds}, progress)
-    (out / "index.html").write_text(page, encoding="utf-8")
+    write_text(out / "index.html", page)
     write_json(
         str(out / "result.json"),
         {

@@ -10,7 +10,8 @@ from pathlib import Path
 import click
 
 from hri.cli.messages import note
-from hri.core.errors import InvalidArgument, IoError
+from hri.core.errors import InvalidArgument
+from hri.core.files import write_text
 from hri.robot.imitation.imitate import FORMS, Imitation, ImitationOptions
 from hri.robot.imitation.imitate import imitate as make_imitation
 from hri.robot.imitation.tracks import HandTrack, read_hand_tracks
@@ -63,10 +64,7 @@ def imitate(
     write_pulse_csv(out, made.trajectory)
     _tell(made, height_px is None)
     if json_path is not None:
-        try:
-            json_path.write_text(json.dumps(made.report(), indent=1) + "\n", encoding="utf-8")
-        except OSError as error:
-            raise IoError(f"{json_path}: {error.strerror or error}") from error
+        write_text(json_path, json.dumps(made.report(), indent=1) + "\n")
     if video is not None:
         film_imitation(track, made, video)
     click.echo(str(out))

@@ -7,12 +7,13 @@ from __future__ import annotations
 import json
 import os
 import sys
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
+
+from hri.core import files
 
 
 class OutputFile(click.Path):
@@ -42,6 +43,8 @@ class OutputFile(click.Path):
             folder = folder.parent
         if not folder.is_dir() or not os.access(folder, os.W_OK):
             self.fail(f"'{path}' cannot be written: '{folder}' is not a folder where you may write", param, ctx)
+        if path.exists() and not path.is_file():
+            self.fail(f"'{path}' cannot be written: it is not a regular file", param, ctx)
         return text
 
 
@@ -60,28 +63,21 @@ def write_json(path: str | None, value: Any) -> None:
         return
     text = json.dumps(value, indent=2, ensure_ascii=False, default=str) + "\n"
     if path == "-":
-        click.echo(text, nl=False)
+        click.echo(text.encode("utf-8", "backslashreplace"), nl=False)
     else:
         write_text(Path(path), text)
 
 
 def write_text(target: Path, text: str) -> None:
-    """Write `text` to `target`; an old file stays whole if this fails."""
-    write_bytes(target, text.encode())
+    """Write `text` to `target`, in a folder that is made if need be; an old file stays whole if this fails."""
+    files.make_folder(target.parent)
+    files.write_text(target, text)
 
 
 def write_bytes(target: Path, content: bytes) -> None:
-    """Write `content` to `target`; an old file stays whole if this fails."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        Path(temporary).chmod(0o644)
-        Path(temporary).replace(target)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    """Write `content` to `target`, in a folder that is made if need be; an old file stays whole if this fails."""
+    files.make_folder(target.parent)
+    files.write_bytes(target, content)
 
 
 def say(text: str, json_path: str | None) -> None:

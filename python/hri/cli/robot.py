@@ -18,14 +18,20 @@ from hri.robot.control.state import MotionLog
 from hri.robot.control.stopping import stopped_by_signals
 from hri.robot.model.joints import HOAP2, ROBOTS, JointTable
 from hri.robot.model.postures import POSTURES
-from hri.robot.motion.checks import check_pulse_csv, check_trajectory, require_safe
+from hri.robot.motion.checks import check_pulse_csv, require_safe
 from hri.robot.motion.gestures import gesture_trajectory, load_gestures
 from hri.robot.motion.nao_arms import with_nao_arms
 from hri.robot.motion.plots import plot_trajectory
 from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.motion.repair import repair_pulse_csv
 from hri.robot.motion.shaping import slow_to_limits
-from hri.robot.motion.short_csv import is_short_csv, read_short_csv, write_short_csv
+from hri.robot.motion.short_csv import (
+    check_short_csv,
+    is_short_csv,
+    read_short_csv,
+    require_safe_short_csv,
+    write_short_csv,
+)
 from hri.robot.motion.trajectory import Trajectory
 from hri.robot.simulation.gallery import write_gallery
 from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
@@ -90,8 +96,7 @@ def check(file: Path, repaired: Path | None, table: JointTable) -> None:
             where = f"row {change.row}, column {change.column} ({change.joint})"
             note(f"{where}: {change.before!r} is now {change.after}: {change.reason}")
         file = repaired
-    short = is_short_csv(file)
-    findings = check_trajectory(read_short_csv(file, table), table) if short else check_pulse_csv(file)
+    findings = check_short_csv(file, table) if is_short_csv(file) else check_pulse_csv(file)
     for finding in findings:
         place = (finding.severity, str(finding.row), finding.column, finding.joint)
         click.echo("\t".join((*place, finding.message)))
@@ -138,7 +143,7 @@ def play(
       hri robot play walk.csv --stand --log walk.json
     """
     trajectory = _motion(motion, table)
-    require_safe(trajectory, table, motion)
+    _require_safe(trajectory, table, motion)
     stand = stand or posture != "standing"
     idle = [name for name in table.names if name not in trajectory.joint_names] if stand and table is HOAP2 else []
     log = MotionLog()
@@ -184,7 +189,7 @@ def render(
       hri robot render namaste namaste.png --still 1.5
     """
     trajectory = _motion(motion, table)
-    require_safe(trajectory, table, motion)
+    _require_safe(trajectory, table, motion)
     if still is not None:
         render_still(trajectory, out, still, backend, size, table)
     elif sys.stderr.isatty():
@@ -284,9 +289,12 @@ def gestures() -> None:
         click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
 
 
+def _is_file(motion: str) -> bool:
+    return motion not in load_gestures() and (Path(motion).suffix.lower() == ".csv" or Path(motion).is_file())
+
+
 def _motion(motion: str, table: JointTable) -> Trajectory:
-    named = motion in load_gestures()
-    if not named and (Path(motion).suffix.lower() == ".csv" or Path(motion).is_file()):
+    if _is_file(motion):
         if is_short_csv(motion):
             return read_short_csv(motion, table)
         if table is not HOAP2:
@@ -294,3 +302,10 @@ def _motion(motion: str, table: JointTable) -> Trajectory:
         return read_pulse_csv(motion)
     found = gesture_trajectory(motion)  # its error names the gestures
     return found if table is HOAP2 else with_nao_arms(found)
+
+
+def _require_safe(trajectory: Trajectory, table: JointTable, motion: str) -> None:
+    """As `require_safe`; the short form has rows and columns of its own."""
+    if _is_file(motion) and is_short_csv(motion):
+        require_safe_short_csv(motion, table)
+    require_safe(trajectory, table, motion)

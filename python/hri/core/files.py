@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files in and out, the one way for all of hri: read whole and bounded, written whole or not at all.
 
-Only regular files are read: a pipe or a device in place of one is refused, and not waited for. What is wrong with a file
-is an `IoError` or a `FormatError` that names it; a path with a NUL character is an `InvalidArgument`.
+Only regular files are read: a pipe or a device in place of one is refused, and not waited for. What is wrong with a
+file is an `IoError` or a `FormatError` that names it; a path with a NUL character is an `InvalidArgument`.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def read_bytes(path: str | PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
 
 
 def read_text(path: str | PathLike[str], max_bytes: int = MAX_BYTES) -> str:
-    """The text of a UTF-8 file, without its byte order mark; errors as of `read_bytes`, and FormatError with the row."""
+    """The text of a UTF-8 file without its byte order mark; errors as of `read_bytes`, FormatError with the row."""
     data = read_bytes(path, max_bytes)
     try:
         return data.decode("utf-8-sig")
@@ -100,12 +100,12 @@ def parse_json(text: str, name: str) -> Any:
 
 
 def read_csv(path: str | PathLike[str]) -> list[list[str]]:
-    """The cells of a comma-separated file with quotes, row by row; errors as of `read_text`, FormatError with the row."""
+    """The cells of a comma-separated file, row by row; errors as of `read_text` and `parse_csv`."""
     return parse_csv(read_text(path), fspath(path))
 
 
 def parse_csv(text: str, name: str) -> list[list[str]]:
-    """The cells of a comma-separated text; FormatError, with `name` before it, for what is none."""
+    """The cells of a comma-separated text, some in quotes; FormatError with `name` and the row for what is none."""
     rows: list[list[str]] = []
     try:
         for row in csv.reader(io.StringIO(text, newline=""), strict=True):

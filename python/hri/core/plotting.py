@@ -7,10 +7,13 @@ Functions that plot return what they drew on, and leave showing and saving to th
 
 from __future__ import annotations
 
+import io
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Any
 
 from hri.core.errors import IoError
+from hri.core.files import write_bytes
 from hri.core.optional import import_optional
 
 
@@ -32,14 +35,16 @@ def new_axes(size: tuple[float, float], purpose: str = "to draw plots") -> Any:
 
 
 def save_figure(figure: Any, path: str | PathLike[str], dpi: int = 110) -> None:
-    """Write `figure` in the format of the suffix.
+    """Write `figure` in the format of the suffix; the file appears whole or not at all.
 
     Raises
     ------
     IoError
         For a suffix that Matplotlib does not write, or a place that cannot be written.
     """
+    drawn = io.BytesIO()
     try:
-        figure.savefig(fspath(path), dpi=dpi)
-    except (OSError, ValueError) as error:
+        figure.savefig(drawn, dpi=dpi, format=Path(path).suffix[1:].lower() or "png")
+    except ValueError as error:
         raise IoError(f"{fspath(path)}: {error}") from error
+    write_bytes(path, drawn.getvalue())

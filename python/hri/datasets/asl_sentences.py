@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.display import short_repr
-from hri.core.errors import FormatError, IoError
+from hri.core.errors import FormatError
+from hri.core.files import read_csv
 
 HANDS_COLUMNS = ("video", "frame", "left-x", "left-y", "right-x", "right-y", "nose-x", "nose-y")
 WORDS_COLUMNS = ("video", "speaker", "word", "startframe", "endframe")
@@ -121,31 +120,16 @@ def _read_words(
 
 def _rows(path: Path, columns: tuple[str, ...]) -> Iterator[tuple[str, dict[str, str]]]:
     """Every row with its place, such as "hands.csv: row 7" (rows count from 1, the header is row 1)."""
-    try:
-        if path.stat().st_size > MAX_BYTES:
-            raise FormatError(f"{path}: larger than {MAX_BYTES} bytes")
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        row = error.object[: error.start].count(b"\n") + 1
-        raise FormatError(f"{path}: row {row}: not UTF-8 at byte {error.start}") from error
-    number = 0
-    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
-    try:
-        for number, fields in enumerate(reader, start=1):
-            where = f"{path}: row {number}"
-            if number == 1:
-                if tuple(fields) != columns:
-                    raise FormatError(f"{where}: the columns are {','.join(fields)!r}, must be {','.join(columns)!r}")
-                continue
-            if len(fields) != len(columns):
-                raise FormatError(f"{where}: {len(fields)} fields, must be {len(columns)}")
-            yield where, dict(zip(columns, fields, strict=True))
-    except csv.Error as error:
-        raise FormatError(f"{path}: row {number + 1}: {error}") from error
-    if number < 2:
+    rows = read_csv(path)
+    if len(rows) < 2:
         raise FormatError(f"{path}: no rows")
+    if tuple(rows[0]) != columns:
+        raise FormatError(f"{path}: row 1: the columns are {','.join(rows[0])!r}, must be {','.join(columns)!r}")
+    for number, fields in enumerate(rows[1:], start=2):
+        where = f"{path}: row {number}"
+        if len(fields) != len(columns):
+            raise FormatError(f"{where}: {len(fields)} fields, must be {len(columns)}")
+        yield where, dict(zip(columns, fields, strict=True))
 
 
 def _name(where: str, row: dict[str, str], field: str) -> str:

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import difflib
 import json
-import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from hri.core.display import short_repr
-from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument
+from hri.core.files import read_toml, write_text
 from hri.datasets.pattern import Pattern
 
 MANIFEST_NAME = "dataset.toml"
@@ -85,13 +85,7 @@ def read_manifest(path: Path) -> Manifest:
     IoError
         When the file cannot be read.
     """
-    try:
-        data = tomllib.loads(path.read_bytes().decode("utf-8"))
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(f"{path}: not a TOML file: {error}") from error
-
+    data = read_toml(path)
     _require_known(data, tuple(_TOP_KEYS), f"{path}")
     for key, value in data.items():
         _require_type(value, _TOP_KEYS[key], f"{path}: {key}")
@@ -182,14 +176,7 @@ def write_manifest(path: Path, manifest: Manifest) -> None:
     for row in manifest.rows:
         lines += ["", "[[samples]]"]
         lines += [f"{key} = {_toml(getattr(row, key))}" for key in _SAMPLE_KEYS if getattr(row, key)]
-    part = path.with_name(f".{path.name}.part")
-    try:
-        part.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        part.replace(path)
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
-    finally:
-        part.unlink(missing_ok=True)
+    write_text(path, "\n".join(lines) + "\n")
 
 
 def _toml(value: Any) -> str:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from hri import __version__
+from hri.core.files import read_bytes
 from hri.demo.film import robot_moves
 from hri.demo.plots import plot_confusions, plot_scene
 from hri.demo.scenes import Scene
@@ -37,7 +38,7 @@ def make_page(scenes: list[Scene], trained: Trained, film: Path, facts: dict[str
     right = sum(scene.succeeded for scene in scenes)
     template = Template(files("hri.demo").joinpath("page.html").read_text(encoding="utf-8"))
     return template.substitute(
-        film=_embedded("video/webm", film.read_bytes()),
+        film=_embedded("video/webm", read_bytes(film)),
         scenes="\n".join(sections),
         confusions=confusions,
         summary=f"{right} of {len(scenes)} commands were understood.",

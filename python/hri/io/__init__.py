@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Model files (safetensors layout, read strictly) and WAV files."""
+"""Model files (safetensors layout, read strictly), WAV files, and whether a video file is whole."""
 
-from hri._native import ModelFile, Wav, parse_wav, read_wav, write_wav_pcm16
+from hri._native import ModelFile, Wav, parse_wav, read_wav, require_whole_video, write_wav_pcm16
 
-__all__ = ["ModelFile", "Wav", "parse_wav", "read_wav", "write_wav_pcm16"]
+__all__ = ["ModelFile", "Wav", "parse_wav", "read_wav", "require_whole_video", "write_wav_pcm16"]

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import io
 import logging
 from dataclasses import dataclass, field
 from os import PathLike
@@ -13,12 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.display import summary
-from hri.core.errors import FormatError, IoError
+from hri.core.errors import FormatError
+from hri.core.files import read_bytes
 from hri.core.optional import import_optional
 from hri.io import read_wav
 from hri.media.suffixes import kind_of_file
 
 _log = logging.getLogger(__name__)
+
+_MAX_BYTES = 1 << 31
+_MAX_SAMPLES = 1 << 29  # of all channels: a small file of silence may claim any length
 
 
 @dataclass(frozen=True)
@@ -76,7 +81,7 @@ def read_audio(path: str | PathLike[str]) -> Audio:
     if kind not in ("", "a sound file") and path.exists():
         raise FormatError(f"{path} is {kind}, and a sound file is needed here")
     if path.suffix.lower() == ".wav":
-        wav = read_wav(str(path))
+        wav = read_wav(path)
         samples = np.asarray(wav.samples, dtype=np.float32)
         audio = Audio(samples, int(wav.sample_rate_hz), list(wav.notes))
     else:
@@ -89,11 +94,12 @@ def read_audio(path: str | PathLike[str]) -> Audio:
 
 def _read_with_soundfile(path: Path) -> Audio:
     soundfile = import_optional("soundfile", "audio", f"to read {path.suffix or path.name} audio")
+    data = read_bytes(path, _MAX_BYTES)
     try:
-        with path.open("rb") as stream:
-            samples, rate = soundfile.read(stream, dtype="float32", always_2d=True)
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
+        with soundfile.SoundFile(io.BytesIO(data)) as sound:
+            if sound.frames * sound.channels > _MAX_SAMPLES:
+                raise FormatError(f"{path}: {sound.frames} samples of {sound.channels} channels are too many")
+            samples, rate = sound.read(dtype="float32", always_2d=True), sound.samplerate
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
         raise FormatError(
             f"{path}: not a sound file that soundfile reads: {getattr(error, 'error_string', error)}"

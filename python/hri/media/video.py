@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import islice
 from os import PathLike
@@ -17,11 +17,16 @@ from numpy.typing import NDArray
 
 from hri.core.display import count, short_path, summary
 from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.files import read_bytes, utf8_name, write_bytes
 from hri.core.optional import import_opencv
+from hri.io import require_whole_video
 from hri.media.order import natural_key
+from hri.media.picture_size import picture_size
 from hri.media.suffixes import IMAGE_SUFFIXES, kind_of_file
 
 DEFAULT_FPS = 25.0
+MAX_PIXELS = 100_000_000
+"""Of a picture, or a frame; more takes seconds, and is no hand before a camera."""
 Frame = NDArray[np.uint8]
 
 
@@ -59,18 +64,16 @@ def read_image(path: str | PathLike[str]) -> Frame:
     Raises
     ------
     FormatError
-        For a file that is no picture.
+        For a file that is no picture, or one of more than 100 million pixels.
     IoError
         For a file that cannot be opened.
     """
     cv2 = import_opencv("to read pictures")
     path = Path(path)
+    data = read_bytes(path)
+    _require_size(path, *picture_size(data) or (0, 0))
     try:
-        data = np.fromfile(path, dtype=np.uint8)
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
-    try:
-        image = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
+        image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR) if data else None
     except cv2.error as error:  # a picture too large to decode, for one
         raise FormatError(f"{path}: OpenCV refuses this picture: {error}") from error
     if image is None:
@@ -84,23 +87,36 @@ def iterate_frames(path: str | PathLike[str]) -> Iterator[tuple[Frame, float]]:
     Raises
     ------
     FormatError
-        For a file that is no video, holds no frame, or whose time runs backwards.
+        For a file that is no video, holds no frame, ends before its container does, or whose time runs backwards.
     IoError
         For a file that cannot be opened.
     """
     cv2 = import_opencv("to read video")
     path = Path(path)
-    try:
-        path.open("rb").close()
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
-    capture = cv2.VideoCapture(str(path))
-    try:
-        if not capture.isOpened():
-            raise FormatError(f"{path}: not a video that OpenCV reads")
+    with open_video(path) as capture:
         yield from _captured(capture, path, cv2.CAP_PROP_POS_MSEC)
-    finally:
-        capture.release()
+
+
+@contextmanager
+def open_video(path: Path) -> Iterator[Any]:
+    """OpenCV's VideoCapture of a whole video; errors as of `iterate_frames`."""
+    cv2 = import_opencv("to read video")
+    require_whole_video(path)
+    with utf8_name(path) as name:
+        capture = cv2.VideoCapture(name)
+        try:
+            if not capture.isOpened():
+                raise FormatError(f"{path}: not a video that OpenCV reads")
+            size = (capture.get(cv2.CAP_PROP_FRAME_WIDTH), capture.get(cv2.CAP_PROP_FRAME_HEIGHT))
+            _require_size(path, *(int(side) for side in size))
+            yield capture
+        finally:
+            capture.release()
+
+
+def _require_size(path: Path, width: int, height: int) -> None:
+    if width * height > MAX_PIXELS:
+        raise FormatError(f"{path}: {width} x {height} pixels are more than {MAX_PIXELS}")
 
 
 def _captured(capture: Any, path: Path, time_property: int) -> Iterator[tuple[Frame, float]]:
@@ -217,14 +233,7 @@ def write_image(path: str | PathLike[str], image: Frame, quality: int = 92) -> N
     ok, data = cv2.imencode(path.suffix.lower(), image, [cv2.IMWRITE_JPEG_QUALITY, quality])
     if not ok:
         raise InvalidArgument(f"{path}: an array of shape {image.shape} is no picture")
-    part = temporary_beside(path)
-    try:
-        part.write_bytes(data.tobytes())
-        part.replace(path)
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
-    finally:
-        part.unlink(missing_ok=True)
+    write_bytes(path, data.tobytes())
 
 
 def frame_rate(path: str | PathLike[str]) -> float:
@@ -233,21 +242,11 @@ def frame_rate(path: str | PathLike[str]) -> float:
     Raises
     ------
     FormatError
-        For a file that is no video.
+        For a file that is no video, or ends before its container does.
+    IoError
+        For a file that cannot be opened.
     """
     cv2 = import_opencv("to read video")
-    capture = cv2.VideoCapture(str(path))
-    try:
-        if not capture.isOpened():
-            raise FormatError(f"{path}: not a video that OpenCV reads")
+    with open_video(Path(path)) as capture:
         rate = float(capture.get(cv2.CAP_PROP_FPS))
-    finally:
-        capture.release()
     return rate if 1.0 <= rate <= 1000.0 else DEFAULT_FPS
-
-
-def temporary_beside(path: Path) -> Path:
-    """Where a file is written before it takes its name. Raises IoError when there is no such folder."""
-    if not path.parent.is_dir():
-        raise IoError(f"{path}: the folder {path.parent} does not exist")
-    return path.with_name(f".{path.stem}.{os.getpid()}{path.suffix.lower()}")

@@ -7,16 +7,17 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from hri.core.errors import InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.files import AtomicFile, utf8_name
 from hri.core.optional import import_opencv
-from hri.media.video import Frame, temporary_beside
+from hri.media.video import Frame, open_video
 
 _CODECS = {
     ".mp4": "mp4v",
@@ -45,7 +46,7 @@ class VideoWriter:
     InvalidArgument
         For a bad rate or suffix.
     IoError
-        When there is no such folder.
+        When there is no such folder, or no file can be written in it.
     """
 
     def __init__(self, path: str | PathLike[str], fps: float) -> None:
@@ -56,7 +57,8 @@ class VideoWriter:
             raise InvalidArgument(f"{self.path}: suffix must be one of {', '.join(_CODECS)}")
         if not 0.0 < fps < np.inf:
             raise InvalidArgument(f"fps is {fps}, must be above 0 and finite")
-        self._part = temporary_beside(self.path)
+        self._file = AtomicFile(self.path)
+        self._name = ExitStack()  # under which OpenCV knows the file
         self._writer: Any = None
         self._shape: tuple[int, ...] = ()
         self.num_frames = 0
@@ -89,14 +91,25 @@ class VideoWriter:
         self.num_frames += 1
 
     def close(self) -> None:
-        """Finish the file. Raises InvalidArgument when no frame was written, IoError when it cannot be kept."""
-        if self._writer is None:
-            raise InvalidArgument(f"{self.path}: no frames to write")
+        """Finish the file, and read it once more: OpenCV does not report what it could not write.
+
+        Raises
+        ------
+        InvalidArgument
+            When no frame was written.
+        IoError
+            When a frame is missing in the file, as on a full disk. An old file stays whole.
+        """
         try:
+            if self._writer is None:
+                raise InvalidArgument(f"{self.path}: no frames to write")
             self._writer.release()
-            self._part.replace(self.path)
-        except OSError as error:
-            raise IoError(f"{self.path}: {error}") from error
+            found = _num_frames(Path(self._file.temporary_path))
+            if found != self.num_frames:
+                raise IoError(
+                    f"{self.path}: cannot write: {found} of {self.num_frames} frames are in the file: is the disk full?"
+                )
+            self._file.commit()
         finally:
             self.discard()
 
@@ -104,13 +117,15 @@ class VideoWriter:
         """Leave nothing behind; after `close` this does nothing."""
         if self._writer is not None:
             self._writer.release()
-        self._part.unlink(missing_ok=True)
+        self._name.close()
+        self._file.discard()
 
     def _open(self) -> Any:
         suffix = self.path.suffix.lower()
         fourcc = self._cv2.VideoWriter_fourcc(*_CODECS[suffix])
+        name = self._name.enter_context(utf8_name(self._file.temporary_path))
         with _silent_stderr(suffix == ".webm"):
-            writer = self._cv2.VideoWriter(str(self._part), fourcc, self._fps, (self._shape[1], self._shape[0]))
+            writer = self._cv2.VideoWriter(name, fourcc, self._fps, (self._shape[1], self._shape[0]))
         if not writer.isOpened():
             raise IoError(f"{self.path}: this OpenCV cannot write {self.path.suffix} video here")
         return writer
@@ -139,6 +154,18 @@ def write_video(path: str | PathLike[str], frames: Iterable[Frame], fps: float) 
     with VideoWriter(path, fps) as writer:
         for frame in frames:
             writer.write(frame)
+
+
+def _num_frames(path: Path) -> int:
+    """Frames that a reader finds in a file; 0 in one that is none."""
+    count = 0
+    try:
+        with open_video(path) as capture:
+            while capture.grab():
+                count += 1
+    except FormatError:
+        return 0
+    return count
 
 
 def _require_frame(frame: Frame, shape: tuple[int, ...], index: int) -> None:

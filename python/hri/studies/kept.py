@@ -10,13 +10,13 @@ again. Where ``"rounded_to"`` says that only means were kept, rounded to so many
 
 from __future__ import annotations
 
-import json
 import os
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.files import read_json
 from hri.studies.provenance import describe_code, describe_data, hash_rooms, newer_than_build, source_root
 from hri.studies.registry import Progress, Study, find_data, run_study
 from hri.studies.tables import Row, axes_of
@@ -138,9 +138,9 @@ def _said(place: Sequence[str]) -> str:
 def read_kept(path: Path) -> Row:
     """A result of `measure` from its file. Raises InvalidArgument for anything else."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InvalidArgument(f"{path}: not a kept result: {error}") from error
+        found = read_json(path)
+    except (IoError, FormatError) as error:
+        raise InvalidArgument(f"not a kept result: {error}") from error
     if not isinstance(found, dict) or not {"study", "arguments", "data", "rows"} <= found.keys():
         raise InvalidArgument(f"{path}: not a kept result: study, arguments, data or rows are missing")
     return found

@@ -20,6 +20,7 @@ from typing import Any
 
 from hri import __version__
 from hri.core.errors import InvalidArgument
+from hri.core.files import read_text
 from hri.core.library import library_file
 from hri.studies.registry import Study
 
@@ -73,7 +74,7 @@ def _files(root: Path, room: str) -> Iterator[Path]:
 
 def normalised(path: Path) -> str:
     """The text of a source file without what cannot change what it does."""
-    text = path.read_text(encoding="utf-8")
+    text = read_text(path)
     if path.suffix == ".py":
         return ast.dump(_WithoutDocstrings().visit(ast.parse(text)))
     if path.suffix not in (".cpp", ".hpp"):

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Sequence
 from importlib.resources import files
 from importlib.util import find_spec
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import InvalidArgument
+from hri.core.files import parse_toml, read_text
 from hri.datasets import Dataset
 from hri.datasets.folds import Fold
 from hri.evaluation.conditions import expose, gamma, tint
@@ -59,9 +59,10 @@ def read_conditions(clips: Sequence[str], table: Path | None = None) -> list[str
     InvalidArgument
         For a clip without a condition (names it and the file), or a file that is no such table.
     """
-    source = files("hri.studies").joinpath("webcam_conditions.toml") if table is None else table
+    source = Path("webcam_conditions.toml") if table is None else table
     try:
-        entries = tomllib.loads(source.read_text(encoding="utf-8"))["condition"]
+        text = files("hri.studies").joinpath(source.name).read_text("utf-8") if table is None else read_text(table)
+        entries = parse_toml(text, source.name)["condition"]
         known = {clip: entry["name"] for entry in entries for clip in entry["clips"]}
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InvalidArgument(f"{source}: no table of conditions: {error}") from error

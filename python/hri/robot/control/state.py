@@ -7,11 +7,11 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass, field
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 from hri.core.display import short_repr
-from hri.core.errors import InvalidArgument, IoError
+from hri.core.errors import InvalidArgument
+from hri.core.files import write_text
 from hri.robot.model.joints import Vector
 
 FLOOR = "floor"
@@ -85,8 +85,5 @@ class MotionLog:
         }
 
     def write(self, path: str | PathLike[str]) -> None:
-        """Write everything as JSON; IoError if it fails."""
-        try:
-            Path(path).write_text(json.dumps(self.as_dict()) + "\n", encoding="ascii")
-        except OSError as error:
-            raise IoError(f"{path}: {error.strerror or error}") from error
+        """Write everything as JSON; the file appears whole or not at all, IoError if it fails."""
+        write_text(path, json.dumps(self.as_dict()) + "\n")

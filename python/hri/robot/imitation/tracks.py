@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -14,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.display import short_repr
-from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument
+from hri.core.files import parse_number, read_csv
 
 Floats = NDArray[np.float64]
 
-MAX_BYTES = 1 << 28
 MAX_PIXELS = 1e6
 _HANDS = ("left-x", "left-y", "right-x", "right-y")
 _NOSE = ("nose-x", "nose-y")
@@ -171,31 +169,16 @@ def _track(name: str, fps: float, columns: list[str], values: Floats) -> HandTra
 
 
 def _cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    try:
-        if path.stat().st_size > MAX_BYTES:
-            raise FormatError(f"{path}: larger than {MAX_BYTES} bytes")
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise FormatError(f"{path}: not UTF-8 at byte {error.start}") from error
-    try:
-        rows = [(number, row) for number, row in enumerate(csv.reader(io.StringIO(text, newline="")), 1) if row]
-    except csv.Error as error:
-        raise FormatError(f"{path}: {error}") from error
+    rows = [(number, row) for number, row in enumerate(read_csv(path), 1) if row]
     if len(rows) < 2:
         raise FormatError(f"{path}: no rows")
     return [name.strip() for name in rows[0][1]], rows[1:]
 
 
 def _number(where: str, cell: str, may_be_empty: bool = False) -> float:
-    text = cell.strip().lower()
-    if may_be_empty and text in ("", "nan"):
+    if may_be_empty and cell.strip().lower() in ("", "nan"):
         return np.nan
-    try:
-        value = float(text)
-    except ValueError:
-        value = np.nan
-    if not abs(value) <= MAX_PIXELS:
+    value = parse_number(cell)
+    if value is None or abs(value) > MAX_PIXELS:
         raise FormatError(f"{where}: {cell!r} is no number within {MAX_PIXELS:g}")
     return value

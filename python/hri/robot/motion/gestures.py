@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
@@ -14,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.display import short_repr
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
+from hri.core.files import parse_toml
 from hri.core.suggest import did_you_mean
 from hri.robot.model.arm import MIRROR, arm_angles, arm_of, arm_points
 from hri.robot.model.clearance import body_clearance, body_of, forearm_balls
@@ -126,9 +126,9 @@ def parse_gestures(text: str) -> dict[str, Gesture]:
         or out of range, an unknown pose, a place that the arm cannot reach, an angle beyond its limit.
     """
     try:
-        table = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # also a number of more digits than Python reads
-        raise InvalidArgument(f"gestures: {error}") from error
+        table = parse_toml(text, "gestures")
+    except FormatError as error:
+        raise InvalidArgument(str(error)) from error
     rates = GestureRates(**{name: number_in(table, name, "gestures", *ends) for name, ends in _RATES.items()})
     arms = field_of(table, "arms", dict, "gestures")
     gestures: dict[str, Gesture] = {}

@@ -9,20 +9,20 @@ A is the sampling period in ms, B is 2, C..W are 21 counts of motor pulses, X..A
 from __future__ import annotations
 
 import re
-from os import PathLike
-from pathlib import Path
+from os import PathLike, fspath
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import FormatError, IoError
+from hri.core.errors import FormatError
+from hri.core.files import read_bytes, split_lines, write_text
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
 
 COLUMNS = 27
-_COUNT = re.compile(r"\s*(-?\d{1,9}|R)\s*")
-_WHOLE = re.compile(r"\s*\d{1,4}\s*")
-_IDLE = re.compile(r"\s*(60|R)\s*")
+_COUNT = re.compile(r"[ \t]*(-?[0-9]{1,9}|R)[ \t]*")
+_WHOLE = re.compile(r"[ \t]*[0-9]{1,4}[ \t]*")
+_IDLE = re.compile(r"[ \t]*(60|R)[ \t]*")
 
 
 def column_letter(index: int) -> str:
@@ -56,7 +56,9 @@ def read_pulse_csv(path: str | PathLike[str], table: JointTable = HOAP2) -> Traj
     """
     period_s, counts, findings = parse_pulse_csv(path, table)
     if findings:
-        raise TrajectoryError(findings, str(path))
+        raise TrajectoryError(findings, fspath(path))
+    if np.isnan(counts).all():
+        raise FormatError(f"{fspath(path)}: commands no joint")
     return trajectory_from_counts(period_s, counts, table)
 
 
@@ -95,10 +97,7 @@ def write_pulse_csv(path: str | PathLike[str], trajectory: Trajectory, table: Jo
         counts = np.rint(np.degrees(positions) * joint.pulses_per_degree).astype(np.int64)
         cells.append([str(count) for count in counts])
     lines = [f"{period_ms},2,{','.join(row)},60,R,R,R\n" for row in zip(*cells, strict=True)]
-    try:
-        Path(path).write_text("".join(lines), encoding="ascii", newline="\n")
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
+    write_text(path, "".join(lines))
     counted = {joint.name for joint in table.counted}
     return tuple(name for name in trajectory.joint_names if name not in counted)
 
@@ -116,14 +115,11 @@ def parse_pulse_csv(
     findings : list of Finding
         What is wrong with its cells, all of it errors; if any, the rest is of no use.
     """
-    try:
-        data = Path(path).read_bytes()
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
+    data = read_bytes(path)
     plain = _plain_counts(data, table)
     if plain is not None:
         return *plain, []
-    return _parse_lines(data.decode("ascii", errors="replace").splitlines(), table)
+    return _parse_lines(split_lines(data.decode("ascii", errors="replace")), table)
 
 
 def _plain_counts(data: bytes, table: JointTable) -> tuple[float, NDArray[np.float64]] | None:
@@ -135,7 +131,8 @@ def _plain_counts(data: bytes, table: JointTable) -> tuple[float, NDArray[np.flo
     start = b",".join(head[:first]) + b","
     end = b"," + b",".join(head[last:])
     plain_head = head[:first] + [b"0"] * (last - first) + head[last:]
-    if _faults(1, [cell.decode("ascii", errors="replace") for cell in plain_head], head[0].decode().strip(), table):
+    cells = [cell.decode("ascii", errors="replace") for cell in plain_head]
+    if _faults(1, cells, cells[0].strip(), table):
         return None
     row_end = end + (b"\r\n" if b"\r" in data else b"\n")
     if not data.startswith(start) or not data.endswith(row_end):

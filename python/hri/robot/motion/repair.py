@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from os import PathLike
-from pathlib import Path
+from os import PathLike, fspath
 
 import numpy as np
 
-from hri.core.errors import FormatError, IoError
+from hri.core.errors import FormatError
+from hri.core.files import read_bytes, split_lines, write_text
 from hri.robot.model.joints import HOAP2, Joint, JointTable
 from hri.robot.motion.pulse_csv import COLUMNS, parse_count
 
@@ -42,25 +42,19 @@ def repair_pulse_csv(path: str | PathLike[str], out: str | PathLike[str], table:
     Raises
     ------
     FormatError
-        When a joint's column holds no count at all but odd cells.
+        When a joint's column holds no count at all but odd cells; names the file.
     IoError
         When a file cannot be read or written.
     """
-    try:
-        lines = Path(path).read_bytes().decode("ascii", errors="replace").splitlines()
-    except OSError as error:
-        raise IoError(f"{path}: {error.strerror or error}") from error
+    lines = split_lines(read_bytes(path).decode("ascii", errors="replace"))
     rows = [line.split(",") for line in lines]
     whole = [number for number, cells in enumerate(rows) if len(cells) == COLUMNS]
-    changes = [change for joint in table.counted for change in _repair_column(joint, rows, whole)]
-    try:
-        Path(out).write_text("".join(",".join(cells) + "\n" for cells in rows), encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise IoError(f"{out}: {error.strerror or error}") from error
+    changes = [change for joint in table.counted for change in _repair_column(joint, rows, whole, fspath(path))]
+    write_text(out, "".join(",".join(cells) + "\n" for cells in rows))
     return changes
 
 
-def _repair_column(joint: Joint, rows: list[list[str]], whole: list[int]) -> list[Change]:
+def _repair_column(joint: Joint, rows: list[list[str]], whole: list[int], source: str) -> list[Change]:
     assert joint.pulses_per_degree is not None
     place = joint.column_index
     limits = np.degrees((joint.lower_rad, joint.upper_rad)) * joint.pulses_per_degree
@@ -72,7 +66,7 @@ def _repair_column(joint: Joint, rows: list[list[str]], whole: list[int]) -> lis
         before = rows[number][place]
         if value is None:
             if not known:
-                raise FormatError(f"column {joint.column} ({joint.name}) holds no count to repair it with")
+                raise FormatError(f"{source}: column {joint.column} ({joint.name}) holds no count to repair it with")
             found = float(np.interp(number, [at for at, _ in known], [count for _, count in known]))
             after, reason = min(max(round(found), low), high), "no count, taken from its neighbours"
         elif isinstance(value, int) and not low <= value <= high:

@@ -7,12 +7,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import FormatError, InvalidArgument
+from hri.core.files import write_text
 
 _PERIODS_S = (1e-6, 3600.0)
 
@@ -90,10 +90,7 @@ class Trajectory:
         for row, degrees in enumerate(np.degrees(self.positions_rad).tolist()):
             cells = (f"{value:.4f}" for value in degrees)
             lines.append("\t".join((f"{row * self.period_s:.6g}", *cells)))
-        try:
-            Path(path).write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
-        except OSError as error:
-            raise IoError(f"{path}: {error.strerror or error}") from error
+        write_text(path, "\n".join(lines) + "\n")
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import IoError
+from hri.core.files import make_folder, write_text
 from hri.media import write_image, write_video
 from hri.robot.control.backend import Robot
 from hri.robot.motion.gestures import GESTURE_JOINTS, Gesture, load_gestures
@@ -62,20 +62,16 @@ def write_gallery(
     """
     gestures = load_gestures()
     page = Path(directory) / PAGE
-    images = Path(directory) / IMAGES
-    try:
-        images.mkdir(parents=True, exist_ok=True)
-        with open_robot(backend) as robot:
-            for done, gesture in enumerate(gestures.values(), start=1):
-                strip = [_picture(robot, pose) for pose in shown_poses(gesture)]
-                write_image(images / f"{gesture.name}.jpg", np.hstack(strip))
-                if videos:
-                    write_video(images / f"{gesture.name}.webm", _film(robot, gesture), _VIDEO_FPS)
-                if progress is not None:
-                    progress(done, len(gestures))
-        page.write_text(gallery_page(gestures), encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise IoError(f"{error.filename or directory}: {error.strerror or error}") from error
+    images = make_folder(Path(directory) / IMAGES)
+    with open_robot(backend) as robot:
+        for done, gesture in enumerate(gestures.values(), start=1):
+            strip = [_picture(robot, pose) for pose in shown_poses(gesture)]
+            write_image(images / f"{gesture.name}.jpg", np.hstack(strip))
+            if videos:
+                write_video(images / f"{gesture.name}.webm", _film(robot, gesture), _VIDEO_FPS)
+            if progress is not None:
+                progress(done, len(gestures))
+    write_text(page, gallery_page(gestures))
     return page
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import Error, InvalidArgument
+from hri.core.files import write_text
 from hri.core.optional import import_optional
 from hri.robot.control.backend import Robot
 from hri.robot.control.balance import Balance
@@ -169,7 +170,7 @@ class PyBulletRobot(Robot):
         self._add_floor()
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "robot.urdf"
-            path.write_text(urdf_text(self.table, self._locked), encoding="ascii")
+            write_text(path, urdf_text(self.table, self._locked))
             self._body = bullet.loadURDF(
                 str(path),
                 (0, 0, self.table.standing_height_m),
