@@ -55,12 +55,11 @@ PyObject* make_error(py::module_& m, const char* name, PyObject* base, PyObject*
   return type;
 }
 
-// A message names files, whose names need not be UTF-8: other bytes become what Python's own names
-// of files have in their place.
+// A message names files, whose names need not be text: it is read as Python reads these names.
 void raise(PyObject* type, const std::exception& error) {
   const std::string text = error.what();
   PyObject* message =
-      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape");
+      PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<py::ssize_t>(text.size()));
   if (message == nullptr) return;  // MemoryError is set
   PyErr_SetObject(type, message);
   Py_DECREF(message);

@@ -111,6 +111,8 @@ void bind_files(py::module_& m) {
       .def("set_number", &hri::ModelFile::set_number, py::arg("key"), py::arg("value"))
       .def("set_text_list", &hri::ModelFile::set_text_list, py::arg("key"), py::arg("values"))
       .def("metadata", &hri::ModelFile::metadata, "All metadata as a dict of text.")
+      .def("require_all_read", &hri::ModelFile::require_all_read,
+           "Raises FormatError that names a field or tensor which nothing has asked for.")
       .def("tensor_shapes", &hri::ModelFile::tensor_shapes, "Name to (rows, columns).")
       .def(
           "matrix_d",

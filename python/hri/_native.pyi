@@ -286,6 +286,10 @@ class ModelFile:
         All metadata as a dict of text.
         """
     def number(self, key: str) -> float: ...
+    def require_all_read(self) -> None:
+        """
+        Raises FormatError that names a field or tensor which nothing has asked for.
+        """
     def set_integer(self, key: str, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def set_matrix_d(self, name: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
     def set_matrix_f(self, name: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None: ...
@@ -898,7 +902,7 @@ class CepstraOptions:
     window : {'hamming', 'hann', 'hann_periodic', 'povey', 'rectangular'}, default 'hamming'
         window of a frame
     fft_size : int, default 0
-        size of the FFT, at least the frame's samples; 0: the next power of two; 0..1048576, even
+        size of the FFT, at least the frame's samples; 0: the next power of two; 0..65536, even
     kind : {'filter_bank', 'linear_prediction'}, default 'filter_bank'
         what the cepstra are taken of
     lpc_order : int, default 12

@@ -135,6 +135,77 @@ def test_a_wrong_import_is_seen(module: str, text: str) -> None:
     assert list(python_violations("fusion/fuse.py", "from hri.recognition.decision import Decision\n")) == []
 
 
+# Files are opened in these modules alone, so that each is written whole and read as a regular file (`hri.core.files`,
+# hri/io/file.hpp); elsewhere only what belongs to the package, a buffer in memory or a device is.
+OPENING = {
+    ".py": re.compile(
+        r"(?<![\w.])open\(|\.open\(|\.(?:read|write)_(?:text|bytes)\(|imread\(|imwrite\(|VideoWriter\(|VideoCapture\("
+        r"|np\.(?:load|save|savez\w*|savetxt|loadtxt|genfromtxt|fromfile|memmap)\(|\.tofile\(|\.savefig\("
+        r"|\btomllib\b|\bjson\.loads?\(|\bjson\.dump\(|\bcsv\.|\bfileinput\b|\bmkstemp\b|NamedTemporaryFile"
+        r"|\bshutil\.(?:copy|move)|\bos\.(?:replace|rename)\(|\bsoundfile\.(?:read|write)\("
+    ),
+    ".cpp": re.compile(
+        r"\bfopen\(|fstream\b|(?<!\w)::open\(|freopen\(|imread\(|imwrite\(|VideoWriter\b|VideoCapture\b|\brename\("
+    ),
+}
+OPENING[".hpp"] = OPENING[".cpp"]
+MAY_OPEN = {
+    "core/files.py": r".",
+    "io/file.cpp": r"::open\(",
+    "io/atomic_file.cpp": r"::open\(|rename\(",
+    "vision/video.cpp": r"cv::VideoCapture",
+    "media/video.py": r"cv2\.VideoCapture\(name\)",
+    "media/video_writer.py": r"_cv2\.VideoWriter\(name|class VideoWriter|with VideoWriter\(|os\.open\(os\.devnull",
+    "live/camera.py": r"VideoCapture\(self\._device\)",
+    "cli/result_screen.py": r"VideoWriter\(video_path",
+    "vision/film.py": r"with VideoWriter\(",
+    "cli/features.py": r"np\.save(?:txt)?\((?:stored|text)",
+    "core/plotting.py": r"savefig\(drawn",
+    "demo/plots.py": r"savefig\(buffer",
+    "demo/page.py": r"wave\.open\(buffer|files\(.*read_text",
+    "cli/output.py": r"files\.write_",
+    "recognition/word/fillers.py": r"np\.load\(data|files\(.*read_bytes",
+    "robot/model/joints.py": r"tomllib|resources\.files\(.*read_text",
+    "robot/motion/gestures.py": r"resources\.files\(.*read_text",
+    "studies/tables.py": r"csv\.DictWriter\(text",
+    "studies/webcam.py": r"files\(.*read_text",
+}
+
+
+def opened_elsewhere(name: str, text: str) -> Iterator[str]:
+    """Lines of a source file that open files by themselves."""
+    allowed = re.compile(MAY_OPEN.get(name, r"(?!)"))
+    for number, line in enumerate(text.splitlines(), start=1):
+        if OPENING[Path(name).suffix].search(line) and not allowed.search(line):
+            yield f"{name}:{number}: {line.strip()}"
+
+
+def test_files_are_opened_in_one_place() -> None:
+    found = []
+    for path in (*cpp_files(), *python_files()):
+        root = next(root for root in (INCLUDE_ROOT, SOURCE_ROOT, PYTHON_ROOT) if root in path.parents)
+        found += opened_elsewhere(path.relative_to(root).as_posix(), path.read_text())
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        'with open(path, "w") as file:',
+        'with path.open("rb") as file:',
+        "Path(path).write_text(text)",
+        "cv2.imwrite(str(path), image)",
+        "writer = cv2.VideoWriter(path, fourcc, fps, size)",
+        "table = tomllib.loads(text)",
+        "rows = csv.reader(file)",
+        "figure.savefig(path)",
+    ],
+)
+def test_a_file_opened_elsewhere_is_seen(line: str) -> None:
+    assert len(list(opened_elsewhere("robot/motion/new.py", line))) == 1
+    assert list(opened_elsewhere("robot/motion/new.py", "write_text(path, text); self.wait_open(1.0)")) == []
+
+
 def test_public_headers_hold_no_fixed_size_eigen_types() -> None:
     pattern = re.compile(r"Eigen::(?:Vector|Matrix|Array|RowVector)[1-9]\w*|Matrix<\s*\w+\s*,\s*[1-9]")
     found = [str(p.relative_to(ROOT)) for p in INCLUDE_ROOT.rglob("*.hpp") if pattern.search(p.read_text())]

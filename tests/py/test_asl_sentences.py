@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from hri.core.errors import FormatError, IoError
-from hri.datasets.asl_sentences import MAX_BYTES, SignedWord, read_asl_sentences
+from hri.core.files import MAX_BYTES
+from hri.datasets.asl_sentences import SignedWord, read_asl_sentences
 
 HANDS = "video,frame,left-x,left-y,right-x,right-y,nose-x,nose-y"
 GOOD = {

@@ -19,7 +19,7 @@ from hri.core.errors import InvalidArgument
 from hri.core.plotting import new_figure, save_figure
 from hri.features import KINDS, PRESETS, CepstraComputer, cepstra_options, column_names
 from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
-from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, Audio, frame_rate, read_audio, read_frames
+from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, Audio, frame_rate, naming_file, read_audio, read_frames
 from hri.vision.hands import find_silhouettes
 
 
@@ -109,7 +109,8 @@ def _heard(recording: str, kind: Any, preset: Any, options: tuple[str, ...]) -> 
         note(f"{recording}: {text}")
     with naming_options():
         chosen = cepstra_options(audio.sample_rate_hz, kind, preset, **parse_options(options))
-    rows = np.asarray(CepstraComputer(chosen).compute(audio.samples))
+    with naming_file(audio):
+        rows = np.asarray(CepstraComputer(chosen).compute(audio.samples))
     title = f"{Path(recording).name}: {kind}, {preset}"
     return _Found(title, rows, column_names(chosen), 1000 / chosen.frame_shift_ms, audio)
 

@@ -15,7 +15,7 @@ import click
 
 from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, stall_option, tell
 from hri.cli.recognizers import kept_model
-from hri.core.files import read_bytes
+from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.live import Attention, AudioSource, Event, FileSource, Listener, list_microphones
 from hri.recognition import WordRecognizer
 
@@ -82,7 +82,7 @@ def listen(
         return
     path = Path(model_path) if model_path else kept_model("speech")
     words = WordRecognizer.load(path)
-    model_id = f"{path.name}:{hashlib.sha256(read_bytes(path)).hexdigest()[:12]}"
+    model_id = f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
     attention = Attention(wake, within_s, always, min_score)
     listener = Listener(words, attention=attention, locale=locale, model_id=model_id)
     if files:

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +12,8 @@ from typing import Any
 import click
 
 from hri.cli.messages import note
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
+from hri.core.files import parse_toml
 from hri.datasets import Dataset
 from hri.recognition import GestureRecognizer, WordRecognizer
 
@@ -118,6 +118,6 @@ def _value(text: str) -> Any:
     if text in ("True", "False"):  # as Python prints them
         return text == "True"
     try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except (tomllib.TOMLDecodeError, KeyError):
+        return parse_toml(f"value = {text}", "value")["value"]
+    except (FormatError, KeyError):
         return text

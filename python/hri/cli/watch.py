@@ -16,7 +16,7 @@ from hri.cli.output import OutputFile
 from hri.cli.recognizers import kept_model
 from hri.cli.result_screen import ResultScreen
 from hri.core.errors import InvalidArgument
-from hri.core.files import read_bytes
+from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.live import Event, FrameSource, VideoSource, Watcher
 from hri.media import VIDEO_SUFFIXES
 from hri.recognition import GestureRecognizer
@@ -78,7 +78,7 @@ def watch(
         raise InvalidArgument("--video films one stream: give one file, or a camera")
     path = Path(model_path) if model_path else kept_model("gesture")
     signs = GestureRecognizer.load(path)
-    model_id = f"{path.name}:{hashlib.sha256(read_bytes(path)).hexdigest()[:12]}"
+    model_id = f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
     sources: Iterable[FrameSource] = (VideoSource(file, paced) for file in files)
     if not files:
         sources = (camera(device, stall_s) for _ in range(1))

@@ -27,6 +27,7 @@ AtomicFile = _native.AtomicFile
 
 MAX_BYTES = 1 << 28
 """Of a table or another text."""
+MAX_MODEL_BYTES = 1 << 31
 MAX_TOML_BYTES = 1 << 24
 """Of settings; Python's reader of TOML takes seconds for more."""
 
@@ -85,14 +86,14 @@ def read_json(path: str | PathLike[str]) -> Any:
     return parse_json(read_text(path), fspath(path))
 
 
-def parse_json(text: str, name: str) -> Any:
-    """The value of a JSON text; FormatError, with `name` before it, for what is none, such as NaN."""
+def parse_json(text: str, name: str, finite: bool = True) -> Any:
+    """The value of a JSON text; FormatError, with `name` before it, for what is none, such as NaN where `finite`."""
 
     def refuse(word: str) -> None:
         raise ValueError(f"{word} is no number")
 
     try:
-        return json.loads(text, parse_constant=refuse)
+        return json.loads(text, parse_constant=refuse if finite else None)
     except RecursionError:
         raise FormatError(f"{name}: not a JSON file: brackets within brackets, too deep") from None
     except ValueError as error:

@@ -19,12 +19,11 @@ from hri.core.files import read_csv
 HANDS_COLUMNS = ("video", "frame", "left-x", "left-y", "right-x", "right-y", "nose-x", "nose-y")
 WORDS_COLUMNS = ("video", "speaker", "word", "startframe", "endframe")
 SIGNERS_COLUMNS = ("video", "speaker")
-MAX_BYTES = 1 << 28
-"""A larger file is not read: it would fill the memory before it is found to be wrong."""
 MAX_PIXELS = 65535
 """Positions lie within this of the picture's corner."""
 _NAME = re.compile(r"[^\x00-\x1f\x7f]+")
 _NUMBER = re.compile(r"-?[0-9]{1,9}")
+_MAX_FRAME = 10**9 - 1
 
 
 @dataclass(frozen=True)
@@ -95,7 +94,7 @@ def _read_positions(path: Path, signers: dict[str, str]) -> dict[str, NDArray[np
     for where, row in _rows(path, HANDS_COLUMNS):
         video = _known_video(where, row, signers)
         frames = points.setdefault(video, [])
-        frame = _number(where, row, "frame", 0, MAX_BYTES)
+        frame = _number(where, row, "frame", 0, _MAX_FRAME)
         if frame != len(frames):
             raise FormatError(f"{where}, field frame: {frame}, but the next frame of video {video!r} is {len(frames)}")
         frames.append([_number(where, row, name, -MAX_PIXELS, MAX_PIXELS) for name in HANDS_COLUMNS[2:]])

@@ -94,16 +94,13 @@ def fillers_of(dataset: Dataset) -> list[FillerWord]:
 def _train_words(
     dataset: Dataset, recognizer: WordRecognizer, fillers: Sequence[FillerWord] | None, progress: Progress
 ) -> WordRecognizer:
-    clips, rates = [], []
+    clips = []
     for done, sample in enumerate(dataset.samples):
-        audio = read_audio(sample.path)
-        clips.append(audio.samples)
-        rates.append(audio.sample_rate_hz)
+        clips.append(read_audio(sample.path))
         progress("reading", done + 1, len(dataset))
     return recognizer.fit(
         clips,
         [s.label for s in dataset.samples],
-        sample_rate_hz=rates,
         groups=[s.person for s in dataset.samples],
         fillers=fillers,
         progress=lambda done, total: progress("training", done, total),

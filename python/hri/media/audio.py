@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import io
 import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -14,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.display import summary
-from hri.core.errors import FormatError
+from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import read_bytes
 from hri.core.optional import import_optional
 from hri.io import read_wav
@@ -37,11 +39,14 @@ class Audio:
     sample_rate_hz : int
     notes : list of str
         What was done to the file on the way: channels averaged, a header that promised more, ...
+    path : Path, optional
+        Of the file.
     """
 
     samples: NDArray[np.float32]
     sample_rate_hz: int
     notes: list[str] = field(default_factory=list)
+    path: Path | None = None
 
     def __repr__(self) -> str:
         return summary("Audio", f"{self.duration_s:.3f} s", f"{self.sample_rate_hz} Hz", *self.notes)
@@ -83,7 +88,7 @@ def read_audio(path: str | PathLike[str]) -> Audio:
     if path.suffix.lower() == ".wav":
         wav = read_wav(path)
         samples = np.asarray(wav.samples, dtype=np.float32)
-        audio = Audio(samples, int(wav.sample_rate_hz), list(wav.notes))
+        audio = Audio(samples, int(wav.sample_rate_hz), list(wav.notes), path)
     else:
         audio = _read_with_soundfile(path)
     _require_usable(audio.samples, path)
@@ -107,7 +112,7 @@ def _read_with_soundfile(path: Path) -> Audio:
     num_channels = samples.shape[1]
     notes = [f"averaged {num_channels} channels to mono"] if num_channels > 1 else []
     mono = np.ascontiguousarray(samples.mean(axis=1, dtype=np.float32))
-    return Audio(mono, int(rate), notes)
+    return Audio(mono, int(rate), notes, path)
 
 
 def _require_usable(samples: NDArray[np.float32], path: Path) -> None:
@@ -117,3 +122,20 @@ def _require_usable(samples: NDArray[np.float32], path: Path) -> None:
     if not finite.all():
         index = int(np.flatnonzero(~finite)[0])
         raise FormatError(f"{path}: sample {index} is {samples[index]}")
+
+
+@contextmanager
+def naming_file(audio: Audio) -> Iterator[None]:
+    """Within the block, what is wrong with samples is wrong with their file, and the message names it.
+
+    Raises
+    ------
+    FormatError
+        In place of an InvalidArgument, where `audio` was read from a file.
+    """
+    try:
+        yield
+    except InvalidArgument as error:
+        if audio.path is None:
+            raise
+        raise FormatError(f"{audio.path}: {error}") from None

@@ -12,6 +12,7 @@ import numpy as np
 
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.estimator import Estimator
+from hri.core.files import parse_json
 from hri.io import ModelFile
 
 if TYPE_CHECKING:
@@ -49,8 +50,8 @@ class SavedEstimator(Estimator):
         kind = f"estimator.{type(self).__name__}"
         if file.kind != kind:
             raise FormatError(f"the file holds '{file.kind}', not '{kind}'")
+        params = parse_json(file.text("params"), "params", finite=False)
         try:
-            params = json.loads(file.text("params"))
             if not isinstance(params, dict):
                 raise ValueError("not a list of names and values")
             type(self).__init__(self, **params)
@@ -62,6 +63,7 @@ class SavedEstimator(Estimator):
             self.classes_ = _labels_from_text(file.text("classes"))
             if self._model is None or len(self.classes_) != self._model.num_classes:
                 raise FormatError(f"classes: {len(self.classes_)} labels do not fit the model")
+        file.require_all_read()
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write parameters and model. The old file stays whole if this fails."""
@@ -95,8 +97,8 @@ def _labels_to_text(labels: Any) -> str:
 
 
 def _labels_from_text(text: str) -> Any:
+    held = parse_json(text, "classes", finite=False)
     try:
-        held = json.loads(text)
         name, labels = held["type"], held["labels"]
         if any(type(label).__name__ != name for label in labels) or len(set(labels)) != len(labels):
             raise ValueError("labels of another type, or twice the same")

@@ -4,9 +4,10 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import as_file, files
+from importlib.resources import files
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,12 +72,12 @@ def filler_words() -> tuple[FillerWord, ...]:
     >>> len({word.label for word in words})
     48
     """
-    with as_file(files("hri.recognition.word") / _FILE) as path:
-        try:
-            with np.load(path, allow_pickle=False) as stored:
-                codes, ends, labels = stored["codes"], stored["ends"], stored["labels"]
-        except (OSError, ValueError, KeyError) as error:
-            raise FormatError(f"{_FILE}: {error}") from error
+    try:
+        data = io.BytesIO((files("hri.recognition.word") / _FILE).read_bytes())
+        with np.load(data, allow_pickle=False) as stored:
+            codes, ends, labels = stored["codes"], stored["ends"], stored["labels"]
+    except (OSError, ValueError, KeyError) as error:
+        raise FormatError(f"{_FILE}: {error}") from error
     if ends.ndim != 1 or ends.shape != labels.shape or np.any(np.diff(ends, prepend=0) <= 0) or ends[-1] != codes.size:
         raise FormatError(f"{_FILE}: the lengths do not fit the samples")
     pieces = np.split(expand(codes), ends[:-1])

@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from os import PathLike
 from typing import Unpack
@@ -15,6 +17,7 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.suggest import did_you_mean
+from hri.media import Audio, naming_file
 from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio, as_audios
@@ -116,17 +119,18 @@ class WordRecognizer(Recognizer):
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
         others = filler_words() if fillers is None else fillers
-        self._native = self._native_class.train(
-            [clip.samples for clip in clips],
-            [clip.sample_rate_hz for clip in clips],
-            [str(label) for label in y],
-            speakers,
-            self.options,
-            progress,
-            [np.ascontiguousarray(word.samples, dtype=np.float32) for word in others],
-            [word.sample_rate_hz for word in others],
-            [word.label for word in others],
-        )
+        with _naming_items(clips, "X"):
+            self._native = self._native_class.train(
+                [clip.samples for clip in clips],
+                [clip.sample_rate_hz for clip in clips],
+                [str(label) for label in y],
+                speakers,
+                self.options,
+                progress,
+                [np.ascontiguousarray(word.samples, dtype=np.float32) for word in others],
+                [word.sample_rate_hz for word in others],
+                [word.label for word in others],
+            )
         return self
 
     def add_word(
@@ -152,9 +156,11 @@ class WordRecognizer(Recognizer):
             (names it, as in ``clips[0]``); the recogniser is left as it was.
         """
         read = as_audios(clips, sample_rate_hz, "clips")
-        self._native = self._trained.with_word(
-            label, [clip.samples for clip in read], [clip.sample_rate_hz for clip in read]
-        )
+        words = self._trained
+        with _naming_items(read, "clips"):
+            self._native = words.with_word(
+                label, [clip.samples for clip in read], [clip.sample_rate_hz for clip in read]
+            )
         return self
 
     def remove_word(self, label: str) -> WordRecognizer:
@@ -185,7 +191,7 @@ class WordRecognizer(Recognizer):
         InvalidArgument
             For an array without a rate, of several channels, not finite or shorter than one frame; names the argument.
         FormatError, IoError
-            For a file that is no recording.
+            For a file that is no recording, or a recording shorter than one frame.
 
         Examples
         --------
@@ -195,7 +201,9 @@ class WordRecognizer(Recognizer):
         'seven'
         """
         clip = as_audio(audio, sample_rate_hz)
-        decision = Decision.from_native(self.mode, self._trained.recognise(clip.samples, clip.sample_rate_hz))
+        words = self._trained
+        with naming_file(clip):
+            decision = Decision.from_native(self.mode, words.recognise(clip.samples, clip.sample_rate_hz))
         return replace(decision, notes=(*clip.notes, *decision.notes)) if clip.notes else decision
 
     def recognise_utterances(self, audio: AudioInput, sample_rate_hz: int | None = None) -> list[Utterance]:
@@ -218,13 +226,17 @@ class WordRecognizer(Recognizer):
             As of `recognise`.
         """
         clip = as_audio(audio, sample_rate_hz)
-        found = self._trained.recognise_utterances(clip.samples, clip.sample_rate_hz)
+        words = self._trained
+        with naming_file(clip):
+            found = words.recognise_utterances(clip.samples, clip.sample_rate_hz)
         return [Utterance(u.first_s, u.last_s, Decision.from_native(self.mode, u.decision)) for u in found]
 
     def scores(self, audio: AudioInput, sample_rate_hz: int | None = None) -> NDArray[np.float32]:
         """Raw score of every class (natural log), shape (num_classes,), in the order of `classes_`."""
         clip = as_audio(audio, sample_rate_hz)
-        return np.asarray(self._trained.scores(clip.samples, clip.sample_rate_hz))
+        words = self._trained
+        with naming_file(clip):
+            return np.asarray(words.scores(clip.samples, clip.sample_rate_hz))
 
     def decide(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
@@ -262,3 +274,16 @@ class WordRecognizer(Recognizer):
     def load(cls, path: str | PathLike[str]) -> WordRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
         return cls._wrap(load_native(_native.WordRecognizer, path, "word_recognizer"))
+
+
+@contextmanager
+def _naming_items(clips: Sequence[Audio], name: str) -> Iterator[None]:
+    """Within the block, an error about an item, such as ``X[3]``, is one about its file, if it was read from one."""
+    try:
+        yield
+    except _native.InvalidArgument as error:
+        found = re.match(rf"{name}\[(\d+)\]", str(error))
+        path = clips[int(found[1])].path if found and int(found[1]) < len(clips) else None
+        if found is None or path is None:
+            raise
+        raise _native.FormatError(f"{path}{str(error)[found.end() :]}") from None

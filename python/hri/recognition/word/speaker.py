@@ -9,6 +9,7 @@ from typing import Unpack
 
 from hri import _native
 from hri.core.suggest import did_you_mean
+from hri.media import naming_file
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio
 from hri.recognition.keywords import SpeakerAdapterKeywords
@@ -60,7 +61,8 @@ class SpeakerAdapter:
             False leaves adaptation to a call of `update`, where the answer must not wait for it.
         """
         clip = as_audio(audio, sample_rate_hz)
-        decision = Decision.from_native("speech", self._native.recognise(clip.samples, clip.sample_rate_hz))
+        with naming_file(clip):
+            decision = Decision.from_native("speech", self._native.recognise(clip.samples, clip.sample_rate_hz))
         if clip.notes:
             decision = replace(decision, notes=(*clip.notes, *decision.notes))
         if update and self.update_due:
@@ -78,7 +80,8 @@ class SpeakerAdapter:
         clip = as_audio(audio, sample_rate_hz)
         if label not in self._labels:
             raise _native.InvalidArgument(f"no word {label!r}; {did_you_mean(label, self._labels, 'it has')}")
-        self._native.learn(clip.samples, clip.sample_rate_hz, label)
+        with naming_file(clip):
+            self._native.learn(clip.samples, clip.sample_rate_hz, label)
 
     @property
     def update_due(self) -> bool:

@@ -89,7 +89,7 @@ struct HRI_API CepstraOptions {
     v("frame_pre_emphasis", o.frame_pre_emphasis, any_value,
       "pre-emphasis begins anew in every frame, as in HTK and Kaldi");
     v("window", o.window, any_value, "window of a frame");
-    v("fft_size", o.fft_size, within(0, 1048576).even(),
+    v("fft_size", o.fft_size, within(0, 65536).even(),
       "size of the FFT, at least the frame's samples; 0: the next power of two");
     v("kind", o.kind, any_value, "what the cepstra are taken of");
     v("lpc_order", o.lpc_order, within(1, 64), "order of linear prediction");

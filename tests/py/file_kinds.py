@@ -1,0 +1,131 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Every writer and every reader of files that hri has, by name, for tests that ask the same of all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import hri
+from hri.cli.output import write_json
+from hri.core import files
+from hri.core.plotting import new_axes, save_figure
+from hri.datasets.asl_sentences import HANDS_COLUMNS, SIGNERS_COLUMNS, WORDS_COLUMNS, read_asl_sentences
+from hri.datasets.manifest import Manifest, SampleRow, read_manifest, write_manifest
+from hri.io import ModelFile, read_wav, write_wav_pcm16
+from hri.media import frame_rate, iterate_frames, read_audio, read_frames, read_image, write_image, write_video
+from hri.models import Codebook
+from hri.robot import Trajectory, gesture_trajectory, read_pulse_csv, read_short_csv
+from hri.robot.control.state import MotionLog, RobotState
+from hri.robot.imitation.tracks import read_hand_tracks
+from hri.robot.motion.pulse_csv import parse_pulse_csv, write_pulse_csv
+from hri.robot.motion.repair import repair_pulse_csv
+from hri.robot.motion.short_csv import check_short_csv, is_short_csv, write_short_csv
+from hri.studies.kept import read_kept
+from hri.studies.webcam import read_conditions
+
+PICTURE = (np.random.default_rng(1).random((60, 80, 3)) * 255).astype(np.uint8)
+SAMPLES = np.sin(np.arange(4000, dtype=np.float32))
+ROWS = np.random.default_rng(2).normal(size=(200, 4))
+
+
+def motion() -> Trajectory:
+    return gesture_trajectory("wave")
+
+
+def write_model(path: Any) -> None:
+    file = ModelFile()
+    file.kind = "test"
+    file.set_matrix_d("rows", ROWS)
+    file.write(path)
+
+
+def write_log(path: Any) -> None:
+    log = MotionLog()
+    log.states = [RobotState(i / 100, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), {"head": 0.1}) for i in range(100)]
+    log.write(path)
+
+
+def write_repaired(path: Any) -> None:
+    source = Path(path).with_name("odd.csv")
+    if not source.exists():
+        write_pulse_csv(source, motion())
+    repair_pulse_csv(source, path)
+
+
+def write_figure(path: Any) -> None:
+    axes = new_axes((3.0, 2.0))
+    axes.plot(SAMPLES[:100])
+    save_figure(axes.figure, path)
+
+
+WRITERS: dict[str, Callable[[Any], object]] = {
+    "text.txt": lambda path: files.write_text(path, "text " * 2000),
+    "bytes.bin": lambda path: files.write_bytes(path, bytes(8000)),
+    "report.json": lambda path: write_json(str(path), {"rows": ROWS.tolist()}),
+    "pulses.csv": lambda path: write_pulse_csv(path, motion()),
+    "degrees.csv": lambda path: write_short_csv(path, motion()),
+    "table.tsv": lambda path: motion().write_tsv(path),
+    "repaired.csv": write_repaired,
+    "log.json": write_log,
+    "dataset.toml": lambda path: write_manifest(
+        Path(path), Manifest("speech", rows=[SampleRow(f"{i}.wav", "a") for i in range(500)])
+    ),
+    "picture.png": lambda path: write_image(path, PICTURE),
+    "picture.jpg": lambda path: write_image(path, PICTURE),
+    "clip.avi": lambda path: write_video(path, [PICTURE] * 8, 10.0),
+    "clip.mp4": lambda path: write_video(path, [PICTURE, PICTURE[::-1].copy()] * 4, 10.0),
+    "clip.webm": lambda path: write_video(path, [PICTURE, PICTURE[::-1].copy()] * 4, 10.0),
+    "clip.mkv": lambda path: write_video(path, [PICTURE] * 8, 10.0),
+    "sound.wav": lambda path: write_wav_pcm16(path, SAMPLES, 8000),
+    "model.hri": write_model,
+    "estimator.hri": lambda path: Codebook(num_codewords=64).fit(ROWS).save(path),
+    "figure.png": write_figure,
+    "figure.svg": write_figure,
+}
+
+
+def write_sentences(folder: Path) -> None:
+    tables = {
+        "hands.csv": [HANDS_COLUMNS, *((1, frame, 1, 2, 3, 4, 5, 6) for frame in range(3))],
+        "words.csv": [WORDS_COLUMNS, (1, "ann", "GO", 0, 1)],
+        "signers.csv": [SIGNERS_COLUMNS, (1, "ann")],
+    }
+    for name, rows in tables.items():
+        (folder / name).write_text("".join(",".join(map(str, row)) + "\n" for row in rows))
+
+
+TRACK = "left-x,left-y,right-x,right-y,nose-x,nose-y\n" + "1,2,3,4,5,6\n" * 4
+KEPT = '{"study": "noise", "arguments": {}, "data": {}, "rows": []}'
+CONDITIONS = '[[condition]]\nname = "dark"\nclips = ["a"]\n'
+
+READERS: dict[str, Callable[[Any], object]] = {
+    "sound.wav": read_audio,
+    "sound of C++.wav": read_wav,
+    "sound.flac": read_audio,
+    "picture.png": read_image,
+    "picture.jpg": read_frames,
+    "clip.avi": read_frames,
+    "clip.mp4": lambda path: list(iterate_frames(path)),
+    "rate.webm": frame_rate,
+    "model.hri": ModelFile.read,
+    "any.hri": hri.load,
+    "words.hri": hri.WordRecognizer.load,
+    "signs.hri": hri.GestureRecognizer.load,
+    "estimator.hri": Codebook.load,
+    "dataset.toml": lambda path: read_manifest(Path(path)),
+    "signers.csv": lambda path: read_asl_sentences(Path(path).parent),
+    "track.csv": read_hand_tracks,
+    "pulses.csv": read_pulse_csv,
+    "cells.csv": parse_pulse_csv,
+    "odd.csv": lambda path: repair_pulse_csv(path, Path(path).with_name("repaired.csv")),
+    "degrees.csv": read_short_csv,
+    "form.csv": is_short_csv,
+    "checked.csv": check_short_csv,
+    "kept.json": lambda path: read_kept(Path(path)),
+    "conditions.toml": lambda path: read_conditions(["a"], Path(path)),
+}
