@@ -37,6 +37,15 @@ def short_repr(cls: type[T]) -> type[T]:
     return cls
 
 
+def shown(value: object) -> str:
+    """A value as Python writes it, for the message of an error: cut to one line, whatever it is."""
+    try:
+        text = repr(value)
+    except ValueError:  # an integer of more digits than Python writes
+        text = f"<{type(value).__name__}>"
+    return text if len(text) <= _MAX_LINE else f"{text[: _MAX_LINE - 3]}..."
+
+
 def _short_value(value: object) -> str:
     if isinstance(value, np.ndarray):
         return f"{value.dtype}{list(value.shape)}"

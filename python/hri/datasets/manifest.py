@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from hri.core.display import short_repr
+from hri.core.display import short_repr, shown
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import read_toml, write_text
 from hri.datasets.pattern import Pattern
@@ -91,9 +91,9 @@ def read_manifest(path: Path) -> Manifest:
         _require_type(value, _TOP_KEYS[key], f"{path}: {key}")
     version = data.get("format_version", FORMAT_VERSION)
     if not 1 <= version <= FORMAT_VERSION:
-        raise FormatError(f"{path}: format_version is {version}, this program reads up to {FORMAT_VERSION}")
+        raise FormatError(f"{path}: format_version is {shown(version)}, this program reads up to {FORMAT_VERSION}")
     if data.get("kind") not in KINDS:
-        raise FormatError(f"{path}: kind is {data.get('kind')!r}, must be one of {KINDS}")
+        raise FormatError(f"{path}: kind is {shown(data.get('kind'))}, must be one of {KINDS}")
     for index, label in enumerate(data.get("labels", []), start=1):
         _require_text(label, f"{path}: labels, entry {index}")
     if ("pattern" in data) == ("samples" in data):
@@ -147,7 +147,7 @@ def _require_known(table: dict[str, Any], known: tuple[str, ...], where: str) ->
 def _require_type(value: Any, wanted: type, where: str) -> None:
     if not isinstance(value, wanted) or (wanted is int and isinstance(value, bool)):
         names = {int: "a whole number", str: "text", bool: "true or false", list: "a list"}
-        raise FormatError(f"{where} is {value!r}, must be {names.get(wanted, 'a table')}")
+        raise FormatError(f"{where} is {shown(value)}, must be {names.get(wanted, 'a table')}")
 
 
 def _require_text(value: Any, where: str) -> None:

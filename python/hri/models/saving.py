@@ -100,6 +100,8 @@ def _labels_from_text(text: str) -> Any:
     held = parse_json(text, "classes", finite=False)
     try:
         name, labels = held["type"], held["labels"]
+        if not isinstance(labels, list):
+            raise ValueError("not a list of labels")
         if any(type(label).__name__ != name for label in labels) or len(set(labels)) != len(labels):
             raise ValueError("labels of another type, or twice the same")
         dtype = np.dtype({"O": object}.get(held["dtype"][1:2], held["dtype"] if name != "str" else np.str_))

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.display import short_repr
+from hri.core.display import short_repr, shown
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import parse_toml
 from hri.core.suggest import did_you_mean
@@ -218,7 +218,7 @@ def _arm(value: Any, arms: dict[str, Any], where: str) -> Floats:
     """Five angles of a left arm."""
     if isinstance(value, str):
         if value not in arms:
-            raise InvalidArgument(f"{where}: no arm pose {value!r}")
+            raise InvalidArgument(f"{where}: no arm pose {shown(value)}")
         value = arms[value]
     if isinstance(value, dict):
         return _placed(value, where)
