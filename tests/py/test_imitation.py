@@ -163,7 +163,7 @@ def test_arms_that_cross_stay_apart():
         with open_robot("pybullet") as robot:
             for row in made.trajectory.positions_rad[::8].tolist():
                 robot.reset(dict(zip(made.trajectory.joint_names, row, strict=True)))
-                assert robot.self_contacts() == []
+                assert robot.links_nearer_than(0.0) == []
 
 
 def test_plain_angles_reach_sidewards_and_not_before_the_chest():

@@ -143,8 +143,8 @@ def test_overlaps_are_those_that_pybullet_sees():
             pose = rng.uniform(low, high)
             robot.reset(dict(zip(HOAP2.names, pose.tolist(), strict=True)))
             carriers = {joint.child: joint.name for joint in HOAP2.joints}
-            theirs = {frozenset(pair) for pair in robot.self_contacts()}
-            deep = {frozenset(pair) for pair in robot.self_contacts(-0.003)}
+            theirs = {frozenset(pair) for pair in robot.links_nearer_than(0.0)}
+            deep = {frozenset(pair) for pair in robot.links_nearer_than(-0.003)}
             touches = self_collisions(Trajectory(HOAP2.names, 0.1, [pose]))
             ours = {frozenset(carriers.get(link, "base") for link in (t.link, t.other)) for t in touches}
             assert deep <= ours <= theirs

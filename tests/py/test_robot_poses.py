@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Motions are checked from where the joints are: those that they do not name, and the way to their first row."""
 
+import json
 from importlib.util import find_spec
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 from hri.robot import (
     HOAP2,
+    MotionLog,
     Trajectory,
     TrajectoryError,
     check_trajectory,
@@ -94,6 +96,24 @@ def test_links_that_overlap_at_the_begin_may_move_apart():
     with open_robot("kinematic") as robot:
         robot.reset(dict(zip(names, crossed.tolist(), strict=True)))
         assert robot.perform(gesture_trajectory("rest"))
+
+
+@needs_pybullet
+def test_links_that_touch_are_reported(tmp_path):
+    names = SIDES["left"] + SIDES["right"]
+    log = MotionLog()
+    with open_robot("pybullet") as robot:
+        assert robot.perform(gesture_trajectory("wave"), log=log) and robot.self_contacts == []
+        assert log.as_dict()["self_contacts"] == []
+        begin_s = robot.time_s
+        robot.reset(dict(zip(names, np.concatenate((INWARD, INWARD * MIRROR)).tolist(), strict=True)))
+        assert robot.perform(gesture_trajectory("rest"), log=log)
+        (contact,) = robot.self_contacts
+    assert (contact.link, contact.other) == ("larm_link_5", "rarm_link_5") and contact.force_n > 0.0
+    assert begin_s < contact.first_s <= contact.last_s < begin_s + 1.0
+    assert log.touched.found() == [contact]
+    log.write(tmp_path / "log.json")
+    assert json.loads((tmp_path / "log.json").read_text())["self_contacts"][0]["link"] == "larm_link_5"
 
 
 def test_from_any_moment_of_any_gesture_there_is_a_way_to_rest():

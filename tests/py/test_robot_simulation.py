@@ -82,9 +82,9 @@ def test_no_gesture_touches_the_robot_itself():
             trajectory = gesture_trajectory(name)
             for row in trajectory.positions_rad[::5].tolist():
                 robot.reset(dict(zip(trajectory.joint_names, row, strict=True)))
-                assert robot.self_contacts() == [], name
+                assert robot.links_nearer_than(0.0) == [], name
         robot.reset({"larm_joint_1": 0.6, "larm_joint_3": 1.5, "larm_joint_4": -1.9})
-        assert robot.self_contacts(0.05), "the check sees nothing"
+        assert robot.links_nearer_than(0.05), "the check sees nothing"
 
 
 def test_a_gesture_is_carried_out_and_filmed(robot):

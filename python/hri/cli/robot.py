@@ -157,6 +157,9 @@ def play(
             click.echo(f"{name}\t{position:.4f}")
         for event in opened.events:
             note(f"{event.time_s:.2f} s: {event.kind}: {event.message}")
+        for contact in opened.self_contacts:
+            force = f"up to {contact.force_n:.1f} N, {contact.first_s:.2f} to {contact.last_s:.2f} s"
+            note(f"{contact.link} and {contact.other} touched: {force}")
         if stand:
             end = opened.state()
             place = ", ".join(f"{value:.3f}" for value in end.base_position_m)

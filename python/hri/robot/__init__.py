@@ -3,7 +3,7 @@
 """The robots HOAP-2 and NAO: joints, trajectories, gestures and simulation."""
 
 from hri.robot.control.backend import Robot
-from hri.robot.control.state import Contact, Event, MotionLog, RobotState
+from hri.robot.control.state import Contact, Event, MotionLog, RobotState, SelfContact
 from hri.robot.control.stopping import stopped_by_signals
 from hri.robot.model.joints import HOAP2, NAO, ROBOTS, Camera, Joint, JointTable
 from hri.robot.model.kinematics import link_poses
@@ -48,6 +48,7 @@ __all__ = [
     "Physics",
     "Robot",
     "RobotState",
+    "SelfContact",
     "Touch",
     "Trajectory",
     "TrajectoryError",

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hri.robot import HOAP2, MotionLog, Physics, Robot, open_robot, read_pulse_csv
-from hri.robot.control.state import FLOOR, RobotState
+from hri.robot.control.state import RobotState
 from hri.studies.registry import Layout, Progress, Study
 
 MOTIONS = {"walk.csv": "standing", "stand_up_back.csv": "back"}
@@ -76,7 +76,7 @@ def _outcome(robot: Robot, begin: RobotState, log: MotionLog, held: int) -> Outc
     way = np.subtract(end.base_position_m, begin.base_position_m)
     yaw = begin.base_rpy_rad[2]
     turned = (np.degrees(end.base_rpy_rad[2] - yaw) + 180.0) % 360.0 - 180.0
-    touching = {f"{c.link} - {c.other}" for state in log.states for c in state.contacts if c.other != FLOOR}
+    touching = {f"{contact.link} - {contact.other}" for contact in robot.self_contacts}
     return Outcome(
         forward_m=float(way[0] * np.cos(yaw) + way[1] * np.sin(yaw)),
         yaw_deg=float(turned),

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
@@ -18,7 +18,7 @@ from hri.core.errors import Error, InvalidArgument
 from hri.robot.control.braking import brake
 from hri.robot.control.filming import Film, Image, OnFrame
 from hri.robot.control.playing import Playback, approach_to
-from hri.robot.control.state import Event, MotionLog, RobotState
+from hri.robot.control.state import Contact, Event, MotionLog, RobotState, SelfContact, SelfContacts
 from hri.robot.control.stopping import StopLatch
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.model.postures import require_posture
@@ -30,6 +30,7 @@ UPRIGHT_TILT_DEG = 20.0
 _UPRIGHT_S = 0.5
 _HOLD_AFTER_FALL_S = 1.0
 _LOOK_S = 0.01
+_FEEL_S = 0.005
 _TOLERANCES_RAD = np.array([-LIMIT_TOLERANCE_RAD, LIMIT_TOLERANCE_RAD])
 
 
@@ -57,6 +58,7 @@ class Robot(ABC):
     def __init__(self, table: JointTable = HOAP2) -> None:
         self.table = table
         self.events: list[Event] = []
+        self._touched = SelfContacts()
         self._stop = StopLatch()
         self._moves = threading.Lock()
         self._mover: int | None = None
@@ -75,6 +77,11 @@ class Robot(ABC):
     def stopped(self) -> bool:
         """Whether `stop` was called, and `resume` not since."""
         return self._stop.engaged
+
+    @property
+    def self_contacts(self) -> list[SelfContact]:
+        """Pairs of links that touched one another in motions and while the robot held, looked at every 5 ms."""
+        return self._touched.found()
 
     def perform(
         self,
@@ -269,6 +276,10 @@ class Robot(ABC):
         """Whether nothing but feet touches the floor; True for a robot without contact sensors."""
         return True
 
+    def _touching(self) -> Iterable[Contact]:
+        """Links that touch one another now; none for a robot without physics or such sensors."""
+        return ()
+
     def __enter__(self) -> Self:
         return self
 
@@ -352,6 +363,11 @@ class Robot(ABC):
             self._event("fault", f"stopped, as the robot does not take commands: {error}", log)
             raise
         self._steps += 1
+        if self._steps % max(1, round(_FEEL_S / self.step_s)) == 0:
+            for contact in self._touching():
+                self._touched.add(contact, self.time_s)
+                if log is not None:
+                    log.touched.add(contact, self.time_s)
         if log is not None and self._steps % max(1, round(log.period_s / self.step_s)) == 0:
             log.states.append(self._state())
 

@@ -27,6 +27,36 @@ class Contact:
 
 
 @dataclass(frozen=True)
+class SelfContact:
+    """Two links that touched one another: when for the first and the last time, and how hard at most."""
+
+    link: str
+    other: str
+    first_s: float
+    last_s: float
+    force_n: float
+
+
+class SelfContacts:
+    """Collects contacts of links with one another, one entry a pair."""
+
+    def __init__(self) -> None:
+        self._found: dict[tuple[str, str], SelfContact] = {}
+
+    def add(self, contact: Contact, time_s: float) -> None:
+        """Note a contact of this moment."""
+        pair = (contact.link, contact.other)
+        before = self._found.get(pair)
+        first_s = time_s if before is None else before.first_s
+        force_n = contact.force_n if before is None else max(contact.force_n, before.force_n)
+        self._found[pair] = SelfContact(*pair, first_s, time_s, force_n)
+
+    def found(self) -> list[SelfContact]:
+        """By time of the first contact."""
+        return list(self._found.values())
+
+
+@dataclass(frozen=True)
 class Event:
     """Something that ended a motion: `kind` is "stop", "fall", or "fault", a robot that takes no commands."""
 
@@ -75,12 +105,14 @@ class MotionLog:
         self.period_s = period_s
         self.states: list[RobotState] = []
         self.events: list[Event] = []
+        self.touched = SelfContacts()
 
     def as_dict(self) -> dict[str, Any]:
         """What `write` writes."""
         return {
             "period_s": self.period_s,
             "events": [asdict(event) for event in self.events],
+            "self_contacts": [asdict(contact) for contact in self.touched.found()],
             "states": [asdict(state) for state in self.states],
         }
 

@@ -8,7 +8,7 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -121,7 +121,7 @@ class PyBulletRobot(Robot):
         )
         return {name: state[4] for name, state in zip(self.table.names, states, strict=True)}
 
-    def self_contacts(self, margin_m: float = 0.0) -> list[tuple[str, str]]:
+    def links_nearer_than(self, margin_m: float = 0.0) -> list[tuple[str, str]]:
         """Pairs of solid links nearer than a margin, by joint, but for those that adjoin (`JointTable.adjoining`)."""
         self._require_open()
         joints = {joint.child: joint.name for joint in self.table.joints}
@@ -328,6 +328,13 @@ class PyBulletRobot(Robot):
             return 0.0
         x, y, _, _ = self._base()[1]
         return float(np.degrees(np.arccos(np.clip(1.0 - 2.0 * (x * x + y * y), -1.0, 1.0))))
+
+    def _touching(self) -> Iterator[Contact]:
+        points = self._bullet.getContactPoints(self._body, self._body, physicsClientId=self._client)
+        for point in points:
+            if point[9] > 0.0:
+                first, second = sorted((self._links[point[3]], self._links[point[4]]))
+                yield Contact(first, second, point[9])
 
     def _on_feet_alone(self) -> bool:
         points = self._bullet.getContactPoints(self._body, self._floor, physicsClientId=self._client)
