@@ -154,9 +154,9 @@ def test_a_stop_while_a_motion_is_checked_is_not_lost(monkeypatch):
     with open_robot("kinematic") as robot:
         begin, check = robot.joint_positions_rad(), backend.require_safe
 
-        def stopped_meanwhile(*arguments):
+        def stopped_meanwhile(*arguments, **more):
             robot.stop()
-            return check(*arguments)
+            return check(*arguments, **more)
 
         monkeypatch.setattr(backend, "require_safe", stopped_meanwhile)
         assert robot.perform(gesture_trajectory("9")) is False
