@@ -106,7 +106,7 @@ def test_the_short_form_comes_back_and_tells_every_fault(tmp_path):
     with pytest.raises(TrajectoryError) as caught:
         read_short_csv(path)
     places = [(finding.row, finding.column) for finding in caught.value.findings]
-    assert places == [(2, "larm_joint_1"), (3, "head_joint_2"), (4, ""), (5, "head_joint_2")]
+    assert places == [(2, "C"), (3, "B"), (4, ""), (5, "B")]
     path.write_text("time_s,head_joint_2\n0,0\n0.5,1\n1.6,1\n")
     with pytest.raises(TrajectoryError, match=r"row 3.*uneven|row 3.*even steps"):
         read_short_csv(path)
