@@ -109,7 +109,7 @@ def _heard(recording: str, kind: Any, preset: Any, options: tuple[str, ...]) -> 
         note(f"{recording}: {text}")
     with naming_options():
         chosen = cepstra_options(audio.sample_rate_hz, kind, preset, **parse_options(options))
-    with naming_file(audio):
+    with naming_file(audio.path):
         rows = np.asarray(CepstraComputer(chosen).compute(audio.samples))
     title = f"{Path(recording).name}: {kind}, {preset}"
     return _Found(title, rows, column_names(chosen), 1000 / chosen.frame_shift_ms, audio)

@@ -18,6 +18,7 @@ except ImportError:  # the base install has no command line
 from hri import __version__
 from hri.cli.groups import SuggestingGroup
 from hri.cli.messages import set_verbosity
+from hri.cli.output import print_any_name
 from hri.core.errors import Error
 
 EXIT_USAGE = 2
@@ -130,4 +131,5 @@ def run() -> None:
     if hasattr(signal, "SIGPIPE"):
         # Standard output may go to a program that ends early, such as head: then end as other tools do, silently.
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    print_any_name()
     sys.exit(main())

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import codecs
+import io
 import json
 import os
 import sys
@@ -78,6 +80,21 @@ def write_bytes(target: Path, content: bytes) -> None:
     """Write `content` to `target`, in a folder that is made if need be; an old file stays whole if this fails."""
     files.make_folder(target.parent)
     files.write_bytes(target, content)
+
+
+def print_any_name() -> None:
+    """Let names of files go to standard output as the bytes that they are, whatever the locale."""
+    codecs.register_error("hri", _bytes_of_names)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        ascii_only = codecs.lookup(sys.stdout.encoding).name == "ascii"  # as of LC_ALL=C, which means nothing by it
+        sys.stdout.reconfigure(encoding="utf-8" if ascii_only else None, errors="hri")
+
+
+def _bytes_of_names(error: UnicodeError) -> tuple[str | bytes, int]:
+    """A byte that is no text in the name of a file, as it is; an escape for what the locale has no character for."""
+    if isinstance(error, UnicodeEncodeError) and 0xDC80 <= ord(error.object[error.start]) <= 0xDCFF:
+        return bytes([ord(error.object[error.start]) - 0xDC00]), error.start + 1
+    return codecs.backslashreplace_errors(error)
 
 
 def say(text: str, json_path: str | None) -> None:

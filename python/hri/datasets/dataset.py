@@ -16,7 +16,7 @@ from hri.core.suggest import did_you_mean
 from hri.datasets.detection import detect_kind, detect_pattern, media_files
 from hri.datasets.folds import Fold, split_by_person, split_by_value, split_stratified
 from hri.datasets.manifest import KINDS, MANIFEST_NAME, Manifest, read_manifest
-from hri.datasets.pattern import Pattern
+from hri.datasets.pattern import PathFields, Pattern
 from hri.datasets.skig import is_skig, skig_clips
 from hri.media import natural_key
 
@@ -90,7 +90,7 @@ class Dataset:
             For an unknown kind or a bad pattern.
         FormatError
             For a faulty manifest (file, table and row are named), a layout that is not recognised
-            (what was tried is listed), or a folder without recordings.
+            (what was tried is listed), a label or person that is not UTF-8, or a folder without recordings.
         IoError
             When `directory` is not a folder.
         """
@@ -221,11 +221,18 @@ def _load_pattern(root: Path, kind: str, pattern: Pattern) -> Dataset:
         if fields is None:
             ignored.append(path)
         else:
+            _require_text(path, fields)
             samples.append(Sample(path, fields.label, fields.person, fields.take))
     if not samples:
         example = f", for example {ignored[0].relative_to(root).as_posix()}" if ignored else ""
         raise FormatError(f"{root}: none of its {len(ignored)} {kind} files fits {pattern.text!r}{example}")
     return Dataset(root, kind, samples, pattern.text, ignored=ignored)
+
+
+def _require_text(path: Path, fields: PathFields) -> None:
+    for what, text in (("label", fields.label), ("person", fields.person)):
+        if any("\ud800" <= character <= "\udfff" for character in text):
+            raise FormatError(f"{path}: the name is not UTF-8, so it can hold no {what}")
 
 
 def _load_manifest(root: Path, kind: str | None, path: Path) -> Dataset:

@@ -14,7 +14,7 @@ from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
 from hri.evaluation.conditions import Condition, FrontEnd, Samples
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
-from hri.media import read_audio
+from hri.media import naming_file, naming_files, read_audio
 from hri.recognition import SpeakerAdapter
 
 Progress = Callable[[str, int, int], None]
@@ -86,13 +86,14 @@ class SpeechRunner:
         for number, added in enumerate(self._train):
             heard += [self._heard(i, added, _TRAIN, number) for i in fold.train]
         indices = fold.train * (1 + len(self._train))
-        recognizer.fit(
-            [samples for samples, _ in heard],
-            [self._samples[i].label for i in indices],
-            sample_rate_hz=[rate for _, rate in heard],
-            groups=[self._samples[i].person for i in indices],
-            progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
-        )
+        with naming_files([self._samples[i].path for i in indices], "X"):
+            recognizer.fit(
+                [samples for samples, _ in heard],
+                [self._samples[i].label for i in indices],
+                sample_rate_hz=[rate for _, rate in heard],
+                groups=[self._samples[i].person for i in indices],
+                progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
+            )
         results = {}
         for name, condition in self._tests.items():
             heard_as = (condition, zlib.crc32(name.encode()))
@@ -108,7 +109,8 @@ class SpeechRunner:
     ) -> FoldResult:
         items = []
         for done, i in enumerate(order):
-            decision = listener.recognise(*self._heard(i, condition, _TEST, key))
+            with naming_file(self._samples[i].path):
+                decision = listener.recognise(*self._heard(i, condition, _TEST, key))
             items.append(EvaluationItem(i, self._samples[i].label, decision))
             self._progress(f"testing {fold.name} {name}".rstrip(), done + 1, len(order))
         return FoldResult(fold.name, tuple(items))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sound, pictures and video in and out of files."""
 
-from hri.media.audio import Audio, naming_file, read_audio
+from hri.media.audio import Audio, naming_file, naming_files, read_audio
 from hri.media.order import natural_key
 from hri.media.suffixes import AUDIO_SUFFIXES, IMAGE_SUFFIXES, MODEL_SUFFIX, VIDEO_SUFFIXES, kind_of_file
 from hri.media.video import (
@@ -30,6 +30,7 @@ __all__ = [
     "iterate_frames",
     "kind_of_file",
     "naming_file",
+    "naming_files",
     "natural_key",
     "read_audio",
     "read_frames",

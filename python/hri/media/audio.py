@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import io
 import logging
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from os import PathLike
@@ -125,17 +126,30 @@ def _require_usable(samples: NDArray[np.float32], path: Path) -> None:
 
 
 @contextmanager
-def naming_file(audio: Audio) -> Iterator[None]:
+def naming_file(path: Path | None) -> Iterator[None]:
     """Within the block, what is wrong with samples is wrong with their file, and the message names it.
 
     Raises
     ------
     FormatError
-        In place of an InvalidArgument, where `audio` was read from a file.
+        In place of an InvalidArgument, where the samples were read from a file.
     """
     try:
         yield
     except InvalidArgument as error:
-        if audio.path is None:
+        if path is None:
             raise
-        raise FormatError(f"{audio.path}: {error}") from None
+        raise FormatError(f"{path}: {error}") from None
+
+
+@contextmanager
+def naming_files(paths: Sequence[Path | None], name: str) -> Iterator[None]:
+    """As `naming_file`, for an error about one item of several, such as ``X[3]``."""
+    try:
+        yield
+    except InvalidArgument as error:
+        found = re.match(rf"{name}\[([0-9]+)\]:? ?", str(error))
+        path = paths[int(found[1])] if found and int(found[1]) < len(paths) else None
+        if found is None or path is None:
+            raise
+        raise FormatError(f"{path}: {str(error)[found.end() :]}") from None

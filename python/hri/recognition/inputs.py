@@ -134,6 +134,15 @@ def as_clips(values: Sequence[ClipInput], name: str = "X") -> list[list[Frame]]:
     return [as_frames(value, f"{name}[{i}]") for i, value in enumerate(values)]
 
 
+def as_texts(values: Iterable[object], name: str) -> list[str]:
+    """Labels or persons as text; InvalidArgument for one that UTF-8 cannot hold, as from the name of a file."""
+    texts = [str(value) for value in values]
+    for i, text in enumerate(texts):
+        if not text.isascii() and any("\ud800" <= character <= "\udfff" for character in text):
+            raise InvalidArgument(f"{name}[{i}] is {text!r}, which is not UTF-8")
+    return texts
+
+
 def _path_of(value: object) -> Path | None:
     """The file that `value` names, or that a `Sample` of a data set is about."""
     path = getattr(value, "path", None) if not isinstance(value, Audio | Clip) else None

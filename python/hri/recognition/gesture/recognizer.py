@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hri import _native
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
-from hri.recognition.inputs import ClipInput, as_clips, as_frames
+from hri.recognition.inputs import ClipInput, as_clips, as_frames, as_texts
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.vision.landmarks import find_landmarks, landmark_features
@@ -151,15 +151,13 @@ class GestureRecognizer(Recognizer):
         progress: Callable[[int, int], None] | None = None,
     ) -> GestureRecognizer:
         """Train on what `features` returned, so that clips are read once for several trainings."""
-        signers = [""] * len(rows) if groups is None else [str(g) for g in groups]
+        signers = [""] * len(rows) if groups is None else as_texts(groups, "groups")
         if not len(rows) == len(y) == len(signers):
             raise _native.InvalidArgument(
                 f"features, y and groups differ in length: {len(rows)}, {len(y)}, {len(signers)}"
             )
         _log.info("training on %d clips of %d labels", len(rows), len(set(y)))
-        self._native = self._native_class.train(
-            list(rows), [str(label) for label in y], signers, self.options, progress
-        )
+        self._native = self._native_class.train(list(rows), as_texts(y, "y"), signers, self.options, progress)
         return self
 
     def recognise(self, clip: ClipInput) -> Decision:

@@ -5,9 +5,7 @@
 from __future__ import annotations
 
 import logging
-import re
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from typing import Unpack
@@ -17,10 +15,10 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.suggest import did_you_mean
-from hri.media import Audio, naming_file
+from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
-from hri.recognition.inputs import AudioInput, as_audio, as_audios
+from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
 from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.word.fillers import FillerWord, filler_words
@@ -113,17 +111,17 @@ class WordRecognizer(Recognizer):
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
-        speakers = [""] * len(X) if groups is None else [str(g) for g in groups]
+        speakers = [""] * len(X) if groups is None else as_texts(groups, "groups")
         if not len(X) == len(y) == len(speakers):
             raise _native.InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
         others = filler_words() if fillers is None else fillers
-        with _naming_items(clips, "X"):
+        with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(
                 [clip.samples for clip in clips],
                 [clip.sample_rate_hz for clip in clips],
-                [str(label) for label in y],
+                as_texts(y, "y"),
                 speakers,
                 self.options,
                 progress,
@@ -157,7 +155,7 @@ class WordRecognizer(Recognizer):
         """
         read = as_audios(clips, sample_rate_hz, "clips")
         words = self._trained
-        with _naming_items(read, "clips"):
+        with naming_files([clip.path for clip in read], "clips"):
             self._native = words.with_word(
                 label, [clip.samples for clip in read], [clip.sample_rate_hz for clip in read]
             )
@@ -202,7 +200,7 @@ class WordRecognizer(Recognizer):
         """
         clip = as_audio(audio, sample_rate_hz)
         words = self._trained
-        with naming_file(clip):
+        with naming_file(clip.path):
             decision = Decision.from_native(self.mode, words.recognise(clip.samples, clip.sample_rate_hz))
         return replace(decision, notes=(*clip.notes, *decision.notes)) if clip.notes else decision
 
@@ -227,7 +225,7 @@ class WordRecognizer(Recognizer):
         """
         clip = as_audio(audio, sample_rate_hz)
         words = self._trained
-        with naming_file(clip):
+        with naming_file(clip.path):
             found = words.recognise_utterances(clip.samples, clip.sample_rate_hz)
         return [Utterance(u.first_s, u.last_s, Decision.from_native(self.mode, u.decision)) for u in found]
 
@@ -235,7 +233,7 @@ class WordRecognizer(Recognizer):
         """Raw score of every class (natural log), shape (num_classes,), in the order of `classes_`."""
         clip = as_audio(audio, sample_rate_hz)
         words = self._trained
-        with naming_file(clip):
+        with naming_file(clip.path):
             return np.asarray(words.scores(clip.samples, clip.sample_rate_hz))
 
     def decide(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> list[Decision]:
@@ -274,16 +272,3 @@ class WordRecognizer(Recognizer):
     def load(cls, path: str | PathLike[str]) -> WordRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
         return cls._wrap(load_native(_native.WordRecognizer, path, "word_recognizer"))
-
-
-@contextmanager
-def _naming_items(clips: Sequence[Audio], name: str) -> Iterator[None]:
-    """Within the block, an error about an item, such as ``X[3]``, is one about its file, if it was read from one."""
-    try:
-        yield
-    except _native.InvalidArgument as error:
-        found = re.match(rf"{name}\[(\d+)\]", str(error))
-        path = clips[int(found[1])].path if found and int(found[1]) < len(clips) else None
-        if found is None or path is None:
-            raise
-        raise _native.FormatError(f"{path}{str(error)[found.end() :]}") from None

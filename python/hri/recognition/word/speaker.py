@@ -61,7 +61,7 @@ class SpeakerAdapter:
             False leaves adaptation to a call of `update`, where the answer must not wait for it.
         """
         clip = as_audio(audio, sample_rate_hz)
-        with naming_file(clip):
+        with naming_file(clip.path):
             decision = Decision.from_native("speech", self._native.recognise(clip.samples, clip.sample_rate_hz))
         if clip.notes:
             decision = replace(decision, notes=(*clip.notes, *decision.notes))
@@ -80,7 +80,7 @@ class SpeakerAdapter:
         clip = as_audio(audio, sample_rate_hz)
         if label not in self._labels:
             raise _native.InvalidArgument(f"no word {label!r}; {did_you_mean(label, self._labels, 'it has')}")
-        with naming_file(clip):
+        with naming_file(clip.path):
             self._native.learn(clip.samples, clip.sample_rate_hz, label)
 
     @property

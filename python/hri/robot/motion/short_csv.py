@@ -68,7 +68,7 @@ def _placed(finding: Finding, trajectory: Trajectory, rows: list[int]) -> Findin
     """A finding about a trajectory, where it stands in the file."""
     named = finding.joint in trajectory.joint_names
     column = column_letter(1 + trajectory.joint_names.index(finding.joint)) if named else ""
-    message = _TO_ROW.sub(lambda found: f"to row {rows[int(found[1]) - 1]}", finding.message)
+    message = _TO_ROW.sub(lambda found: f"to row {rows[min(int(found[1]), len(rows)) - 1]}", finding.message)
     return replace(finding, row=rows[finding.row - 1], column=column, message=message)
 
 
