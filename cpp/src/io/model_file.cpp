@@ -63,6 +63,10 @@ void require_utf8(const std::string& field, const std::string& text) {
     fail(ErrorKind::invalid_argument, "field '" + field + "' holds text that is not UTF-8");
 }
 
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::string hex(std::uint32_t value) {
   char text[9];
   std::snprintf(text, sizeof text, "%08x", static_cast<unsigned>(value));
@@ -104,7 +108,8 @@ std::int64_t ModelFile::integer(const std::string& key) const {
 double ModelFile::number(const std::string& key) const {
   const std::string& value = text(key);
   std::istringstream in(value);
-  in.imbue(std::locale::classic());  // a program may have set a locale with decimal commas
+  in.imbue(std::locale::classic());      // a program may have set a locale with decimal commas
+  in.exceptions(std::ios_base::badbit);  // else a lack of memory would look like a bad number
   double parsed = 0;
   in >> std::noskipws;
   if (!(in >> parsed) || in.peek() != std::istringstream::traits_type::eof() ||
@@ -142,6 +147,7 @@ void ModelFile::set_number(const std::string& key, double value) {
   if (std::fabs(value) > kLargestNumber)
     fail(ErrorKind::invalid_argument, "field '" + key + "' is beyond 1e30");
   std::ostringstream out;
+  out.exceptions(std::ios_base::badbit);
   out.imbue(std::locale::classic());
   out << std::setprecision(17) << value;
   metadata_[key] = out.str();
@@ -149,7 +155,9 @@ void ModelFile::set_number(const std::string& key, double value) {
 
 void ModelFile::set_text_list(const std::string& key, const std::vector<std::string>& values) {
   for (const std::string& value : values) require_utf8(key, value);
-  metadata_[key] = nlohmann::json(values).dump();
+  std::string list;
+  for (const std::string& value : values) list += (list.empty() ? "" : ",") + quoted(value);
+  metadata_[key] = "[" + list + "]";
 }
 
 const ModelFile::Tensor& ModelFile::tensor(const std::string& name, bool is_double) const {
@@ -227,16 +235,24 @@ std::vector<std::uint8_t> ModelFile::serialise() const {
   stamped.metadata_.erase(kChecksumKey);
   stamped.set_text(kChecksumKey, hex(stamped.checksum()));
 
-  nlohmann::json header = nlohmann::json::object();
-  header["__metadata__"] = stamped.metadata_;
+  // Written piece by piece: nested values of the JSON library end the program when memory does.
+  std::map<std::string, std::string> fields;
+  std::string& metadata = fields["__metadata__"];
+  for (const auto& [key, value] : stamped.metadata_)
+    metadata += (metadata.empty() ? "{" : ",") + quoted(key) + ":" + quoted(value);
+  metadata += "}";
   std::uint64_t offset = 0;
   for (const auto& [name, t] : tensors_) {
-    header[name] = {{"dtype", t.is_double ? "F64" : "F32"},
-                    {"shape", {t.rows, t.cols}},
-                    {"data_offsets", {offset, offset + t.bytes.size()}}};
+    fields[name] = "{\"data_offsets\":[" + std::to_string(offset) + "," +
+                   std::to_string(offset + t.bytes.size()) + "],\"dtype\":\"" +
+                   (t.is_double ? "F64" : "F32") + "\",\"shape\":[" + std::to_string(t.rows) + "," +
+                   std::to_string(t.cols) + "]}";
     offset += t.bytes.size();
   }
-  std::string text = header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string text;
+  for (const auto& [name, value] : fields)
+    text += (text.empty() ? "{" : ",") + quoted(name) + ":" + value;
+  text += "}";
   text.append((8 - text.size() % 8) % 8,
               ' ');  // tensors start on a multiple of 8, as the layout asks
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/matrix_size.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 #include "hri/models/row_checks.hpp"
@@ -38,9 +39,9 @@ class Assignment {
 
   void assign(const MatrixF& centroids) {
     const CodewordTable table(centroids);
-    cell_sums_.sums.setZero(centroids.rows(), centroids.cols());
-    cell_sums_.counts.setZero(centroids.rows());
-    cell_sums_.distortions.setZero(centroids.rows());
+    detail::fit_zeros(&cell_sums_.sums, centroids.rows(), centroids.cols());
+    detail::fit_zeros(&cell_sums_.counts, centroids.rows(), 1);
+    detail::fit_zeros(&cell_sums_.distortions, centroids.rows(), 1);
     const double per_row = static_cast<double>(centroids.size());
     const auto at_once = static_cast<Eigen::Index>(std::max(1.0, kValuesPerPoll / per_row));
     for (Eigen::Index first = 0; first < rows_.rows(); first += at_once) {
