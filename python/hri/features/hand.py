@@ -36,13 +36,13 @@ Compute = Callable[[Picture, Picture], Any]
 
 
 def hand_features(
-    greys: Sequence[Picture], masks: Sequence[Picture], kind: Kind = "hand", **options: Any
+    greys: Sequence[Picture] | Picture, masks: Sequence[Picture] | Picture, kind: Kind = "hand", **options: Any
 ) -> NDArray[np.float32]:
     """Features of every frame that shows a hand.
 
     Parameters
     ----------
-    greys, masks : sequence of uint8 arrays, shape (height, width)
+    greys, masks : sequence of uint8 arrays, shape (height, width), or one of shape (num_frames, height, width)
         Grey pictures, and 255 where the hand is; a still is a sequence of one.
     kind : str
         One of `HAND_KINDS`: ``hand``, the joined feature that `GestureRecognizer` uses; ``orientation`` histograms of
