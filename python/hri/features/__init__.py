@@ -2,18 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Features of speech and of hands."""
 
-from hri.features.frames import (
-    FilterBankOptions,
-    filter_bank,
-    filter_edges,
-    lpc_cepstrum,
-    normalise_time,
-    spectral_envelope,
-)
-from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
-from hri.features.shapes import (
+from hri._native import (
+    CepstraComputer,
+    CepstraOptions,
+    CepstraStream,
     ChainCodeComputer,
     ChainCodeOptions,
+    FilterBankOptions,
     FourierDescriptorComputer,
     FourierDescriptorOptions,
     GestureFeatureComputer,
@@ -29,6 +24,10 @@ from hri.features.shapes import (
     SilhouetteCepstrumOptions,
     WaveletDescriptorComputer,
     WaveletDescriptorOptions,
+)
+from hri.features.frames import filter_bank, filter_edges, lpc_cepstrum, normalise_time, spectral_envelope
+from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
+from hri.features.shapes import (
     b_spline_wavelet,
     chain_code,
     hu_features,
@@ -41,16 +40,7 @@ from hri.features.shapes import (
     trace_contour,
 )
 from hri.features.spectrograms import delta, melspectrogram, mfcc
-from hri.features.speech import (
-    KINDS,
-    PRESETS,
-    CepstraComputer,
-    CepstraOptions,
-    CepstraStream,
-    cepstra,
-    cepstra_options,
-    column_names,
-)
+from hri.features.speech import KINDS, PRESETS, cepstra, cepstra_options, column_names
 
 __all__ = [
     "HAND_KINDS",

@@ -10,15 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from hri import _native
 from hri._native import FilterBankOptions
 
-__all__ = [
-    "FilterBankOptions",
-    "filter_bank",
-    "filter_edges",
-    "lpc_cepstrum",
-    "normalise_time",
-    "spectral_envelope",
-]
-
 
 def filter_bank(options: FilterBankOptions, sample_rate_hz: int, fft_size: int) -> NDArray[np.float32]:
     """Weights of a filter bank.

@@ -11,9 +11,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from hri._native import HAND_TRACK_COLUMNS
-from hri.core.errors import InvalidArgument
-from hri.features.shapes import (
+from hri._native import (
+    HAND_TRACK_COLUMNS,
     ChainCodeComputer,
     ChainCodeOptions,
     FourierDescriptorComputer,
@@ -27,8 +26,9 @@ from hri.features.shapes import (
     SilhouetteCepstrumOptions,
     WaveletDescriptorComputer,
     WaveletDescriptorOptions,
-    hu_features,
 )
+from hri.core.errors import InvalidArgument
+from hri.features.shapes import hu_features
 
 Kind = Literal["hand", "orientation", "dwt-mfcc", "wavelet", "fourier", "chain-code", "moments", "track"]
 Picture = NDArray[np.uint8]

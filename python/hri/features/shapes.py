@@ -8,55 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
-from hri._native import (
-    ChainCodeComputer,
-    ChainCodeOptions,
-    FourierDescriptorComputer,
-    FourierDescriptorOptions,
-    GestureFeatureComputer,
-    HandFeatureComputer,
-    HandFeatureOptions,
-    HandPairOptions,
-    HandPairTracker,
-    HandTrackComputer,
-    HandTrackOptions,
-    OrientationHistogramOptions,
-    PairedHand,
-    SilhouetteCepstrumComputer,
-    SilhouetteCepstrumOptions,
-    WaveletDescriptorComputer,
-    WaveletDescriptorOptions,
-)
-
-__all__ = [
-    "ChainCodeComputer",
-    "ChainCodeOptions",
-    "FourierDescriptorComputer",
-    "FourierDescriptorOptions",
-    "GestureFeatureComputer",
-    "HandFeatureComputer",
-    "HandFeatureOptions",
-    "HandPairOptions",
-    "HandPairTracker",
-    "HandTrackComputer",
-    "HandTrackOptions",
-    "OrientationHistogramOptions",
-    "PairedHand",
-    "SilhouetteCepstrumComputer",
-    "SilhouetteCepstrumOptions",
-    "WaveletDescriptorComputer",
-    "WaveletDescriptorOptions",
-    "b_spline_wavelet",
-    "chain_code",
-    "hu_features",
-    "hu_moments",
-    "orientation_histogram",
-    "resample_contour",
-    "shape_axis",
-    "shape_moments",
-    "shape_number",
-    "trace_contour",
-]
+from hri._native import OrientationHistogramOptions
 
 
 def trace_contour(mask: ArrayLike) -> NDArray[np.int32]:

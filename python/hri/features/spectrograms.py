@@ -14,8 +14,6 @@ from hri._native import CepstraComputer, CepstraOptions, FilterBankOptions
 from hri.core.errors import InvalidArgument
 from hri.features.frames import filter_bank
 
-__all__ = ["delta", "melspectrogram", "mfcc"]
-
 
 def melspectrogram(
     y: ArrayLike,

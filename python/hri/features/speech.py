@@ -8,19 +8,8 @@ from typing import Any, Literal
 
 from numpy.typing import ArrayLike, NDArray
 
-from hri._native import CepstraComputer, CepstraOptions, CepstraStream
+from hri._native import CepstraComputer, CepstraOptions
 from hri.core.errors import InvalidArgument
-
-__all__ = [
-    "KINDS",
-    "PRESETS",
-    "CepstraComputer",
-    "CepstraOptions",
-    "CepstraStream",
-    "cepstra",
-    "cepstra_options",
-    "column_names",
-]
 
 Kind = Literal["mfcc", "hfcc", "lpcc"]
 Preset = Literal["hri", "htk", "kaldi", "librosa"]

@@ -5,6 +5,33 @@
 Estimators have scikit-learn's methods (HMMs hmmlearn's) and work in its pipelines and searches.
 """
 
+from hri._native import (
+    CodebookOptions,
+    CodebookReport,
+    DiscreteHmm,
+    DiscreteHmmOptions,
+    DiscreteHmmStream,
+    FixedPointHmmSet,
+    GaussianMixture,
+    GaussianMixtureHmm,
+    GaussianMixtureHmmOptions,
+    GaussianMixtureHmmStream,
+    GaussianMixtureOptions,
+    MarkovChain,
+    MultiStreamCodebook,
+    PossibilisticGaussianHmmSet,
+    PossibilisticHmmOptions,
+    PossibilisticHmmSet,
+    PossibilisticHmmStream,
+    PossibilisticRule,
+    StateChoice,
+    StateChoiceOptions,
+    Topology,
+    TrainingReport,
+    choose_num_states,
+    initial_start,
+    initial_transition,
+)
 from hri.models.classifiers import (
     Classifier,
     DistanceClassifier,
@@ -15,41 +42,10 @@ from hri.models.classifiers import (
     PossibilityClassifier,
     RbfClassifier,
 )
-from hri.models.codebook import Codebook, CodebookOptions, CodebookReport, MultiStreamCodebook
+from hri.models.codebook import Codebook
 from hri.models.distances import bhattacharyya_gaussian, distance
-from hri.models.hmm import (
-    GMMHMM,
-    CategoricalHMM,
-    DiscreteHmm,
-    DiscreteHmmOptions,
-    DiscreteHmmStream,
-    GaussianHMM,
-    GaussianMixture,
-    GaussianMixtureHmm,
-    GaussianMixtureHmmOptions,
-    GaussianMixtureHmmStream,
-    GaussianMixtureOptions,
-    MarkovChain,
-    StateChoice,
-    StateChoiceOptions,
-    Topology,
-    TrainingReport,
-    choose_num_states,
-    initial_start,
-    initial_transition,
-)
-from hri.models.possibility import (
-    PTBHMM,
-    FixedPointHmmSet,
-    PossibilisticGaussianHmmSet,
-    PossibilisticHmmOptions,
-    PossibilisticHmmSet,
-    PossibilisticHmmStream,
-    PossibilisticRule,
-    necessity_of,
-    possibilities,
-    possibility_of,
-)
+from hri.models.hmm import GMMHMM, CategoricalHMM, GaussianHMM
+from hri.models.possibility import PTBHMM, necessity_of, possibilities, possibility_of
 from hri.models.projections import LDA, PCA
 
 __all__ = [

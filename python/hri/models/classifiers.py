@@ -7,7 +7,7 @@ Rows are used in float32. Labels may be anything that can be sorted: text, numbe
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,24 +25,13 @@ from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
 from hri.models.rows import as_labels, as_rows
-from hri.models.saving import SavedEstimator
+from hri.models.saving import RowEstimator
 
 if TYPE_CHECKING:
     from typing import Self
 
-__all__ = [
-    "Classifier",
-    "DistanceClassifier",
-    "GaussianBayes",
-    "KnnClassifier",
-    "LinearSvm",
-    "LogisticRegression",
-    "PossibilityClassifier",
-    "RbfClassifier",
-]
 
-
-class Classifier(SavedEstimator):
+class Classifier(RowEstimator):
     """Base of the classifiers of rows.
 
     Attributes
@@ -56,14 +45,7 @@ class Classifier(SavedEstimator):
     """
 
     _estimator_type = "classifier"
-    _options_class: ClassVar[Any]
     classes_: NDArray[Any]
-
-    def _check_params(self) -> None:
-        self._options_class(**self._params_set())
-
-    def _params_set(self) -> dict[str, Any]:
-        return {name: value for name, value in self._params.items() if value is not None}
 
     def fit(self, X: ArrayLike, y: ArrayLike) -> Self:
         """Train.
@@ -84,7 +66,7 @@ class Classifier(SavedEstimator):
         InvalidArgument
             For shapes that do not fit, values that are not finite (names the first), parameters out of range.
         """
-        options = self._options_class(**self._params_set())
+        options = self._options()
         owner = type(self).__name__
         rows = as_rows(X, owner)
         classes, indices = self._labels(y, len(rows))
@@ -94,16 +76,6 @@ class Classifier(SavedEstimator):
 
     def _labels(self, y: ArrayLike, num_rows: int) -> tuple[NDArray[Any], NDArray[np.int32]]:
         return as_labels(y, num_rows, type(self).__name__)
-
-    @property
-    def n_features_in_(self) -> int:
-        """Columns of the rows it was trained on."""
-        return int(self._fitted.dim)
-
-    @property
-    def model_(self) -> Any:
-        """The trained C++ model."""
-        return self._fitted
 
     def decision_function(self, X: ArrayLike) -> NDArray[np.float32]:
         """How much speaks for each class; larger is likelier.

@@ -10,20 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
-from hri._native import CodebookOptions, CodebookReport, MultiStreamCodebook
+from hri._native import CodebookOptions, CodebookReport
 from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
 from hri.models.rows import as_rows
-from hri.models.saving import SavedEstimator
+from hri.models.saving import RowEstimator
 
 if TYPE_CHECKING:
     from typing import Self
 
-__all__ = ["Codebook", "CodebookOptions", "CodebookReport", "MultiStreamCodebook"]
 
-
-class Codebook(SavedEstimator):
+class Codebook(RowEstimator):
     """A codebook grown by splitting (Linde, Buzo, Gray), or by k-means from given codewords.
 
     Keywords are those of `CodebookOptions`.
@@ -45,14 +43,12 @@ class Codebook(SavedEstimator):
     """
 
     _native_class = _native.Codebook
+    _options_class = CodebookOptions
     report_: CodebookReport
 
     @keywords_of(CodebookOptions)
     def __init__(self, **params: Any) -> None:
         super().__init__(**params)
-
-    def _check_params(self) -> None:
-        CodebookOptions(**self._params)
 
     @classmethod
     def from_centers(cls, centers: ArrayLike) -> Self:
@@ -74,7 +70,7 @@ class Codebook(SavedEstimator):
         init : array_like, shape (num_codewords, num_features), optional
             Codewords that k-means starts from; without them the codebook grows from one by splitting.
         """
-        options = CodebookOptions(**self._params)
+        options = self._options()
         rows = as_rows(X, "Codebook")
         report = CodebookReport()
         if init is None:
@@ -129,16 +125,6 @@ class Codebook(SavedEstimator):
     def cluster_centers_(self) -> NDArray[np.float32]:
         """The codewords."""
         return np.asarray(self._fitted.centroids)
-
-    @property
-    def n_features_in_(self) -> int:
-        """Columns of the frames it was trained on."""
-        return int(self._fitted.dim)
-
-    @property
-    def model_(self) -> Any:
-        """The trained C++ model."""
-        return self._fitted
 
     def __len__(self) -> int:
         return int(self._fitted.size)

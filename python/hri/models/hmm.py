@@ -5,29 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hri._native import (
-    DiscreteHmm,
-    DiscreteHmmOptions,
-    DiscreteHmmStream,
-    GaussianMixture,
-    GaussianMixtureHmm,
-    GaussianMixtureHmmOptions,
-    GaussianMixtureHmmStream,
-    GaussianMixtureOptions,
-    MarkovChain,
-    StateChoice,
-    StateChoiceOptions,
-    Topology,
-    TrainingReport,
-    choose_num_states,
-    initial_start,
-    initial_transition,
-)
+from hri._native import DiscreteHmm, DiscreteHmmOptions, GaussianMixtureHmm, GaussianMixtureHmmOptions, TrainingReport
 from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
@@ -36,28 +19,6 @@ from hri.models.saving import SavedEstimator
 
 if TYPE_CHECKING:
     from typing import Self
-
-__all__ = [
-    "GMMHMM",
-    "CategoricalHMM",
-    "DiscreteHmm",
-    "DiscreteHmmOptions",
-    "DiscreteHmmStream",
-    "GaussianHMM",
-    "GaussianMixture",
-    "GaussianMixtureHmm",
-    "GaussianMixtureHmmOptions",
-    "GaussianMixtureHmmStream",
-    "GaussianMixtureOptions",
-    "MarkovChain",
-    "StateChoice",
-    "StateChoiceOptions",
-    "Topology",
-    "TrainingReport",
-    "choose_num_states",
-    "initial_start",
-    "initial_transition",
-]
 
 
 class _Hmm(SavedEstimator):
@@ -74,14 +35,7 @@ class _Hmm(SavedEstimator):
         The trained C++ model.
     """
 
-    _options_class: ClassVar[Any]
     report_: TrainingReport
-
-    def _check_params(self) -> None:
-        self._options()
-
-    def _options(self) -> Any:
-        return self._options_class(**{name: value for name, value in self._params.items() if value is not None})
 
     def _sequences(self, X: Any, lengths: Sequence[int] | None) -> list[Any]:
         """The sequences of `X`, each as the C++ model takes it."""
@@ -166,11 +120,6 @@ class _Hmm(SavedEstimator):
     def transmat_(self) -> NDArray[np.float64]:
         """Probabilities of going from one state to another."""
         return np.asarray(self._fitted.chain.transition)
-
-    @property
-    def model_(self) -> Any:
-        """The trained C++ model."""
-        return self._fitted
 
     def __sklearn_tags__(self) -> Any:
         return make_tags(None)

@@ -11,14 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
-from hri._native import (
-    FixedPointHmmSet,
-    PossibilisticGaussianHmmSet,
-    PossibilisticHmmOptions,
-    PossibilisticHmmSet,
-    PossibilisticHmmStream,
-    PossibilisticRule,
-)
+from hri._native import PossibilisticHmmOptions, PossibilisticHmmSet
 from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
@@ -27,19 +20,6 @@ from hri.models.saving import SavedEstimator
 
 if TYPE_CHECKING:
     from typing import Self
-
-__all__ = [
-    "PTBHMM",
-    "FixedPointHmmSet",
-    "PossibilisticGaussianHmmSet",
-    "PossibilisticHmmOptions",
-    "PossibilisticHmmSet",
-    "PossibilisticHmmStream",
-    "PossibilisticRule",
-    "necessity_of",
-    "possibilities",
-    "possibility_of",
-]
 
 
 class PTBHMM(SavedEstimator):
@@ -65,17 +45,12 @@ class PTBHMM(SavedEstimator):
 
     _estimator_type = "classifier"
     _native_class = PossibilisticHmmSet
+    _options_class = PossibilisticHmmOptions
     classes_: NDArray[Any]
 
     @keywords_of(PossibilisticHmmOptions)
     def __init__(self, **params: Any) -> None:
         super().__init__(**params)
-
-    def _check_params(self) -> None:
-        self._options()
-
-    def _options(self) -> PossibilisticHmmOptions:
-        return PossibilisticHmmOptions(**{name: value for name, value in self._params.items() if value is not None})
 
     def fit(self, X: Sequence[ArrayLike], y: ArrayLike) -> Self:
         """Train on symbol sequences.

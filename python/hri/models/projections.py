@@ -15,15 +15,13 @@ from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
 from hri.models.rows import as_labels, as_rows
-from hri.models.saving import SavedEstimator
+from hri.models.saving import RowEstimator
 
 if TYPE_CHECKING:
     from typing import Self
 
-__all__ = ["LDA", "PCA"]
 
-
-class _Projection(SavedEstimator):
+class _Projection(RowEstimator):
     """Base of both.
 
     Attributes
@@ -42,16 +40,6 @@ class _Projection(SavedEstimator):
     def mean_(self) -> NDArray[np.float32]:
         """Mean of the rows trained on."""
         return np.asarray(self._fitted.mean)
-
-    @property
-    def n_features_in_(self) -> int:
-        """Columns of the rows it was trained on."""
-        return int(self._fitted.dim)
-
-    @property
-    def model_(self) -> Any:
-        """The trained C++ model."""
-        return self._fitted
 
     def transform(self, X: ArrayLike) -> NDArray[np.float32]:
         """Rows in the space of the components, float32, shape (num_rows, num_components)."""
@@ -134,17 +122,15 @@ class LDA(_Projection):
     """
 
     _native_class = _native.Lda
+    _options_class = LdaOptions
 
     @keywords_of(LdaOptions)
     def __init__(self, **params: Any) -> None:
         super().__init__(**params)
 
-    def _check_params(self) -> None:
-        LdaOptions(**self._params)
-
     def fit(self, X: ArrayLike, y: ArrayLike) -> Self:
         """Find the directions that separate the labels `y`, one a row of `X`."""
-        options = LdaOptions(**self._params)
+        options = self._options()
         rows = as_rows(X, "LDA")
         classes, indices = as_labels(y, len(rows), "LDA")
         self._model = _native.Lda.train(rows, indices, len(classes), options)

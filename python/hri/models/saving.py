@@ -23,7 +23,20 @@ class SavedEstimator(Estimator):
     """An estimator of one C++ model that is written to a model file and read strictly."""
 
     _native_class: ClassVar[Any]
+    _options_class: ClassVar[Any]
     classes_: Any
+
+    def _check_params(self) -> None:
+        self._options()
+
+    def _options(self) -> Any:
+        """The parameters as options of the C++ model; None stands for nested options that are left as they are."""
+        return self._options_class(**{name: value for name, value in self._params.items() if value is not None})
+
+    @property
+    def model_(self) -> Any:
+        """The trained C++ model."""
+        return self._fitted
 
     def to_model_file(self) -> ModelFile:
         """Parameters and, once trained, the model; what `save` writes."""
@@ -81,6 +94,15 @@ class SavedEstimator(Estimator):
         if not isinstance(state, bytes):
             raise FormatError(f"the state of {type(self).__name__} must be bytes, got {type(state).__name__}")
         self._read(ModelFile.from_bytes(state, f"the state of {type(self).__name__}"))
+
+
+class RowEstimator(SavedEstimator):
+    """One that is trained on rows of numbers."""
+
+    @property
+    def n_features_in_(self) -> int:
+        """Columns of the rows it was trained on."""
+        return int(self._fitted.dim)
 
 
 _LABEL_TYPES = {"str", "int", "float", "bool"}

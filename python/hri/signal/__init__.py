@@ -2,28 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Signals: wavelet transforms by PyWavelets' names, noise reduction, end points, resampling, linear prediction."""
 
+from hri._native import ActivityOptions, Endpoint, Endpointer, EndpointerOptions, frequency_order
 from hri.signal.arrays import MODES
 from hri.signal.filters import FAMILIES, Wavelet, dwt_max_level, wavelist
 from hri.signal.images import dwt2, idwt2, wavedec2, waverec2
 from hri.signal.noise_reduction import approximation, denoise, noise_level, shrink, shrinkage_threshold
-from hri.signal.packets import (
-    PacketNode,
-    WaveletPacket,
-    best_basis,
-    frequency_order,
-    wavelet_packets,
-    waverec_packets,
-)
-from hri.signal.speech import (
-    ActivityOptions,
-    Endpoint,
-    Endpointer,
-    EndpointerOptions,
-    activity_frames,
-    find_speech,
-    linear_prediction,
-    resample,
-)
+from hri.signal.packets import PacketNode, WaveletPacket, best_basis, wavelet_packets, waverec_packets
+from hri.signal.speech import activity_frames, find_speech, linear_prediction, resample
 from hri.signal.streams import WaveletStream
 from hri.signal.wavelets import dwt, idwt, iswt, swt, swt_max_level, wavedec, waverec
 

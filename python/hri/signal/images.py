@@ -15,8 +15,6 @@ from hri.core.errors import InvalidArgument
 from hri.signal.arrays import as_mode, as_real
 from hri.signal.filters import Wavelet, dwt_max_level, name_of
 
-__all__ = ["dwt2", "idwt2", "wavedec2", "waverec2"]
-
 Array = NDArray[Any]
 Details = tuple[Array, Array, Array]
 """Horizontal, vertical and diagonal details of one level; horizontal ones answer to horizontal edges."""

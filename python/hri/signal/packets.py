@@ -17,8 +17,6 @@ from hri.core.errors import InvalidArgument
 from hri.signal.arrays import as_contiguous, as_mode
 from hri.signal.filters import Wavelet, dwt_max_level, name_of
 
-__all__ = ["PacketNode", "WaveletPacket", "best_basis", "frequency_order", "wavelet_packets", "waverec_packets"]
-
 Array = NDArray[Any]
 MAX_LEVEL = 20
 

@@ -8,18 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
-from hri._native import ActivityOptions, Endpoint, Endpointer, EndpointerOptions
-
-__all__ = [
-    "ActivityOptions",
-    "Endpoint",
-    "Endpointer",
-    "EndpointerOptions",
-    "activity_frames",
-    "find_speech",
-    "linear_prediction",
-    "resample",
-]
+from hri._native import ActivityOptions
 
 
 def find_speech(

@@ -13,8 +13,6 @@ from hri import _native
 from hri.core.errors import InvalidArgument
 from hri.signal.filters import Wavelet, name_of
 
-__all__ = ["WaveletStream"]
-
 
 class WaveletStream:
     """The transform of a signal that arrives in pieces.

@@ -18,8 +18,6 @@ from hri.core.errors import InvalidArgument
 from hri.signal.arrays import as_mode, as_real
 from hri.signal.filters import Wavelet, dwt_max_level, name_of
 
-__all__ = ["dwt", "idwt", "iswt", "swt", "swt_max_level", "wavedec", "waverec"]
-
 Array = NDArray[Any]
 _WHOLE = 2**62
 
