@@ -53,6 +53,8 @@ WITHIN = {
 }
 ONLY_IN = {"pybullet": {"robot/simulation/pybullet_backend.py"}}
 AT_THE_ROOT = {"__init__.py", "__main__.py"}
+# The compiled modules are imported by the rooms that mirror those of C++; all else takes what these offer.
+NATIVE_ROOMS = {"__init__.py", "core", "io", "signal", "features", "models", "vision", "recognition"}
 MAX_LINES = 450
 
 
@@ -106,6 +108,14 @@ def test_python_packages_depend_one_way() -> None:
     for path in python_files():
         found += python_violations(path.relative_to(PYTHON_ROOT).as_posix(), path.read_text())
     assert found == []
+
+
+def test_compiled_modules_are_imported_by_the_rooms_of_cpp_alone() -> None:
+    pattern = re.compile(r"^\s*(?:from hri\._native|from hri import .*_native|import hri\._native)|hri\._native", re.M)
+    users = {p.relative_to(PYTHON_ROOT).parts[0] for p in python_files() if pattern.search(p.read_text())}
+    assert users <= NATIVE_ROOMS
+    texts = [p for root in ("docs", "benchmarks") for p in (ROOT / root).rglob("*") if p.suffix in (".md", ".py")]
+    assert [p.name for p in [ROOT / "README.md", *texts] if re.search(r"(?<!kaldi)_native", p.read_text())] == []
 
 
 @pytest.mark.parametrize(

@@ -125,6 +125,12 @@ def test_fields_that_do_not_go_together_are_refused() -> None:
         _native.CepstraOptions(high_hz=9000.0)
 
 
+def test_every_class_is_offered_by_a_room() -> None:
+    rooms = (hri.signal, hri.features, hri.models, hri.vision, hri.recognition)
+    offered = {name for room in rooms for name in room.__all__}
+    assert {options_class.__name__ for options_class in CLASSES_WITH_FIELDS} - offered == set()
+
+
 @pytest.mark.parametrize("recognizer_class", [hri.WordRecognizer, hri.GestureRecognizer])
 def test_words_and_gestures_nest_alike(recognizer_class: Any) -> None:
     recognizer = recognizer_class(model="hmm", num_states=7)

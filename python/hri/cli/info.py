@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib import import_module
 from importlib.util import find_spec
 from platform import python_version
 from typing import Any
 
 import click
 
-from hri import __version__
+from hri import __version__, vision
 from hri.cli.output import json_option, say, write_json
 from hri.cli.recognizers import CLASSES, default_model
 from hri.media import natural_key
@@ -48,18 +47,17 @@ def _installation() -> dict[str, Any]:
     return {
         "version": __version__,
         "python": python_version(),
-        "native": {"core": _loads("hri.io"), "vision": _loads("hri.vision.silhouettes")},
+        "native": {"core": True, "vision": _has_vision()},
         "extras": {name: all(map(find_spec, modules)) for name, modules in EXTRAS.items()},
         "models": {mode: str(default_model(mode)) for mode in CLASSES if default_model(mode).is_file()},
     }
 
 
-def _loads(module: str) -> bool:
+def _has_vision() -> bool:
     try:
-        import_module(module)
+        return vision.HandFinder is not None
     except ImportError:
         return False
-    return True
 
 
 def _model(path: str) -> dict[str, Any]:

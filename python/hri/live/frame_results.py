@@ -20,8 +20,10 @@ from hri.live import events
 from hri.live.events import Event
 from hri.live.frames import Frame, FrameSource
 from hri.live.sources import Stalled
+from hri.recognition import GestureSegment
+from hri.vision import HandObservation
 
-GestureEvent = partial(Event, mode="gesture")
+gesture_event = partial(Event, mode="gesture")
 Mask = NDArray[np.uint8]
 _RETRY_S = 0.5
 _TRACK_S = 2.0
@@ -45,7 +47,7 @@ class Stream(Protocol):
 
     @property
     def spotter(self) -> Any:
-        """With the attributes `hand`, `place` and `in_gesture` of `hri._native_vision.GestureSpotter`."""
+        """With the attributes `hand`, `place` and `in_gesture` of `hri.recognition.GestureSpotter`."""
         ...
 
 
@@ -72,7 +74,7 @@ class FrameResult:
     events: list[Event] = field(default_factory=list)
     frame: Frame | None = None
     mask: Mask | None = None
-    hand: Any = None
+    hand: HandObservation | None = None
     track: list[tuple[float, float]] = field(default_factory=list)
     in_gesture: bool = False
 
@@ -112,18 +114,20 @@ def frame_results(
     """
     track: deque[tuple[float, float, float]] = deque()
     next_hand_s, num_lost, time_s = 0.0, 0, 0.0
-    yield FrameResult(0.0, [GestureEvent(0.0, events.WATCHING, {"source": source.name, "fps": source.fps, **metadata})])
+    yield FrameResult(
+        0.0, [gesture_event(0.0, events.WATCHING, {"source": source.name, "fps": source.fps, **metadata})]
+    )
     try:
         while True:
             try:
                 timed = source.read()
             except Stalled as stalled:
                 happened = stream.interrupt()
-                yield FrameResult(time_s, [*happened, GestureEvent(time_s, events.STALL, {"message": str(stalled)})])
+                yield FrameResult(time_s, [*happened, gesture_event(time_s, events.STALL, {"message": str(stalled)})])
                 track.clear()
                 if not _comes_back(source, reconnect_s):
                     raise
-                yield FrameResult(time_s, [GestureEvent(time_s, events.RECONNECTED)])
+                yield FrameResult(time_s, [gesture_event(time_s, events.RECONNECTED)])
                 continue
             if timed is None:
                 break
@@ -143,7 +147,7 @@ def frame_results(
             result.track = [(x, y) for _, x, y in track]
             if source.num_lost > num_lost:
                 fields = {"lost_frames": source.num_lost - num_lost}
-                result.events.insert(0, GestureEvent(time_s, events.OVERFLOW, fields))
+                result.events.insert(0, gesture_event(time_s, events.OVERFLOW, fields))
                 num_lost = source.num_lost
             if time_s >= next_hand_s:
                 next_hand_s = time_s + hand_interval_s
@@ -152,19 +156,19 @@ def frame_results(
         happened = stream.finish()
         if happened:
             yield FrameResult(time_s, happened)
-        yield FrameResult(time_s, [GestureEvent(time_s, events.ENDED, {"lost_frames": source.num_lost})])
+        yield FrameResult(time_s, [gesture_event(time_s, events.ENDED, {"lost_frames": source.num_lost})])
     finally:
         source.close()
 
 
-def segment_event(segment: Any, time_s: float) -> Event:
-    """The event of a gesture segment (`hri._native.GestureSegment`)."""
+def segment_event(segment: GestureSegment, time_s: float) -> Event:
+    """The event of a gesture segment."""
     fields: dict[str, Any] = {"first_s": round(segment.first_s, 4)}
     if segment.kind != "start":
         fields |= {"last_s": round(segment.last_s, 4), "reason": segment.reason}
     if segment.kind == "end":
         fields["cut"] = segment.reason == "cut"
-    return GestureEvent(time_s, _SEGMENTS[segment.kind], fields)
+    return gesture_event(time_s, _SEGMENTS[segment.kind], fields)
 
 
 def _comes_back(source: FrameSource, reconnect_s: float) -> bool:
@@ -179,4 +183,4 @@ def _comes_back(source: FrameSource, reconnect_s: float) -> bool:
 def _hand(result: FrameResult, place: tuple[float, float, float] | None) -> Event:
     x, y, area = (None, None, 0.0) if place is None else (round(place[0], 4), round(place[1], 4), place[2])
     fields = {"area": round(area, 4), "x": x, "y": y, "quality": round(result.quality, 3)}
-    return GestureEvent(result.time_s, events.HAND, {**fields, "in_gesture": result.in_gesture})
+    return gesture_event(result.time_s, events.HAND, {**fields, "in_gesture": result.in_gesture})

@@ -9,16 +9,15 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
-from typing import Any
 
-from hri import _native
 from hri.live import events
 from hri.live.events import Event
-from hri.live.frame_results import FrameResult, GestureEvent, frame_results, segment_event
+from hri.live.frame_results import FrameResult, frame_results, gesture_event, segment_event
 from hri.live.frames import Frame, FrameSource, TimedFrame
 from hri.live.sources import require_positive
 from hri.live.takes import Takes
 from hri.media import write_video
+from hri.recognition import LEARNED_STILL_CHANGE, GestureSegment, GestureSegmenterOptions
 
 PATTERN = "{label}/{person}_{take}.avi"
 """Pictures of their own: what codecs of moving pictures leave out in the dark changes outlines."""
@@ -60,7 +59,7 @@ class GestureRecorder:
         labels: Sequence[str],
         person: str,
         takes: int = 5,
-        segmenter: Any = None,
+        segmenter: GestureSegmenterOptions | None = None,
         *,
         held: bool = False,
         pause_s: float = 2.5,
@@ -69,8 +68,8 @@ class GestureRecorder:
         require_positive("pause_s", pause_s)
         require_positive("hand_interval_s", hand_interval_s)
         self._takes = Takes(folder, labels, person, takes, "gesture", PATTERN)
-        fields = {"still_change": _native.LEARNED_STILL_CHANGE} if segmenter is None else segmenter.as_dict()
-        chosen = _native.GestureSegmenterOptions(**{**fields, "arrivals": held})
+        fields = {"still_change": LEARNED_STILL_CHANGE} if segmenter is None else segmenter.as_dict()
+        chosen = GestureSegmenterOptions(**{**fields, "arrivals": held})
         chosen.context_s = chosen.context_s if held else max(chosen.context_s, REST_S)
         self._options = chosen
         self._pause_s = pause_s
@@ -131,11 +130,11 @@ class GestureRecorder:
         fields: dict[str, object] = {"label": missing[0][0], "take": missing[0][1]}
         measured = {"quality": round(gesture.quality, 3), "hand_seen": round(gesture.seen, 3)}
         if reason:
-            return GestureEvent(time_s, events.REFUSED, {**fields, "reason": reason, **measured})
+            return gesture_event(time_s, events.REFUSED, {**fields, "reason": reason, **measured})
         frames = [frame for frame, _ in gesture.frames]
         path = self._takes.keep(*missing.pop(0), lambda part: write_video(part, frames, gesture.fps))
         fields |= {"path": str(path), "duration_s": round(gesture.duration_s, 4), "num_frames": len(frames)}
-        return GestureEvent(time_s, events.RECORDED, {**fields, **measured})
+        return gesture_event(time_s, events.RECORDED, {**fields, **measured})
 
 
 @dataclass(frozen=True)
@@ -157,11 +156,11 @@ class _Gesture:
 class _SpottingStream:
     """Finds gestures, and keeps the pictures of the one that is shown and how well the hand was seen in them."""
 
-    def __init__(self, options: Any) -> None:
-        from hri import _native_vision
+    def __init__(self, options: GestureSegmenterOptions) -> None:
+        from hri.recognition import GestureSpotter
+        from hri.vision import HandFinder
 
-        finder = _native_vision.HandFinder()
-        self.spotter = _native_vision.GestureSpotter(finder, dynamic=True, options=options)
+        self.spotter = GestureSpotter(HandFinder(), dynamic=True, options=options)
         self.gesture = _Gesture([], 0.0, 0.0)
         self._context_s = float(options.context_s)
         self._kept: deque[tuple[Frame, float, float]] = deque()
@@ -185,7 +184,7 @@ class _SpottingStream:
         self._kept.clear()
         return happened
 
-    def _events(self, segment: Any) -> list[Event]:
+    def _events(self, segment: GestureSegment) -> list[Event]:
         if segment.kind == "none":
             return []
         if segment.kind == "end":

@@ -8,7 +8,6 @@ import time
 from collections.abc import Iterator
 from contextlib import closing
 
-from hri import _native
 from hri.core.errors import InvalidArgument
 from hri.live import events
 from hri.live.attention import COMMAND, WAKE, Attention, AttentionTracker
@@ -16,6 +15,7 @@ from hri.live.events import Event, decision_fields
 from hri.live.sources import AudioSource
 from hri.live.utterances import Samples, UtteranceFinder
 from hri.recognition import WordRecognizer
+from hri.signal import EndpointerOptions
 
 
 class Listener:
@@ -45,7 +45,7 @@ class Listener:
     def __init__(
         self,
         recognizer: WordRecognizer,
-        options: _native.EndpointerOptions | None = None,
+        options: EndpointerOptions | None = None,
         *,
         attention: Attention | None = None,
         level_interval_s: float = 0.1,
@@ -57,7 +57,7 @@ class Listener:
         if wake and wake not in labels:
             raise InvalidArgument(f"wake word '{wake}' is not in the vocabulary: {', '.join(labels)}")
         self._recognizer = recognizer
-        chosen = options or _native.EndpointerOptions(activity=recognizer.options.activity)
+        chosen = options or EndpointerOptions(activity=recognizer.options.activity)
         self._finder = UtteranceFinder(chosen, level_interval_s)
         self._locale = locale
         self._model_id = model_id

@@ -10,12 +10,14 @@ from contextlib import closing
 
 import numpy as np
 
-from hri import _native
+from hri.io import write_wav_pcm16
 from hri.live import events
 from hri.live.events import Event
 from hri.live.sources import AudioSource
 from hri.live.takes import Takes
 from hri.live.utterances import Samples, UtteranceFinder
+from hri.recognition import WordRecognizerOptions
+from hri.signal import EndpointerOptions
 
 PATTERN = "{label}/{person}_{take}.wav"
 CLIPPED = 0.999
@@ -47,12 +49,12 @@ class WordRecorder:
         labels: Sequence[str],
         person: str,
         takes: int = 5,
-        options: _native.EndpointerOptions | None = None,
+        options: EndpointerOptions | None = None,
         *,
         level_interval_s: float = 0.1,
     ) -> None:
         self._takes = Takes(folder, labels, person, takes, "speech", PATTERN)
-        chosen = options or _native.EndpointerOptions(activity=_native.WordRecognizerOptions().activity)
+        chosen = options or EndpointerOptions(activity=WordRecognizerOptions().activity)
         self._finder = UtteranceFinder(chosen, level_interval_s)
 
     @property
@@ -98,7 +100,7 @@ class WordRecorder:
                 else:
                     path = self._takes.keep(
                         *missing.pop(0),
-                        lambda part, samples=utterance: _native.write_wav_pcm16(  # type: ignore[misc]
+                        lambda part, samples=utterance: write_wav_pcm16(  # type: ignore[misc]
                             str(part), samples, source.sample_rate_hz
                         ),
                     )

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri import _native
 from hri.live import events
 from hri.live.events import Event
 from hri.live.sources import AudioSource, Stalled, require_positive
+from hri.signal import Endpoint, Endpointer, EndpointerOptions
 
 Samples = NDArray[np.float32]
 StreamResult = tuple[Event, Samples | None]
@@ -37,7 +37,7 @@ class UtteranceFinder:
         Interval between level events.
     """
 
-    def __init__(self, options: _native.EndpointerOptions, level_interval_s: float) -> None:
+    def __init__(self, options: EndpointerOptions, level_interval_s: float) -> None:
         require_positive("level_interval_s", level_interval_s)
         self._options = options
         self._level_interval_s = level_interval_s
@@ -57,7 +57,7 @@ class UtteranceFinder:
             When the source gives no more samples, after an event that says so.
         """
         rate = source.sample_rate_hz
-        endpointer = _native.Endpointer(rate, self._options)
+        endpointer = Endpointer(rate, self._options)
         kept_s = (self._options.max_utterance_ms + self._options.context_ms) / 1000
         history = _History(round(kept_s * rate) + 2 * rate)
         next_level_s, num_lost = 0.0, 0
@@ -86,7 +86,7 @@ class UtteranceFinder:
             source.close()
 
 
-def _result(endpoint: _native.Endpoint, history: _History, rate: int) -> StreamResult:
+def _result(endpoint: Endpoint, history: _History, rate: int) -> StreamResult:
     fields = {"first_s": round(endpoint.first / rate, 4), "last_s": round(endpoint.last / rate, 4)}
     event = Event(endpoint.at / rate, _KINDS[endpoint.kind], fields)
     if endpoint.kind == "speech_start":
@@ -97,7 +97,7 @@ def _result(endpoint: _native.Endpoint, history: _History, rate: int) -> StreamR
     return event, history.between(endpoint.segment_first, endpoint.segment_last)
 
 
-def _level(endpointer: _native.Endpointer, time_s: float) -> Event:
+def _level(endpointer: Endpointer, time_s: float) -> Event:
     fields = {
         "level_db": round(endpointer.level_db, 1),
         "over_noise_db": round(endpointer.excess_db, 1),

@@ -7,15 +7,18 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing
-from typing import Any
+from typing import TYPE_CHECKING
 
 from hri.live import events
 from hri.live.events import Event, decision_fields
-from hri.live.frame_results import FrameResult, GestureEvent, frame_results, segment_event
+from hri.live.frame_results import FrameResult, frame_results, gesture_event, segment_event
 from hri.live.frames import Frame, FrameSource
 from hri.live.sources import require_positive
-from hri.recognition import Decision, GestureRecognizer
+from hri.recognition import Decision, GestureRecognizer, GestureSegmenterOptions
 from hri.vision.landmarks import LandmarkTracker
+
+if TYPE_CHECKING:
+    from hri.recognition import GestureEvent, GestureStreamOptions
 
 
 class Watcher:
@@ -52,7 +55,7 @@ class Watcher:
     def __init__(
         self,
         recognizer: GestureRecognizer,
-        segmenter: Any = None,
+        segmenter: GestureSegmenterOptions | None = None,
         *,
         max_pause_s: float = 2.5,
         hand_interval_s: float = 0.1,
@@ -62,17 +65,15 @@ class Watcher:
         model_id: str = "",
         on_result: Callable[[FrameResult, Decision | None], None] | None = None,
     ) -> None:
-        from hri import _native_vision
-
         require_positive("hand_interval_s", hand_interval_s)
         require_positive("partial_interval_s", partial_interval_s)
         self._recognizer = recognizer
-        chosen = _native_vision.GestureStream.options_for(recognizer._trained)
+        chosen = recognizer.stream_options()
         if segmenter is not None:
             chosen.segmenter = segmenter
         chosen.max_pause_s, chosen.partial_interval_s = max_pause_s, partial_interval_s
         self._options = chosen
-        _native_vision.GestureStream(recognizer._trained, chosen)  # refuses options out of range now
+        recognizer.stream(chosen)  # refuses options out of range now
         self._intervals = {"hand_interval_s": hand_interval_s, "reconnect_s": reconnect_s}
         self._locale = locale
         self._model_id = model_id
@@ -107,14 +108,12 @@ class _DecidingStream:
     def __init__(
         self,
         recognizer: GestureRecognizer,
-        options: Any,
+        options: GestureStreamOptions,
         landmarks: LandmarkTracker | None,
         locale: str,
         model_id: str,
     ) -> None:
-        from hri import _native_vision
-
-        self.spotter = _native_vision.GestureStream(recognizer._trained, options)
+        self.spotter = recognizer.stream(options)
         self._landmarks = landmarks
         self._locale = locale
         self._model_id = model_id
@@ -131,13 +130,13 @@ class _DecidingStream:
     def interrupt(self) -> list[Event]:
         return self._events(self.spotter.interrupt)
 
-    def _events(self, happen: Callable[[], list[Any]]) -> list[Event]:
+    def _events(self, happen: Callable[[], list[GestureEvent]]) -> list[Event]:
         begun = time.perf_counter()
         happened = happen()
         compute_ms = round(1000 * (time.perf_counter() - begun), 3)
         return [self._event(native, compute_ms) for native in happened]
 
-    def _event(self, native: Any, compute_ms: float) -> Event:
+    def _event(self, native: GestureEvent, compute_ms: float) -> Event:
         if native.kind == "segment":
             return segment_event(native.segment, self._time_s)
         decision = Decision.from_native("gesture", native.decision)
@@ -147,4 +146,4 @@ class _DecidingStream:
         if native.kind != events.PARTIAL:
             segment = {"first_s": round(native.segment.first_s, 4), "last_s": round(native.segment.last_s, 4)}
             fields = {**segment, **fields, "compute_ms": compute_ms}
-        return GestureEvent(self._time_s, native.kind, fields, decision)
+        return gesture_event(self._time_s, native.kind, fields, decision)

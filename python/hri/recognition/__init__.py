@@ -1,25 +1,47 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Recognisers: thin wrappers of the C++ pipelines."""
+"""Recognisers: thin wrappers of the C++ pipelines.
+
+Streams of pictures need OpenCV, and are loaded on first use.
+"""
+
+from typing import TYPE_CHECKING
 
 from hri._native import (
+    LEARNED_STILL_CHANGE,
     GestureRecognizerOptions,
+    GestureSegment,
+    GestureSegmenter,
     GestureSegmenterOptions,
     SequenceModelOptions,
     SpeakerAdapterOptions,
     WordRecognizerOptions,
 )
+from hri.core.lazy import loader
 from hri.recognition.decision import Decision, NBest
 from hri.recognition.files import load
 from hri.recognition.gesture import GestureRecognizer
 from hri.recognition.word import FillerWord, SpeakerAdapter, Utterance, WordRecognizer, filler_words
 
+if TYPE_CHECKING:
+    from hri._native_vision import GestureEvent, GestureSpotter, GestureStream, GestureStreamOptions
+else:
+    _LOADED = ("GestureEvent", "GestureSpotter", "GestureStream", "GestureStreamOptions")
+    __getattr__ = loader(__name__, {"hri._native_vision": _LOADED})
+
 __all__ = [
+    "LEARNED_STILL_CHANGE",
     "Decision",
     "FillerWord",
+    "GestureEvent",
     "GestureRecognizer",
     "GestureRecognizerOptions",
+    "GestureSegment",
+    "GestureSegmenter",
     "GestureSegmenterOptions",
+    "GestureSpotter",
+    "GestureStream",
+    "GestureStreamOptions",
     "NBest",
     "SequenceModelOptions",
     "SpeakerAdapter",

@@ -9,8 +9,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from hri import _native
 from hri.core.errors import FormatError
+from hri.io import ModelFile
 from hri.media import kind_of_file
 
 _log = logging.getLogger(__name__)
@@ -50,6 +50,6 @@ def load_native(native_class: Any, path: str | PathLike[str], kind: str) -> Any:
 
 def _found_kind(path: str) -> str:
     try:
-        return str(_native.ModelFile.read(path).kind)
+        return str(ModelFile.read(path).kind)
     except FormatError:  # damaged, or no model at all
         return ""

@@ -2,7 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Signals: wavelet transforms by PyWavelets' names, noise reduction, end points, resampling, linear prediction."""
 
-from hri._native import ActivityOptions, Endpoint, Endpointer, EndpointerOptions, frequency_order
+from hri._native import (
+    ActivityOptions,
+    Endpoint,
+    Endpointer,
+    EndpointerOptions,
+    ShrinkageOptions,
+    WaveletStreamOptions,
+    frequency_order,
+)
 from hri.signal.arrays import MODES
 from hri.signal.filters import FAMILIES, Wavelet, dwt_max_level, wavelist
 from hri.signal.images import dwt2, idwt2, wavedec2, waverec2
@@ -20,9 +28,11 @@ __all__ = [
     "Endpointer",
     "EndpointerOptions",
     "PacketNode",
+    "ShrinkageOptions",
     "Wavelet",
     "WaveletPacket",
     "WaveletStream",
+    "WaveletStreamOptions",
     "activity_frames",
     "approximation",
     "best_basis",

@@ -35,7 +35,7 @@ class FrameHand:
     quality : float
         0 (no hand) .. 1.
     repaired : bool
-        The frames around it made the mask, because it jumped (`hri._native_vision.smooth_masks`).
+        The frames around it made the mask, because it jumped (`hri.vision.smooth_masks`).
     x, y, area : float or None
         Its middle and what it covers, in shares of the picture; None without a hand.
     features : ndarray of float32, or None
@@ -141,7 +141,7 @@ def inspect_hands(
     kind : str
         Of silhouettes, one of `hri.features.hand.HAND_KINDS`; landmarks have but one kind of features, those of
         `hri.vision.landmarks.landmark_features`.
-    silhouette : hri._native_vision.SilhouetteOptions, optional
+    silhouette : hri.vision.SilhouetteOptions, optional
         As for `hri.vision.hands.find_silhouettes`.
     progress : callable, optional
         Called with (done, total) frames.

@@ -7,18 +7,22 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.core.errors import InvalidArgument
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import ClipInput, as_clips, as_frames, as_texts
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.vision.landmarks import find_landmarks, landmark_features
+
+if TYPE_CHECKING:
+    from hri._native_vision import GestureStream, GestureStreamOptions
 
 _log = logging.getLogger(__name__)
 
@@ -134,7 +138,7 @@ class GestureRecognizer(Recognizer):
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
         if len(X) != len(y):
-            raise _native.InvalidArgument(f"X and y differ in length: {len(X)}, {len(y)}")
+            raise InvalidArgument(f"X and y differ in length: {len(X)}, {len(y)}")
         rows = []
         for done, clip in enumerate(as_clips(X)):
             rows.append(self.features(clip))
@@ -153,9 +157,7 @@ class GestureRecognizer(Recognizer):
         """Train on what `features` returned, so that clips are read once for several trainings."""
         signers = [""] * len(rows) if groups is None else as_texts(groups, "groups")
         if not len(rows) == len(y) == len(signers):
-            raise _native.InvalidArgument(
-                f"features, y and groups differ in length: {len(rows)}, {len(y)}, {len(signers)}"
-            )
+            raise InvalidArgument(f"features, y and groups differ in length: {len(rows)}, {len(y)}, {len(signers)}")
         _log.info("training on %d clips of %d labels", len(rows), len(set(y)))
         self._native = self._native_class.train(list(rows), as_texts(y, "y"), signers, self.options, progress)
         return self
@@ -193,6 +195,30 @@ class GestureRecognizer(Recognizer):
     def recognise_features(self, rows: NDArray[np.float32]) -> Decision:
         """Recognise what `features` returned."""
         return Decision.from_native(self.mode, self._trained.recognise_features(rows))
+
+    def stream_options(self) -> GestureStreamOptions:
+        """How `stream` finds gestures by default: as suits the recogniser's options and what it was trained on."""
+        from hri import _native_vision
+
+        return _native_vision.GestureStream.options_for(self._trained)
+
+    def stream(self, options: GestureStreamOptions | None = None) -> GestureStream:
+        """Decisions on pictures as they come; `hri.live.Watcher` takes care of cameras and events on top.
+
+        Parameters
+        ----------
+        options : GestureStreamOptions, optional
+            By default `stream_options`.
+
+        Examples
+        --------
+        >>> stream = signs.stream()
+        >>> [event.kind for event in stream.push(picture, 0.0)]
+        []
+        """
+        from hri import _native_vision
+
+        return _native_vision.GestureStream(self._trained, options)
 
     def decide(self, X: Sequence[ClipInput]) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""

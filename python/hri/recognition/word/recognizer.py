@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
@@ -113,7 +114,7 @@ class WordRecognizer(Recognizer):
         """
         speakers = [""] * len(X) if groups is None else as_texts(groups, "groups")
         if not len(X) == len(y) == len(speakers):
-            raise _native.InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
+            raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
         others = filler_words() if fillers is None else fillers
@@ -164,7 +165,7 @@ class WordRecognizer(Recognizer):
     def remove_word(self, label: str) -> WordRecognizer:
         """Remove a word. Raises InvalidArgument for one outside the vocabulary, or if fewer than two would remain."""
         if label not in self.classes_:
-            raise _native.InvalidArgument(f"no word {label!r}; {did_you_mean(label, self.classes_, 'it has')}")
+            raise InvalidArgument(f"no word {label!r}; {did_you_mean(label, self.classes_, 'it has')}")
         self._native = self._trained.without_word(label)
         return self
 
