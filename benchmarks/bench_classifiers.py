@@ -75,7 +75,7 @@ def _knn(num_tested: int) -> Timed:
     (rows, classes), (test, _) = _rows(1000, 1), _rows(num_tested, 2)
     ours = KnnClassifier(num_neighbours=5).fit(rows, classes).model_
     peer = KNeighborsClassifier(5, algorithm="brute").fit(rows, classes)
-    # Ours adds up to 2e-3 to tell classes with as many neighbours apart.
+    # Ours adds up to 2e-3 to rank classes with as many neighbours.
     assert np.allclose(ours.decision_values(test), peer.predict_proba(test), atol=2e-3)
     return medians(lambda: ours.decision_values(test), lambda: peer.predict_proba(test), 31)
 

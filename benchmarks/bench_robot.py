@@ -65,7 +65,7 @@ def robot_csv() -> Timed:
 def robot_walk() -> Timed:
     """Simulating a motion of the robot on its feet: walk.csv in HRI_DATA, else a made one; the peer is real time.
 
-    On a machine that does other things too, the time of this process alone tells more than the clock on the wall.
+    On a machine that does other things too, the time of this process alone says more than the wall clock.
     """
     path = Path(os.environ.get("HRI_DATA", ".")) / "walk.csv"
     motion = read_pulse_csv(path) if path.is_file() else _motion(5_000)

@@ -1,4 +1,4 @@
-# Compiler settings, attached to our own targets only and never to whoever links us.
+# Compiler settings, attached to our own targets only and never to what links us.
 
 # What the sources of libhri see of HRI_SIMD (cpp/src/core/simd.hpp).
 set(hri_simd_definitions)

@@ -233,7 +233,7 @@ std::vector<OptionField> option_fields() {
   return fields;
 }
 
-// One line that type checkers read, then nothing: the class tells the fields.
+// One line that type checkers read, then nothing: the class lists the fields.
 template <class O>
 std::string constructor_doc(const std::string& module) {
   std::string text = "__init__(self: " + module + "." + O::kName + ", *";

@@ -63,7 +63,8 @@ void bind_hand_features(py::module_& m) {
           },
           py::arg("mask"), "c0, c1, ..., float32.");
 
-  hri_bind::bind_options<hri::HandFeatureOptions>(m, "The joined feature of one hand picture.");
+  hri_bind::bind_options<hri::HandFeatureOptions>(m,
+                                                  "The concatenated features of one hand picture.");
   py::class_<hri::HandFeatureComputer>(m, "HandFeatureComputer", "Features of one hand picture.")
       .def(py::init<const hri::HandFeatureOptions&>(),
            py::arg("options") = hri::HandFeatureOptions{})

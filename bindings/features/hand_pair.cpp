@@ -25,7 +25,7 @@ void bind_hand_pair(py::module_& m) {
       .def_readonly("x_px", &hri::PairedHand::x_px)
       .def_readonly("y_px", &hri::PairedHand::y_px);
   py::class_<hri::HandPairTracker>(m, "HandPairTracker",
-                                   "Tells both hands of a stream of masks apart, also while they "
+                                   "Tracks both hands in a stream of masks, also while they "
                                    "touch and where they cross.")
       .def(py::init<const hri::HandPairOptions&>(), py::arg("options") = hri::HandPairOptions{})
       .def(

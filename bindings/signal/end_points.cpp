@@ -18,7 +18,7 @@ using hri_bind::to_array;
 namespace {
 
 void bind_clips(py::module_& m) {
-  hri_bind::bind_options<hri::ActivityOptions>(m, "Where somebody speaks in a clip.");
+  hri_bind::bind_options<hri::ActivityOptions>(m, "Where a clip holds speech.");
   m.def(
       "find_speech",
       [](const hri_bind::FloatArray& audio, int sample_rate_hz,
@@ -33,7 +33,7 @@ void bind_clips(py::module_& m) {
         return py::make_tuple(b.first, b.last);
       },
       py::arg("audio"), py::arg("sample_rate_hz"), py::arg("options") = hri::ActivityOptions{},
-      "(first, last) sample of the word, or None where nobody speaks.");
+      "(first, last) sample of the word, or None without speech.");
   m.def(
       "activity_frames",
       [](const hri_bind::FloatArray& audio, int sample_rate_hz, const hri::ActivityOptions& o) {

@@ -59,9 +59,9 @@ void bind_vision_hands(py::module_& m) {
           [](const hri::HandFinder& self, const std::vector<ByteArray>& clip,
              const std::function<void(int, int)>& progress) {
             const auto views = as_clip(clip);
-            const auto tell = with_gil(progress);
+            const auto report = with_gil(progress);
             const py::gil_scoped_release release;
-            return self.find(views, tell);
+            return self.find(views, report);
           },
           py::arg("clip"), py::arg("progress") = nullptr, "A HandObservation for every frame.")
       .def(
@@ -69,9 +69,9 @@ void bind_vision_hands(py::module_& m) {
           [](const hri::HandFinder& self, const std::vector<ByteArray>& clip,
              const std::function<void(int, int)>& progress) {
             const auto views = as_clip(clip);
-            const auto tell = with_gil(progress);
+            const auto report = with_gil(progress);
             const py::gil_scoped_release release;
-            return self.find_pair(views, tell);
+            return self.find_pair(views, report);
           },
           py::arg("clip"), py::arg("progress") = nullptr,
           "The observations of the left hand of the picture, and those of the right one.")

@@ -36,7 +36,7 @@ class UdpRobot(Robot):
         self._positions = self._ask({})
 
     def _state(self) -> RobotState:
-        nowhere = (0.0, 0.0, 0.0)  # this controller does not tell where its base is
+        nowhere = (0.0, 0.0, 0.0)  # this controller does not report where its base is
         return RobotState(self.time_s, nowhere, nowhere, dict(self._positions))
 
     def _render(self, width: int, height: int) -> Image:

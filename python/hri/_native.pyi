@@ -463,7 +463,7 @@ class FilterBankOptions:
 
 class ActivityOptions:
     """
-    Where somebody speaks in a clip.
+    Where a clip holds speech.
 
     Parameters
     ----------
@@ -1671,7 +1671,7 @@ class PairedHand:
 
 class HandPairTracker:
     """
-    Tells both hands of a stream of masks apart, also while they touch and where they cross.
+    Tracks both hands in a stream of masks, also while they touch and where they cross.
     """
     def __init__(self, options: HandPairOptions = ...) -> None: ...
     def push(
@@ -1834,7 +1834,7 @@ class SilhouetteCepstrumComputer:
 
 class HandFeatureOptions:
     """
-    The joined feature of one hand picture.
+    The concatenated features of one hand picture.
 
     Parameters
     ----------
@@ -3317,7 +3317,7 @@ class Topology:
     num_states : int, default 5
         number of states; 1..4096
     max_jump : int, default 1
-        farthest state that is reached without a jump; ergodic ignores it; 1..4096
+        largest step to another state without a jump; ergodic ignores it; 1..4096
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -3354,7 +3354,7 @@ class Topology:
     @property
     def max_jump(self) -> int:
         """
-        farthest state that is reached without a jump; ergodic ignores it
+        largest step to another state without a jump; ergodic ignores it
         """
     @max_jump.setter
     def max_jump(self, arg1: typing.Any) -> None: ...
@@ -5666,7 +5666,7 @@ def find_speech(
     options: ActivityOptions = ...,
 ) -> typing.Any:
     """
-    (first, last) sample of the word, or None where nobody speaks.
+    (first, last) sample of the word, or None without speech.
     """
 
 def frequency_order(level: typing.SupportsInt | typing.SupportsIndex) -> list[int]:

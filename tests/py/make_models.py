@@ -3,9 +3,9 @@
 """Make a folder of small model files of today's format, and what they answer: python make_models.py FOLDER [NAME ...].
 
 models_v1 was made so before options were listed in one place, with the names of then; models_v2 holds three files of
-each kind of recogniser. Files that are in the tree stay as they are. Nobody was recorded or filmed: words are gliding
-tones, hands are drawn discs and bars, rows are random, all from fixed seeds. What the files are asked is written down
-in test_old_models.py.
+each kind of recogniser. Files that are in the tree stay as they are. No person was recorded or filmed: words are
+gliding tones, hands are drawn discs and bars, rows are random, all from fixed seeds. What the files are asked
+is written down in test_old_models.py.
 """
 
 from __future__ import annotations
@@ -265,7 +265,7 @@ def sequence_models() -> Iterator[tuple[str, str, Any]]:
 
 
 def asked() -> Arrays:
-    """What nobody was trained on, stored so that no later numpy can change it."""
+    """What no model was trained on, stored so that no later numpy can change it."""
     rows = random_rows(99)[0]
     inputs: Arrays = {"rows": rows, "row": rows[0]}
     inputs["symbols"] = np.random.default_rng(5).integers(0, 6, 14).astype(np.int32)

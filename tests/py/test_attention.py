@@ -46,7 +46,7 @@ def test_a_command_follows_the_wake_word_at_once() -> None:
     assert judged(wake, (0, left), (1, robot), (2, left), (3, left)) == [IGNORED, WAKE, COMMAND, IGNORED]
     assert judged(wake, (1, robot), (3.6, left)) == [WAKE, IGNORED]  # 2.1 s after its end
     assert judged(wake, (1, robot), (2, noise), (3, left)) == [WAKE, COMMAND, IGNORED]  # what is not sure ends it too
-    assert judged(wake, (1, robot), (2, NOTHING), (3, left)) == [WAKE, IGNORED, COMMAND]  # what nobody said does not
+    assert judged(wake, (1, robot), (2, NOTHING), (3, left)) == [WAKE, IGNORED, COMMAND]  # without speech it does not
     assert judged(wake, (0, robot), (2, robot), (4, left)) == [WAKE, WAKE, COMMAND]
     assert judged(wake, (0, heard("robot", -1)), (1, left)) == [IGNORED, IGNORED]
 
@@ -87,8 +87,8 @@ def test_the_study_counts_as_the_listener_does() -> None:
         at += 0.4
     for threshold in (-10.0, 0.0, 0.7):
         tracker = AttentionTracker(Attention("robot", 2.0, min_score=threshold))
-        told = [tracker.judge(u.first_s, u.last_s, heard(u.label, u.score)) for u in said]
-        commands = sum(meant == COMMAND and d.status == RECOGNISED for meant, d in told)
+        reported = [tracker.judge(u.first_s, u.last_s, heard(u.label, u.score)) for u in said]
+        commands = sum(meant == COMMAND and d.status == RECOGNISED for meant, d in reported)
         counted = sum(score >= threshold for _, _, score in pair_evidence(said, "robot", 2.0))
         assert commands == counted > 0
 

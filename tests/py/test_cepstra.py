@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Linear prediction, streams, RASTA, running normalisation, warps and envelopes against SciPy and NumPy."""
+"""Linear prediction, streams, RASTA, running normalisation, warping and envelopes against SciPy and NumPy."""
 
 from __future__ import annotations
 

@@ -142,8 +142,8 @@ def test_info_tells_of_the_installation_and_of_models(hri, spoken: Path, tmp_pat
     assert f"version\t{_native.__version__}" in hri("info").out
     model = tmp_path / "words.hri"
     hri("train", "speech", "--data", spoken, "--out", model, "--option", "num_states=5")
-    told = hri("info", model).out.splitlines()
-    assert "labels\t1 2" in told and "option\tnum_states=5" in told and "option\ttrim=true" in told
+    reported = hri("info", model).out.splitlines()
+    assert "labels\t1 2" in reported and "option\tnum_states=5" in reported and "option\ttrim=true" in reported
 
 
 @pytest.mark.parametrize("name", list(COMMANDS))
@@ -174,13 +174,13 @@ def test_options_are_nested_and_typed():
 def test_ctrl_c_while_training_ends_with_130_and_writes_nothing(
     hri, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    told = []
+    reported = []
 
     @contextmanager
     def interrupt_in_training():
         def report(what: str, done: int, total: int) -> None:
-            told.append(what)
-            if what == "training" and told.count("training") == 1:
+            reported.append(what)
+            if what == "training" and reported.count("training") == 1:
                 signal.raise_signal(signal.SIGINT)
 
         yield report
@@ -189,5 +189,5 @@ def test_ctrl_c_while_training_ends_with_130_and_writes_nothing(
     model = tmp_path / "words.hri"
     result = hri("train", "speech", "--data", spoken, "--out", model)
     assert (result.code, result.out, result.err.strip()) == (130, "", "hri: interrupted")
-    assert told.count("training") == 1
+    assert reported.count("training") == 1
     assert list(tmp_path.glob("*.hri*")) == []

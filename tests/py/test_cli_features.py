@@ -48,8 +48,8 @@ def test_tables_and_arrays_hold_the_same(hri, recording: Path, tmp_path: Path):
 
 def test_a_preset_is_the_other_program(hri, recording: Path, tmp_path: Path):
     out, plot = tmp_path / "word.npy", tmp_path / "word.png"
-    told = hri("features", recording, "--preset", "librosa", "-o", out, "--plot", plot)
-    assert told.code == 0 and "features" in told.err
+    reported = hri("features", recording, "--preset", "librosa", "-o", out, "--plot", plot)
+    assert reported.code == 0 and "features" in reported.err
     expected = librosa.feature.mfcc(y=np.asarray(read_wav(str(recording)).samples), sr=RATE_HZ).T
     np.testing.assert_allclose(np.load(out), expected, rtol=1e-4, atol=1e-2)
     assert cv2.imread(str(plot)).shape[1] > 500
@@ -108,8 +108,8 @@ def test_hands_in_pictures_have_features(hri, sign: Path, tmp_path: Path):
 def test_hands_in_videos_have_tracks(hri, tmp_path: Path):
     video, table, plot = tmp_path / "sign.avi", tmp_path / "sign.csv", tmp_path / "plot.png"
     write_video(video, drawn_hands.shown(["flat"]), drawn_hands.FPS)
-    told = hri("features", video, "--kind", "track", "-o", table, "--plot", plot)
-    assert told.code == 0 and "no hand, and so no row, in frames 0, 1" in told.err
+    reported = hri("features", video, "--kind", "track", "-o", table, "--plot", plot)
+    assert reported.code == 0 and "no hand, and so no row, in frames 0, 1" in reported.err
     found = np.genfromtxt(table, delimiter=",", names=True)
     assert 10 < len(found) < 60 and {"x", "speed", "d_log_area"} <= set(found.dtype.names)
     # Up and down again, faster than a picture's height in 2 s.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What the command line says beside its results: suggestions, how much it tells, and help with examples."""
+"""What the command line says beside its results: suggestions, how much it prints, and help with examples."""
 
 from __future__ import annotations
 

@@ -68,9 +68,9 @@ def test_scenes_can_be_recognised_from_their_files(made: Path, capsys: pytest.Ca
     arguments += ["--speech-model", str(models / "speech.hri"), "--gesture-model", str(models / "gesture.hri")]
     capsys.readouterr()
     assert main(arguments) == 0
-    told = json.loads(capsys.readouterr().out)
+    reported = json.loads(capsys.readouterr().out)
     played = json.loads((made / "result.json").read_text())["scenes"][0]["decision"]
-    assert told["speech"]["label"] == played["speech"]["label"]
+    assert reported["speech"]["label"] == played["speech"]["label"]
 
 
 @pytest.mark.slow

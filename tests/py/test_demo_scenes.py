@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The demo's scenes succeed, whoever is made up for them."""
+"""The demo's scenes succeed, whichever voices and signers are synthesised."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Evaluation: nobody is trained and tested on, conditions are exact, results repeat."""
+"""Evaluation: no person is trained and tested on, conditions are exact, results repeat."""
 
 from __future__ import annotations
 
@@ -74,8 +74,8 @@ def test_results_repeat_and_add_up(spoken: Path, tmp_path: Path) -> None:
     assert confusion.shape == (2, 3) and confusion.sum() == len(dataset)
     right = sum(item.best == item.truth for item in result.items)
     assert np.trace(confusion) == right
-    told = json.loads(json.dumps(result.to_dict()))
-    assert told["conditions"] | {"noise": "white", "snr_db": 20.0, "seed": 5} == told["conditions"]
+    reported = json.loads(json.dumps(result.to_dict()))
+    assert reported["conditions"] | {"noise": "white", "snr_db": 20.0, "seed": 5} == reported["conditions"]
     result.plot_confusion(tmp_path / "c.png")
     assert cv2.imread(str(tmp_path / "c.png")) is not None
 
@@ -200,7 +200,7 @@ def test_training_and_test_hear_other_halves_of_a_noise(tmp_path: Path) -> None:
         assert {round(float(x), 2) for piece in pieces for x in piece} == levels
     assert set(np.round(make_noise(path, 9000, 8000, rng, "first"), 2)) == {np.float32(0.25)}, "goes round when short"
     make_noise(path, 3000, 8000, rng, "first")[:] = 9.0
-    assert max(make_noise(path, 3000, 8000, rng, "first")) < 1, "the kept recording is nobody else's to change"
+    assert max(make_noise(path, 3000, 8000, rng, "first")) < 1, "the kept recording is not changed"
 
 
 def test_one_training_is_tested_under_every_condition(spoken: Path) -> None:

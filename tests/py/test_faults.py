@@ -70,7 +70,7 @@ def wav(samples: np.ndarray, rate_hz: int = RATE_HZ, channels: int = 1, codec: i
 
 
 WORD = (32767 * tone_word(550.0, 800.0, 99)).astype("<i2")
-"""Somebody says 1."""
+"""A recording of the word 1."""
 
 
 # 1: sizes in the header that are not the file's
@@ -154,17 +154,17 @@ def test_silence_is_no_input_and_moves_nothing(run: Run, tmp_path: Path, samples
     (tmp_path / "silent.wav").write_bytes(wav(samples, codec=3 if samples.dtype == np.float32 else 1))
     film = tmp_path / "robot.mp4"
     result = run("recognise", "--speech", tmp_path / "silent.wav", "--robot", film, "--json", "-")
-    told = json.loads(result.out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
-    assert (result.code, told["status"], told["confidence"]) == (0, "no_input", 0.0)
-    assert told["robot"] == {"moved": False, "reason": "no_input"} and not film.exists()
+    reported = json.loads(result.out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
+    assert (result.code, reported["status"], reported["confidence"]) == (0, "no_input", 0.0)
+    assert reported["robot"] == {"moved": False, "reason": "no_input"} and not film.exists()
 
 
 def test_silent_recording_among_others_is_counted_as_no_input(run: Run, spoken: Path, tmp_path: Path) -> None:
     folder = shutil.copytree(spoken, tmp_path / "spoken")
     (folder / "1_low_0.wav").write_bytes(wav(np.zeros(16000, "<i2")))
     result = run("evaluate", "speech", "--data", folder, "--json", "-")
-    told = json.loads(result.out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
-    assert told["confusion"] == [[8, 0, 1], [0, 9, 0]]
+    reported = json.loads(result.out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
+    assert reported["confusion"] == [[8, 0, 1], [0, 9, 0]]
 
 
 # 5: numbers that are none

@@ -86,7 +86,7 @@ def test_normalisation_does_what_it_says() -> None:
     np.testing.assert_allclose(static("mean_variance").std(axis=0), 1, atol=1e-3)
     np.testing.assert_allclose(static("level").mean(axis=0)[0], 0, atol=1e-4)
     np.testing.assert_array_equal(static("level")[:, 1:], static("none")[:, 1:])
-    for kind in ("level", "mean", "mean_variance"):  # how loud somebody speaks does not matter
+    for kind in ("level", "mean", "mean_variance"):  # loudness does not matter
         np.testing.assert_allclose(static(kind, 0.1), static(kind), atol=2e-3)
 
 

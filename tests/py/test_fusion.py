@@ -243,14 +243,14 @@ def test_unknown_rule_lists_those_there_are() -> None:
 
 
 def test_result_can_be_written_as_json() -> None:
-    told = json.loads(json.dumps(fuse(SPEECH, GESTURE, rule="product").to_dict()))
-    assert told["label"] == "b" and told["speech"]["nbest"][0]["label"] == "a"
+    reported = json.loads(json.dumps(fuse(SPEECH, GESTURE, rule="product").to_dict()))
+    assert reported["label"] == "b" and reported["speech"]["nbest"][0]["label"] == "a"
 
 
 @pytest.mark.parametrize("rule", RULES)
 def test_json_holds_numbers_that_every_reader_knows(rule: str) -> None:
     """The logarithm of 0 is no JSON."""
     fused = fuse(heard(a=1.0, b=0.0), seen(a=1.0, b=0.0), rule=rule)
-    told = json.loads(json.dumps(fused.to_dict(), allow_nan=False))
-    assert told["speech"]["nbest"][1] == {"label": "b", "probability": 0.0, "log_score": None}
+    reported = json.loads(json.dumps(fused.to_dict(), allow_nan=False))
+    assert reported["speech"]["nbest"][1] == {"label": "b", "probability": 0.0, "log_score": None}
     assert json.dumps(heard(a=1.0, b=0.0).to_dict(), allow_nan=False)

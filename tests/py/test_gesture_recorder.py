@@ -92,16 +92,16 @@ def test_recording_goes_on_and_overwrites_nothing(tmp_path: Path) -> None:
     assert first.missing() == [("up", 1)]
     again = GestureRecorder(tmp_path, LABELS, "asha", takes=1, pause_s=PAUSE_S)
     events = again.record(ClipSource(session(["up"]), FPS))
-    told = []
+    reported = []
     for event in events:
-        told.append(event)
+        reported.append(event)
         if event.event == "prompt":
             (tmp_path / "up").mkdir()
-            (tmp_path / "up" / "asha_1.avi").write_bytes(b"somebody else's")
+            (tmp_path / "up" / "asha_1.avi").write_bytes(b"another program's")
             with pytest.raises(IoError, match="asha_1"):
-                told.extend(events)
+                reported.extend(events)
             break
-    assert (tmp_path / "up" / "asha_1.avi").read_bytes() == b"somebody else's"
+    assert (tmp_path / "up" / "asha_1.avi").read_bytes() == b"another program's"
     assert kept.read_bytes() == before and not list(tmp_path.rglob(".*"))
     assert list(again.record(ClipSource([], FPS))) == []  # nothing is missing
 
@@ -112,8 +112,10 @@ def test_bad_takes_are_refused_with_the_reason(tmp_path: Path) -> None:
     begins = 52  # in the middle of the movement the hand is away for a moment
     wall = [picture(80, 400, rng) for _ in range(5)]
     frames[begins + 1 : begins + 6] = frames[begins + 7 : begins + 12] = wall
-    told = steps(list(GestureRecorder(tmp_path, ["left"], "asha", 1, pause_s=PAUSE_S).record(ClipSource(frames, FPS))))
-    assert told[:2] == [("prompt", "left"), ("refused", "left")]
+    reported = steps(
+        list(GestureRecorder(tmp_path, ["left"], "asha", 1, pause_s=PAUSE_S).record(ClipSource(frames, FPS)))
+    )
+    assert reported[:2] == [("prompt", "left"), ("refused", "left")]
     assert not (tmp_path / "left").exists()
 
     class Losing(ClipSource):
@@ -131,8 +133,8 @@ def test_signs_that_are_held_come_into_view(tmp_path: Path) -> None:
     heights = [*[HIDDEN * 2] * 25, *come, *[70.0] * 22, *come[::-1], *[HIDDEN * 2] * 45] * 2
     frames = [picture(80, y, rng) for y in heights]
     recorder = GestureRecorder(tmp_path, ["five"], "asha", takes=2, held=True, pause_s=PAUSE_S)
-    told = steps(list(recorder.record(ClipSource(frames, FPS))))
-    assert told == [("prompt", "five"), ("recorded", "five")] * 2
+    reported = steps(list(recorder.record(ClipSource(frames, FPS))))
+    assert reported == [("prompt", "five"), ("recorded", "five")] * 2
 
 
 def test_what_cannot_be_is_refused(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Gestures: the digits and words there are, that each is safe and can be told from the others, and their gallery."""
+"""Gestures: the digits and words there are, that each is safe and differs from the others, and their gallery."""
 
 from pathlib import Path
 

@@ -136,9 +136,9 @@ def test_landmarks_are_reported_too(clip: Clip, monkeypatch: pytest.MonkeyPatch)
 def test_the_command_writes_film_and_tables(hri, clip: Clip, tmp_path: Path) -> None:
     video, film, table, values = (tmp_path / name for name in ("flat.avi", "seen.mp4", "seen.csv", "seen.json"))
     write_video(video, clip.frames, FPS)
-    told = hri("hands", video, "--video", film, "-o", table, "--option", "delta_orders=0")
-    assert told.code == 0, told.err
-    assert told.out == "" and f"of {len(clip.frames)} frames" in told.err
+    reported = hri("hands", video, "--video", film, "-o", table, "--option", "delta_orders=0")
+    assert reported.code == 0, reported.err
+    assert reported.out == "" and f"of {len(clip.frames)} frames" in reported.err
     assert len(read_frames(film).frames) == len(clip.frames)
     rows = np.genfromtxt(table, delimiter=",", names=True)
     assert len(rows) == len(clip.frames) and rows.dtype.names[-1] == "move_sine"
@@ -160,8 +160,8 @@ def test_folders_of_pictures_are_clips_in_the_order_of_their_numbers(hri, clip: 
     read = read_pictures(folder, 15.0)
     np.testing.assert_array_equal(read.frames, clip.frames[8:20])
     assert read.times_s[3] == pytest.approx(0.2) and read.fps == pytest.approx(15.0)
-    told = hri("hands", folder, "--fps", 15)
-    assert told.code == 0 and len(told.out.splitlines()) == 13
+    reported = hri("hands", folder, "--fps", 15)
+    assert reported.code == 0 and len(reported.out.splitlines()) == 13
     write_image(folder / "p99.png", clip.frames[0][:100])
     with pytest.raises(FormatError, match=r"p99.png: 160 x 100, but p0.png is 160 x 160"):
         read_pictures(folder)
@@ -220,5 +220,5 @@ def test_a_known_background_is_left_out(hri, tmp_path: Path) -> None:
 )
 def test_what_cannot_be_is_said(hri, clip: Clip, tmp_path: Path, arguments: list[str], code: int, message: str) -> None:
     write_video(tmp_path / "flat.avi", clip.frames[:3], FPS)
-    told = hri("hands", tmp_path / "flat.avi", *arguments)
-    assert told.code == code and message in told.err
+    reported = hri("hands", tmp_path / "flat.avi", *arguments)
+    assert reported.code == code and message in reported.err

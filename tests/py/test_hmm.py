@@ -115,7 +115,7 @@ def test_frames_score_as_in_hmmlearn(fields: dict) -> None:
 
 
 def assert_chains_agree(ours: MarkovChain, before: MarkovChain, peer: object, moved: np.ndarray) -> None:
-    """Ours after a step against hmmlearn's, whose jumps are told from steps of the band by their shares before.
+    """Ours after a step against hmmlearn's, whose jumps and steps of the band are split by their shares before.
 
     moved : expected visits of every state but in the last frame of a sequence.
     """

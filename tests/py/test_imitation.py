@@ -31,7 +31,7 @@ def person(left, right, **changed):
         "right": np.stack((160 - SHOULDER_PX - right[:, 0], 100 - right[:, 1]), axis=1),
         "shoulders": np.tile([[160 + SHOULDER_PX, 100], [160 - SHOULDER_PX, 100]], (len(left), 1, 1)),
     }
-    return HandTrack("somebody", FPS, **{**places, **changed})
+    return HandTrack("person", FPS, **{**places, **changed})
 
 
 def circles(frames=90, radius=25.0, turns=2.0):

@@ -80,11 +80,11 @@ def test_events_do_not_depend_on_blocks(
             return self.blocks.pop(0) if self.blocks else None
 
     stream = session[0]
-    told = []
+    reported = []
     for sizes in ([len(stream)], [7, 10000, 1, len(stream) - 10008]):
         events = Listener(words).listen(Blocks(stream, sizes))
-        told.append([(e.time, e.decision) for e in events if e.event == "decision"])
-    assert len(told[0]) == 4 and told[0] == told[1]
+        reported.append([(e.time, e.decision) for e in events if e.event == "decision"])
+    assert len(reported[0]) == 4 and reported[0] == reported[1]
 
 
 def test_every_event_is_one_line_of_json(words: hri.WordRecognizer, session: Any, tmp_path: Path) -> None:
@@ -127,7 +127,7 @@ def test_a_full_ring_counts_what_it_loses() -> None:
 
 
 class FakeStream:
-    """Calls back from a thread as PortAudio does, until it is told to stop or "unplugged"."""
+    """Calls back from a thread as PortAudio does, until it is asked to stop or "unplugged"."""
 
     def __init__(self, blocks: int | None, close_s: float, **settings: Any) -> None:
         self.settings, self.blocks, self.close_s = settings, blocks, close_s
@@ -193,12 +193,12 @@ def test_a_microphone_is_heard(sounddevice: SimpleNamespace, words: hri.WordReco
 def test_an_unplugged_microphone_is_told_and_closes(sounddevice: SimpleNamespace, words: hri.WordRecognizer) -> None:
     sounddevice.blocks, sounddevice.close_s = 20, 60.0  # and the driver hangs
     begun = time.monotonic()
-    told = []
+    reported = []
     events = Listener(words).listen(MicrophoneSource(stall_s=0.3))
-    told.extend(iter(lambda: next(events).event, "stall"))
+    reported.extend(iter(lambda: next(events).event, "stall"))
     with pytest.raises(Stalled, match=r"microphone: no sound for 0\.3 s"):
         next(events)
-    assert told[0] == "listening"
+    assert reported[0] == "listening"
     assert time.monotonic() - begun < 5
 
 

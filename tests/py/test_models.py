@@ -73,7 +73,7 @@ def test_knn_shares_match_scikit_learn(num_neighbours: int) -> None:
     options = _native.KnnOptions(num_neighbours=num_neighbours)
     ours = _native.Knn.train(rows, classes, 3, options)
     peer = KNeighborsClassifier(num_neighbours, algorithm="brute").fit(rows, classes)
-    # Ours adds up to 2e-3 to tell classes with as many neighbours apart.
+    # Ours adds up to 2e-3 to rank classes with as many neighbours.
     np.testing.assert_allclose(ours.decision_values(test), peer.predict_proba(test), atol=2e-3)
     distances, _ = peer.kneighbors(test, 1)
     nearest = [ours.nearest_distance(row) for row in test]

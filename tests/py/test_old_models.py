@@ -95,12 +95,12 @@ def load(kind: str, path: Path) -> Any:
     return MODELS[kind].read(file, PREFIX)
 
 
-def told(value: Any) -> Any:
+def as_stored(value: Any) -> Any:
     """As JSON holds it, floats with every bit."""
     if isinstance(value, np.ndarray):
-        return told(value.tolist())
+        return as_stored(value.tolist())
     if isinstance(value, list | tuple):
-        return [told(entry) for entry in value]
+        return [as_stored(entry) for entry in value]
     return value.hex() if isinstance(value, float) else value
 
 
@@ -124,7 +124,7 @@ def word_answers(words: hri.WordRecognizer, inputs: dict[str, np.ndarray]) -> di
             clip = (samples.astype(np.float32) / FULL_SCALE, int(name.rsplit("/", 1)[1]))
             found[name] = told_decision(words.recognise(*clip))
             if found[name]["nbest"]:
-                found[name]["scores"] = told(words.scores(*clip))
+                found[name]["scores"] = as_stored(words.scores(*clip))
     return found | {"threshold": words.threshold.hex()}
 
 
@@ -145,7 +145,7 @@ def model_answers(kind: str, model: Any, inputs: dict[str, np.ndarray]) -> dict[
     found = {}
     for name, *arguments in QUESTIONS[kind]:
         values = [inputs[argument] if isinstance(argument, str) else argument for argument in arguments]
-        found[name] = told(getattr(model, name)(*values) if values else getattr(model, name))
+        found[name] = as_stored(getattr(model, name)(*values) if values else getattr(model, name))
     return found
 
 

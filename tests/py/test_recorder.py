@@ -30,7 +30,7 @@ def said(labels: list[str], seed: int = 0) -> np.ndarray:
 
 
 def listen(recorder: WordRecorder, stream: np.ndarray) -> list[tuple[str, object]]:
-    """What is told beside levels and end points: kind and label."""
+    """What is reported beside levels and end points: kind and label."""
     events = list(recorder.record(ArraySource(stream, RATE_HZ)))
     return [(e.event, e.fields.get("label")) for e in events if e.event in ("prompt", "recorded", "refused")]
 
@@ -38,8 +38,8 @@ def listen(recorder: WordRecorder, stream: np.ndarray) -> list[tuple[str, object
 def test_words_are_asked_for_in_rounds_and_become_a_data_set(tmp_path: Path) -> None:
     recorder = WordRecorder(tmp_path / "words", LABELS, "asha", takes=2)
     assert recorder.num_takes == 4
-    told = listen(recorder, said(LABELS * 2))
-    assert told == [step for label in LABELS * 2 for step in (("prompt", label), ("recorded", label))]
+    reported = listen(recorder, said(LABELS * 2))
+    assert reported == [step for label in LABELS * 2 for step in (("prompt", label), ("recorded", label))]
     assert recorder.missing() == []
 
     dataset = Dataset.load(tmp_path / "words")

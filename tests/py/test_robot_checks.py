@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Bad files are told cell by cell; accelerations and overlaps of links are found before a joint moves."""
+"""Bad files are reported cell by cell; accelerations and overlaps of links are found before a joint moves."""
 
 from importlib.util import find_spec
 

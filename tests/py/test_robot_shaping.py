@@ -119,8 +119,8 @@ def test_the_short_form_comes_back_and_tells_every_fault(tmp_path):
 
 def broken(tmp_path):
     path = tmp_path / "bad.csv"
-    steady = Trajectory(["larm_joint_1", "rarm_joint_1"], 0.01, np.radians(np.linspace((80, 70), (60, 90), 50)))
-    write_pulse_csv(path, steady)
+    constant = Trajectory(["larm_joint_1", "rarm_joint_1"], 0.01, np.radians(np.linspace((80, 70), (60, 90), 50)))
+    write_pulse_csv(path, constant)
     rows = [line.split(",") for line in path.read_text().splitlines()]
     place = 18
     rows[20][place] = "?"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Both simulated robots: they move as told, refuse what is unsafe, stop, and take pictures."""
+"""Both simulated robots: they move as commanded, refuse what is unsafe, stop, and take pictures."""
 
 import subprocess
 import sys
@@ -145,7 +145,7 @@ def test_stop_slows_down_and_holds(robot):
     assert abs(commanded[-1] - trajectory.positions_rad[-1, index]) > 0.5
     assert not robot.perform(gesture_trajectory("rest")) and robot.stopped
     robot.resume()
-    assert robot.perform(gesture_trajectory("rest")), "it moves again when told"
+    assert robot.perform(gesture_trajectory("rest")), "it moves again when commanded"
 
 
 def test_a_stop_while_a_motion_is_checked_is_not_lost(monkeypatch):

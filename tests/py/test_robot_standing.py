@@ -48,7 +48,7 @@ def test_braking_keeps_every_limit():
     limits = HOAP2.limits_rad
     for _ in range(50):
         positions = rng.uniform(limits[:, 0], limits[:, 1])
-        # Whoever keeps the limits is never nearer to one than the hardest braking needs.
+        # A joint that keeps the limits is never nearer to one than the hardest braking needs.
         room = np.minimum(positions - limits[:, 0], limits[:, 1] - positions)
         speeds = rng.uniform(-1, 1, 25) * np.minimum(5.0, np.sqrt(2 * 99.0 * room))
         rows = brake(positions, speeds, limits, 5.0, 100.0, 0.001)

@@ -154,9 +154,11 @@ def test_what_cannot_be_drawn_is_named(asked: dict, message: str) -> None:
 
 def test_the_command_makes_what_is_asked_for_and_says_so(hri, tmp_path: Path) -> None:
     out = tmp_path / "signs"
-    told = hri("corpus", "gesture", "1", "7", "--out", out, "--persons", 2, "--first-person", 5, "--skin", "dark",
+    reported = hri("corpus", "gesture", "1", "7", "--out", out, "--persons", 2, "--first-person", 5, "--skin", "dark",
                "--cast", 0.5, 1, 1.2, "--noise", 9)  # fmt: skip
-    assert told.code == 0 and told.out.startswith("4 synthetic pictures of 2 signs by 2 drawn people"), told.err
+    assert reported.code == 0 and reported.out.startswith("4 synthetic pictures of 2 signs by 2 drawn people"), (
+        reported.err
+    )
     made = Dataset.load(out)
     assert made.synthetic and made.persons == ["signer06", "signer07"]
     manifest = tomllib.loads((out / "dataset.toml").read_text())

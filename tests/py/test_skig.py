@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""SKIG as it is published: folders and names tell persons, gestures and conditions."""
+"""SKIG as it is published: folders and names give persons, gestures and conditions."""
 
 from __future__ import annotations
 

@@ -106,18 +106,18 @@ def test_command_learns_the_words_of_one_person_by_their_names(
     place = ("--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri")
     done = hri("adapt", *place, "--data", spoken, "--person", "low", "--json", "-")
     assert done.code == 0 and "from 6 of 6 words" in done.err, done.err
-    told = json.loads(done.out)
-    assert sorted(told["learned"].values()) == ["1", "1", "1", "2", "2", "2"]
-    assert all(f"{label}_low_" in file for file, label in told["learned"].items())
+    reported = json.loads(done.out)
+    assert sorted(reported["learned"].values()) == ["1", "1", "1", "2", "2", "2"]
+    assert all(f"{label}_low_" in file for file, label in reported["learned"].items())
     adapter = package.SpeakerAdapter(words)
-    for file, label in told["learned"].items():
+    for file, label in reported["learned"].items():
         adapter.learn(file, label)
     adapter.update()
     clip = strange(800.0, 9)
     adapted = package.WordRecognizer.load(tmp_path / "mine.hri")
     np.testing.assert_array_equal(adapted.scores(clip, RATE_HZ), adapter.recognizer.scores(clip, RATE_HZ))
 
-    assert hri("adapt", *place, "--data", spoken, "--person", "nobody").code == 3
+    assert hri("adapt", *place, "--data", spoken, "--person", "absent").code == 3
     for wrong in ((), ("--person", "low", spoken / "1_low_0.wav"), ("--data", spoken, "--label", "1")):
         assert hri("adapt", *place, *wrong).code == 2
 

@@ -202,7 +202,7 @@ def test_fewer_takes_are_done_sooner_and_said(hri, data_dir: Path, tmp_path: Pat
 def test_synthetic_voices_are_added_to_people(data_dir: Path) -> None:
     result = run("synthetic-speakers", data_dir, data=["fsdd"], real=["0", "2"], synthetic=["0", "8"])
     found = {(row["real"], row["synthetic"]): row for row in result["rows"]}
-    assert set(found) == {(0, 8), (2, 0), (2, 8)}, "no training on nobody"
+    assert set(found) == {(0, 8), (2, 0), (2, 8)}, "no training without persons"
     assert found[2, 0]["accuracy_mean"] >= 0.9 and set(found[2, 0]["per_fold"]) == {"low", "middle", "high"}
     with pytest.raises(InvalidArgument, match="axis real has no '9'"):
         run("synthetic-speakers", data_dir, real=["9"])

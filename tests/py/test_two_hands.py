@@ -131,8 +131,8 @@ def test_the_command_reports_both_hands(hri, tmp_path: Path) -> None:
     frames = film(lambda t: crossing(t)[0], lambda t: crossing(t)[1], 20)
     video, table, seen = tmp_path / "cross.avi", tmp_path / "cross.csv", tmp_path / "seen.avi"
     write_video(video, frames, 15.0)
-    told = hri("hands", video, "--max-hands", 2, "-o", table, "--video", seen, "--option", "delta_orders=0")
-    assert told.code == 0 and "a left hand in 20 of 20 frames" in told.err, told.err
+    reported = hri("hands", video, "--max-hands", 2, "-o", table, "--video", seen, "--option", "delta_orders=0")
+    assert reported.code == 0 and "a left hand in 20 of 20 frames" in reported.err, reported.err
     rows = np.genfromtxt(table, delimiter=",", names=True, dtype=None, encoding="utf-8")
     left = rows[rows["hand"] == "left"]
     assert len(rows) == 40 and left["centre_x"][0] < 0.3 and left["centre_x"][-1] > 0.7

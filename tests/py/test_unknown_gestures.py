@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Gestures that were never taught, hands at rest and empty pictures: the study of their rejection."""
+"""Gestures outside the vocabulary, rest poses and empty pictures: the study of their rejection."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_empty_clips_are_walls_in_noise() -> None:
 
 
 def test_a_wall_is_no_hand(tmp_path: Path) -> None:
-    """Most walls that are taken for a hand have borders too weak to be trusted; drawn hands never are."""
+    """Most walls that are mistaken for a hand have borders too weak to be trusted; drawn hands never are."""
     make_gesture_corpus(tmp_path / "g", labels=["1", "5"], num_persons=3)
     dataset = Dataset.load(tmp_path / "g", "gesture")
     recognizer = hri.train(dataset)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Words that were never taught: error rates of rejection, and the study that measures them."""
+"""Words outside the vocabulary: error rates of rejection, and the study that measures them."""
 
 from __future__ import annotations
 

@@ -171,14 +171,14 @@ def test_an_unplugged_camera_is_told_and_comes_back(
     camera.plugged, camera.fault = 5, fault
     source = CameraSource(0, stall_s=0.3)
     begun = time.monotonic()
-    told: list[str] = []
+    reported: list[str] = []
     for event in Watcher(signs, reconnect_s=20).watch(source):
-        told.append(event.event)
+        reported.append(event.event)
         if event.event == "stall":
             assert message in event.fields["message"]
-        if "reconnected" in told and event.event == "hand":
+        if "reconnected" in reported and event.event == "hand":
             break
-    assert [kind for kind in told if kind in ("watching", "stall", "reconnected")] == [
+    assert [kind for kind in reported if kind in ("watching", "stall", "reconnected")] == [
         "watching",
         "stall",
         "reconnected",
@@ -190,9 +190,9 @@ def test_an_unplugged_camera_is_told_and_comes_back(
 
 def test_a_camera_that_stays_away_ends_the_watch(camera: type[FakeCapture], signs: hri.GestureRecognizer) -> None:
     camera.plugged, camera.fault = 5, "fails"
-    told: list[str] = []
+    reported: list[str] = []
     with pytest.raises(Stalled, match=r"camera 0: no picture for 0\.2 s"):
-        told.extend(e.event for e in Watcher(signs).watch(CameraSource(0, stall_s=0.2)))
+        reported.extend(e.event for e in Watcher(signs).watch(CameraSource(0, stall_s=0.2)))
     camera.openable = False
     with pytest.raises(IoError, match="give a video instead"):
         CameraSource(3)
@@ -206,10 +206,10 @@ def test_a_gesture_that_a_stall_interrupts_is_dropped(signs: hri.GestureRecogniz
                 raise Stalled("unplugged")
             return timed
 
-    told: list[Any] = []
+    reported: list[Any] = []
     with pytest.raises(Stalled):
-        told.extend(iter(Watcher(signs).watch(Interrupted(shown(["flat"])[:16], FPS)).__next__, None))
-    assert [e.event for e in told if e.event not in ("hand", "partial")] == [
+        reported.extend(iter(Watcher(signs).watch(Interrupted(shown(["flat"])[:16], FPS)).__next__, None))
+    assert [e.event for e in reported if e.event not in ("hand", "partial")] == [
         "watching",
         "gesture_start",
         "gesture_dropped",
@@ -272,8 +272,8 @@ def test_the_screen_tells_hands_signs_and_trouble(signs: hri.GestureRecognizer) 
     events = list(Watcher(signs).watch(ClipSource(shown(["tall"]), FPS)))
     lines = [line for line in (describe(event, 2) for event in events) if line]
     assert lines[0].startswith("watching frames") and "tall" in lines[1] and len(lines) == 2
-    told = [hand_line(event) for event in events if event.event in ("hand", "partial")]
-    assert any(line.startswith("no hand") for line in told) and any("gesture" in line for line in told)
-    assert any(line.startswith("so far  ") for line in told)
+    reported = [hand_line(event) for event in events if event.event in ("hand", "partial")]
+    assert any(line.startswith("no hand") for line in reported) and any("gesture" in line for line in reported)
+    assert any(line.startswith("so far  ") for line in reported)
     assert "12 frames lost" in describe(Event(1.0, "overflow", {"lost_frames": 12}), 1)
     assert "back" in describe(Event(1.0, "reconnected"), 1)

@@ -20,7 +20,7 @@ from hri.media import read_frames, write_video
 Frame = NDArray[np.uint8]
 FPS = 20.0
 CLOTH, SKIN = (14, 20, 15), (70, 45, 80)
-"""Violet light: what is told by chroma alone flickers."""
+"""Violet light: what is segmented by chroma alone flickers."""
 FAR = {"right": (30, 0), "left": (-30, 0), "down": (0, 24), "up": (0, -24)}
 
 
@@ -138,8 +138,8 @@ def test_a_hand_that_looks_different_has_not_moved() -> None:
     still = [picture(80, 70, rng) for _ in range(120)]
     named = [(label, take) for label in FAR for take in range(3)]
     known = hri.GestureRecognizer().fit([clip(*one) for one in named], [label for label, _ in named])
-    told = [event.event for event in Watcher(known).watch(ClipSource(still, FPS))]
-    assert "decision" not in told and told.count("gesture_start") <= 1
+    reported = [event.event for event in Watcher(known).watch(ClipSource(still, FPS))]
+    assert "decision" not in reported and reported.count("gesture_start") <= 1
 
 
 def test_the_study_of_live_clips_runs_whole(tmp_path: Path) -> None:

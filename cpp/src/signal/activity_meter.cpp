@@ -16,13 +16,13 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kRumbleHz = 60;
 constexpr std::array<double, kMaxActivityBands + 1> kEdgesHz{100, 500, 1000, 2000, 3800, 7500};
 constexpr double kLowHz = 1000;
-// Voicing is looked for in what lies below this: noise of kitchens and streets has little there.
+// Voicing is computed below this: noise of kitchens and streets has little energy there.
 constexpr double kVoicedHz = 900;
 constexpr double kPitchRateHz = 4000;
 constexpr double kMinPitchHz = 60;
 constexpr double kMaxPitchHz = 400;
 constexpr double kVoicingWindowS = 0.025;
-// Half-way to a difference: low noise is then not taken for a low voice, and voices keep their
+// Half-way to a difference: low noise is then not mistaken for a low voice, and voices keep their
 // pitch.
 constexpr double kWhitening = 0.7;
 constexpr double kHighest = 0.47;  // of the sample rate, so that no filter is laid on the border
@@ -98,7 +98,7 @@ void ActivityMeter::reset() {
   forget(smooth_);
   std::for_each(bands_.begin(), bands_.end(), forget);
   std::fill(pitch_.begin(), pitch_.end(), 0.0F);
-  num_pitch_ = window_ + max_lag_;  // silence went before
+  num_pitch_ = window_ + max_lag_;  // silence precedes the stream
   filled_ = skip_ = phase_ = 0;
   offset_ = last_smooth_ = 0;
   started_ = false;
@@ -118,7 +118,7 @@ std::size_t ActivityMeter::take(Span<const float> samples, ActivityFrame* frame,
 
 void ActivityMeter::hear(float sample) {
   if (!started_) {
-    offset_ = sample;  // a constant offset is no sound, and its beginning no click
+    offset_ = sample;  // a DC offset is not sound, and its onset not a click
     started_ = true;
   }
   const double x = rumble_.filter(sample - offset_);

@@ -164,7 +164,7 @@ Matrix<T> idwt2(const Dwt2<T>& level, const Wavelet& wavelet, Border border, Eig
   Matrix<T> image(rows, cols);
   const std::ptrdiff_t half = filters.num_taps / 2;
   const detail::PairPlaces places = detail::pair_places(filters.num_taps, border);
-  // A ring of lines filtered along the rows, low and high in turn, and a line nobody asks for.
+  // A ring of lines filtered along the rows, low and high in turn, and a line that is not used.
   Scratch<T>& kept = scratch<T>(2 * half, (2 * half + 1) * cols);
   T* lines = kept.lines.data();
   T* unwanted = lines + 2 * half * cols;

@@ -15,14 +15,14 @@
 namespace hri {
 namespace {
 
-// How the noise floor follows a band: down at once, up by a share of the difference. Once somebody
-// speaks it rises slowly, so that a word is not taken for noise; a fan that starts becomes noise
+// How the noise floor follows a band: down at once, up by a share of the difference. In speech
+// it rises slowly, so that a word is not mistaken for noise; a fan that starts becomes noise
 // within seconds.
 constexpr float kFall = 0.1F;
 constexpr float kRise = 0.02F;
 constexpr float kMaxRiseDbPerS = 10;
 constexpr float kMaxRiseInSpeechDbPerS = 2;
-// Frames in a row that make a sound: one alone is a click.
+// Fewest successive frames of a sound: a single one is a click.
 constexpr std::size_t kOnsetFrames = 2;
 
 }  // namespace
@@ -68,8 +68,9 @@ class Endpointer::Stream {
       end(&event, false);
       return event;
     }
-    // What has not been told of is judged as a clip: a recording may begin in the middle of a word.
-    const std::size_t begin = std::max(oldest(), told_);
+    // What has not been reported is judged as a clip: a recording may begin in the middle of a
+    // word.
+    const std::size_t begin = std::max(oldest(), reported_);
     if (!frames_.empty() && begin < num_frames_) {
       onset_ = begin;
       const Endpoint found = judge(begin);
@@ -124,14 +125,14 @@ class Endpointer::Stream {
       } else if (quiet_ >= hangover_) {
         state_ = State::silence;
       } else if (num_frames_ - onset_ > longest_ / 2) {
-        onset_ = num_frames_ - longest_ / 2;  // a noise that goes on: a word may come within it
+        onset_ = num_frames_ - longest_ / 2;  // continuing noise: a word may follow within it
       }
     } else if (quiet_ >= hangover_ || num_frames_ - onset_ >= longest_) {
       end(event, quiet_ < hangover_);
     }
   }
 
-  // Frames in a row that stand out of the noise, and those since there were some.
+  // Counts successive frames above the noise floor, and those since the last one.
   void count(const ActivityFrame& frame) {
     const ActivityOptions& o = options_.activity;
     float lowest = static_cast<float>(o.silence_dbfs);
@@ -179,11 +180,11 @@ class Endpointer::Stream {
   }
 
   void end(Endpoint* event, bool cut) {
-    const std::size_t earliest = std::max(oldest(), told_);
+    const std::size_t earliest = std::max(oldest(), reported_);
     *event = judge(onset_ > earliest + context_ ? onset_ - context_ : earliest);
     event->cut = cut;
     // The silence after this utterance is also the silence before the next one.
-    told_ =
+    reported_ =
         event->kind == EndpointKind::speech_end ? event->last / meter_.frame_shift() : num_frames_;
     state_ = State::silence;
     loud_ = 0;
@@ -192,7 +193,7 @@ class Endpointer::Stream {
   void reset() {
     meter_.reset();
     frames_.clear();
-    num_samples_ = num_frames_ = onset_ = told_ = loud_ = quiet_ = 0;
+    num_samples_ = num_frames_ = onset_ = reported_ = loud_ = quiet_ = 0;
     voiced_ = 0;
     over_ = {};
     state_ = State::silence;
@@ -206,14 +207,14 @@ class Endpointer::Stream {
   std::size_t context_ = 0;
   std::size_t longest_ = 0;
   std::size_t capacity_ = 0;
-  std::vector<ActivityFrame> frames_;  // the last ones heard
+  std::vector<ActivityFrame> frames_;  // the most recent frames
   detail::NoiseFloor noise_{};
   detail::Excess over_;
   State state_ = State::silence;
   std::size_t num_samples_ = 0;
   std::size_t num_frames_ = 0;
-  std::size_t onset_ = 0;  // the frame where the sound began
-  std::size_t told_ = 0;   // frames before this belong to utterances that were told of
+  std::size_t onset_ = 0;     // the frame where the sound began
+  std::size_t reported_ = 0;  // frames before this belong to utterances that were reported
   std::size_t loud_ = 0;
   std::size_t quiet_ = 0;
   float voiced_ = 0;

@@ -83,7 +83,7 @@ Split split_by_otsu(const Histogram& all, int least = -1) {
   return s;
 }
 
-// A hand does not reach three corners of the picture: then the wall was taken for skin, because
+// A hand does not reach three corners of the picture: then the wall was mistaken for skin, because
 // something else, such as a blue shirt, lies further from both.
 bool holds_background(const GreyImage& channel, int threshold) {
   const ImageView view = channel.view();
@@ -120,7 +120,7 @@ Split split(const detail::ColourImage& bgr, SilhouetteMethod method, GreyImage* 
   detail::to_redness(bgr, channel);
   const Histogram counts = detail::histogram(*channel);
   Split found = split_by_otsu(counts);
-  // Splits again what was taken for skin, as an image of its own.
+  // Splits again what was segmented as skin, as an image of its own.
   if (holds_background(*channel, found.threshold)) found = split_by_otsu(counts, found.threshold);
   detail::set_where(*channel, found.threshold, true, mask);
   return found;

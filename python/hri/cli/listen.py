@@ -13,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, stall_option, tell
+from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, report, stall_option
 from hri.cli.recognizers import kept_model
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.live import Attention, AudioSource, Event, FileSource, Listener, list_microphones
@@ -90,7 +90,7 @@ def listen(
     else:
         sources = (microphone(device, stall_s) for _ in range(1))
     for source in sources:
-        tell(listener.listen(source), as_json, partial(describe, top=top))
+        report(listener.listen(source), as_json, partial(describe, top=top))
 
 
 def _list_devices(as_json: bool) -> None:

@@ -29,9 +29,9 @@ def camera(device: str, stall_s: float) -> CameraSource:
     return CameraSource(int(device) if device.isdigit() else device, stall_s=stall_s)
 
 
-def tell(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str]) -> None:
-    """Every event as a line of JSON; on a terminal, unless told otherwise, the level and what `describe` makes of
-    the others."""
+def report(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str]) -> None:
+    """Every event as a line of JSON; on a terminal, unless --json is given, the level and what `describe` makes
+    of the others."""
     if as_json or not sys.stdout.isatty():
         for event in events:
             click.echo(event.to_json())

@@ -63,7 +63,7 @@ def recognise(
     top: int,
     json_path: str | None,
 ) -> None:
-    """Recognise a spoken word, a sign, or both together; print label, confidence and the rule that fired.
+    """Recognise a spoken word, a sign, or both fused; print label, confidence and the rule that fired.
 
     FILE is a recording of a word, or a picture, video or folder of pictures of a sign: one of each at most; --speech
     and --gesture say which is which. "unknown", "no_input" and "ask" (an unsure STOP) are answers too: the robot then

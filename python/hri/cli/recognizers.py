@@ -40,7 +40,7 @@ options_option = click.option(
 
 
 def default_model(mode: str) -> Path:
-    """Where ``hri train`` puts a model, and ``hri recognise`` looks for it, unless told otherwise."""
+    """Where ``hri train`` puts a model, and ``hri recognise`` looks for it, by default."""
     from platformdirs import user_data_path
 
     return user_data_path("hri") / f"{mode}.hri"

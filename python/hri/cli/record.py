@@ -18,8 +18,8 @@ from hri.cli.live_screen import (
     device_option,
     events_json_option,
     microphone,
+    report,
     stall_option,
-    tell,
 )
 from hri.cli.messages import note
 from hri.cli.result_screen import ResultScreen
@@ -80,7 +80,7 @@ def word(
     if not files and recorder.missing():
         sources = (microphone(device, stall_s) for _ in range(1))
     for source in sources:
-        tell(recorder.record(source), as_json, describe)
+        report(recorder.record(source), as_json, describe)
     _summarise(recorder, person, out, files)
 
 
@@ -122,9 +122,9 @@ def gesture(
 ) -> None:
     """Record gestures from the camera, label by label, into a folder that 'hri train gesture' reads.
 
-    Asks for one gesture after the other and finds where it begins and ends. Movements begin and end with the hand at
-    rest in view; signs (--held) come into view and are held. What is in the folder already stays and is not asked for
-    again: after Ctrl-C the same command goes on. To record a take anew, delete its file.
+    Asks for one gesture after the other and finds where it begins and ends. Dynamic gestures begin and end with the
+    hand at rest in view; signs (--held) come into view and are held. What is in the folder already stays and is not
+    asked for again: after Ctrl-C the same command goes on. To record a take anew, delete its file.
 
     \b
     Examples:
@@ -138,7 +138,7 @@ def gesture(
         sources = (camera(device, stall_s) for _ in range(1))
     for source in sources:
         with ResultScreen(None, source.fps, show, 1) as screen:
-            tell(recorder.record(source, partial(screen.draw, decision=None)), as_json, describe)
+            report(recorder.record(source, partial(screen.draw, decision=None)), as_json, describe)
     _summarise(recorder, person, out, files)
 
 

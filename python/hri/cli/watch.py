@@ -11,7 +11,7 @@ from pathlib import Path
 
 import click
 
-from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, stall_option, tell
+from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, report, stall_option
 from hri.cli.output import OutputFile
 from hri.cli.recognizers import kept_model
 from hri.cli.result_screen import ResultScreen
@@ -65,7 +65,7 @@ def watch(
 ) -> None:
     """Recognise gestures as they are shown, from a camera or from videos played as a stream.
 
-    On a terminal: where the hand is, movements, and what was understood. Otherwise, or with --json, one JSON object a
+    On a terminal: where the hand is, gesture segments, and decisions. Otherwise, or with --json, one JSON object a
     line.
 
     \b
@@ -85,7 +85,7 @@ def watch(
     for source in sources:
         with ResultScreen(video_path, source.fps, show, top) as screen:
             watcher = Watcher(signs, reconnect_s=reconnect_s, model_id=model_id, on_result=screen.draw)
-            tell(watcher.watch(source), as_json, partial(describe, top=top))
+            report(watcher.watch(source), as_json, partial(describe, top=top))
 
 
 def describe(event: Event, top: int) -> str:

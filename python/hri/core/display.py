@@ -30,8 +30,8 @@ def short_repr(cls: type[T]) -> type[T]:
     """Class decorator, below ``@dataclass``: fields by name; of arrays type and shape, of collections the length."""
 
     def represent(self: Any) -> str:
-        told = (f"{field.name}={_short_value(getattr(self, field.name))}" for field in fields(self) if field.repr)
-        return summary(cls.__name__, *told)
+        shown = (f"{field.name}={_short_value(getattr(self, field.name))}" for field in fields(self) if field.repr)
+        return summary(cls.__name__, *shown)
 
     cls.__repr__ = represent  # type: ignore[method-assign]
     return cls
@@ -62,7 +62,7 @@ def _short_value(value: object) -> str:
 
 
 def short_path(path: str | PathLike[str]) -> str:
-    """A path in quotes; of a long one its end, which tells most."""
+    """A path in quotes; of a long one its end, which differs most."""
     text = fspath(path)
     return repr(text if len(text) <= _MAX_PATH else f"...{text[3 - _MAX_PATH :]}")
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What somebody may have meant by a name that there is not."""
+"""What a caller may have meant by a name that there is not."""
 
 from __future__ import annotations
 

@@ -36,8 +36,8 @@ class Sample:
 
     def __repr__(self) -> str:
         known = {"person": self.person, "take": self.take, **self.conditions}
-        told = (f"{name}={value!r}" for name, value in known.items() if value)
-        return summary("Sample", repr(self.label), *told, short_path(self.path))
+        shown = (f"{name}={value!r}" for name, value in known.items() if value)
+        return summary("Sample", repr(self.label), *shown, short_path(self.path))
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ class Manifest:
     kind : "speech" or "gesture"
     name, description, licence : str
     synthetic : bool
-        Nobody recorded this: a program made it.
+        Synthetic: a program made it.
     pattern : str or None
         Exactly one of `pattern` and `rows` is there.
     labels : list of str

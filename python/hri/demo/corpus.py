@@ -26,7 +26,7 @@ WORDS = {
 class CorpusSize:
     """How much is made.
 
-    Many voices once each teach more than few voices twice: a word of a voice never heard differs from those heard in
+    Many voices once each train better than few voices twice: a word of a voice never heard differs from those heard in
     throat and pitch, not from take to take.
     """
 

@@ -22,7 +22,7 @@ from hri.signal import resample
 REFERENCE_M = 0.5
 """Simulated responses have a direct sound of gain 1 at this distance."""
 _WALL_M = 0.4
-"""Nobody stands nearer to a wall, and no microphone."""
+"""Speaker and microphone stand no nearer to a wall."""
 _TRIES = 1000
 
 

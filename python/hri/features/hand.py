@@ -45,7 +45,7 @@ def hand_features(
     greys, masks : sequence of uint8 arrays, shape (height, width), or one of shape (num_frames, height, width)
         Grey pictures, and 255 where the hand is; a still is a sequence of one.
     kind : str
-        One of `HAND_KINDS`: ``hand``, the joined feature that `GestureRecognizer` uses; ``orientation`` histograms of
+        One of `HAND_KINDS`: ``hand``, the concatenated features of `GestureRecognizer`; ``orientation`` histograms of
         the grey picture; ``dwt-mfcc``, the silhouette cepstrum; ``wavelet``, moment-invariant wavelet descriptors;
         ``fourier`` descriptors; ``chain-code`` histograms; ``moments``, Hu's; ``track``, place, size, axis and speed.
     **options
@@ -56,7 +56,7 @@ def hand_features(
     Returns
     -------
     ndarray of float32, shape (num_frames_with_hand, num_features)
-        Columns as `hand_column_names` tells them.
+        Columns as `hand_column_names` lists them.
 
     Raises
     ------

@@ -76,7 +76,7 @@ def cepstra(
     Returns
     -------
     ndarray of float32, shape (num_frames, num_features)
-        Columns as `column_names` tells them.
+        Columns as `column_names` lists them.
 
     Raises
     ------

@@ -95,8 +95,8 @@ class FusedDecision:
     gesture: Decision | None = None
 
     def __repr__(self) -> str:
-        told = rivals(self.nbest, self.label)
-        return summary("FusedDecision", repr(self.label), f"{self.confidence:.3f}", repr(self.rule), told)
+        others = rivals(self.nbest, self.label)
+        return summary("FusedDecision", repr(self.label), f"{self.confidence:.3f}", repr(self.rule), others)
 
     def _repr_html_(self) -> str:
         return html_table(*nbest_table(self.nbest), repr(self))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Cameras, by OpenCV (the extra "video"), watched: one that is unplugged is told of, and opened again."""
+"""Cameras, by OpenCV (the extra "video"), watched: one that is unplugged is reported, and opened again."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class FrameQueue:
 
     @property
     def num_lost(self) -> int:
-        """Pictures that nobody took in time."""
+        """Pictures that were not fetched in time."""
         return self._lost
 
     def put(self, frame: Frame, time_s: float) -> None:
@@ -89,7 +89,7 @@ class _Grabber:
                 if got:
                     self.frames.put(np.asarray(frame, dtype=np.uint8), time.monotonic())
                 else:
-                    self._stopped.wait(_RETRY_S)  # a hiccup, or unplugged: the reader's clock tells
+                    self._stopped.wait(_RETRY_S)  # a hiccup, or unplugged: the reader's clock decides
         finally:
             self._tried.set()
             if capture is not None:

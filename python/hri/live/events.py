@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What a live session tells: one event at a time, one line of JSON each."""
+"""What a live session reports: one event at a time, one line of JSON each."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ MIN_SEEN = 0.8
 MIN_QUALITY = 0.4
 """How well the hand must stand out, on average."""
 REST_S = 0.4
-"""Of the rest before a movement that is recorded with it, so that training sees that it begins at rest."""
+"""Of the rest before a dynamic gesture that is recorded with it, so that training sees that it begins at rest."""
 FEWEST_FRAMES = 8
 """Below that, hands in clips are not looked for as in longer ones."""
 
@@ -97,7 +97,7 @@ class GestureRecorder:
         Stalled
             When the source gives no more pictures.
         IoError
-            When a recording cannot be written, or somebody else wrote it meanwhile.
+            When a recording cannot be written, or another program wrote it meanwhile.
         """
         missing = self.missing()
         if not missing:

@@ -78,7 +78,7 @@ class Classifier(RowEstimator):
         return as_labels(y, num_rows, type(self).__name__)
 
     def decision_function(self, X: ArrayLike) -> NDArray[np.float32]:
-        """How much speaks for each class; larger is likelier.
+        """Score of each class; larger is likelier.
 
         Parameters
         ----------

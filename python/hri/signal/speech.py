@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Signals of speech: where somebody speaks, change of sampling rate, linear prediction."""
+"""Signals of speech: where a clip holds speech, change of sampling rate, linear prediction."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def find_speech(
     Returns
     -------
     (first, last) : tuple of int, or None
-        First sample of the utterance and the one behind its last; None where nobody speaks.
+        First sample of the utterance and the one behind its last; None without speech.
     """
     found: tuple[int, int] | None = _native.find_speech(
         np.asarray(audio, np.float32), sample_rate_hz, options or ActivityOptions()

@@ -7,6 +7,7 @@ from hri.core.suggest import did_you_mean
 from hri.studies import (
     adaptation,
     classifiers,
+    cpp_parity,
     denoise,
     distance,
     endpoints,
@@ -52,6 +53,7 @@ _MODULES = (
     unknown_gestures,
     webcam,
     webcam_live,
+    cpp_parity,
     mask_quality,
     hand_pairs,
     signs,

@@ -83,7 +83,7 @@ def _run(
 STUDIES = (
     Study(
         "speech-distance",
-        "words from 0.5 to 4 m (thesis table 6.7) in simulated rooms, silent and with steady noise, and through a "
+        "words from 0.5 to 4 m (thesis table 6.7) in simulated rooms, silent and with stationary noise, and through a "
         "recorded response; leave one of 4 speakers out",
         ("fsdd/recordings", "hindi_words/digits", "hindi_words/words", "noise", "room"),
         "none: a comparison",

@@ -99,8 +99,8 @@ CLASSIFIERS: dict[str, Fit] = {
 def scaled(rows: Vectors, by: Vectors) -> Vectors:
     """Columns with the mean and spread that those of `by` have taken off; what is constant there becomes 0."""
     spread = by.std(axis=0)
-    steady = spread < 1e-6 * max(float(np.abs(by).max()), 1e-12)
-    return np.where(steady, 0, (rows - by.mean(axis=0)) / np.where(steady, 1, spread)).astype(np.float32)
+    constant = spread < 1e-6 * max(float(np.abs(by).max()), 1e-12)
+    return np.where(constant, 0, (rows - by.mean(axis=0)) / np.where(constant, 1, spread)).astype(np.float32)
 
 
 def accuracies(

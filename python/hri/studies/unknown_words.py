@@ -63,15 +63,15 @@ def halves(labels: Sequence[str], number: int = NUM_HALVES, seed: int = SEED) ->
 def noises(paths: dict[str, str], seed: int = SEED) -> dict[str, list[Clip]]:
     """Pieces of recorded noise: a second as it is, and bursts of 0.2 to 0.8 s in silence."""
     rng = np.random.default_rng(seed)
-    steady, bursts = [], []
+    stationary, bursts = [], []
     for path in paths.values():
         for _ in range(NUM_NOISES):
-            steady.append((make_noise(path, NOISE_RATE_HZ, NOISE_RATE_HZ, rng), NOISE_RATE_HZ))
+            stationary.append((make_noise(path, NOISE_RATE_HZ, NOISE_RATE_HZ, rng), NOISE_RATE_HZ))
             clip = 1e-4 * rng.standard_normal(3 * NOISE_RATE_HZ // 2).astype(np.float32)
             length = int(rng.uniform(0.2, 0.8) * NOISE_RATE_HZ)
             clip[4000 : 4000 + length] += make_noise(path, length, NOISE_RATE_HZ, rng)
             bursts.append((clip, NOISE_RATE_HZ))
-    return {"noise": steady, "burst": bursts}
+    return {"noise": stationary, "burst": bursts}
 
 
 def _score(decision: Decision) -> float:
@@ -169,7 +169,7 @@ STUDIES = (
         "words of unseen speakers with half the vocabulary never trained: equal error rate of rejection, shares at the "
         "default threshold, and what becomes of noise; three random halves, one speaker held out",
         ("fsdd/recordings", "hindi_words/digits", "hindi_words/words", "noise"),
-        f"equal error rate < {100 * TARGET:.0f} %; no_input on all steady noise",
+        f"equal error rate < {100 * TARGET:.0f} %; no_input on all stationary noise",
         _run,
         Layout(measure="eer"),
         {"data": tuple(WORD_FOLDERS)},

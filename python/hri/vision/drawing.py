@@ -81,11 +81,11 @@ def paint_lines(picture: Frame, lines: Iterable[str]) -> None:
 def paint_text(picture: Frame, text: str, place: tuple[int, int], size: float) -> None:
     """White letters with a dark edge, from the lower left corner of the first one on."""
     cv2 = import_opencv("to draw hands")
-    told = text.encode("ascii", "replace").decode()
+    printable = text.encode("ascii", "replace").decode()
     # Thicker letters would be wider in some versions of OpenCV: the edge is the same letters, moved.
     for across, down, colour in ((-1, 0, _EDGE), (1, 0, _EDGE), (0, -1, _EDGE), (0, 1, _EDGE), (0, 0, TEXT)):
         corner = (place[0] + across, place[1] + down)
-        cv2.putText(picture, told, corner, cv2.FONT_HERSHEY_SIMPLEX, size, colour, 1, cv2.LINE_AA)
+        cv2.putText(picture, printable, corner, cv2.FONT_HERSHEY_SIMPLEX, size, colour, 1, cv2.LINE_AA)
 
 
 def _glyphs(square: NDArray[np.float32], cv2: Any) -> Frame:

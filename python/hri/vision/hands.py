@@ -70,7 +70,7 @@ def find_hands(
     dict of str to list of HandObservation
         "hand": what `find_silhouettes` gives; or "left" and "right": of the hand that was on that side of the picture
         when both were first seen. Labels stay with the hands when these touch or cross (`HandPairTracker`). A face in
-        view may be taken for a hand.
+        view may be mistaken for a hand.
     """
     from hri.core.errors import InvalidArgument
 
@@ -83,9 +83,9 @@ def find_hands(
 
 
 def background_of(clip: Sequence[Frame]) -> Frame:
-    """What a clip shows behind whoever moves in it: every pixel's median over up to 25 frames spread over the clip.
+    """What a clip shows behind the person who moves in it: every pixel's median over up to 25 of its frames.
 
-    Where somebody stays in place for half of the clip, as a palm does that rests before it moves, this is part of it.
+    What stays in place for half of the clip, such as a palm that rests before it moves, is part of it.
 
     Raises
     ------

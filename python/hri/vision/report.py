@@ -152,7 +152,7 @@ def inspect_hands(
     background : uint8 array of the frames' shape, optional
         The place without a person, of silhouettes: see `hri.vision.hands.find_silhouettes`.
     **options
-        Fields of the kind's options; tracks are told the rate of the clip.
+        Fields of the kind's options; tracks get the rate of the clip.
 
     Raises
     ------

@@ -58,16 +58,16 @@ Bytes with(const std::string& from, const std::string& to) {
   return packed(header, data_of(bytes));
 }
 
-// The same with the checksum that its content has, which the refusal tells: a file made by somebody
+// The same with the checksum that its content has, which the refusal names: a file made by someone
 // who knows the format.
 Bytes forged(const std::string& header, const Bytes& data) {
   const std::string message =
       message_of<FormatError>([&] { ModelFile::parse(packed(header, data), "x"); });
   const std::string mark = "content gives ";
-  const std::size_t told = message.find(mark);
-  if (told == std::string::npos) return packed(header, data);
+  const std::size_t named = message.find(mark);
+  if (named == std::string::npos) return packed(header, data);
   std::string right = header;
-  right.replace(right.find("checksum\":\"") + 11, 8, message.substr(told + mark.size(), 8));
+  right.replace(right.find("checksum\":\"") + 11, 8, message.substr(named + mark.size(), 8));
   return packed(right, data);
 }
 

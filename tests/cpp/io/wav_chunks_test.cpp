@@ -143,7 +143,7 @@ TEST(WavChunks, RefusalsNameTheField) {
 TEST(WavChunks, WhatFollowsTheSoundIsNotHeard) {
   const Bytes data = raw<std::int16_t>({1, 2, 3});
   const Bytes with_tail = riff(
-      {chunk("fmt ", format({})), chunk("data", data), chunk("LIST", text("made by somebody"))});
+      {chunk("fmt ", format({})), chunk("data", data), chunk("LIST", text("made by a program"))});
   const Wav wav = parse_wav(with_tail, "x");
   EXPECT_EQ(wav.samples.size(), 3U);
   EXPECT_TRUE(wav.notes.empty());

@@ -26,7 +26,7 @@ void put(Bytes& bytes, const char* text) {
 constexpr std::uint32_t kPcm = 1;
 constexpr std::uint32_t kFloat = 3;
 
-// A WAV of one rate whose sizes can be told wrong.
+// A WAV of one rate whose sizes can be declared wrong.
 Bytes wav(std::uint32_t codec, int channels, int bits, const Bytes& data, std::uint32_t data_size) {
   Bytes bytes;
   put(bytes, "RIFF");

@@ -90,7 +90,7 @@ TEST(Calibration, RejectsTheShareOfRightAnswersItWasAllowed) {
 }
 
 // Of `count` samples of class 0 and as many of class 1, all decided with margin `right`, but
-// `num_wrong` of class 1 that are taken for class 0 with margin `wrong`.
+// `num_wrong` of class 1 that are misrecognised as class 0 with margin `wrong`.
 std::vector<HeldOut> with_false_alarms(int count, int num_wrong, float right, float wrong) {
   std::vector<HeldOut> result;
   for (int i = 0; i < 2 * count; ++i) {

@@ -165,7 +165,7 @@ TEST(Silhouette, NamesTheOptionThatDoesNotFit) {
 }
 
 // A wooden board that is larger than the hand and looks like skin: only a picture of the place
-// without the hand tells them apart.
+// without the hand separates them.
 TEST(SilhouetteExtractor, LeavesOutWhatTheBackgroundHasAlready) {
   const GreyImage mask = hand(5, 70, 115, 0.8);
   const auto board = [](int x, int y) { return x >= 140 && x < 190 && y >= 10 && y < 190; };

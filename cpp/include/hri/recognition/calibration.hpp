@@ -27,8 +27,8 @@ struct HeldOut {
 
 class HRI_API Calibration {
  public:
-  /// Share of held-out samples of other classes that may be taken for a class at or above its
-  /// threshold, and share of its own right decisions that may lie below.
+  /// Share of held-out samples of other classes that may be misrecognised as a class at or above
+  /// its threshold, and share of its own right decisions that may lie below.
   static constexpr double kMaxFalseAlarmRate = 0.005;
   static constexpr double kMaxMissRate = 0.05;
   /// No class threshold lies below: a decision that is more likely wrong than right is not sure.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What end points are found from, frame by frame: levels in octave-like bands, and how periodic the
+// The frame features of endpointing: levels in octave-like bands, and how periodic the
 // sound is at the pitch of voices (peak of the normalised autocorrelation; Boersma, IFA Proceedings
 // 17, 1993, discusses its pitfalls).
 #pragma once
@@ -20,7 +20,7 @@ constexpr int kMaxActivityBands = 5;
 
 struct ActivityFrame {
   float level_db = 0;  ///< mean power above 60 Hz relative to full scale; digital silence is -120
-  float voicing = 0;   ///< largest correlation of the sound with itself one pitch period ago, 0..1
+  float voicing = 0;   ///< largest normalised autocorrelation over the lags of voice pitch, 0..1
   std::array<float, kMaxActivityBands> band_db{};  ///< the same by band; only num_bands() are used
 };
 
@@ -30,11 +30,11 @@ class HRI_API ActivityMeter {
   /// Throws InvalidArgument for options out of range and a rate outside 1000..384000 Hz.
   ActivityMeter(int sample_rate_hz, const ActivityOptions& options);
 
-  /// Takes samples up to the end of the next frame, and says how many; `complete` tells whether it
+  /// Takes samples up to the end of the next frame, and says how many; `complete` says whether it
   /// got that far, and then `frame` is filled. Samples must be finite.
   std::size_t take(Span<const float> samples, ActivityFrame* frame, bool* complete);
 
-  /// Forgets everything heard.
+  /// Resets to the start of a stream.
   void reset();
 
   [[nodiscard]] int num_bands() const { return static_cast<int>(bands_.size()); }
@@ -70,14 +70,14 @@ class HRI_API ActivityMeter {
   std::size_t min_lag_;
   std::size_t max_lag_;
   std::size_t window_;
-  Section rumble_;  // takes away what is below all voices
-  Section smooth_;  // before decimation
+  Section rumble_;  // high-pass, below the pitch of all voices
+  Section smooth_;  // low-pass, before decimation
   std::vector<Section> bands_;
   std::vector<std::vector<float>> power_;  // squares of the frame's samples: all, then by band
-  std::vector<float> pitch_;               // the decimated sound that voicing looks at
+  std::vector<float> pitch_;               // the decimated signal that voicing is computed from
   std::vector<double> energy_;             // its running sum of squares
   std::size_t num_pitch_ = 0;
-  std::size_t filled_ = 0;  // samples of the frame that have been heard
+  std::size_t filled_ = 0;  // samples of the frame so far
   std::size_t skip_ = 0;    // samples between frames, where the shift is longer than the frame
   std::size_t phase_ = 0;   // samples until the next one kept for voicing
   double offset_ = 0;

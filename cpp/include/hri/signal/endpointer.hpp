@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Utterances in a stream, found as they are spoken. A sound that stands out of the noise becomes
-// speech when it is voiced, and ends when silence has lasted; its end points are then those that
-// find_speech would give for the utterance and the silence around it.
+// Endpointing of a stream. A sound above the noise floor becomes speech when it is voiced, and ends
+// after enough silence; its end points are then those that find_speech gives for the utterance and
+// the silence around it.
 #pragma once
 
 #include <array>
@@ -38,9 +38,9 @@ struct EndpointerOptions {
 
 enum class EndpointKind : std::uint8_t {
   none,
-  speech_start,    ///< somebody speaks since `first`
+  speech_start,    ///< speech began at `first`
   speech_end,      ///< and has ended: [first, last) is the utterance
-  speech_dropped,  ///< what seemed to be speech was none
+  speech_dropped,  ///< rejected: the sound was not speech
 };
 constexpr auto enum_names(EndpointKind) {
   return std::array{"none", "speech_start", "speech_end", "speech_dropped"};
@@ -49,7 +49,7 @@ constexpr auto enum_names(EndpointKind) {
 /// An event in the stream; all positions are samples since its beginning.
 struct Endpoint {
   EndpointKind kind = EndpointKind::none;
-  std::size_t at = 0;  ///< as many samples had been heard when this was decided
+  std::size_t at = 0;  ///< samples processed when this was decided
   std::size_t first = 0;
   std::size_t last = 0;
   std::size_t segment_first = 0;  ///< the utterance with the noise around it, for a recogniser that
@@ -67,9 +67,9 @@ class HRI_API Endpointer {
   Endpointer(Endpointer&&) noexcept;
   Endpointer& operator=(Endpointer&&) noexcept;
 
-  /// Hears samples up to the next event, and says how many; call again with the rest. Throws
-  /// InvalidArgument for a sample that is not finite, by its number in the stream, before it hears
-  /// any.
+  /// Processes samples up to the next event, and returns how many; call again with the rest. Throws
+  /// InvalidArgument for a sample that is not finite, by its number in the stream, before any is
+  /// processed.
   std::size_t consume(Span<const float> samples, Endpoint* event);
 
   /// The stream has ended: an event if there is another one; call until there is none. Then the
@@ -77,10 +77,10 @@ class HRI_API Endpointer {
   Endpoint finish();
 
   [[nodiscard]] const EndpointerOptions& options() const;
-  [[nodiscard]] std::size_t num_samples() const;  ///< heard so far
+  [[nodiscard]] std::size_t num_samples() const;  ///< processed so far
   [[nodiscard]] bool in_speech() const;
   [[nodiscard]] float level_db() const;   ///< of the last frame, relative to full scale
-  [[nodiscard]] float excess_db() const;  ///< how far that stands out of the noise
+  [[nodiscard]] float excess_db() const;  ///< its excess over the noise floor
 
  private:
   class Stream;

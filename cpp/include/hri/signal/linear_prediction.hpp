@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Linear prediction of a windowed frame by the autocorrelation method: x[n] is predicted as
-// -a[1] x[n-1] - ... - a[p] x[n-p], and the frame's spectrum is taken for gain / |A|^2 with
+// -a[1] x[n-1] - ... - a[p] x[n-p], and the frame's spectrum is modelled as gain / |A|^2 with
 // A(z) = 1 + a[1] z^-1 + ... (Rabiner and Juang, Fundamentals of Speech Recognition, 1993, ch. 3).
 #pragma once
 

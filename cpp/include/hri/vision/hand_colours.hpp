@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The colours that tell a hand from what is behind it, learned from the clip itself. In poor,
+// The colours that separate a hand from what is behind it, learned from the clip itself. In poor,
 // strong or coloured light no fixed bounds hold, but within one clip hand and background keep their
 // colours; and logarithms of a channel turn exposure, colour cast and gamma into shifts and scales,
 // to which a discriminant adapts.

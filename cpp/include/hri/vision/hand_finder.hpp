@@ -36,7 +36,7 @@ class HRI_API HandFinder : public HandSource {
 
   /// Both hands: that of the left side of the picture, then that of the right one, as they were
   /// when both were first seen; labels go with the hands when these touch or cross
-  /// (HandPairTracker). A face in view may be taken for a hand.
+  /// (HandPairTracker). A face in view may be mistaken for a hand.
   [[nodiscard]] std::array<std::vector<HandObservation>, 2> find_pair(
       Span<const ImageView> clip, const FrameProgress& progress = {}) const;
 
@@ -57,9 +57,9 @@ class HRI_API HandFinder : public HandSource {
   int background_height_px_ = 0;
 };
 
-/// What a clip shows behind whoever moves in it: every pixel's median over up to 25 frames spread
-/// over the clip, with three channels. Where somebody stays in place for half of the clip, this is
-/// part of it. Throws InvalidArgument for a clip without frames, or of frames that differ in size.
+/// What a clip shows behind the person who moves in it: every pixel's median over up to 25 frames
+/// spread over the clip, with three channels. What stays in place for half of the clip is part of
+/// it. Throws InvalidArgument for a clip without frames, or of frames that differ in size.
 HRI_API std::vector<std::uint8_t> background_of(Span<const ImageView> clip);
 
 }  // namespace hri

@@ -12,7 +12,7 @@
 namespace hri {
 namespace {
 
-constexpr double kConstant = 1e-12;   // deviation below which a column tells nothing
+constexpr double kConstant = 1e-12;   // deviation below which a column counts as constant
 constexpr double kConverged = 1e-10;  // largest step that still counts
 
 void check(ConstMatrixRefD rows, Span<const int> yes, Span<const double> row_weights,

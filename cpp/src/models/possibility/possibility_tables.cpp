@@ -45,7 +45,7 @@ SymbolScorer<T>::SymbolScorer(const std::vector<DiscreteHmm>& models, const Vect
       T* row = emissions_.data() + static_cast<std::size_t>(block * num_symbols_ + o) * size;
       for (int j = 0; j < layout.num_states; ++j) {
         const int x = layout.position(c, j);
-        // A symbol that no class ever emits tells nothing: it is impossible for all.
+        // A symbol that no class ever emits says nothing: it is impossible for all.
         const double possibility = largest[o] > 0 ? b(j, o) / largest[o] : 0.0;
         row[x] = sum_of_entries(from_log<T>(std::log(possibility), units), chains_.shift(block)[x]);
       }

@@ -12,7 +12,7 @@ namespace hri::detail {
 namespace {
 
 constexpr Eigen::Index kMaxRows = 32;    // more frames than that only add noise to the steps
-constexpr double kStillQuantile = 0.25;  // the stillest steps tell the noise of the shapes
+constexpr double kStillQuantile = 0.25;  // the stillest steps give the noise of the shapes
 constexpr float kNoiseMargin = 1.5F;     // times that, which does not count as change
 constexpr float kTimeShare = 0.5F;       // weight of even spacing in time beside change
 constexpr float kStepTrackScale = 4.0F;  // of the hand's place beside its shape, in a step

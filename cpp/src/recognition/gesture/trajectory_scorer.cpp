@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Resampled-trajectory classifier, for dynamic gestures with few examples: a gesture is a
-// trajectory through shapes and places, one vector for a
-// linear support vector machine. A gesture that begins at rest, pauses and moves again is also
-// learned from its final stroke alone, as somebody who is watched may take up the pose of its
-// start long before. That a hand which stays as it began shows none of the gestures is learned too,
-// so that shape and light at the beginning count for nothing. What was seen speaks for a gesture by
-// its margin, by how near it comes to the mean trajectory, and by how far the hand gets: from
-// gestures and the rests before them is learned what is no gesture at all.
+// trajectory through shapes and places, one vector for a linear support vector machine. A gesture
+// that begins at rest, pauses and moves again is also learned from its final stroke alone, as a
+// signer in a stream may take up its starting pose long before. Clips held at their first frame are
+// negative examples, so that shape and light at the beginning count for nothing. Confidence
+// features are the margin, the distance to the mean trajectory, and the displacement of the hand;
+// non-gestures are learned from gestures and the rests before them.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -38,7 +37,7 @@ class Distances {
     moved_.push_back(moved);
     distances_.push_back(distance);
   }
-  // Tells them apart, both as often as the other; empty without rests.
+  // Separates gestures from rests, equally weighted; empty without rests.
   [[nodiscard]] LogisticRegression motion() const {
     const auto count = static_cast<double>(moved_.size());
     const auto gestures = static_cast<double>(std::count(moved_.begin(), moved_.end(), 1));
@@ -105,7 +104,7 @@ class TrajectoryScorer : public GestureScorer {
   LogisticRegression motion_;  // against rest; empty where nothing was learned
 };
 
-// Tells the trajectories of classes from one another, and from hands that stay as they are.
+// Separates the trajectories of classes from each other, and from hands that stay as they are.
 LinearSvm separate(const std::vector<KnownTrajectory>& trajectories,
                    const std::vector<VectorF>& still, int num_classes,
                    const LinearSvmOptions& options) {

@@ -15,7 +15,7 @@ namespace hri::detail {
 
 class WordAugmentation {
  public:
-  /// Throws InvalidArgument naming the option of warps or noise that is out of range.
+  /// Throws InvalidArgument naming the option of VTLP or noise that is out of range.
   explicit WordAugmentation(const WordRecognizerOptions& options);
 
   /// The front end without warp.

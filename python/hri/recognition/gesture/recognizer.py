@@ -35,9 +35,9 @@ class GestureRecognizer(Recognizer):
     **options
         Fields of ``hri.GestureRecognizerOptions``, for example ``model="svm"`` for still signs, ``model="trajectory"``
         for dynamic gestures (the training clips decide by default), or ``source="landmarks"`` for the joints of the
-        hand, as MediaPipe finds them, instead of silhouettes; ``hands={"learning": "never"}`` looks for the hand in
-        every picture by itself, and without it a clip of eight frames or more tells the colours of its hand and its
-        background. All are saved with the model. Defaults are the C++ library's.
+        hand, as MediaPipe finds them, instead of silhouettes. The colours of hand and background are learned from a
+        clip of eight frames or more; ``hands={"learning": "never"}`` looks for the hand in every picture by itself.
+        All are saved with the model. Defaults are the C++ library's.
 
     Attributes
     ----------

@@ -242,7 +242,7 @@ class WordRecognizer(Recognizer):
         return [self.recognise(audio) for audio in as_audios(X, sample_rate_hz)]
 
     def predict(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> NDArray[np.str_]:
-        """The best label for every clip, whether or not it would be rejected; "no_input" where nobody speaks."""
+        """The best label for every clip, whether or not it would be rejected; "no_input" without speech."""
         return best_labels(self.decide(X, sample_rate_hz))
 
     def predict_proba(

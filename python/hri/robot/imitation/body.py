@@ -89,7 +89,7 @@ def scale_to_robot(track: HandTrack, arms: tuple[Arm, Arm], height_px: float | N
     Raises
     ------
     InvalidArgument
-        When the height is below 20 pixels, or cannot be guessed; when no hand, or no body, is seen at all.
+        When the height is below 20 pixels, or cannot be guessed; when no hand or no person is seen at all.
     """
     height = person_height_px(track) if height_px is None else float(height_px)
     if not MIN_HEIGHT_PX <= height < np.inf:

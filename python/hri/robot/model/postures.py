@@ -30,7 +30,7 @@ def base_pose(positions_rad: Mapping[str, float], posture: str, table: JointTabl
     positions_rad : mapping of joint name to float
         Joints that are not in it are at 0.
     posture : "standing", "back" or "front"
-        On its soles, which lie as flat as both together can; or lying on its back or front.
+        On its soles, which lie as flat as both can at once; or lying on its back or front.
 
     Returns
     -------

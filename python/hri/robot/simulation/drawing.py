@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A small renderer: flat shaded faces, the farthest painted first."""
+"""A small renderer: flat shaded faces, the most distant painted first."""
 
 from __future__ import annotations
 

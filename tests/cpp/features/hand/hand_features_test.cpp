@@ -41,7 +41,7 @@ TEST(HandFeatures, PartsCanBeTurnedOff) {
   EXPECT_THROW(HandFeatureComputer{options}, InvalidArgument);
 }
 
-// The joined feature of descriptors alone.
+// The concatenated features of descriptors alone.
 VectorF descriptors(const GreyImage& mask) {
   HandFeatureOptions options;
   options.use_grey = options.use_silhouette = options.use_cepstrum = false;

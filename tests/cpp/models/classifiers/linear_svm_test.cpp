@@ -27,8 +27,8 @@ TEST(LinearSvm, FindsTheKnownSolutionOfTwoPoints) {
 }
 
 TEST(LinearSvm, CountsRowsOfNoClassAgainstAll) {
-  // The rows of two classes differ in their second feature only; the first tells both from rows of
-  // no class.
+  // The rows of two classes differ in their second feature only; the first separates both from rows
+  // of no class.
   MatrixF rows(4, 2);
   rows << 1, 1, 1, -1, -1, 1, -1, -1;
   const LinearSvm model = LinearSvm::train(rows, std::vector<int>{0, 1, -1, -1}, 2, {});

@@ -44,7 +44,7 @@ TEST(LogisticRegression, FindsTheOddsThatAnswersWereDrawnFrom) {
   const LogisticRegression model = train(drawn(20000), 1e-3);
   EXPECT_NEAR(model.weights()[0], 2, 0.1);
   EXPECT_NEAR(model.weights()[1], -0.05, 0.01);
-  EXPECT_EQ(model.weights()[2], 0);  // a constant column tells nothing
+  EXPECT_EQ(model.weights()[2], 0);  // a constant column separates nothing
   const std::vector<double> row{0, 100, 7};
   EXPECT_NEAR(model.log_odds(row), 1, 0.1);
 }

@@ -181,7 +181,7 @@ TEST(GestureRecognizer, FollowsATrajectoryAtAnotherTempo) {
   EXPECT_THROW((void)recognizer.scores(MatrixF::Zero(3, 9)), InvalidArgument);
 }
 
-// A hand that rests before it moves; the rest alone is nothing that was taught.
+// A hand that rests before it moves; the rest alone is no trained gesture.
 TEST(GestureRecognizer, TurnsDownAHandThatOnlyRests) {
   constexpr Eigen::Index kRest = 12;
   GestureRecognizerOptions options;
@@ -261,7 +261,7 @@ TEST(GestureRecognizer, LearnsToTurnDownSignsThatItWasNotTaught) {
   EXPECT_FALSE(GestureRecognizer::train(around(6, 5), {}).to_model_file().has("verifier.weights"));
 }
 
-// A movement on the right side of every plane, but far from all that was taught.
+// A movement on the right side of every plane, but far from all training clips.
 TEST(GestureRecognizer, DoubtsMovementsFarFromTheMeanOfTheirClass) {
   GestureRecognizerOptions options;
   options.model = GestureModel::trajectory;
@@ -326,12 +326,12 @@ TEST(GestureRecognizer, RefusesBadSets) {
   samples[3].features(0, 5) = std::nanf("");
   EXPECT_THROW(GestureRecognizer::train(samples, {}), InvalidArgument);
   samples = stills();
-  samples.push_back({MatrixF(0, samples[0].features.cols()), "nobody", "signer0"});
+  samples.push_back({MatrixF(0, samples[0].features.cols()), "unseen", "signer0"});
   try {
     GestureRecognizer::train(samples, {});
     FAIL();
   } catch (const InvalidArgument& error) {
-    EXPECT_NE(std::string(error.what()).find("nobody"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("unseen"), std::string::npos);
   }
   EXPECT_THROW(GestureRecognizer::train({}, {}), InvalidArgument);
 }

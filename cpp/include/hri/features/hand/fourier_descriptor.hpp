@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fourier descriptors of outlines (Zahn and Roskies, 1972; Granlund, 1972): x + iy along the
-// outline as a periodic complex signal. Its mean tells the place, the length of the rest the size,
+// outline as a periodic complex signal. Its mean is the place, the length of the rest the size,
 // phases the start and how far the shape is turned.
 #pragma once
 

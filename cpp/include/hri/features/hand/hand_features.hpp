@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The joined feature of one hand picture: orientation histograms of the grey crop and of its
+// The concatenated features of one hand picture: orientation histograms of the grey crop and of its
 // silhouette, the silhouette cepstrum (DWT + MFCC, thesis chapter 3), and descriptors of the shape.
 // Works on plain pixels, without OpenCV.
 #pragma once

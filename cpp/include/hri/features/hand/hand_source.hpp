@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where observations of hands come from: hri/vision finds them in colour pictures; whoever has
-// another camera or segmentation implements this.
+// Where observations of hands come from: hri/vision finds them in colour pictures; a program that
+// has another camera or segmentation implements this.
 #pragma once
 
 #include <functional>

@@ -3,7 +3,7 @@
 //
 // Maximum-likelihood linear adaptation (Leggetter and Woodland, Computer Speech and Language 9(2),
 // 1995) with diagonal matrices: one change of all means and variances together, so that a few words
-// tell of a voice, a microphone or a noise what holds for every word, heard or not.
+// adapt the models of all words to a voice, a microphone or a noise.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A sequence model of a new class from very few recordings. What they cannot tell, how far states
+// A sequence model of a new class from very few recordings. What they cannot show, how far states
 // spread, comes from the models of the classes that are known: a prior for the variances (Gauvain
 // and Lee, IEEE Trans. Speech and Audio Processing 2(2), 1994), and smoothing by symbols that occur
 // together (Lee, "Automatic speech recognition", 1989).
@@ -27,7 +27,7 @@ struct FewSampleOptions {
   template <class Self, class Visitor>
   static void visit(Self& o, Visitor&& v) {
     v("num_recordings", o.num_recordings, within(1, 1000000),
-      "recordings that the sequences stand for: copies of a recording are no further evidence");
+      "recordings that the sequences stand for: copies of a recording count once");
     v("max_iterations", o.max_iterations, within(1, 100000), "iterations of Baum-Welch at most");
   }
 };

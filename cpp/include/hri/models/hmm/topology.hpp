@@ -42,7 +42,7 @@ struct HRI_API Topology {
     v("kind", o.kind, any_value, "which transitions exist");
     v("num_states", o.num_states, within(1, 4096), "number of states");
     v("max_jump", o.max_jump, within(1, 4096),
-      "farthest state that is reached without a jump; ergodic ignores it");
+      "largest step to another state without a jump; ergodic ignores it");
   }
 };
 constexpr auto enum_names(Topology::Kind) {

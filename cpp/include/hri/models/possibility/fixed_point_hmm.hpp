@@ -24,7 +24,7 @@ class SymbolScorer;
 /// at most 1 / units() a frame, and less than its root on average. A possibility below
 /// exp(-4095 / units()), but for 0, counts as that. A state that falls behind the best of its own
 /// class by more than 16 bits hold (23100 steps, less what the class as a whole loses in four
-/// frames) is taken for impossible.
+/// frames) counts as impossible.
 class HRI_API FixedPointHmmSet {
  public:
   /// Throws InvalidArgument unless the set's conjunction is product.

@@ -32,7 +32,7 @@ struct PossibilityTables;
 enum class Conjunction : std::uint8_t {
   product,  ///< quantitative; in logs only additions and maxima
   min,      ///< qualitative (eq. 2.4)
-  max,      ///< literal eq. 4.11; degenerate: kept to show that it tells no classes apart
+  max,      ///< literal eq. 4.11; degenerate: kept to show that it separates no classes
 };
 constexpr auto enum_names(Conjunction) { return std::array{"product", "min", "max"}; }
 

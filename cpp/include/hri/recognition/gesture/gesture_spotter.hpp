@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gesture segments in a stream of pictures: a hand stream and a segmenter, which tell one another
-// what they know.
+// Gesture segments in a stream of pictures: a hand stream and a segmenter, which inform
+// each other.
 #pragma once
 
 #include <memory>

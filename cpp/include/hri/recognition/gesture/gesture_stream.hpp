@@ -74,7 +74,7 @@ class HRI_API GestureStream {
   GestureStream(const GestureRecognizer& recognizer, const HandSource& source);
 
   /// The next picture (BGR) and its time; what happened with it, which is overwritten by the next
-  /// call. A recogniser of landmarks is told those of this picture, in pixels (kNumLandmarks rows,
+  /// call. A recogniser of landmarks takes those of this picture, in pixels (kNumLandmarks rows,
   /// null or no rows without a hand). Throws as GestureSpotter does.
   const std::vector<GestureEvent>& push(ImageView bgr, double time_s,
                                         const MatrixF* landmarks_px = nullptr);
