@@ -68,7 +68,8 @@ void bind_hand_features(py::module_& m) {
   py::class_<hri::HandFeatureComputer>(m, "HandFeatureComputer", "Features of one hand picture.")
       .def(py::init<const hri::HandFeatureOptions&>(),
            py::arg("options") = hri::HandFeatureOptions{})
-      .def_property_readonly("num_features", &hri::HandFeatureComputer::num_features)
+      .def_property_readonly("num_features", &hri::HandFeatureComputer::num_features,
+                             "Columns of the features.")
       .def(
           "compute",
           [](const hri::HandFeatureComputer& self, const ByteArray& grey, const ByteArray& mask) {

@@ -17,13 +17,14 @@ namespace py = pybind11;
 void bind_hand_pair(py::module_& m) {
   hri_bind::bind_options<hri::HandPairOptions>(m, "How two hands are kept apart.");
   py::class_<hri::PairedHand>(m, "PairedHand", "One of two hands in a frame.")
-      .def_property_readonly("mask",
-                             [](const hri::PairedHand& h) { return hri_bind::to_array(h.mask); })
-      .def_readonly("seen", &hri::PairedHand::seen)
+      .def_property_readonly(
+          "mask", [](const hri::PairedHand& h) { return hri_bind::to_array(h.mask); },
+          "uint8, shape (height, width), 255 where the hand is.")
+      .def_readonly("seen", &hri::PairedHand::seen, "The hand is in view.")
       .def_readonly("touching", &hri::PairedHand::touching,
                     "One region holds both hands: the border between them is a guess.")
-      .def_readonly("x_px", &hri::PairedHand::x_px)
-      .def_readonly("y_px", &hri::PairedHand::y_px);
+      .def_readonly("x_px", &hri::PairedHand::x_px, "Column of the hand's centre.")
+      .def_readonly("y_px", &hri::PairedHand::y_px, "Row of the hand's centre.");
   py::class_<hri::HandPairTracker>(m, "HandPairTracker",
                                    "Tracks both hands in a stream of masks, also while they "
                                    "touch and where they cross.")

@@ -62,7 +62,7 @@ void def_outline_computer(py::module_& m, const char* name, const char* doc) {
   using Options = std::decay_t<decltype(std::declval<const Computer&>().options())>;
   py::class_<Computer>(m, name, doc)
       .def(py::init<const Options&>(), py::arg("options") = Options{})
-      .def_property_readonly("num_features", &Computer::num_features)
+      .def_property_readonly("num_features", &Computer::num_features, "Columns of the features.")
       .def("compute", &compute_mask<Computer>, py::arg("mask"), "float32, of a mask.")
       .def("compute_contour", &compute_contour<Computer>, py::arg("contour"),
            "float32, of an outline as trace_contour gives it.");
@@ -152,7 +152,8 @@ void bind_descriptors(py::module_& m) {
                                              "Moment-invariant wavelet descriptors of a mask.")
       .def(py::init<const hri::WaveletDescriptorOptions&>(),
            py::arg("options") = hri::WaveletDescriptorOptions{})
-      .def_property_readonly("num_features", &hri::WaveletDescriptorComputer::num_features)
+      .def_property_readonly("num_features", &hri::WaveletDescriptorComputer::num_features,
+                             "Columns of the features.")
       .def("compute", &compute_mask<hri::WaveletDescriptorComputer>, py::arg("mask"),
            "float32, by frequency, scale and place.");
   m.def("b_spline_wavelet", &hri::b_spline_wavelet, py::arg("r"),
@@ -198,7 +199,8 @@ void bind_tracks(py::module_& m) {
   py::class_<hri::HandTrackComputer>(m, "HandTrackComputer",
                                      "Place, size, axis and speed of a hand, with deltas.")
       .def(py::init<const hri::HandTrackOptions&>(), py::arg("options") = hri::HandTrackOptions{})
-      .def_property_readonly("num_features", &hri::HandTrackComputer::num_features)
+      .def_property_readonly("num_features", &hri::HandTrackComputer::num_features,
+                             "Columns of the features.")
       .def(
           "compute",
           [](const hri::HandTrackComputer& self, const std::vector<ByteArray>& masks) {

@@ -35,9 +35,10 @@ void bind_options(py::module_& m) {
 void bind_computer(py::module_& m) {
   py::class_<Computer>(m, "CepstraComputer", "Cepstra of whole clips.")
       .def(py::init<const Options&>(), py::arg("options") = Options{})
-      .def_property_readonly("options", &Computer::options)
-      .def_property_readonly("num_features", &Computer::num_features)
-      .def("num_frames", &Computer::num_frames, py::arg("num_samples"))
+      .def_property_readonly("options", &Computer::options, "As passed, with defaults filled in.")
+      .def_property_readonly("num_features", &Computer::num_features, "Columns of the features.")
+      .def("num_frames", &Computer::num_frames, py::arg("num_samples"),
+           "Frames of a clip of so many samples.")
       .def(
           "compute",
           [](const Computer& self, const hri_bind::FloatArray& audio) {
@@ -65,8 +66,8 @@ void bind_stream(py::module_& m) {
                      "Cepstra of audio that comes in blocks: the numbers of CepstraComputer, to "
                      "the bit. One thread at a time.")
       .def(py::init<const Options&>(), py::arg("options"))
-      .def_property_readonly("options", &Stream::options)
-      .def_property_readonly("num_features", &Stream::num_features)
+      .def_property_readonly("options", &Stream::options, "As passed, with defaults filled in.")
+      .def_property_readonly("num_features", &Stream::num_features, "Columns of the features.")
       .def(
           "push",
           [](Stream& self, const hri_bind::FloatArray& audio) {
@@ -89,7 +90,8 @@ void bind_stream(py::module_& m) {
           },
           py::arg("keep_normalisation") = false,
           "The frames that are left; then a new utterance may begin.")
-      .def("reset", &Stream::reset, py::arg("keep_normalisation") = false);
+      .def("reset", &Stream::reset, py::arg("keep_normalisation") = false,
+           "Ready for the next utterance; the running normalisation may go on.");
 }
 
 void bind_linear_prediction(py::module_& m) {

@@ -100,16 +100,23 @@ void bind_files(py::module_& m) {
             return py::bytes(reinterpret_cast<const char*>(data.data()), data.size());
           },
           "What `write` writes.")
-      .def_property("kind", &hri::ModelFile::kind, &hri::ModelFile::set_kind)
-      .def("has", &hri::ModelFile::has, py::arg("name"))
-      .def("text", &hri::ModelFile::text, py::arg("key"))
-      .def("integer", &hri::ModelFile::integer, py::arg("key"))
-      .def("number", &hri::ModelFile::number, py::arg("key"))
-      .def("text_list", &hri::ModelFile::text_list, py::arg("key"))
-      .def("set_text", &hri::ModelFile::set_text, py::arg("key"), py::arg("value"))
-      .def("set_integer", &hri::ModelFile::set_integer, py::arg("key"), py::arg("value"))
-      .def("set_number", &hri::ModelFile::set_number, py::arg("key"), py::arg("value"))
-      .def("set_text_list", &hri::ModelFile::set_text_list, py::arg("key"), py::arg("values"))
+      .def_property("kind", &hri::ModelFile::kind, &hri::ModelFile::set_kind,
+                    "What it holds, such as 'word_recognizer'.")
+      .def("has", &hri::ModelFile::has, py::arg("name"),
+           "Whether there is a tensor or metadata of that name.")
+      .def("text", &hri::ModelFile::text, py::arg("key"),
+           "Metadata; raises FormatError without it.")
+      .def("integer", &hri::ModelFile::integer, py::arg("key"), "Metadata as a whole number.")
+      .def("number", &hri::ModelFile::number, py::arg("key"), "Metadata as a finite number.")
+      .def("text_list", &hri::ModelFile::text_list, py::arg("key"), "Metadata as a list of texts.")
+      .def("set_text", &hri::ModelFile::set_text, py::arg("key"), py::arg("value"),
+           "Set metadata, UTF-8.")
+      .def("set_integer", &hri::ModelFile::set_integer, py::arg("key"), py::arg("value"),
+           "Set metadata to a whole number.")
+      .def("set_number", &hri::ModelFile::set_number, py::arg("key"), py::arg("value"),
+           "Set metadata to a finite number.")
+      .def("set_text_list", &hri::ModelFile::set_text_list, py::arg("key"), py::arg("values"),
+           "Set metadata to a list of texts.")
       .def("metadata", &hri::ModelFile::metadata, "All metadata as a dict of text.")
       .def("require_all_read", &hri::ModelFile::require_all_read,
            "Raises FormatError that names a field or tensor which nothing has asked for.")
@@ -119,32 +126,34 @@ void bind_files(py::module_& m) {
           [](const hri::ModelFile& self, const std::string& name) {
             return hri_bind::to_array(self.matrix_d(name));
           },
-          py::arg("name"))
+          py::arg("name"), "A tensor as float64, shape (rows, columns).")
       .def(
           "matrix_f",
           [](const hri::ModelFile& self, const std::string& name) {
             return hri_bind::to_array(self.matrix_f(name));
           },
-          py::arg("name"))
+          py::arg("name"), "A tensor as float32, shape (rows, columns).")
       .def(
           "set_matrix_d",
           [](hri::ModelFile& self, const std::string& name, const hri_bind::DoubleArray& values) {
             self.set_matrix(name, hri::ConstMatrixRefD(hri_bind::as_matrix(values, "values")));
           },
-          py::arg("name"), py::arg("values"))
+          py::arg("name"), py::arg("values"), "Set a tensor of float64.")
       .def(
           "set_matrix_f",
           [](hri::ModelFile& self, const std::string& name, const hri_bind::FloatArray& values) {
             self.set_matrix(name, hri::ConstMatrixRefF(hri_bind::as_matrix(values, "values")));
           },
-          py::arg("name"), py::arg("values"));
+          py::arg("name"), py::arg("values"), "Set a tensor of float32.");
 
   py::class_<hri::Wav>(m, "Wav", "Mono samples of a WAV file.")
-      .def_property_readonly("samples",
-                             [](const hri::Wav& self) { return hri_bind::to_array(self.samples); })
-      .def_readonly("sample_rate_hz", &hri::Wav::sample_rate_hz)
-      .def_readonly("num_channels", &hri::Wav::num_channels)
-      .def_readonly("notes", &hri::Wav::notes);
+      .def_property_readonly(
+          "samples", [](const hri::Wav& self) { return hri_bind::to_array(self.samples); },
+          "float32, shape (num_samples,), full scale 1.")
+      .def_readonly("sample_rate_hz", &hri::Wav::sample_rate_hz, "Samples a second.")
+      .def_readonly("num_channels", &hri::Wav::num_channels,
+                    "Channels of the file; they are averaged.")
+      .def_readonly("notes", &hri::Wav::notes, "What was done to the audio on reading.");
   m.def(
       "read_wav", [](const hri_bind::Path& path) { return hri::read_wav(path.text); },
       py::arg("path"), py::call_guard<py::gil_scoped_release>(),

@@ -75,8 +75,8 @@ void bind_classifier(py::class_<Model>& cls, const std::function<void(Options*)>
       py::arg("rows"),
       "Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a "
       "matrix.");
-  cls.def_property_readonly("num_classes", &Model::num_classes);
-  cls.def_property_readonly("dim", &Model::dim);
+  cls.def_property_readonly("num_classes", &Model::num_classes, "Number of classes.");
+  cls.def_property_readonly("dim", &Model::dim, "Columns of the rows it takes.");
   bind_files(cls);
 }
 
@@ -97,12 +97,16 @@ void bind_pca(py::module_& m) {
       },
       py::arg("rows"), "Shape (num_rows, num_components), float32.");
   cls.def_property_readonly("num_components", &hri::Pca::num_components);
-  cls.def_property_readonly("dim", &hri::Pca::dim);
-  cls.def_property_readonly("components",
-                            [](const hri::Pca& self) { return to_array(self.components()); });
-  cls.def_property_readonly("mean", [](const hri::Pca& self) { return to_array(self.mean()); });
-  cls.def_property_readonly("variances",
-                            [](const hri::Pca& self) { return to_array(self.variances()); });
+  cls.def_property_readonly("dim", &hri::Pca::dim, "Columns of the rows it takes.");
+  cls.def_property_readonly(
+      "components", [](const hri::Pca& self) { return to_array(self.components()); },
+      "Directions, a row each.");
+  cls.def_property_readonly(
+      "mean", [](const hri::Pca& self) { return to_array(self.mean()); },
+      "Mean of the rows trained on.");
+  cls.def_property_readonly(
+      "variances", [](const hri::Pca& self) { return to_array(self.variances()); },
+      "Variance along every component.");
   bind_files(cls);
 }
 
@@ -129,10 +133,13 @@ void bind_lda(py::module_& m) {
       },
       py::arg("rows"), "Shape (num_rows, num_components), float32.");
   cls.def_property_readonly("num_components", &hri::Lda::num_components);
-  cls.def_property_readonly("dim", &hri::Lda::dim);
-  cls.def_property_readonly("components",
-                            [](const hri::Lda& self) { return to_array(self.components()); });
-  cls.def_property_readonly("mean", [](const hri::Lda& self) { return to_array(self.mean()); });
+  cls.def_property_readonly("dim", &hri::Lda::dim, "Columns of the rows it takes.");
+  cls.def_property_readonly(
+      "components", [](const hri::Lda& self) { return to_array(self.components()); },
+      "Directions, a row each.");
+  cls.def_property_readonly(
+      "mean", [](const hri::Lda& self) { return to_array(self.mean()); },
+      "Mean of the rows trained on.");
   cls.def_property_readonly(
       "ratios", [](const hri::Lda& self) { return to_array(self.ratios()); },
       "Variance between classes over variance within, falling.");
@@ -145,10 +152,12 @@ void bind_svm(py::module_& m) {
                                  "Linear support vector machines, one class against the rest.");
   bind_classifier<hri::LinearSvm, hri::LinearSvmOptions>(
       cls, [](hri::LinearSvmOptions* o) { o->should_stop = hri_bind::interrupted; });
-  cls.def_property_readonly("weights",
-                            [](const hri::LinearSvm& self) { return to_array(self.weights()); });
-  cls.def_property_readonly("biases",
-                            [](const hri::LinearSvm& self) { return to_array(self.biases()); });
+  cls.def_property_readonly(
+      "weights", [](const hri::LinearSvm& self) { return to_array(self.weights()); },
+      "Weights, as trained.");
+  cls.def_property_readonly(
+      "biases", [](const hri::LinearSvm& self) { return to_array(self.biases()); },
+      "Constant terms, one a class.");
 }
 
 void bind_rbf(py::module_& m) {

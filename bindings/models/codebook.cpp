@@ -97,9 +97,10 @@ void bind_one(py::module_& m) {
       py::arg("frames"), "Mean squared distance of the frames to their codewords.");
   cls.def("__len__", &hri::Codebook::size);
   cls.def_property_readonly("size", &hri::Codebook::size);
-  cls.def_property_readonly("dim", &hri::Codebook::dim);
-  cls.def_property_readonly("centroids",
-                            [](const hri::Codebook& self) { return to_array(self.centroids()); });
+  cls.def_property_readonly("dim", &hri::Codebook::dim, "Columns of the rows it takes.");
+  cls.def_property_readonly(
+      "centroids", [](const hri::Codebook& self) { return to_array(self.centroids()); },
+      "Codewords, a row each.");
   bind_files(cls);
 }
 
@@ -148,14 +149,18 @@ void bind_streams(py::module_& m) {
       },
       py::arg("frames"), "Mean squared distance of the frames to their codewords, all streams.");
   cls.def("__len__", &Book::num_streams);
-  cls.def_property_readonly("num_streams", &Book::num_streams);
-  cls.def_property_readonly("dim", &Book::dim);
-  cls.def_property_readonly("streams", [](const Book& self) {
-    std::vector<hri::Codebook> streams;
-    streams.reserve(static_cast<std::size_t>(self.num_streams()));
-    for (int s = 0; s < self.num_streams(); ++s) streams.push_back(self.stream(s));
-    return streams;
-  });
+  cls.def_property_readonly("num_streams", &Book::num_streams,
+                            "Codebooks, one for each group of columns.");
+  cls.def_property_readonly("dim", &Book::dim, "Columns of the rows it takes.");
+  cls.def_property_readonly(
+      "streams",
+      [](const Book& self) {
+        std::vector<hri::Codebook> streams;
+        streams.reserve(static_cast<std::size_t>(self.num_streams()));
+        for (int s = 0; s < self.num_streams(); ++s) streams.push_back(self.stream(s));
+        return streams;
+      },
+      "The codebooks.");
   bind_files(cls);
 }
 

@@ -37,7 +37,8 @@ std::vector<hri::MatrixF> sequences_of(const std::vector<FloatArray>& arrays) {
 
 void bind_topology(py::module_& m) {
   auto cls = hri_bind::bind_options<hri::Topology>(m, "Which transitions a sequence model has.");
-  cls.def("allows", &hri::Topology::allows, py::arg("i"), py::arg("j"));
+  cls.def("allows", &hri::Topology::allows, py::arg("i"), py::arg("j"),
+          "Whether there is a transition from state i to j.");
   m.def(
       "initial_start",
       [](const hri::Topology& topology) {
@@ -71,20 +72,32 @@ void bind_topology(py::module_& m) {
            py::arg("topology"), py::arg("start"), py::arg("band"), py::arg("leave"),
            py::arg("land"), "rank_one_plus_band: a_ij = band[i, j] + leave[i] * land[j].")
       .def_static("initial", &Chain::initial, py::arg("topology"))
-      .def_property_readonly("topology", &Chain::topology)
-      .def_property_readonly("num_states", &Chain::num_states)
-      .def_property_readonly("start", [](const Chain& self) { return to_array(self.start()); })
-      .def_property_readonly("transition",
-                             [](const Chain& self) { return to_array(self.transition()); })
-      .def_property_readonly("band", [](const Chain& self) { return to_array(self.band()); })
-      .def_property_readonly("leave", [](const Chain& self) { return to_array(self.leave()); })
-      .def_property_readonly("land", [](const Chain& self) { return to_array(self.land()); });
+      .def_property_readonly("topology", &Chain::topology,
+                             "Which transitions there are, a Topology.")
+      .def_property_readonly("num_states", &Chain::num_states, "States of each model.")
+      .def_property_readonly(
+          "start", [](const Chain& self) { return to_array(self.start()); },
+          "Initial probabilities, shape (num_states,).")
+      .def_property_readonly(
+          "transition", [](const Chain& self) { return to_array(self.transition()); },
+          "Transition probabilities, shape (num_states, num_states), row i from state i.")
+      .def_property_readonly(
+          "band", [](const Chain& self) { return to_array(self.band()); },
+          "Transition probabilities within the band, a row for each state.")
+      .def_property_readonly(
+          "leave", [](const Chain& self) { return to_array(self.leave()); },
+          "Weight of a jump from each state; rank-one part.")
+      .def_property_readonly(
+          "land", [](const Chain& self) { return to_array(self.land()); },
+          "Weight of a jump to each state; rank-one part.");
   bind_files(chain);
 
   py::class_<hri::TrainingReport>(m, "TrainingReport", "How an iterative training went.")
       .def(py::init<>())
-      .def_readonly("log_likelihoods", &hri::TrainingReport::log_likelihoods)
-      .def_readonly("converged", &hri::TrainingReport::converged);
+      .def_readonly("log_likelihoods", &hri::TrainingReport::log_likelihoods,
+                    "Before each iteration.")
+      .def_readonly("converged", &hri::TrainingReport::converged,
+                    "The change fell below the tolerance.");
 }
 
 void bind_gaussian_mixture(py::module_& m) {
@@ -110,14 +123,17 @@ void bind_gaussian_mixture(py::module_& m) {
         return self.log_likelihood(matrix);
       },
       py::arg("frames"), "Sum over the frames of log p(frame), natural log.");
-  cls.def_property_readonly("dim", &hri::GaussianMixture::dim);
+  cls.def_property_readonly("dim", &hri::GaussianMixture::dim, "Columns of the rows it takes.");
   cls.def_property_readonly(
-      "weights", [](const hri::GaussianMixture& self) { return to_array(self.bank().weights()); });
+      "weights", [](const hri::GaussianMixture& self) { return to_array(self.bank().weights()); },
+      "Mixture weights.");
   cls.def_property_readonly(
-      "means", [](const hri::GaussianMixture& self) { return to_array(self.bank().means()); });
-  cls.def_property_readonly("variances", [](const hri::GaussianMixture& self) {
-    return to_array(self.bank().variances());
-  });
+      "means", [](const hri::GaussianMixture& self) { return to_array(self.bank().means()); },
+      "Means of the mixture components, a row each.");
+  cls.def_property_readonly(
+      "variances",
+      [](const hri::GaussianMixture& self) { return to_array(self.bank().variances()); },
+      "Variances of the mixture components, a row each.");
   bind_files(cls);
 }
 
@@ -201,15 +217,19 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
         return py::make_tuple(to_array(drawn.frames), to_array(drawn.states));
       },
       py::arg("count"), py::arg("seed"), "Frames drawn from the model, and their states.");
-  cls.def_property_readonly("dim", &Model::dim);
-  cls.def_property_readonly("weights",
-                            [](const Model& self) { return to_array(self.bank().weights()); });
-  cls.def_property_readonly("means",
-                            [](const Model& self) { return to_array(self.bank().means()); });
-  cls.def_property_readonly("variances",
-                            [](const Model& self) { return to_array(self.bank().variances()); });
-  cls.def_property_readonly("num_states", &Model::num_states);
-  cls.def_property_readonly("chain", &Model::chain);
+  cls.def_property_readonly("dim", &Model::dim, "Columns of the rows it takes.");
+  cls.def_property_readonly(
+      "weights", [](const Model& self) { return to_array(self.bank().weights()); },
+      "Mixture weights, a row for each state.");
+  cls.def_property_readonly(
+      "means", [](const Model& self) { return to_array(self.bank().means()); },
+      "Means of the mixture components, a row each.");
+  cls.def_property_readonly(
+      "variances", [](const Model& self) { return to_array(self.bank().variances()); },
+      "Variances of the mixture components, a row each.");
+  cls.def_property_readonly("num_states", &Model::num_states, "States of each model.");
+  cls.def_property_readonly("chain", &Model::chain,
+                            "Initial and transition probabilities, a MarkovChain.");
   bind_files(cls);
 }
 
@@ -288,11 +308,13 @@ void bind_discrete_hmm(py::module_& m) {
         return py::make_tuple(to_array(drawn.symbols), to_array(drawn.states));
       },
       py::arg("count"), py::arg("seed"), "Symbols drawn from the model, and their states.");
-  cls.def_property_readonly("num_symbols", &Model::num_symbols);
-  cls.def_property_readonly("emission",
-                            [](const Model& self) { return to_array(self.emission()); });
-  cls.def_property_readonly("num_states", &Model::num_states);
-  cls.def_property_readonly("chain", &Model::chain);
+  cls.def_property_readonly("num_symbols", &Model::num_symbols, "Size of the alphabet.");
+  cls.def_property_readonly(
+      "emission", [](const Model& self) { return to_array(self.emission()); },
+      "Probabilities of symbols, shape (num_states, num_symbols).");
+  cls.def_property_readonly("num_states", &Model::num_states, "States of each model.");
+  cls.def_property_readonly("chain", &Model::chain,
+                            "Initial and transition probabilities, a MarkovChain.");
   bind_files(cls);
 }
 

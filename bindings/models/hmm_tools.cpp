@@ -43,9 +43,9 @@ py::class_<Stream> bind_stream(py::module_& m, const char* name, const char* doc
   cls.def("nbest", &Stream::nbest, py::arg("count"),
           "Indices of the best models, best first, without those at -inf.");
   cls.def("reset", &Stream::reset, "Back to before the first frame, with all models.");
-  cls.def_property_readonly("num_models", &Stream::num_models);
+  cls.def_property_readonly("num_models", &Stream::num_models, "Models that are scored.");
   cls.def_property_readonly("num_active", &Stream::num_active, "Models not dropped.");
-  cls.def_property_readonly("num_frames", &Stream::num_frames);
+  cls.def_property_readonly("num_frames", &Stream::num_frames, "Frames pushed so far.");
   return cls;
 }
 
@@ -85,10 +85,11 @@ void bind_state_choice(py::module_& m) {
   using Candidate = hri::StateChoice::Candidate;
   py::class_<hri::StateChoice> choice(m, "StateChoice", "What choose_num_states found.");
   py::class_<Candidate>(choice, "Candidate", "One number of states.")
-      .def_readonly("num_states", &Candidate::num_states)
+      .def_readonly("num_states", &Candidate::num_states, "States of this candidate.")
       .def_readonly("score", &Candidate::score, "The larger, the better.")
-      .def_readonly("log_likelihood", &Candidate::log_likelihood)
-      .def_readonly("num_parameters", &Candidate::num_parameters);
+      .def_readonly("log_likelihood", &Candidate::log_likelihood,
+                    "Of the sequences it was judged on.")
+      .def_readonly("num_parameters", &Candidate::num_parameters, "Free parameters of the model.");
   choice.def_readonly("num_states", &hri::StateChoice::num_states, "Of the best candidate.")
       .def_readonly("candidates", &hri::StateChoice::candidates, "In the order they were given.");
   constexpr const char* kDoc =

@@ -47,9 +47,12 @@ void bind_logistic_regression(py::module_& m) {
         return to_array(values);
       },
       py::arg("rows"), "0 and the log odds of class 1, shape (num_rows, 2).");
-  cls.def_property_readonly("num_classes", [](const Model&) { return 2; });
-  cls.def_property_readonly("dim", &Model::dim);
-  cls.def_property_readonly("weights", [](const Model& self) { return to_array(self.weights()); });
-  cls.def_property_readonly("bias", &Model::bias);
+  cls.def_property_readonly(
+      "num_classes", [](const Model&) { return 2; }, "Number of classes.");
+  cls.def_property_readonly("dim", &Model::dim, "Columns of the rows it takes.");
+  cls.def_property_readonly(
+      "weights", [](const Model& self) { return to_array(self.weights()); },
+      "One for each column.");
+  cls.def_property_readonly("bias", &Model::bias, "Constant term.");
   hri_bind::bind_files(cls);
 }

@@ -122,11 +122,12 @@ void bind_set(py::module_& m) {
   matrix("transition", &Set::transition, "Possibilities, shape (num_states, num_states).");
   matrix("emission", &Set::emission, "Possibilities, shape (num_states, num_symbols).");
   cls.def_property_readonly("models", &Set::models, "The HMMs before scaling.");
-  cls.def_property_readonly("num_classes", &Set::num_classes);
-  cls.def_property_readonly("num_states", &Set::num_states);
-  cls.def_property_readonly("num_symbols", &Set::num_symbols);
-  cls.def_property_readonly("topology", &Set::topology);
-  cls.def_property_readonly("rule", &Set::rule);
+  cls.def_property_readonly("num_classes", &Set::num_classes, "Number of classes.");
+  cls.def_property_readonly("num_states", &Set::num_states, "States of each model.");
+  cls.def_property_readonly("num_symbols", &Set::num_symbols, "Size of the alphabet.");
+  cls.def_property_readonly("topology", &Set::topology, "Which transitions there are, a Topology.");
+  cls.def_property_readonly("rule", &Set::rule,
+                            "How possibilities are combined, a PossibilisticRule.");
   bind_files(cls);
 }
 
@@ -198,10 +199,12 @@ void bind_gaussian_set(py::module_& m) {
       py::arg("class_index"), py::arg("frames"),
       "Log possibility of the best path and the path, int32.");
   cls.def_property_readonly("models", &Model::models, "The HMMs before scaling.");
-  cls.def_property_readonly("num_classes", &Model::num_classes);
-  cls.def_property_readonly("dim", &Model::dim);
-  cls.def_property_readonly("topology", &Model::topology);
-  cls.def_property_readonly("rule", &Model::rule);
+  cls.def_property_readonly("num_classes", &Model::num_classes, "Number of classes.");
+  cls.def_property_readonly("dim", &Model::dim, "Columns of the rows it takes.");
+  cls.def_property_readonly("topology", &Model::topology,
+                            "Which transitions there are, a Topology.");
+  cls.def_property_readonly("rule", &Model::rule,
+                            "How possibilities are combined, a PossibilisticRule.");
   bind_files(cls);
 }
 
@@ -212,8 +215,8 @@ void bind_fixed_point(py::module_& m) {
       .def(py::init<const Set&>(), py::arg("set"))
       .def("log_possibilities", &scores_of<Model>, py::arg("symbols"),
            "log possibility of the symbols under each class, float32, shape (num_classes,).")
-      .def_property_readonly("num_classes", &Model::num_classes)
-      .def_property_readonly("num_symbols", &Model::num_symbols)
+      .def_property_readonly("num_classes", &Model::num_classes, "Number of classes.")
+      .def_property_readonly("num_symbols", &Model::num_symbols, "Size of the alphabet.")
       .def_property_readonly("units", &Model::units, "Integer steps in one natural-log unit.");
 }
 
@@ -228,7 +231,7 @@ void bind_stream(py::module_& m) {
            }),
            py::arg("set"), py::arg("beam") = std::numeric_limits<double>::infinity(),
            "Classes that fall by more than `beam` (natural log) below the best are dropped.")
-      .def("push", &Stream::push, py::arg("symbol"))
+      .def("push", &Stream::push, py::arg("symbol"), "Score the next symbol under every class.")
       .def(
           "log_possibilities",
           [](const Stream& self) {
@@ -240,8 +243,8 @@ void bind_stream(py::module_& m) {
       .def("nbest", &Stream::nbest, py::arg("count") = 5,
            "Indices of the best classes, best first.")
       .def("reset", &Stream::reset, "Ready for the next utterance.")
-      .def_property_readonly("num_classes", &Stream::num_classes)
-      .def_property_readonly("num_frames", &Stream::num_frames)
+      .def_property_readonly("num_classes", &Stream::num_classes, "Number of classes.")
+      .def_property_readonly("num_frames", &Stream::num_frames, "Frames pushed so far.")
       .def_property_readonly("num_active", &Stream::num_active, "Classes not dropped.");
 }
 

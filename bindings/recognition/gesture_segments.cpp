@@ -19,8 +19,8 @@ void bind_gesture_segments(py::module_& m) {
       .def_readonly("kind", &hri::GestureSegment::kind, "'none', 'start', 'end' or 'dropped'.")
       .def_readonly("reason", &hri::GestureSegment::reason,
                     "Why it ended: 'rested', 'left', 'cut', 'ended', 'arrived', 'stalled'.")
-      .def_readonly("first_s", &hri::GestureSegment::first_s)
-      .def_readonly("last_s", &hri::GestureSegment::last_s)
+      .def_readonly("first_s", &hri::GestureSegment::first_s, "Its beginning, in seconds.")
+      .def_readonly("last_s", &hri::GestureSegment::last_s, "Its end, in seconds.")
       .def_readonly("from_rest", &hri::GestureSegment::from_rest,
                     "The hand rested in view before it.");
   py::class_<hri::GestureSegmenter>(m, "GestureSegmenter",
@@ -44,8 +44,11 @@ void bind_gesture_segments(py::module_& m) {
             self.replace_outlines(hri_bind::as_image(mask, 1, "mask"));
           },
           py::arg("mask"), "The hand of now looks like this, as it is found in another way.")
-      .def_property_readonly("in_gesture", &hri::GestureSegmenter::in_gesture)
-      .def_property_readonly("hand_away", &hri::GestureSegmenter::hand_away)
-      .def_property_readonly("may_have_begun_s", &hri::GestureSegmenter::may_have_begun_s)
-      .def_property_readonly("options", &hri::GestureSegmenter::options);
+      .def_property_readonly("in_gesture", &hri::GestureSegmenter::in_gesture,
+                             "A gesture has begun and not ended.")
+      .def_property_readonly("hand_away", &hri::GestureSegmenter::hand_away, "No hand is in view.")
+      .def_property_readonly("may_have_begun_s", &hri::GestureSegmenter::may_have_begun_s,
+                             "When a gesture that is not reported yet may have begun.")
+      .def_property_readonly("options", &hri::GestureSegmenter::options,
+                             "As passed, with defaults filled in.");
 }

@@ -53,22 +53,26 @@ std::vector<hri::HandImage> as_hand_images(const std::vector<ByteArray>& greys,
 
 void bind_decision(py::module_& m) {
   py::class_<hri::NBest>(m, "NBest", "One class of the n-best list.")
-      .def_readonly("label", &hri::NBest::label)
-      .def_readonly("probability", &hri::NBest::probability)
-      .def_readonly("log_score", &hri::NBest::log_score);
+      .def_readonly("label", &hri::NBest::label, "A class, \"unknown\" or \"no_input\".")
+      .def_readonly("probability", &hri::NBest::probability, "Calibrated probability, 0..1.")
+      .def_readonly("log_score", &hri::NBest::log_score, "The model's own score.");
   py::class_<hri::Decision>(m, "Decision", "What a recogniser says of one utterance or gesture.")
-      .def_readonly("status", &hri::Decision::status)
-      .def_readonly("label", &hri::Decision::label)
-      .def_readonly("confidence", &hri::Decision::confidence)
-      .def_readonly("score", &hri::Decision::score)
-      .def_readonly("class_threshold", &hri::Decision::class_threshold)
-      .def_readonly("nbest", &hri::Decision::nbest)
-      .def_readonly("notes", &hri::Decision::notes);
+      .def_readonly("status", &hri::Decision::status, "'recognised', 'unknown' or 'no_input'.")
+      .def_readonly("label", &hri::Decision::label, "A class, \"unknown\" or \"no_input\".")
+      .def_readonly("confidence", &hri::Decision::confidence,
+                    "Calibrated probability of the best class.")
+      .def_readonly("score", &hri::Decision::score,
+                    "What the rejection threshold was compared with.")
+      .def_readonly("class_threshold", &hri::Decision::class_threshold,
+                    "Confidence from which the best class is sure.")
+      .def_readonly("nbest", &hri::Decision::nbest, "Every class in falling order.")
+      .def_readonly("notes", &hri::Decision::notes, "What was converted or assumed on the way.");
   py::class_<hri::UtteranceDecision>(m, "UtteranceDecision",
                                      "The decision on one utterance of a longer recording.")
-      .def_readonly("first_s", &hri::UtteranceDecision::first_s)
-      .def_readonly("last_s", &hri::UtteranceDecision::last_s)
-      .def_readonly("decision", &hri::UtteranceDecision::decision);
+      .def_readonly("first_s", &hri::UtteranceDecision::first_s, "Its beginning, in seconds.")
+      .def_readonly("last_s", &hri::UtteranceDecision::last_s, "Its end, in seconds.")
+      .def_readonly("decision", &hri::UtteranceDecision::decision,
+                    "The Decision; empty for segments.");
 }
 
 // Errors name recording i as "list[i]", after the caller's own argument.
@@ -171,7 +175,8 @@ void bind_words(py::module_& m) {
           "threshold",
           [](const hri::WordRecognizer& self) { return self.calibration().threshold(); },
           "Score from which a word is recognised.")
-      .def_property_readonly("options", &hri::WordRecognizer::options);
+      .def_property_readonly("options", &hri::WordRecognizer::options,
+                             "As passed, with defaults filled in.");
 }
 
 hri::GestureRecognizer train_gestures(const std::vector<FloatArray>& features,
@@ -209,7 +214,8 @@ void bind_gestures(py::module_& m) {
                                           "Rows of features, one a frame that shows a hand.")
       .def(py::init<const hri::HandFeatureOptions&, double>(),
            py::arg("options") = hri::HandFeatureOptions{}, py::arg("min_quality") = 0.0)
-      .def_property_readonly("num_features", &hri::GestureFeatureComputer::num_features)
+      .def_property_readonly("num_features", &hri::GestureFeatureComputer::num_features,
+                             "Columns of the features.")
       .def(
           "compute",
           [](const hri::GestureFeatureComputer& self,
@@ -272,7 +278,8 @@ void bind_gestures(py::module_& m) {
           },
           py::arg("features"))
       .def_property_readonly("labels", &hri::GestureRecognizer::labels)
-      .def_property_readonly("options", &hri::GestureRecognizer::options);
+      .def_property_readonly("options", &hri::GestureRecognizer::options,
+                             "As passed, with defaults filled in.");
 }
 
 }  // namespace

@@ -90,24 +90,32 @@ void bind_streams(py::module_& m) {
                                                  "When an utterance in a stream begins and ends.");
   py::class_<hri::Endpoint>(m, "Endpoint",
                             "An event; positions are samples since the stream began.")
-      .def_readonly("kind", &hri::Endpoint::kind)
-      .def_readonly("at", &hri::Endpoint::at)
-      .def_readonly("first", &hri::Endpoint::first)
-      .def_readonly("last", &hri::Endpoint::last)
-      .def_readonly("segment_first", &hri::Endpoint::segment_first)
-      .def_readonly("segment_last", &hri::Endpoint::segment_last)
-      .def_readonly("cut", &hri::Endpoint::cut);
+      .def_readonly("kind", &hri::Endpoint::kind,
+                    "Which event: 'none', 'speech_start', 'speech_end' or 'speech_dropped'.")
+      .def_readonly("at", &hri::Endpoint::at, "Samples processed when this was decided.")
+      .def_readonly("first", &hri::Endpoint::first, "First sample of the utterance.")
+      .def_readonly("last", &hri::Endpoint::last, "The sample behind its last.")
+      .def_readonly("segment_first", &hri::Endpoint::segment_first,
+                    "First sample of the utterance with the noise around it.")
+      .def_readonly("segment_last", &hri::Endpoint::segment_last,
+                    "The sample behind the last of these.")
+      .def_readonly("cut", &hri::Endpoint::cut, "It reached max_utterance_ms.");
   py::class_<hri::Endpointer>(m, "Endpointer",
                               "Finds utterances in a stream, whatever the size of its blocks.")
       .def(py::init<int, const hri::EndpointerOptions&>(), py::arg("sample_rate_hz"),
            py::arg("options") = hri::EndpointerOptions{})
       .def("push", &push, py::arg("samples"), "The events in the next samples of the stream.")
       .def("finish", &finish, "The last events; the next stream may begin.")
-      .def_property_readonly("options", &hri::Endpointer::options)
-      .def_property_readonly("num_samples", &hri::Endpointer::num_samples)
-      .def_property_readonly("in_speech", &hri::Endpointer::in_speech)
-      .def_property_readonly("level_db", &hri::Endpointer::level_db)
-      .def_property_readonly("excess_db", &hri::Endpointer::excess_db);
+      .def_property_readonly("options", &hri::Endpointer::options,
+                             "As passed, with defaults filled in.")
+      .def_property_readonly("num_samples", &hri::Endpointer::num_samples,
+                             "Samples processed so far.")
+      .def_property_readonly("in_speech", &hri::Endpointer::in_speech,
+                             "Speech has begun and not ended.")
+      .def_property_readonly("level_db", &hri::Endpointer::level_db,
+                             "Level of the last frame, relative to full scale.")
+      .def_property_readonly("excess_db", &hri::Endpointer::excess_db,
+                             "Excess of that level over the noise floor.");
 }
 
 }  // namespace

@@ -54,14 +54,18 @@ void bind_spotter(py::module_& m) {
             return self.push(picture, time_s);
           },
           py::arg("bgr"), py::arg("time_s"), "The GestureSegment event of the next picture.")
-      .def("finish", &hri::GestureSpotter::finish)
-      .def("interrupt", &hri::GestureSpotter::interrupt)
+      .def("finish", &hri::GestureSpotter::finish,
+           "The stream has ended: the GestureSegment that ends with it.")
+      .def("interrupt", &hri::GestureSpotter::interrupt,
+           "Pictures are missing: drops the gesture that has begun.")
       .def_property_readonly(
-          "hand", [](const hri::GestureSpotter& self) { return hri::HandObservation(self.hand()); })
+          "hand", [](const hri::GestureSpotter& self) { return hri::HandObservation(self.hand()); },
+          "The hand in the last picture, a HandObservation.")
       .def_property_readonly("place", &place_of, "x, y and area in shares; None without a hand.")
       .def_property_readonly(
           "in_gesture",
-          [](const hri::GestureSpotter& self) { return self.segmenter().in_gesture(); })
+          [](const hri::GestureSpotter& self) { return self.segmenter().in_gesture(); },
+          "A gesture has begun and not ended.")
       .def_property_readonly("kept_since_s", &hri::GestureSpotter::kept_since_s,
                              "Pictures from then on may belong to a gesture.");
 }
@@ -72,8 +76,9 @@ void bind_stream(py::module_& m) {
   py::class_<hri::GestureEvent>(m, "GestureEvent", "What happened with a picture of a stream.")
       .def_readonly("kind", &hri::GestureEvent::kind,
                     "'segment', 'partial', 'preliminary' or 'decision'.")
-      .def_readonly("segment", &hri::GestureEvent::segment)
-      .def_readonly("decision", &hri::GestureEvent::decision);
+      .def_readonly("segment", &hri::GestureEvent::segment,
+                    "The GestureSegment that this is about.")
+      .def_readonly("decision", &hri::GestureEvent::decision, "The Decision; empty for segments.");
   py::class_<hri::GestureStream>(m, "GestureStream", "Decides on the gestures of a stream.")
       .def_static("options_for", &hri::GestureStream::options_for, py::arg("recognizer"))
       .def(py::init([](const hri::GestureRecognizer& recognizer,
@@ -107,13 +112,17 @@ void bind_stream(py::module_& m) {
           "interrupt",
           [](hri::GestureStream& self) { return std::vector<hri::GestureEvent>(self.interrupt()); },
           "What was shown and has not settled is forgotten.")
-      .def_property_readonly("hand", &hand_of<hri::GestureStream>)
+      .def_property_readonly("hand", &hand_of<hri::GestureStream>,
+                             "The hand in the last picture, a HandObservation.")
       .def_property_readonly(
-          "place", [](const hri::GestureStream& self) { return place_of(self.spotter()); })
+          "place", [](const hri::GestureStream& self) { return place_of(self.spotter()); },
+          "x, y and area in shares; None without a hand.")
       .def_property_readonly(
           "in_gesture",
-          [](const hri::GestureStream& self) { return self.spotter().segmenter().in_gesture(); })
-      .def_property_readonly("options", &hri::GestureStream::options);
+          [](const hri::GestureStream& self) { return self.spotter().segmenter().in_gesture(); },
+          "A gesture has begun and not ended.")
+      .def_property_readonly("options", &hri::GestureStream::options,
+                             "As passed, with defaults filled in.");
 }
 
 }  // namespace

@@ -75,8 +75,10 @@ void bind_vision_hands(py::module_& m) {
           },
           py::arg("clip"), py::arg("progress") = nullptr,
           "The observations of the left hand of the picture, and those of the right one.")
-      .def("stream", &hri::HandFinder::stream, py::arg("dynamic") = true)
-      .def_property_readonly("options", &hri::HandFinder::options);
+      .def("stream", &hri::HandFinder::stream, py::arg("dynamic") = true,
+           "A HandStream of its own; `dynamic`: by colours learned from the stream.")
+      .def_property_readonly("options", &hri::HandFinder::options,
+                             "As passed, with defaults filled in.");
   m.def(
       "background_of",
       [](const std::vector<ByteArray>& clip) {

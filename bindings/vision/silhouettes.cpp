@@ -76,5 +76,6 @@ void bind_vision(py::module_& m) {
             return self.extract(picture);
           },
           py::arg("bgr"), "bgr: uint8, shape (height, width, 3).")
-      .def_property_readonly("quality", &hri::HandColours::quality);
+      .def_property_readonly("quality", &hri::HandColours::quality,
+                             "How well the pixels on both sides of the outline separate, 0..1.");
 }

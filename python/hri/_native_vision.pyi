@@ -71,7 +71,10 @@ class HandColours:
         bgr: uint8, shape (height, width, 3).
         """
     @property
-    def quality(self) -> float: ...
+    def quality(self) -> float:
+        """
+        How well the pixels on both sides of the outline separate, 0..1.
+        """
 
 class HandStream:
     """
@@ -120,9 +123,15 @@ class HandFinder:
         """
         The observations of the left hand of the picture, and those of the right one.
         """
-    def stream(self, dynamic: bool = True) -> HandStream: ...
+    def stream(self, dynamic: bool = True) -> HandStream:
+        """
+        A HandStream of its own; `dynamic`: by colours learned from the stream.
+        """
     @property
-    def options(self) -> hri._native.HandFinderOptions: ...
+    def options(self) -> hri._native.HandFinderOptions:
+        """
+        As passed, with defaults filled in.
+        """
 
 class GestureSpotter:
     """
@@ -131,8 +140,14 @@ class GestureSpotter:
     def __init__(
         self, hands: HandFinder, dynamic: bool = True, options: hri._native.GestureSegmenterOptions = ...
     ) -> None: ...
-    def finish(self) -> hri._native.GestureSegment: ...
-    def interrupt(self) -> hri._native.GestureSegment: ...
+    def finish(self) -> hri._native.GestureSegment:
+        """
+        The stream has ended: the GestureSegment that ends with it.
+        """
+    def interrupt(self) -> hri._native.GestureSegment:
+        """
+        Pictures are missing: drops the gesture that has begun.
+        """
     def push(
         self,
         bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
@@ -142,9 +157,15 @@ class GestureSpotter:
         The GestureSegment event of the next picture.
         """
     @property
-    def hand(self) -> hri._native.HandObservation: ...
+    def hand(self) -> hri._native.HandObservation:
+        """
+        The hand in the last picture, a HandObservation.
+        """
     @property
-    def in_gesture(self) -> bool: ...
+    def in_gesture(self) -> bool:
+        """
+        A gesture has begun and not ended.
+        """
     @property
     def kept_since_s(self) -> float:
         """
@@ -218,14 +239,20 @@ class GestureEvent:
     What happened with a picture of a stream.
     """
     @property
-    def decision(self) -> hri._native.Decision: ...
+    def decision(self) -> hri._native.Decision:
+        """
+        The Decision; empty for segments.
+        """
     @property
     def kind(self) -> typing.Literal["segment", "partial", "preliminary", "decision"]:
         """
         'segment', 'partial', 'preliminary' or 'decision'.
         """
     @property
-    def segment(self) -> hri._native.GestureSegment: ...
+    def segment(self) -> hri._native.GestureSegment:
+        """
+        The GestureSegment that this is about.
+        """
 
 class GestureStream:
     """
@@ -254,13 +281,25 @@ class GestureStream:
         The events of the next picture; landmarks in pixels, float32, shape (21, 2).
         """
     @property
-    def hand(self) -> hri._native.HandObservation: ...
+    def hand(self) -> hri._native.HandObservation:
+        """
+        The hand in the last picture, a HandObservation.
+        """
     @property
-    def in_gesture(self) -> bool: ...
+    def in_gesture(self) -> bool:
+        """
+        A gesture has begun and not ended.
+        """
     @property
-    def options(self) -> GestureStreamOptions: ...
+    def options(self) -> GestureStreamOptions:
+        """
+        As passed, with defaults filled in.
+        """
     @property
-    def place(self) -> typing.Any: ...
+    def place(self) -> typing.Any:
+        """
+        x, y and area in shares; None without a hand.
+        """
 
 def background_of(
     clip: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import hri
-from hri import _native
+from hri.io import write_wav_pcm16
 from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -90,7 +90,7 @@ def test_words_in_a_stream_are_found_and_recognised(programs: Path, spoken: Path
     rate_hz = clips[0].sample_rate_hz
     room = 1e-4 * np.random.default_rng(0).standard_normal(rate_hz).astype(np.float32)
     stream = np.concatenate([room, clips[0].samples, room, clips[1].samples, room])
-    _native.write_wav_pcm16(str(tmp_path / "stream.wav"), stream, rate_hz)
+    write_wav_pcm16(str(tmp_path / "stream.wav"), stream, rate_hz)
     lines = run(programs / "stream_words", tmp_path / "words.hri", tmp_path / "stream.wav").splitlines()
     assert [line.split("\t")[1] for line in lines] == ["one", "three"]
     begins_ms = [int(line.split()[0]) for line in lines]
@@ -115,7 +115,7 @@ def test_a_program_builds_with_pkg_config_alone(installed: Path, tmp_path: Path)
         'int main() { std::printf("%s %zu\\n", HRI_VERSION, hri::wavelet("db4").dec_lo.size()); }\n'
     )
     run("g++", "-std=c++17", source, "-o", tmp_path / "version", *flags)
-    assert run(tmp_path / "version").split() == [_native.__version__, "8"]
+    assert run(tmp_path / "version").split() == [hri.__version__, "8"]
 
 
 def test_vision_brings_opencv_to_those_who_ask(installed: Path, tmp_path: Path) -> None:
@@ -133,6 +133,35 @@ def test_vision_brings_opencv_to_those_who_ask(installed: Path, tmp_path: Path) 
     run("cmake", "-S", tmp_path, "-B", build, f"-DCMAKE_PREFIX_PATH={installed}")
     run("cmake", "--build", build)
     assert run(build / "x") == "0\n"
+
+
+SUBPROJECT = f"""cmake_minimum_required(VERSION 3.22)
+project(app LANGUAGES CXX)
+include(FetchContent)
+FetchContent_Declare(hri SOURCE_DIR {ROOT})
+FetchContent_MakeAvailable(hri)
+add_executable(app {ROOT}/examples/consumer/recognise_word.cpp)
+target_link_libraries(app PRIVATE hri::core)
+install(TARGETS app)
+"""
+
+
+def test_a_subproject_installs_nothing_of_its_own_unless_asked(tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(SUBPROJECT)
+    build = tmp_path / "build"
+    configure = ("cmake", "-S", tmp_path, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DHRI_SIMD=OFF")
+    run(*configure, "-DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON")
+    run("cmake", "--build", build, "--parallel", "2")
+
+    def installed_by(prefix: Path) -> set[str]:
+        run("cmake", "--install", build, "--prefix", prefix)
+        return {path.relative_to(prefix).as_posix() for path in prefix.rglob("*") if path.is_file()}
+
+    assert installed_by(tmp_path / "plain") == {"bin/app"}
+    run(*configure, "-DHRI_INSTALL=ON")
+    assert installed_by(tmp_path / "asked") > {"bin/app", "include/hri/core/error.hpp", "lib/pkgconfig/hri-core.pc"}
+    done = subprocess.run([str(tmp_path / "plain/bin/app"), "missing.hri", "x.wav"], capture_output=True, text=True)
+    assert done.returncode != 0 and "missing.hri" in done.stderr
 
 
 def test_missing_component_is_named(installed: Path, tmp_path: Path) -> None:

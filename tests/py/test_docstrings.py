@@ -59,6 +59,34 @@ def test_examples_print_what_they_show(
     assert result.attempted > 0 and result.failed == 0
 
 
+ROOMS = (hri.io, hri.signal, hri.features, hri.models, hri.vision, hri.recognition)
+
+
+def undocumented(owner: type) -> list[str]:
+    """Public methods and properties without a docstring; what pybind11 writes of a signature is none."""
+
+    def says_nothing(member: Any) -> bool:
+        doc = (getattr(member, "__doc__", None) or "").strip()
+        return not doc or (not isinstance(member, property) and "->" in doc and len(doc.splitlines()) < 2)
+
+    members = {name: member for name, member in vars(owner).items() if not name.startswith("_")}
+    return [
+        name
+        for name, member in members.items()
+        if callable(member) or isinstance(member, property | staticmethod)
+        if says_nothing(member)
+    ]
+
+
+@pytest.mark.parametrize("room", ROOMS, ids=lambda room: room.__name__)
+def test_every_public_name_has_a_docstring(room: Any) -> None:
+    offered = [getattr(room, name) for name in room.__all__]
+    things = [thing for thing in offered if callable(thing)]
+    assert [thing.__name__ for thing in things if not (thing.__doc__ or "").strip()] == []
+    classes = [thing for thing in things if isinstance(thing, type)]
+    assert {c.__name__: found for c in classes if (found := undocumented(c))} == {}
+
+
 def test_no_example_is_left_out() -> None:
     skipped = [path.name for path in sorted(PACKAGE.rglob("*.py")) if "doctest: +SKIP" in path.read_text("utf-8")]
     assert skipped == []

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import hri
+import hri.studies
 from hri.live import VideoSource, Watcher
 from hri.media import read_frames, write_video
 from test_watching_movements import FAR, FPS, clip
@@ -78,6 +79,23 @@ def test_a_program_watches_as_python_does(programs: Path, model: Path, tmp_path:
     assert [(kind, label, float.fromhex(score)) for kind, _, _, label, score in lines] == [
         (e.event, e.decision.label, e.decision.score) for e in events if e.decision is not None
     ]
+
+
+def test_the_study_of_parity_runs_whole(programs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for label in ("left", "down"):
+        folder = tmp_path / "webcam_gestures" / label
+        folder.mkdir(parents=True)
+        for take in range(4):
+            write_video(folder / f"t{take}.m4v", clip(label, take), FPS)
+    study = hri.studies.get_study("cpp-parity")
+    monkeypatch.setenv("HRI_PROGRAMS", str(tmp_path))
+    with pytest.raises(ValueError, match="HRI_PROGRAMS must name the folder of recognise_gesture, watch_video"):
+        hri.studies.run_study(study, tmp_path, lambda *_: None, folds=1)
+    monkeypatch.setenv("HRI_PROGRAMS", str(programs))
+    result = hri.studies.run_study(study, tmp_path, lambda *_: None, folds=1)
+    equal = {(row["program"], row["pictures"]): row["equal_mean"] for row in result["rows"]}
+    assert result["passed"] and len(equal) == 4
+    assert equal["recognise_gesture", "motion jpeg"] == equal["watch_video", "motion jpeg"] == 1
 
 
 def test_what_is_no_video_is_refused_with_its_name(programs: Path, model: Path, tmp_path: Path) -> None:
