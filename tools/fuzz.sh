@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fuzz.sh [TARGET|all] [SECONDS]: lets libFuzzer look for inputs that crash, hang, take too much memory or throw what is
 # no hri::Error. TARGET is a file of tests/fuzz without its ending, as in model_fuzz; SECONDS are for each (60). What is
-# learned stays in build/fuzz/corpus, what is found goes to build/fuzz/findings: reduce it, mend the cause, and keep it
+# learned stays in build/fuzz/corpus, what is found goes to build/fuzz/findings: reduce it, fix the cause, and keep it
 # in tests/fuzz/seeds.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""STOP latches until `resume`, whoever calls it and whenever: nothing moves meanwhile."""
+"""STOP latches until `resume`, from whichever thread and whenever: nothing moves meanwhile."""
 
 import signal
 import subprocess

@@ -110,7 +110,7 @@ def test_a_lost_link_stops_and_the_joints_are_asked_for_afterwards(udp_robot, co
             robot.perform(nod)
         assert robot.stopped and robot.events[-1].kind == "fault" and robot.perform(nod) is False
         controller.answers = 10**9
-        controller.positions |= {"head_joint_1": 0.5, "head_joint_2": 0.9}  # somebody turned the head meanwhile
+        controller.positions |= {"head_joint_1": 0.5, "head_joint_2": 0.9}  # the head was turned meanwhile
         robot.resume()
         count = len(controller.received)
         assert robot.perform(nod)

@@ -34,7 +34,7 @@ class StopLatch:
         return self._engaged
 
     def engage(self) -> None:
-        """Stop; in this order, so that nobody sees the latch without the stop that set it."""
+        """Stop; in this order, so that no thread sees the latch without the stop that set it."""
         self._last = object()
         self._engaged = True
 

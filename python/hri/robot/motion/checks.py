@@ -97,7 +97,7 @@ def require_safe(
 def require_safe_approach(approach: Trajectory, table: JointTable, others_rad: Mapping[str, float]) -> None:
     """Raise TrajectoryError when the way to a motion's first row has errors.
 
-    Links that overlap where the way begins, as somebody put them there, may move apart.
+    Links that overlap where the motion begins, put there by hand, may move apart.
     """
     findings = [
         Finding(1, finding.column, finding.joint, finding.value, f"on the way to this row, {finding.message}")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Fields of a TOML table that somebody wrote: there, of their kind, and within their range."""
+"""Fields of a TOML table written by hand: present, of their kind, and within their range."""
 
 from __future__ import annotations
 
