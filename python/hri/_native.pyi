@@ -3339,7 +3339,10 @@ class Topology:
     def __setstate__(self, arg0: dict) -> None: ...
     def allows(
         self, i: typing.SupportsInt | typing.SupportsIndex, j: typing.SupportsInt | typing.SupportsIndex
-    ) -> bool: ...
+    ) -> bool:
+        """
+        Whether there is a transition from state i to j.
+        """
     def as_dict(self) -> dict:
         """
         All fields as plain values, those of nested structs as dicts.
