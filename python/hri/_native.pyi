@@ -210,9 +210,15 @@ class OptionField:
         As a plain value: a dict for a nested class.
         """
     @property
-    def description(self) -> str: ...
+    def description(self) -> str:
+        """
+        What it does.
+        """
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """
+        As in C++.
+        """
     @property
     def options(self) -> typing.Any:
         """
@@ -264,8 +270,6 @@ class ModelFile:
     """
     Tensors and metadata in the safetensors layout; strict reader.
     """
-
-    kind: str
     @staticmethod
     def from_bytes(data: bytes, name: str = "bytes") -> ModelFile:
         """
@@ -277,31 +281,70 @@ class ModelFile:
         Reads a whole file; raises IoError, or FormatError naming file and field.
         """
     def __init__(self) -> None: ...
-    def has(self, name: str) -> bool: ...
-    def integer(self, key: str) -> int: ...
-    def matrix_d(self, name: str) -> numpy.typing.NDArray[numpy.float64]: ...
-    def matrix_f(self, name: str) -> numpy.typing.NDArray[numpy.float32]: ...
+    def has(self, name: str) -> bool:
+        """
+        Whether there is a tensor or metadata of that name.
+        """
+    def integer(self, key: str) -> int:
+        """
+        Metadata as a whole number.
+        """
+    def matrix_d(self, name: str) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        A tensor as float64, shape (rows, columns).
+        """
+    def matrix_f(self, name: str) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        A tensor as float32, shape (rows, columns).
+        """
     def metadata(self) -> dict[str, str]:
         """
         All metadata as a dict of text.
         """
-    def number(self, key: str) -> float: ...
+    def number(self, key: str) -> float:
+        """
+        Metadata as a finite number.
+        """
     def require_all_read(self) -> None:
         """
         Raises FormatError that names a field or tensor which nothing has asked for.
         """
-    def set_integer(self, key: str, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
-    def set_matrix_d(self, name: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
-    def set_matrix_f(self, name: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None: ...
-    def set_number(self, key: str, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    def set_text(self, key: str, value: str) -> None: ...
-    def set_text_list(self, key: str, values: collections.abc.Sequence[str]) -> None: ...
+    def set_integer(self, key: str, value: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Set metadata to a whole number.
+        """
+    def set_matrix_d(self, name: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        Set a tensor of float64.
+        """
+    def set_matrix_f(self, name: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        Set a tensor of float32.
+        """
+    def set_number(self, key: str, value: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        Set metadata to a finite number.
+        """
+    def set_text(self, key: str, value: str) -> None:
+        """
+        Set metadata, UTF-8.
+        """
+    def set_text_list(self, key: str, values: collections.abc.Sequence[str]) -> None:
+        """
+        Set metadata to a list of texts.
+        """
     def tensor_shapes(self) -> dict[str, tuple[int, int]]:
         """
         Name to (rows, columns).
         """
-    def text(self, key: str) -> str: ...
-    def text_list(self, key: str) -> list[str]: ...
+    def text(self, key: str) -> str:
+        """
+        Metadata; raises FormatError without it.
+        """
+    def text_list(self, key: str) -> list[str]:
+        """
+        Metadata as a list of texts.
+        """
     def to_bytes(self) -> bytes:
         """
         What `write` writes.
@@ -310,19 +353,38 @@ class ModelFile:
         """
         Writes beside the old file, syncs, and renames.
         """
+    @property
+    def kind(self) -> str:
+        """
+        What it holds, such as 'word_recognizer'.
+        """
+    @kind.setter
+    def kind(self, arg1: str) -> None: ...
 
 class Wav:
     """
     Mono samples of a WAV file.
     """
     @property
-    def notes(self) -> list[str]: ...
+    def notes(self) -> list[str]:
+        """
+        What was done to the audio on reading.
+        """
     @property
-    def num_channels(self) -> int: ...
+    def num_channels(self) -> int:
+        """
+        Channels of the file; they are averaged.
+        """
     @property
-    def sample_rate_hz(self) -> int: ...
+    def sample_rate_hz(self) -> int:
+        """
+        Samples a second.
+        """
     @property
-    def samples(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def samples(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_samples,), full scale 1.
+        """
 
 class FilterBankOptions:
     """
@@ -640,19 +702,40 @@ class Endpoint:
     An event; positions are samples since the stream began.
     """
     @property
-    def at(self) -> int: ...
+    def at(self) -> int:
+        """
+        Samples processed when this was decided.
+        """
     @property
-    def cut(self) -> bool: ...
+    def cut(self) -> bool:
+        """
+        It reached max_utterance_ms.
+        """
     @property
-    def first(self) -> int: ...
+    def first(self) -> int:
+        """
+        First sample of the utterance.
+        """
     @property
-    def kind(self) -> typing.Literal["none", "speech_start", "speech_end", "speech_dropped"]: ...
+    def kind(self) -> typing.Literal["none", "speech_start", "speech_end", "speech_dropped"]:
+        """
+        Which event: 'none', 'speech_start', 'speech_end' or 'speech_dropped'.
+        """
     @property
-    def last(self) -> int: ...
+    def last(self) -> int:
+        """
+        The sample behind its last.
+        """
     @property
-    def segment_first(self) -> int: ...
+    def segment_first(self) -> int:
+        """
+        First sample of the utterance with the noise around it.
+        """
     @property
-    def segment_last(self) -> int: ...
+    def segment_last(self) -> int:
+        """
+        The sample behind the last of these.
+        """
 
 class Endpointer:
     """
@@ -670,15 +753,30 @@ class Endpointer:
         The events in the next samples of the stream.
         """
     @property
-    def excess_db(self) -> float: ...
+    def excess_db(self) -> float:
+        """
+        Excess of that level over the noise floor.
+        """
     @property
-    def in_speech(self) -> bool: ...
+    def in_speech(self) -> bool:
+        """
+        Speech has begun and not ended.
+        """
     @property
-    def level_db(self) -> float: ...
+    def level_db(self) -> float:
+        """
+        Level of the last frame, relative to full scale.
+        """
     @property
-    def num_samples(self) -> int: ...
+    def num_samples(self) -> int:
+        """
+        Samples processed so far.
+        """
     @property
-    def options(self) -> EndpointerOptions: ...
+    def options(self) -> EndpointerOptions:
+        """
+        As passed, with defaults filled in.
+        """
 
 class ShrinkageOptions:
     """
@@ -1304,11 +1402,20 @@ class CepstraComputer:
         """
         Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.
         """
-    def num_frames(self, num_samples: typing.SupportsInt | typing.SupportsIndex) -> int: ...
+    def num_frames(self, num_samples: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        Frames of a clip of so many samples.
+        """
     @property
-    def num_features(self) -> int: ...
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
     @property
-    def options(self) -> CepstraOptions: ...
+    def options(self) -> CepstraOptions:
+        """
+        As passed, with defaults filled in.
+        """
 
 class CepstraStream:
     """
@@ -1325,11 +1432,20 @@ class CepstraStream:
         """
         Frames that are now complete, float32, shape (any, num_features).
         """
-    def reset(self, keep_normalisation: bool = False) -> None: ...
+    def reset(self, keep_normalisation: bool = False) -> None:
+        """
+        Ready for the next utterance; the running normalisation may go on.
+        """
     @property
-    def num_features(self) -> int: ...
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
     @property
-    def options(self) -> CepstraOptions: ...
+    def options(self) -> CepstraOptions:
+        """
+        As passed, with defaults filled in.
+        """
 
 class ChainCodeOptions:
     """
@@ -1391,7 +1507,10 @@ class ChainCodeComputer:
         float32, of an outline as trace_contour gives it.
         """
     @property
-    def num_features(self) -> int: ...
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
 
 class FourierDescriptorOptions:
     """
@@ -1462,7 +1581,10 @@ class FourierDescriptorComputer:
         float32, of an outline as trace_contour gives it.
         """
     @property
-    def num_features(self) -> int: ...
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
 
 class WaveletDescriptorOptions:
     """
@@ -1533,7 +1655,10 @@ class WaveletDescriptorComputer:
         float32, by frequency, scale and place.
         """
     @property
-    def num_features(self) -> int: ...
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
 
 class HandTrackOptions:
     """
@@ -1598,7 +1723,10 @@ class HandTrackComputer:
         float32, a row for every mask that shows a hand.
         """
     @property
-    def num_features(self) -> int: ...
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
 
 class HandPairOptions:
     """
@@ -1656,18 +1784,30 @@ class PairedHand:
     One of two hands in a frame.
     """
     @property
-    def mask(self) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def mask(self) -> numpy.typing.NDArray[numpy.uint8]:
+        """
+        uint8, shape (height, width), 255 where the hand is.
+        """
     @property
-    def seen(self) -> bool: ...
+    def seen(self) -> bool:
+        """
+        The hand is in view.
+        """
     @property
     def touching(self) -> bool:
         """
         One region holds both hands: the border between them is a guess.
         """
     @property
-    def x_px(self) -> float: ...
+    def x_px(self) -> float:
+        """
+        Column of the hand's centre.
+        """
     @property
-    def y_px(self) -> float: ...
+    def y_px(self) -> float:
+        """
+        Row of the hand's centre.
+        """
 
 class HandPairTracker:
     """
@@ -2023,7 +2163,10 @@ class HandFeatureComputer:
         float32, shape (num_features,); mask is 0 or 255, uint8.
         """
     @property
-    def num_features(self) -> int: ...
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
 
 class SilhouetteOptions:
     """
@@ -2579,9 +2722,15 @@ class Codebook:
         Adds the model to a ModelFile.
         """
     @property
-    def centroids(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def centroids(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Codewords, a row each.
+        """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
     def size(self) -> int: ...
 
@@ -2622,11 +2771,20 @@ class MultiStreamCodebook:
         Adds the model to a ModelFile.
         """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def num_streams(self) -> int: ...
+    def num_streams(self) -> int:
+        """
+        Codebooks, one for each group of columns.
+        """
     @property
-    def streams(self) -> list[Codebook]: ...
+    def streams(self) -> list[Codebook]:
+        """
+        The codebooks.
+        """
 
 class Pca:
     """
@@ -2653,15 +2811,27 @@ class Pca:
         Adds the model to a ModelFile.
         """
     @property
-    def components(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def components(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Directions, a row each.
+        """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def mean(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def mean(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Mean of the rows trained on.
+        """
     @property
     def num_components(self) -> int: ...
     @property
-    def variances(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def variances(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Variance along every component.
+        """
 
 class LdaOptions:
     """
@@ -2735,11 +2905,20 @@ class Lda:
         Adds the model to a ModelFile.
         """
     @property
-    def components(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def components(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Directions, a row each.
+        """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def mean(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def mean(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Mean of the rows trained on.
+        """
     @property
     def num_components(self) -> int: ...
     @property
@@ -2857,13 +3036,25 @@ class LinearSvm:
         Adds the model to a ModelFile.
         """
     @property
-    def biases(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def biases(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Constant terms, one a class.
+        """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
     @property
-    def weights(self) -> numpy.typing.NDArray[numpy.float32]: ...
+    def weights(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Weights, as trained.
+        """
 
 class RbfClassifierOptions:
     """
@@ -2939,9 +3130,15 @@ class RbfClassifier:
         Adds the model to a ModelFile.
         """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
     @property
     def num_rows(self) -> int: ...
 
@@ -3027,9 +3224,15 @@ class GaussianBayes:
         Adds the model to a ModelFile.
         """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
 
 class KnnOptions:
     """
@@ -3097,9 +3300,15 @@ class Knn:
         Adds the model to a ModelFile.
         """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
 
 class DistanceClassifierOptions:
     """
@@ -3180,9 +3389,15 @@ class DistanceClassifier:
         Adds the model to a ModelFile.
         """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
 
 class PossibilityClassifier:
     """
@@ -3222,9 +3437,15 @@ class PossibilityClassifier:
         Adds the model to a ModelFile.
         """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
 
 class LogisticRegressionOptions:
     """
@@ -3298,13 +3519,25 @@ class LogisticRegression:
         Adds the model to a ModelFile.
         """
     @property
-    def bias(self) -> float: ...
+    def bias(self) -> float:
+        """
+        Constant term.
+        """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
     @property
-    def weights(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        One for each column.
+        """
 
 class Topology:
     """
@@ -3404,19 +3637,40 @@ class MarkovChain:
         Adds the model to a ModelFile.
         """
     @property
-    def band(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def band(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Transition probabilities within the band, a row for each state.
+        """
     @property
-    def land(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def land(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Weight of a jump to each state; rank-one part.
+        """
     @property
-    def leave(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def leave(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Weight of a jump from each state; rank-one part.
+        """
     @property
-    def num_states(self) -> int: ...
+    def num_states(self) -> int:
+        """
+        States of each model.
+        """
     @property
-    def start(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Initial probabilities, shape (num_states,).
+        """
     @property
-    def topology(self) -> Topology: ...
+    def topology(self) -> Topology:
+        """
+        Which transitions there are, a Topology.
+        """
     @property
-    def transition(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def transition(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Transition probabilities, shape (num_states, num_states), row i from state i.
+        """
 
 class TrainingReport:
     """
@@ -3424,9 +3678,15 @@ class TrainingReport:
     """
     def __init__(self) -> None: ...
     @property
-    def converged(self) -> bool: ...
+    def converged(self) -> bool:
+        """
+        The change fell below the tolerance.
+        """
     @property
-    def log_likelihoods(self) -> list[float]: ...
+    def log_likelihoods(self) -> list[float]:
+        """
+        Before each iteration.
+        """
 
 class GaussianMixtureOptions:
     """
@@ -3539,13 +3799,25 @@ class GaussianMixture:
         Adds the model to a ModelFile.
         """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def means(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def means(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Means of the mixture components, a row each.
+        """
     @property
-    def variances(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def variances(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Variances of the mixture components, a row each.
+        """
     @property
-    def weights(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Mixture weights.
+        """
 
 class GaussianMixtureHmmOptions:
     """
@@ -3752,17 +4024,35 @@ class GaussianMixtureHmm:
         Adds the model to a ModelFile.
         """
     @property
-    def chain(self) -> MarkovChain: ...
+    def chain(self) -> MarkovChain:
+        """
+        Initial and transition probabilities, a MarkovChain.
+        """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
-    def means(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def means(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Means of the mixture components, a row each.
+        """
     @property
-    def num_states(self) -> int: ...
+    def num_states(self) -> int:
+        """
+        States of each model.
+        """
     @property
-    def variances(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def variances(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Variances of the mixture components, a row each.
+        """
     @property
-    def weights(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Mixture weights, a row for each state.
+        """
 
 class DiscreteHmmOptions:
     """
@@ -3943,13 +4233,25 @@ class DiscreteHmm:
         Adds the model to a ModelFile.
         """
     @property
-    def chain(self) -> MarkovChain: ...
+    def chain(self) -> MarkovChain:
+        """
+        Initial and transition probabilities, a MarkovChain.
+        """
     @property
-    def emission(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def emission(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Probabilities of symbols, shape (num_states, num_symbols).
+        """
     @property
-    def num_states(self) -> int: ...
+    def num_states(self) -> int:
+        """
+        States of each model.
+        """
     @property
-    def num_symbols(self) -> int: ...
+    def num_symbols(self) -> int:
+        """
+        Size of the alphabet.
+        """
 
 class DiscreteHmmStream:
     """
@@ -3987,9 +4289,15 @@ class DiscreteHmmStream:
         Models not dropped.
         """
     @property
-    def num_frames(self) -> int: ...
+    def num_frames(self) -> int:
+        """
+        Frames pushed so far.
+        """
     @property
-    def num_models(self) -> int: ...
+    def num_models(self) -> int:
+        """
+        Models that are scored.
+        """
 
 class GaussianMixtureHmmStream:
     """
@@ -4029,9 +4337,15 @@ class GaussianMixtureHmmStream:
         Models not dropped.
         """
     @property
-    def num_frames(self) -> int: ...
+    def num_frames(self) -> int:
+        """
+        Frames pushed so far.
+        """
     @property
-    def num_models(self) -> int: ...
+    def num_models(self) -> int:
+        """
+        Models that are scored.
+        """
 
 class StateChoiceOptions:
     """
@@ -4109,11 +4423,20 @@ class StateChoice:
         One number of states.
         """
         @property
-        def log_likelihood(self) -> float: ...
+        def log_likelihood(self) -> float:
+            """
+            Of the sequences it was judged on.
+            """
         @property
-        def num_parameters(self) -> int: ...
+        def num_parameters(self) -> int:
+            """
+            Free parameters of the model.
+            """
         @property
-        def num_states(self) -> int: ...
+        def num_states(self) -> int:
+            """
+            States of this candidate.
+            """
         @property
         def score(self) -> float:
             """
@@ -4377,15 +4700,30 @@ class PossibilisticHmmSet:
         The HMMs before scaling.
         """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
     @property
-    def num_states(self) -> int: ...
+    def num_states(self) -> int:
+        """
+        States of each model.
+        """
     @property
-    def num_symbols(self) -> int: ...
+    def num_symbols(self) -> int:
+        """
+        Size of the alphabet.
+        """
     @property
-    def rule(self) -> PossibilisticRule: ...
+    def rule(self) -> PossibilisticRule:
+        """
+        How possibilities are combined, a PossibilisticRule.
+        """
     @property
-    def topology(self) -> Topology: ...
+    def topology(self) -> Topology:
+        """
+        Which transitions there are, a Topology.
+        """
 
 class PossibilisticGaussianHmmSet:
     """
@@ -4437,18 +4775,30 @@ class PossibilisticGaussianHmmSet:
         Adds the model to a ModelFile.
         """
     @property
-    def dim(self) -> int: ...
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
     @property
     def models(self) -> list[GaussianMixtureHmm]:
         """
         The HMMs before scaling.
         """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
     @property
-    def rule(self) -> PossibilisticRule: ...
+    def rule(self) -> PossibilisticRule:
+        """
+        How possibilities are combined, a PossibilisticRule.
+        """
     @property
-    def topology(self) -> Topology: ...
+    def topology(self) -> Topology:
+        """
+        Which transitions there are, a Topology.
+        """
 
 class FixedPointHmmSet:
     """
@@ -4462,9 +4812,15 @@ class FixedPointHmmSet:
         log possibility of the symbols under each class, float32, shape (num_classes,).
         """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
     @property
-    def num_symbols(self) -> int: ...
+    def num_symbols(self) -> int:
+        """
+        Size of the alphabet.
+        """
     @property
     def units(self) -> float:
         """
@@ -4487,7 +4843,10 @@ class PossibilisticHmmStream:
         """
         Indices of the best classes, best first.
         """
-    def push(self, symbol: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def push(self, symbol: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Score the next symbol under every class.
+        """
     def reset(self) -> None:
         """
         Ready for the next utterance.
@@ -4498,50 +4857,95 @@ class PossibilisticHmmStream:
         Classes not dropped.
         """
     @property
-    def num_classes(self) -> int: ...
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
     @property
-    def num_frames(self) -> int: ...
+    def num_frames(self) -> int:
+        """
+        Frames pushed so far.
+        """
 
 class NBest:
     """
     One class of the n-best list.
     """
     @property
-    def label(self) -> str: ...
+    def label(self) -> str:
+        """
+        A class, "unknown" or "no_input".
+        """
     @property
-    def log_score(self) -> float: ...
+    def log_score(self) -> float:
+        """
+        The model's own score.
+        """
     @property
-    def probability(self) -> float: ...
+    def probability(self) -> float:
+        """
+        Calibrated probability, 0..1.
+        """
 
 class Decision:
     """
     What a recogniser says of one utterance or gesture.
     """
     @property
-    def class_threshold(self) -> float: ...
+    def class_threshold(self) -> float:
+        """
+        Confidence from which the best class is sure.
+        """
     @property
-    def confidence(self) -> float: ...
+    def confidence(self) -> float:
+        """
+        Calibrated probability of the best class.
+        """
     @property
-    def label(self) -> str: ...
+    def label(self) -> str:
+        """
+        A class, "unknown" or "no_input".
+        """
     @property
-    def nbest(self) -> list[NBest]: ...
+    def nbest(self) -> list[NBest]:
+        """
+        Every class in falling order.
+        """
     @property
-    def notes(self) -> list[str]: ...
+    def notes(self) -> list[str]:
+        """
+        What was converted or assumed on the way.
+        """
     @property
-    def score(self) -> float: ...
+    def score(self) -> float:
+        """
+        What the rejection threshold was compared with.
+        """
     @property
-    def status(self) -> typing.Literal["recognised", "unknown", "no_input"]: ...
+    def status(self) -> typing.Literal["recognised", "unknown", "no_input"]:
+        """
+        'recognised', 'unknown' or 'no_input'.
+        """
 
 class UtteranceDecision:
     """
     The decision on one utterance of a longer recording.
     """
     @property
-    def decision(self) -> Decision: ...
+    def decision(self) -> Decision:
+        """
+        The Decision; empty for segments.
+        """
     @property
-    def first_s(self) -> float: ...
+    def first_s(self) -> float:
+        """
+        Its beginning, in seconds.
+        """
     @property
-    def last_s(self) -> float: ...
+    def last_s(self) -> float:
+        """
+        Its end, in seconds.
+        """
 
 class SequenceModelOptions:
     """
@@ -4894,7 +5298,10 @@ class WordRecognizer:
     @property
     def labels(self) -> list[str]: ...
     @property
-    def options(self) -> WordRecognizerOptions: ...
+    def options(self) -> WordRecognizerOptions:
+        """
+        As passed, with defaults filled in.
+        """
     @property
     def threshold(self) -> float:
         """
@@ -5090,7 +5497,10 @@ class GestureFeatureComputer:
         float32, shape (num_hands, num_features).
         """
     @property
-    def num_features(self) -> int: ...
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
 
 class GestureRecognizer:
     """
@@ -5126,7 +5536,10 @@ class GestureRecognizer:
     @property
     def labels(self) -> list[str]: ...
     @property
-    def options(self) -> GestureRecognizerOptions: ...
+    def options(self) -> GestureRecognizerOptions:
+        """
+        As passed, with defaults filled in.
+        """
     @property
     def pauses(self) -> bool: ...
     @property
@@ -5378,7 +5791,10 @@ class GestureSegment:
     An event in a stream of masks.
     """
     @property
-    def first_s(self) -> float: ...
+    def first_s(self) -> float:
+        """
+        Its beginning, in seconds.
+        """
     @property
     def from_rest(self) -> bool:
         """
@@ -5390,7 +5806,10 @@ class GestureSegment:
         'none', 'start', 'end' or 'dropped'.
         """
     @property
-    def last_s(self) -> float: ...
+    def last_s(self) -> float:
+        """
+        Its end, in seconds.
+        """
     @property
     def reason(self) -> typing.Literal["none", "rested", "left", "cut", "ended", "arrived", "stalled"]:
         """
@@ -5423,13 +5842,25 @@ class GestureSegmenter:
         The hand of now looks like this, as it is found in another way.
         """
     @property
-    def hand_away(self) -> bool: ...
+    def hand_away(self) -> bool:
+        """
+        No hand is in view.
+        """
     @property
-    def in_gesture(self) -> bool: ...
+    def in_gesture(self) -> bool:
+        """
+        A gesture has begun and not ended.
+        """
     @property
-    def may_have_begun_s(self) -> float | None: ...
+    def may_have_begun_s(self) -> float | None:
+        """
+        When a gesture that is not reported yet may have begun.
+        """
     @property
-    def options(self) -> GestureSegmenterOptions: ...
+    def options(self) -> GestureSegmenterOptions:
+        """
+        As passed, with defaults filled in.
+        """
 
 def activity_frames(
     audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],

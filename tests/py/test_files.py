@@ -76,7 +76,7 @@ def test_writers_of_one_file_at_once_leave_one_of_theirs_whole(tmp_path: Path, n
 
 
 def test_no_writer_harms_the_old_file_on_a_full_disk(tmp_path: Path) -> None:
-    """As on a full disk: the system takes the first bytes of a file and no more, and some libraries tell nobody."""
+    """As on a full disk: the system takes the first bytes of a file and no more, and some libraries hide it."""
     script = """
 import resource, sys
 from pathlib import Path

@@ -224,7 +224,7 @@ def classifier() -> bytes:
 @hostile
 @given(field=st.sampled_from(["params", "classes", "kind"]), name=st.text(max_size=3), value=JSON)
 def test_texts_in_models(field: str, name: str, value: Any) -> None:
-    """With a checksum that fits, as somebody makes it who knows the format."""
+    """With a checksum that fits, as one who knows the format makes it."""
     for change in (value, {name: value}, None):
         file = ModelFile.from_bytes(classifier())
         held = json.loads(file.text(field)) if field != "kind" else file.kind

@@ -105,7 +105,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
     fail_io(path_, "cannot write", errno);
   }
   clean(folder_of(target_));
-  // Nobody reads in it whom the old file kept out; a new file has what the process's umask leaves.
+  // No user may read it whom the old file kept out; a new file has what the process's umask leaves.
   open_part(kept_mode_ < 0 ? 0666U : 0600U);
 }
 

@@ -12,7 +12,7 @@ _FRAMES = {*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC}  # those that begin a frame 
 
 
 def picture_size(data: bytes) -> tuple[int, int] | None:
-    """Width and height in the header of a PNG, JPEG or BMP file; None for others, and where it cannot be told."""
+    """Width and height in the header of a PNG, JPEG or BMP file; None for others, and where it is damaged."""
     try:
         if data.startswith(_PNG):
             width, height = struct.unpack_from(">II", data, 16)

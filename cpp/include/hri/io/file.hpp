@@ -33,7 +33,7 @@ HRI_API void write_file_atomically(const std::string& path, Span<const std::uint
 ///
 /// What killed processes left in the folder is removed by the first AtomicFile there of the next
 /// process. The temporary file is locked (flock) while its writer lives, so that no living
-/// process's file is taken for one of these.
+/// process's file counts as one of these.
 class HRI_API AtomicFile {
  public:
   /// Throws IoError where there is no such folder, where it or an existing file may not be written,
