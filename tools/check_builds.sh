@@ -47,7 +47,7 @@ check_asan() {
 
 check_tsan() {
   cmake --preset tsan -DHRI_BUILD_VISION=OFF
-  filter='*Thread*:File.OfManyWriters*' tests_of tsan io_tests signal_tests features_tests models_tests recognition_tests
+  filter='*Thread*' tests_of tsan io_tests signal_tests features_tests models_tests recognition_tests
 }
 
 check_shared() {

@@ -9,6 +9,7 @@ test_recognition and test_robot_motion.
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import signal
 import struct
@@ -304,3 +305,22 @@ for number in itertools.count():
         process.stdout.close()
         values = _native.ModelFile.read(str(path)).matrix_d("values")
         assert values.shape == (300, 300) and (values == values[0, 0]).all()
+
+
+def test_every_fault_names_tests_that_there_are() -> None:
+    root = Path(__file__).parents[2]
+    rows = [
+        line for line in (root / "docs/faults.md").read_text("utf-8").splitlines() if re.match(r"\| *\d+ *\|", line)
+    ]
+    assert [int(row.split("|")[1]) for row in rows] == list(range(1, 18))
+    cpp = "".join(path.read_text("utf-8") for path in (root / "tests/cpp").rglob("*_test.cpp"))
+    for row in rows:
+        names = re.findall(r"`([\w.]+(?:::|\.)[A-Za-z_]\w+)`", row.split("|")[4])
+        assert names, row
+        for name in names:
+            if "::" in name:
+                file, test = name.split("::")
+                assert f"def {test}(" in (root / "tests/py" / file).read_text("utf-8"), name
+            else:
+                suite, test = name.split(".")
+                assert re.search(rf"TEST(_[FP])?\({suite}, {test}\)", cpp), name
