@@ -10,6 +10,11 @@
 #include "hri/io/video_container.hpp"
 
 namespace hri {
+namespace {
+
+constexpr double kMaxPixels = 1e8;  // more takes seconds a frame, and is no hand before a camera
+
+}  // namespace
 
 struct VideoReader::Capture {
   std::string path;
@@ -24,6 +29,12 @@ VideoReader::VideoReader(const std::string& path) : capture_(std::make_unique<Ca
   capture_->path = path;
   if (!capture_->video.open(path))
     fail(ErrorKind::format, path + ": not a video that OpenCV reads");
+  const double num_pixels = capture_->video.get(cv::CAP_PROP_FRAME_WIDTH) *
+                            capture_->video.get(cv::CAP_PROP_FRAME_HEIGHT);
+  if (num_pixels > kMaxPixels) {
+    fail(ErrorKind::format, path + ": its frames have " + std::to_string(num_pixels) +
+                                " pixels, more than " + std::to_string(kMaxPixels));
+  }
 }
 
 VideoReader::~VideoReader() = default;

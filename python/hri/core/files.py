@@ -32,9 +32,10 @@ MAX_TOML_BYTES = 1 << 24
 """Of settings; Python's reader of TOML takes seconds for more."""
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
-_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
 _BLANKS = " \t"
+_OF_NUMBERS = f"0123456789.+-eE{_BLANKS}"
+_INFINITY = float("inf")
 
 
 def read_bytes(path: str | PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
@@ -121,9 +122,13 @@ def parse_number(cell: str) -> float | None:
 
     `float` takes more than a table should hold: 1_000, digits of every script, infinity, blanks of every kind.
     """
-    text = cell.strip(_BLANKS)
-    value = float(text) if _NUMBER.fullmatch(text) else float("inf")
-    return value if abs(value) < float("inf") else None
+    if cell.strip(_OF_NUMBERS):  # a character of another kind is left
+        return None
+    try:
+        value = float(cell)
+    except ValueError:
+        return None
+    return value if -_INFINITY < value < _INFINITY else None
 
 
 def parse_whole(cell: str) -> int | None:

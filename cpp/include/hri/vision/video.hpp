@@ -31,7 +31,8 @@ struct VideoFrame {
 /// by threads.
 class HRI_API VideoReader {
  public:
-  /// Throws IoError for a file that cannot be opened, FormatError for one that is no video.
+  /// Throws IoError for a file that cannot be opened; FormatError for one that is no video, ends
+  /// before its container does, or whose frames have more than 100 million pixels.
   explicit VideoReader(const std::string& path);
   ~VideoReader();
   VideoReader(VideoReader&&) noexcept;
