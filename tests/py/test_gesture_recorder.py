@@ -188,7 +188,8 @@ def test_the_command_records_from_a_video_and_from_a_camera(
         def release(self) -> None:
             pass
 
-    monkeypatch.setattr(cv2, "VideoCapture", Camera)
+    of_files = cv2.VideoCapture  # a video that is written is read again
+    monkeypatch.setattr(cv2, "VideoCapture", lambda given: (of_files if isinstance(given, str) else Camera)(given))
     live = hri(*command, "--out", tmp_path / "live", "--stall", "3")
     assert live.code == 0, live.err
     monkeypatch.undo()

@@ -37,9 +37,10 @@ std::string followed(std::string path) {
   for (int links = 0; links < kMaxLinks; ++links) {
     char text[4096];
     const ssize_t length = ::readlink(path.c_str(), text, sizeof text);
-    if (length < 0 || static_cast<std::size_t>(length) == sizeof text) return path;
+    if (length <= 0 || static_cast<std::size_t>(length) == sizeof text) return path;
     const std::string to(text, static_cast<std::size_t>(length));
-    path = to.front() == '/' ? to : path.substr(0, start_of_name(path)) + to;
+    path.resize(to.front() == '/' ? 0 : start_of_name(path));
+    path += to;
   }
   return path;
 }
@@ -112,10 +113,12 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
 void AtomicFile::open_part(unsigned mode) {
   static std::atomic<unsigned> count{0};
   const std::size_t start = start_of_name(target_);
-  const auto [begin, suffix] = part_name(target_.substr(start));
+  const auto [name, suffix] = part_name(target_.substr(start));
+  const std::string begin =
+      target_.substr(0, start).append(name).append(std::to_string(::getpid()));
   for (;;) {
-    part_ = target_.substr(0, start) + begin + std::to_string(::getpid()) + "-" +
-            std::to_string(count++) + suffix;
+    part_ = begin;
+    part_.append("-").append(std::to_string(count++)).append(suffix);
     descriptor_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, mode);
     if (descriptor_ < 0 && errno == EEXIST)
       continue;  // another machine's process, on a shared disk

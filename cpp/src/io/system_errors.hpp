@@ -15,9 +15,10 @@ namespace hri::detail {
 
 // The system ends a path at the first NUL: "model.hri\0.bak" would be model.hri.
 inline void require_path(const std::string& path) {
-  if (path.find('\0') != std::string::npos)
+  const std::size_t end = path.find('\0');
+  if (end != std::string::npos)
     fail(ErrorKind::invalid_argument,
-         std::string(path.c_str()) + ": the path goes on after a NUL character");
+         path.substr(0, end) + ": the path goes on after a NUL character");
 }
 
 }  // namespace hri::detail

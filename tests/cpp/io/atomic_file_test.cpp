@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -156,6 +156,7 @@ TEST(AtomicFile, OfManyThreadsHasManyNames) {
   const Folder folder;
   std::vector<std::thread> threads;
   std::vector<std::string> names(60);
+  threads.reserve(names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     threads.emplace_back([&, i] {
       AtomicFile file(folder / "shared");
