@@ -127,7 +127,7 @@ def test_what_is_no_utterance_is_refused_by_name(
         (["a.jpg", "b.jpg"], InvalidArgument, r"^clip\[0\] must be a picture.*predict takes several"),
         (7, InvalidArgument, "^clip must be a path, a Clip, a picture or a sequence of them, got int"),
         ("word.wav", FormatError, "word.wav is a sound file, and a picture or video is needed"),
-        ("nowhere.jpg", IoError, "nowhere.jpg: No such file"),
+        ("nowhere.jpg", IoError, "nowhere.jpg: cannot open: No such file"),
     ],
 )
 def test_what_is_no_sign_is_refused_by_name(
