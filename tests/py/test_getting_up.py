@@ -2,10 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot that gets up leans over its feet until they carry it, and at no other time."""
 
+import os
+from importlib.util import find_spec
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from hri.robot import HOAP2, NAO, JointTable
+from hri.robot import HOAP2, NAO, JointTable, Physics
 from hri.robot.control.getting_up import GettingUp
 
 STEP_S = 0.01
@@ -42,7 +46,7 @@ def lean(getting_up: GettingUp, pitch: float, carried: float, steps: int = 100, 
 def test_it_leans_while_hands_carry_and_no_longer(getting_up: GettingUp):
     assert lean(getting_up, -1.5, 0.0) == 0.0  # on its back
     full = lean(getting_up, 0.8, 0.3)
-    assert full == pytest.approx(0.2)
+    assert full == pytest.approx(0.3)
     assert 0.0 < lean(getting_up, 0.8, 0.7) < full
     assert lean(getting_up, 0.8, 0.85) == 0.0
 
@@ -50,7 +54,7 @@ def test_it_leans_while_hands_carry_and_no_longer(getting_up: GettingUp):
 def test_it_leans_slowly(getting_up: GettingUp):
     lean(getting_up, -1.5, 0.0)
     leans = [lean(getting_up, 0.8, 0.2, steps=1) for _ in range(80)]
-    assert np.diff([0.0, *leans]).max() == pytest.approx(0.4 * STEP_S) and leans[-1] == pytest.approx(0.2)
+    assert np.diff([0.0, *leans]).max() == pytest.approx(0.8 * STEP_S) and leans[-1] == pytest.approx(0.3)
 
 
 def test_who_never_lay_is_left_alone_and_so_is_who_stands_again(getting_up: GettingUp):
@@ -73,3 +77,17 @@ def test_a_robot_without_a_waist_gets_no_help():
     getting_up = GettingUp(list(legs(NAO)))
     getting_up.corrections({}, pitched(-1.5), 0.0, STEP_S)
     assert getting_up.corrections({}, pitched(0.8), 0.3, STEP_S) == {}
+
+
+@pytest.mark.slow
+@pytest.mark.data
+@pytest.mark.skipif(find_spec("pybullet") is None, reason="no pybullet")
+@pytest.mark.parametrize(("friction", "mass_scale", "seed"), [(1.1, 1.0, 605), (1.1, 1.1, 602), (1.2, 1.1, 602)])
+def test_it_gets_up_from_its_back_on_a_rough_floor(friction: float, mass_scale: float, seed: int):
+    """Soles that do not slip brake the way forward; joints are off by up to a degree."""
+    from hri.studies.robot_motions import offsets, play
+
+    path = Path(os.environ["HRI_DATA"]) / "stand_up_back.csv"
+    if not path.exists():
+        pytest.skip("HRI_DATA holds no stand_up_back.csv")
+    assert play(path, "back", Physics(friction, mass_scale, offsets(seed))).success("stand_up_back.csv")

@@ -26,10 +26,10 @@ _LOG_S = 0.02
 
 CONDITIONS: dict[str, Physics] = {
     "as built": Physics(),
-    "friction 0.7": Physics(friction=0.7),
-    "friction 1.1": Physics(friction=1.1),
-    "mass -5 %": Physics(mass_scale=0.95),
-    "mass +5 %": Physics(mass_scale=1.05),
+    "friction 0.6": Physics(friction=0.6),
+    "friction 1.2": Physics(friction=1.2),
+    "mass -10 %": Physics(mass_scale=0.9),
+    "mass +10 %": Physics(mass_scale=1.1),
 }
 SEEDS = tuple(range(600, 608))
 _OFFSET_DEG = 1.0

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from hri.robot.model.joints import Joint
 
-_MOST_RAD = 0.2
-_SPEED = 0.4  # rad/s
+_MOST_RAD = 0.3
+_SPEED = 0.8  # rad/s
 _CARRIED = (0.4, 0.8)  # share of the weight on the feet: below the first it leans in full, above the second not at all
 _TOUCHING = 0.05  # share of the weight below which it sits or lies
 _LEANING = 0.3  # sine of the pitch beyond which it is over its hands no more
