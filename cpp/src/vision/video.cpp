@@ -21,6 +21,7 @@ struct VideoReader::Capture {
   cv::VideoCapture video;
   cv::Mat picture;
   double last_s = -std::numeric_limits<double>::infinity();
+  double interval_s = 0;  // between the last two frames
   std::size_t count = 0;
 };
 
@@ -49,12 +50,16 @@ bool VideoReader::read(VideoFrame* frame) {
   }
   if (c.picture.type() != CV_8UC3)
     fail(ErrorKind::format, c.path + ": frames have not three channels of 8 bits");
-  const double time_s = c.video.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
+  double time_s = c.video.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
+  // OpenCV 4.6 gives 0 for the frames that the decoder still held at the end of the file,
+  // as any codec that reorders frames does.
+  if (time_s == 0 && c.last_s > 0) time_s = c.last_s + c.interval_s;
   if (!(time_s >= c.last_s)) {
     fail(ErrorKind::format, c.path + ": time runs backwards: frame " + std::to_string(c.count) +
                                 " is at " + std::to_string(time_s) + " s, the one before at " +
                                 std::to_string(c.last_s) + " s");
   }
+  if (c.count > 0) c.interval_s = time_s - c.last_s;
   c.last_s = frame->time_s = time_s;
   ++c.count;
   frame->width_px = c.picture.cols;

@@ -15,7 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from hri.core.errors import Error, InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
 from hri.live import VideoSource, Watcher
 from hri.media import read_frames, write_video
@@ -45,7 +45,7 @@ def _programs() -> Path:
 def _run(program: Path, model: Path, video: Path) -> Lines:
     done = subprocess.run([str(program), str(model), str(video)], capture_output=True, text=True)
     if done.returncode != 0:
-        raise Error(f"{program.name} {video.name} fails: {done.stderr.strip()}")
+        return [("failed", done.stderr.strip())]
     return [tuple(_exact(text) for text in line.split("\t")) for line in done.stdout.splitlines()]
 
 
@@ -95,10 +95,12 @@ def _compare(data_dir: Path, progress: Progress, *, folds: int | None = None) ->
             for done, i in enumerate(fold.test):
                 for pictures, video in _videos(samples[i].path, Path(directory)).items():
                     for name, python in _COMPARED.items():
-                        same = _run(programs / name, model, video) == python(recognizer, video)
+                        lines = _run(programs / name, model, video)
+                        same = lines == python(recognizer, video)
                         found.setdefault((name, pictures), []).append(same)
                         if not same:
-                            different.append(f"{name}, {pictures}: {samples[i].label}/{samples[i].path.name}")
+                            why = lines[0][-1] if lines and lines[0][0] == "failed" else "other numbers"
+                            different.append(f"{name}, {pictures}, {samples[i].label}/{samples[i].path.name}: {why}")
                 progress(fold.name, done + 1, len(fold.test))
             for key, each in found.items():
                 equal.setdefault(key, {})[fold.name] = sum(each) / len(each)
