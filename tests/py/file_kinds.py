@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -28,6 +31,7 @@ from hri.robot.motion.short_csv import check_short_csv, is_short_csv, write_shor
 from hri.studies.kept import read_kept
 from hri.studies.webcam import read_conditions
 
+HERE = Path(__file__).parent
 PICTURE = (np.random.default_rng(1).random((60, 80, 3)) * 255).astype(np.uint8)
 SAMPLES = np.sin(np.arange(4000, dtype=np.float32))
 ROWS = np.random.default_rng(2).normal(size=(200, 4))
@@ -129,3 +133,18 @@ READERS: dict[str, Callable[[Any], object]] = {
     "kept.json": lambda path: read_kept(Path(path)),
     "conditions.toml": lambda path: read_conditions(["a"], Path(path)),
 }
+
+
+def run_python(script: str, *arguments: str | bytes | Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    """A script in a process of its own that finds `file_kinds`."""
+    before = {name: value for name, value in os.environ.items() if not name.startswith(("LC_", "LANG"))}
+    search = os.pathsep.join(filter(None, [str(HERE), os.environ.get("PYTHONPATH")]))
+    return subprocess.run(
+        [sys.executable, "-c", script, *arguments],
+        capture_output=True,
+        encoding="utf-8",
+        errors="surrogateescape",
+        check=False,
+        timeout=120,
+        env={**before, "PYTHONPATH": search, **environment},
+    )

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from file_kinds import CONDITIONS, KEPT, PICTURE, READERS, SAMPLES, TRACK, motion, write_sentences
+from file_kinds import CONDITIONS, KEPT, PICTURE, READERS, SAMPLES, TRACK, motion, run_python, write_sentences
 from hri import Dataset, WordRecognizer, read_audio
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import parse_json, parse_number, parse_toml, parse_whole, split_lines
@@ -127,6 +127,29 @@ def test_picture_of_more_pixels_than_a_camera_has_takes_no_time(tmp_path: Path) 
     with pytest.raises(FormatError, match=r"vast\.png: 12000 x 12000 pixels"):
         read_image(tmp_path / "vast.png")
     assert time.monotonic() - started < 1.0
+
+
+@pytest.mark.parametrize(("at", "length"), [(29 + 4, 0xFF000000), (29 + 4, 20_000_000), (8, 0x7FFFFFFF)])
+def test_chunk_of_a_png_that_claims_gigabytes_takes_no_memory(tmp_path: Path, at: int, length: int) -> None:
+    script = """
+import resource, sys
+from hri.core.errors import FormatError
+from hri.media import read_image
+read_image(sys.argv[1])
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+try:
+    read_image(sys.argv[2])
+except FormatError as error:
+    assert "claims.png" in str(error), error
+    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+"""
+    data = bytearray(png_of(80, 60))
+    (tmp_path / "sound.png").write_bytes(data)
+    struct.pack_into(">I", data, at, length)
+    (tmp_path / "claims.png").write_bytes(data)
+    done = run_python(script, tmp_path / "sound.png", tmp_path / "claims.png")
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) < 50_000  # KiB
 
 
 @pytest.mark.parametrize("suffix", [".png", ".jpg", ".bmp"])

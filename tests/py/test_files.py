@@ -8,8 +8,6 @@ import os
 import re
 import signal
 import stat
-import subprocess
-import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -17,28 +15,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from file_kinds import READERS, WRITERS
+from file_kinds import READERS, WRITERS, run_python
 from hri.core.errors import Error, FormatError, InvalidArgument, IoError
 from hri.core.files import atomic_file, write_text
 from hri.media import VideoWriter, read_frames
 
-HERE = Path(__file__).parent
 OLD = b"what was there before"
-
-
-def run_python(script: str, *arguments: str | bytes | Path, **environment: str) -> subprocess.CompletedProcess[str]:
-    """A script in a process of its own that finds `file_kinds`."""
-    before = {name: value for name, value in os.environ.items() if not name.startswith(("LC_", "LANG"))}
-    search = os.pathsep.join(filter(None, [str(HERE), os.environ.get("PYTHONPATH")]))
-    return subprocess.run(
-        [sys.executable, "-c", script, *arguments],
-        capture_output=True,
-        encoding="utf-8",
-        errors="surrogateescape",
-        check=False,
-        timeout=120,
-        env={**before, "PYTHONPATH": search, **environment},
-    )
 
 
 @pytest.mark.parametrize("name", WRITERS)
@@ -209,7 +191,7 @@ def test_any_name_that_the_system_allows_is_written_and_read(tmp_path: Path, loc
     script = """
 import os, sys
 from pathlib import Path
-from file_kinds import READERS, WRITERS
+from file_kinds import READERS, WRITERS, run_python
 for text in sys.argv[1:]:
     for kind, write in WRITERS.items():
         place = Path(text + Path(kind).suffix)

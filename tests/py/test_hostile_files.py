@@ -11,6 +11,7 @@ import contextlib
 import json
 import os
 import re
+import tempfile
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -21,12 +22,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from file_kinds import CONDITIONS, KEPT, READERS, TRACK, write_sentences
+from file_kinds import CONDITIONS, KEPT, READERS, TRACK, WRITERS, write_sentences
 from hri.cli.recognizers import parse_options
 from hri.core.errors import Error
 from hri.core.files import parse_csv, parse_json, parse_toml
 from hri.datasets import Dataset
 from hri.io import ModelFile
+from hri.media import read_audio, read_frames
 from hri.models import KnnClassifier
 from hri.robot import check_pulse_csv, gesture_trajectory
 from hri.robot.motion.gestures import parse_gestures
@@ -199,6 +201,35 @@ def test_plain_parsers(text: str) -> None:
     for parse in (parse_toml, parse_json, parse_csv):
         only_hri_s_errors(lambda parse=parse: parse(text, "here"))
     only_hri_s_errors(lambda: parse_options([f"cepstra.num_filters={text}", f"{text}=1"]))
+
+
+MEDIA = ("sound.wav", "picture.png", "picture.jpg", "clip.avi", "clip.mp4", "clip.webm", "clip.mkv")
+
+
+@cache
+def media() -> dict[str, bytes]:
+    """Small sounds, pictures and videos."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name in MEDIA:
+            WRITERS[name](Path(folder, name))
+        return {name: Path(folder, name).read_bytes() for name in MEDIA}
+
+
+CHANGES = st.tuples(st.floats(0.0, 1.0), st.integers(0, 4), st.sampled_from(TOKENS[:30]) | st.binary(max_size=4))
+
+
+@hostile
+@given(name=st.sampled_from(MEDIA), near=st.integers(16, 20_000), changes=st.lists(CHANGES, max_size=5))
+def test_sounds_pictures_and_videos(
+    tmp_path: Path, name: str, near: int, changes: list[tuple[float, int, bytes]]
+) -> None:
+    """Bytes of the first `near` of a file are replaced or left out, others come between."""
+    data = bytearray(media()[name])
+    for place, length, token in changes:
+        at = int(place * min(near, len(data)))
+        data[at : at + length] = token
+    (tmp_path / name).write_bytes(data)
+    only_hri_s_errors(lambda: (read_audio if name == "sound.wav" else read_frames)(tmp_path / name))
 
 
 JSON = st.recursive(

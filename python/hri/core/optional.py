@@ -28,7 +28,8 @@ def import_optional(module: str, extra: str, purpose: str) -> Any:
 
 
 def import_opencv(purpose: str) -> Any:
-    """Import OpenCV; its video decoder then reports through our errors and not on stderr."""
+    """Import OpenCV; it then reports through our errors and not on stderr, and refuses vast pictures."""
     os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
     os.environ.setdefault("OPENCV_LOG_LEVEL", "OFF")
+    os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", "100000000")  # for formats whose header hri does not read
     return import_optional("cv2", "video", purpose)

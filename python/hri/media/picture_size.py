@@ -28,6 +28,19 @@ def picture_size(data: bytes) -> tuple[int, int] | None:
     return None
 
 
+def is_cut(data: bytes) -> bool:
+    """Whether a PNG file ends before its chunks do; OpenCV takes memory for what a chunk claims, up to 4 GB."""
+    if not data.startswith(_PNG):
+        return False
+    at = len(_PNG)
+    while at + 12 <= len(data):
+        length, kind = struct.unpack_from(">I4s", data, at)
+        if kind == b"IEND":
+            return False
+        at += 12 + length
+    return True
+
+
 def _jpeg_size(data: bytes) -> tuple[int, int] | None:
     at = 2
     while True:

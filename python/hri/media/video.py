@@ -21,7 +21,7 @@ from hri.core.files import read_bytes, utf8_name, write_bytes
 from hri.core.optional import import_opencv
 from hri.io import require_whole_video
 from hri.media.order import natural_key
-from hri.media.picture_size import picture_size
+from hri.media.picture_size import is_cut, picture_size
 from hri.media.suffixes import IMAGE_SUFFIXES, kind_of_file
 
 DEFAULT_FPS = 25.0
@@ -64,13 +64,15 @@ def read_image(path: str | PathLike[str]) -> Frame:
     Raises
     ------
     FormatError
-        For a file that is no picture, or one of more than 100 million pixels.
+        For a file that is no picture, one that was cut, or one of more than 100 million pixels.
     IoError
         For a file that cannot be opened.
     """
     cv2 = import_opencv("to read pictures")
     path = Path(path)
     data = read_bytes(path)
+    if is_cut(data):
+        raise FormatError(f"{path}: file ends early")
     _require_size(path, *picture_size(data) or (0, 0))
     try:
         image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR) if data else None
