@@ -25,6 +25,7 @@ import bench_robot
 import bench_signal
 import bench_vision
 import bench_wavelets
+from hri.core.files import write_text
 from hri.studies.provenance import describe_code, source_root
 
 MODULES = (
@@ -93,7 +94,7 @@ def main() -> None:
             print(f"{'':22} {what}: {values}", flush=True)
     if arguments.json:
         report = {"measured": describe_code(source_root()), "machine": processor(), "benches": entries}
-        arguments.json.write_text(json.dumps(report, indent=2) + "\n")
+        write_text(arguments.json, json.dumps(report, indent=2) + "\n")
 
 
 if __name__ == "__main__":
