@@ -42,7 +42,10 @@ inline std::string text_of(py::handle object) { return py::cast<std::string>(py:
 inline std::string repr_of(py::handle object) { return py::cast<std::string>(py::repr(object)); }
 
 template <class O>
-inline const O defaults{};
+const O& defaults() {
+  static const O options{};
+  return options;
+}
 
 // Calls f(field) for the field of this name. The type comes first, so that f need not fit others.
 template <class Field, class O, class F>
@@ -97,7 +100,7 @@ template <class O>
 [[noreturn]] void refuse_name(const std::string& name) {
   py::list names;
   std::string group;
-  O::visit(defaults<O>, [&](const char* own, const auto& field, const auto&...) {
+  O::visit(defaults<O>(), [&](const char* own, const auto& field, const auto&...) {
     using Field = std::decay_t<decltype(field)>;
     names.append(own);
     if constexpr (hri::is_options<Field>) {
@@ -212,8 +215,8 @@ std::string range_text(const Range& range) {
 template <class O>
 std::vector<OptionField> option_fields() {
   std::vector<OptionField> fields;
-  O::visit(defaults<O>, [&](const char* name, const auto& value, const auto& range,
-                            const char* description, const auto&...) {
+  O::visit(defaults<O>(), [&](const char* name, const auto& value, const auto& range,
+                              const char* description, const auto&...) {
     using Field = std::decay_t<decltype(value)>;
     OptionField f;
     f.name = name;
@@ -237,7 +240,7 @@ std::vector<OptionField> option_fields() {
 template <class O>
 std::string constructor_doc(const std::string& module) {
   std::string text = "__init__(self: " + module + "." + O::kName + ", *";
-  O::visit(defaults<O>, [&](const char* name, const auto& value, const auto&...) {
+  O::visit(defaults<O>(), [&](const char* name, const auto& value, const auto&...) {
     using Field = std::decay_t<decltype(value)>;
     text += std::string(", ") + name + ": " + type_name<Field>();
     if constexpr (hri::is_options<Field>) {
@@ -279,8 +282,8 @@ py::class_<O> bind_options(py::handle scope, const char* doc) {
     cls.def(py::init([](const py::kwargs& values) { return from_dict<O>(values); }),
             constructor_doc<O>(text_of(scope.attr("__name__"))).c_str());
   }
-  O::visit(defaults<O>, [&](const char* name, const auto& value, const auto& range,
-                            const char* description, const auto&...) {
+  O::visit(defaults<O>(), [&](const char* name, const auto& value, const auto& range,
+                              const char* description, const auto&...) {
     using Field = std::decay_t<decltype(value)>;
     const auto get = [name](O& self) -> const Field& {
       const Field* found = nullptr;
@@ -292,7 +295,7 @@ py::class_<O> bind_options(py::handle scope, const char* doc) {
       with_field<Field>(changed, name,
                         [&](Field& field) { assign<O>(name, &field, range, given); });
       hri::validate(changed);
-      self = changed;
+      self = std::move(changed);
     };
     cls.def_property(name, get, set, description);
   });
@@ -300,7 +303,7 @@ py::class_<O> bind_options(py::handle scope, const char* doc) {
   cls.def_static("fields", &option_fields<O>, "What each field is, in their order.");
   cls.def("__repr__", [](const O& self) {
     std::string text = std::string(O::kName) + "(";
-    for (const auto& [name, value] : differences(self, defaults<O>))
+    for (const auto& [name, value] : differences(self, defaults<O>()))
       text += (text.back() == '(' ? "" : ", ") + text_of(name) + "=" + repr_of(value);
     return text + ")";
   });

@@ -240,7 +240,7 @@ std::vector<std::uint8_t> ModelFile::serialise() const {
   std::string& metadata = fields["__metadata__"];
   for (const auto& [key, value] : stamped.metadata_)
     metadata += (metadata.empty() ? "{" : ",") + quoted(key) + ":" + quoted(value);
-  metadata += "}";
+  metadata += '}';
   std::uint64_t offset = 0;
   for (const auto& [name, t] : tensors_) {
     fields[name] = "{\"data_offsets\":[" + std::to_string(offset) + "," +
@@ -252,7 +252,7 @@ std::vector<std::uint8_t> ModelFile::serialise() const {
   std::string text;
   for (const auto& [name, value] : fields)
     text += (text.empty() ? "{" : ",") + quoted(name) + ":" + value;
-  text += "}";
+  text += '}';
   text.append((8 - text.size() % 8) % 8,
               ' ');  // tensors start on a multiple of 8, as the layout asks
 

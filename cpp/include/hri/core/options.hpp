@@ -207,7 +207,7 @@ void validate(const O& options) {
 
 /// The options, once validate() has passed them: for the first entry of an initialiser list.
 template <class O>
-const O& validated(const O& options) {
+O validated(const O& options) {
   validate(options);
   return options;
 }
