@@ -73,7 +73,7 @@ check_minimum() {
   rm -rf "$venv"
   "${HRI_PYTHON:-python3}" -m venv "$venv"
   "$venv/bin/pip" install --quiet --disable-pip-version-check "cmake==3.22.*" "pybind11==2.12.*" "numpy==1.24.*" \
-    "scikit-build-core==0.10.*" pathspec
+    "scikit-build-core==0.11.*" pathspec
   PATH=$venv/bin:$PATH "$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation --no-deps . \
     -C build-dir=build/minimum/build -C cmake.define.HRI_BUILD_VISION=OFF
   (cd "$venv" && bin/python - <<'PYTHON')
