@@ -90,3 +90,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.get_closest_marker("data"):
             item.add_marker(pytest.mark.skip(reason="HRI_DATA names no folder of recordings"))
+
+
+def robot_data(name: str) -> Path:
+    """A factory motion in the folder that HRI_ROBOT_DATA names; without it the test is skipped."""
+    folder = os.environ.get("HRI_ROBOT_DATA")
+    if not folder:
+        pytest.skip("HRI_ROBOT_DATA names no folder of factory motions")
+    return Path(folder) / name

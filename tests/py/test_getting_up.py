@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot that gets up leans over its feet until they carry it, and at no other time."""
 
-import os
 from importlib.util import find_spec
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from conftest import robot_data
 from hri.robot import HOAP2, NAO, JointTable, Physics
 from hri.robot.control.getting_up import GettingUp
 
@@ -80,14 +79,11 @@ def test_a_robot_without_a_waist_gets_no_help():
 
 
 @pytest.mark.slow
-@pytest.mark.data
 @pytest.mark.skipif(find_spec("pybullet") is None, reason="no pybullet")
 @pytest.mark.parametrize(("friction", "mass_scale", "seed"), [(1.1, 1.0, 605), (1.1, 1.1, 602), (1.2, 1.1, 602)])
 def test_it_gets_up_from_its_back_on_a_rough_floor(friction: float, mass_scale: float, seed: int):
     """Soles that do not slip brake the way forward; joints are off by up to a degree."""
     from hri.studies.robot_motions import offsets, play
 
-    path = Path(os.environ["HRI_DATA"]) / "stand_up_back.csv"
-    if not path.exists():
-        pytest.skip("HRI_DATA holds no stand_up_back.csv")
+    path = robot_data("stand_up_back.csv")
     assert play(path, "back", Physics(friction, mass_scale, offsets(seed))).success("stand_up_back.csv")

@@ -2,12 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joint table, trajectories, the pulse CSV and the checks before a motion."""
 
-import os
-from pathlib import Path
-
 import numpy as np
 import pytest
 
+from conftest import robot_data
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.robot import (
     HOAP2,
@@ -158,13 +156,9 @@ def test_a_trajectory_refuses_what_is_none():
     assert [trajectory.at(t)[0] for t in (-1, 0, 0.25, 0.5, 9)] == [0.0, 0.0, 0.5, 1.0, 1.0]
 
 
-@pytest.mark.data
 @pytest.mark.parametrize("name", ["walk.csv", "stand_up_back.csv"])
 def test_factory_motions_are_safe_and_come_back_byte_for_byte(tmp_path, name):
-    default = Path(__file__).parents[3] / "shared" / "robot"
-    path = Path(os.environ.get("HRI_ROBOT_DATA", default)) / name
-    if not path.exists():
-        pytest.skip("no data")
+    path = robot_data(name)
     findings = check_pulse_csv(path)
     assert findings and {finding.severity for finding in findings} == {"warning"}
     write_pulse_csv(tmp_path / name, read_pulse_csv(path))

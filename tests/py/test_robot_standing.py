@@ -3,13 +3,12 @@
 """A robot on its feet: it settles, keeps its balance, falls when nothing holds it, stops, and writes a log."""
 
 import json
-import os
 from importlib.util import find_spec
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from conftest import robot_data
 from hri.core.errors import InvalidArgument, IoError
 from hri.robot import HOAP2, MotionLog, Physics, Trajectory, gesture_trajectory, open_robot
 from hri.robot.control.braking import brake
@@ -154,13 +153,10 @@ def test_locked_joints_rest_and_refuse():
 
 @needs_pybullet
 @pytest.mark.slow
-@pytest.mark.data
 def test_stop_in_mid_walk_ends_in_a_held_pose():
     from hri.robot import read_pulse_csv
 
-    path = Path(os.environ["HRI_DATA"]) / "walk.csv"
-    if not path.exists():
-        pytest.skip("HRI_DATA holds no walk.csv")
+    path = robot_data("walk.csv")
     walk = read_pulse_csv(path)
     idle = [name for name in HOAP2.names if name not in walk.joint_names]
     with open_robot("pybullet", fixed_base=False, locked=idle) as robot:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from typing import Self
 
 
-class _Hmm(SavedEstimator):
+class _Hmm(SavedEstimator, ABC):
     """What the HMMs share. Sequences stand one below the other in `X`; `lengths` says how long each is.
 
     Attributes
@@ -37,9 +38,9 @@ class _Hmm(SavedEstimator):
 
     report_: TrainingReport
 
+    @abstractmethod
     def _sequences(self, X: Any, lengths: Sequence[int] | None) -> list[Any]:
         """The sequences of `X`, each as the C++ model takes it."""
-        raise NotImplementedError
 
     @classmethod
     def from_model(cls, model: Any) -> Self:

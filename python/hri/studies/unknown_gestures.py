@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +32,8 @@ SHORTEST_REST = 8
 NUM_EMPTY = 20
 
 
-class Material(NamedTuple):
+@dataclass(frozen=True)
+class Material:
     """Recordings, and what is looked at in them."""
 
     folder: str
@@ -142,10 +144,11 @@ def _run(
 ) -> dict[str, Any]:
     result_rows, details = [], {}
     for name in data:
-        folder, pattern, source = DATA[name]
+        material = DATA[name]
+        source = material.source
         if len(data) > 1 and source not in webcam.measurable((source, "silhouettes")):
             continue
-        dataset = Dataset.load(data_dir / folder, "gesture", pattern)
+        dataset = Dataset.load(data_dir / material.folder, "gesture", material.pattern)
         recognizer = GestureRecognizer(source=source)
         rows = []
         for done, sample in enumerate(dataset.samples):
