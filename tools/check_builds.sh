@@ -2,6 +2,7 @@
 # check_builds.sh [VARIANT...]: builds of libhri that ./run test does not make, each with the tests that concern it. All
 # without names. Logs go to build/variants/; only those of failures are printed.
 #   asan      Clang, with address and undefined-behaviour sanitizers: all tests of the core, all instruction sets
+#   python    Clang, with the same sanitizers: Python's tests of everything but pictures and robots
 #   tsan      thread sanitizer: the tests that start threads
 #   shared    shared libraries: what they export, and a program that uses them
 #   small     no exceptions, no training: a program that only recognises, and its size
@@ -11,6 +12,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 logs=$PWD/build/variants
 max_small_bytes=400000
+sanitized_tests=(model_files.py models.py recognition.py speaker_adapter.py cepstra.py codebook.py hmm.py possibility_models.py
+  signal.py wavelet_packets.py sequence_models.py spectrograms.py lda.py options.py)
 mkdir -p "$logs"
 
 # configure NAME OPTIONS...: into build/NAME.
@@ -43,6 +46,21 @@ install_and_use() {
 check_asan() {
   cmake --preset asan
   tests_of asan core_tests io_tests signal_tests features_tests models_tests recognition_tests
+}
+
+# The runtime of the sanitizers comes before Python, which was built without them. -S: no editable install is seen.
+check_python() {
+  local python=$PWD/.venv/bin/python site=$PWD/build/asan/site packages
+  packages=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+  cmake --preset asan -DHRI_BUILD_PYTHON=ON -DPython_EXECUTABLE="$python" -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)"
+  cmake --build build/asan --target hri_python
+  rm -rf "$site"
+  mkdir -p "$site"
+  cp -r python/hri "$site"
+  cmake --install build/asan --component python --prefix "$site"
+  PYTHONPATH=$site:$packages PYTHONMALLOC=malloc ASAN_OPTIONS=detect_leaks=0 \
+    LD_PRELOAD=$(clang++ -print-file-name="libclang_rt.asan-$(uname -m).so") \
+    "$python" -S -m pytest -q -p no:cacheprovider "${sanitized_tests[@]/#/tests/py/test_}"
 }
 
 check_tsan() {
@@ -92,7 +110,7 @@ else:
 PYTHON
 }
 
-all=(asan tsan shared small minimum)
+all=(asan python tsan shared small minimum)
 (($#)) || set -- "${all[@]}"
 failed=()
 for variant in "$@"; do

@@ -101,11 +101,15 @@ def worst(sent, step_s):
     return outside, speed, acceleration
 
 
-def test_a_thousand_motions_that_pass_keep_every_limit():
+few_and_many = pytest.mark.parametrize("count", [150, pytest.param(1000, marks=pytest.mark.slow)])
+
+
+@few_and_many
+def test_motions_that_pass_keep_every_limit(count):
     motions = safe_motions(1)
     used = []
     with Recorded() as robot:
-        for number in range(1000):
+        for number in range(count):
             trajectory = next(motions)
             first = dict(zip(trajectory.joint_names, trajectory.positions_rad[0].tolist(), strict=True))
             if number % 2:  # else the approach leads there
@@ -118,27 +122,28 @@ def test_a_thousand_motions_that_pass_keep_every_limit():
             used.append(worst(robot.sent, robot.step_s))
             assert max(used[-1]) <= 1.0 + 1e-6, (number, trajectory, used[-1])
     used = np.array(used)
-    assert (used.max(axis=0) > (-1e-6, 0.99, 0.95)).all(), "some come up to the limits"
+    assert (used.max(axis=0) > (-1e-6, 0.99, 0.95 if count >= 1000 else 0.8)).all(), "some come up to the limits"
     assert (used[:, 2] > 0.5).mean() > 0.1
 
 
 @pytest.mark.parametrize("step_s", [0.001, 0.004, 0.02])
 def test_the_limits_are_kept_whatever_the_step(step_s):
     with Recorded(step_s) as robot:
-        for trajectory in itertools.islice(safe_motions(2), 60):
+        for trajectory in itertools.islice(safe_motions(2), 20):
             robot.reset(HOAP2.rest_rad)
             robot.sent = [list(robot._positions.values())] * 2
             assert robot.perform(trajectory)
             assert max(worst(robot.sent, step_s)) <= 1.0 + 1e-6, trajectory
 
 
-def test_stop_at_a_thousand_random_moments():
+@few_and_many
+def test_stop_at_random_moments(count):
     rng = np.random.default_rng(5)
     motions = safe_motions(6)
     stopped = moving = 0
     trajectory = next(motions)
     with Recorded() as robot:
-        while stopped < 1000:
+        while stopped < count:
             if stopped % 10 == 0:
                 trajectory = next(motions)
             robot.resume()
@@ -159,7 +164,7 @@ def test_stop_at_a_thousand_random_moments():
             robot.hold(0.03)
             assert robot.sent[held:] == [robot.sent[held - 1]] * 3
             assert max(worst(robot.sent, robot.step_s)) <= 1.0 + 1e-6, (trajectory, robot.stop_at)
-    assert moving > 300, "many stops come while a joint moves"
+    assert moving > 0.3 * count, "many stops come while a joint moves"
 
 
 @pytest.mark.slow
