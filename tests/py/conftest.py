@@ -14,6 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from hri.io import write_wav_pcm16
+from hri.recognition.word import filler_words, recognizer
 from hri.synthetic.signer import make_gesture_corpus
 
 RATE_HZ = 16000
@@ -98,3 +99,13 @@ def robot_data(name: str) -> Path:
     if not folder:
         pytest.skip("HRI_ROBOT_DATA names no folder of factory motions")
     return Path(folder) / name
+
+
+@pytest.fixture(scope="module")
+def few_fillers() -> Iterator[None]:
+    """Training with three filler words only, whose models take most of its time where the vocabulary is small."""
+    with pytest.MonkeyPatch.context() as patch:
+        labels = sorted({word.label for word in filler_words()})[:3]
+        few = tuple(word for word in filler_words() if word.label in labels)
+        patch.setattr(recognizer, "filler_words", lambda: few)
+        yield

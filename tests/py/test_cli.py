@@ -23,6 +23,8 @@ from hri.datasets import Dataset
 from hri.io import write_wav_pcm16
 from hri.studies import STUDIES
 
+pytestmark = pytest.mark.usefixtures("few_fillers")
+
 
 def test_train_then_recognise_with_the_models_kept_per_user(hri, spoken: Path, signed: Path, tmp_path: Path):
     trained = hri("train", "speech", "--data", spoken)

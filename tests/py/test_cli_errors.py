@@ -22,6 +22,8 @@ from hri.cli.progress import progress_bars
 from hri.cli.recognizers import recognizer_factory
 from hri.io import ModelFile
 
+pytestmark = pytest.mark.usefixtures("few_fillers")
+
 
 class Terminal(io.StringIO):
     """A stream that says it is a terminal."""

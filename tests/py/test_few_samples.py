@@ -19,6 +19,8 @@ from hri.io import write_wav_pcm16
 from hri.signal import resample
 from hri.studies import get_study, run_study
 
+pytestmark = pytest.mark.usefixtures("few_fillers")
+
 
 def flat(base_hz: float, seed: int) -> NDArray[np.float32]:
     return tone_word(base_hz, 0.0, 100 + seed)

@@ -26,6 +26,8 @@ from hri.robot.imitation.tracks import read_hand_tracks
 from hri.robot.motion.pulse_csv import write_pulse_csv
 from hri.robot.motion.short_csv import check_short_csv, write_short_csv
 
+pytestmark = pytest.mark.usefixtures("few_fillers")
+
 
 def test_numbers_are_those_of_a_table() -> None:
     for cell, value in {"1": 1.0, " -2.5\t": -2.5, "+.5e1": 5.0, "3.": 3.0}.items():

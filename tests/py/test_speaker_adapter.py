@@ -18,6 +18,8 @@ from hri.datasets import Dataset
 from hri.evaluation import adapting, evaluate_conditions
 from hri.studies import get_study, run_study
 
+pytestmark = pytest.mark.usefixtures("few_fillers")
+
 
 @pytest.fixture(scope="module")
 def words() -> package.WordRecognizer:

@@ -22,6 +22,8 @@ from hri.studies.registry import Layout
 from hri.studies.word_classifiers import CLASSIFIERS
 from hri.studies.word_features import FEATURES, approximation, denoised, load_words, read_words
 
+pytestmark = pytest.mark.usefixtures("few_fillers")
+
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory, spoken: Path) -> Path:

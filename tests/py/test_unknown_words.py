@@ -16,6 +16,8 @@ from hri.core.errors import InvalidArgument
 from hri.evaluation.rejection import equal_error_rate, error_rates, false_rejects_at
 from hri.studies import noise, unknown_words
 
+pytestmark = pytest.mark.usefixtures("few_fillers")
+
 
 def test_error_rates_are_those_of_counting() -> None:
     rng = np.random.default_rng(3)

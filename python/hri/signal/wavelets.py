@@ -96,6 +96,9 @@ def wavedec(
     if level == 0:
         return [values.copy()]
     name, border = name_of(wavelet), as_mode(mode)
+    if values.ndim == 1 and axis in (-1, 0):
+        bands: list[Array] = _native.wavedec(values, name, border, level)
+        return bands
     return _along([values], axis, lambda x: _native.wavedec(x, name, border, level))
 
 
@@ -125,10 +128,14 @@ def waverec(
     """
     if not coeffs:
         raise InvalidArgument("there are no coefficients")
-    bands = _of_one_type(*map(as_real, coeffs))
+    bands = [as_real(band) for band in coeffs]
     if len(bands) == 1:
         return bands[0].copy()
     name, border, count = name_of(wavelet), as_mode(mode), _WHOLE if num_samples is None else num_samples
+    if _are_lines(bands, axis):
+        line: Array = _native.waverec(bands, name, border, count)
+        return line
+    bands = _of_one_type(*bands)
     (signal,) = _along(bands, axis, lambda *lines: [_native.waverec(list(lines), name, border, count)])
     return signal
 
@@ -206,9 +213,22 @@ def _of_one_type(*arrays: Array) -> list[Array]:
     return [array.astype(dtype, copy=False) for array in arrays]
 
 
+def _are_lines(arrays: Sequence[Array], axis: int) -> bool:
+    """Whether they are signals of one type already. To ask in general takes as long as a transform."""
+    if axis not in (-1, 0):
+        return False
+    dtype = arrays[0].dtype
+    for array in arrays:
+        if array.ndim != 1 or array.dtype is not dtype:
+            break
+    else:
+        return True
+    return False
+
+
 def _along(arrays: Sequence[Array], axis: int, transform: Callable[..., Sequence[Array]]) -> list[Array]:
     """`transform` of the lines of all arrays along `axis`; what it gives stands along that axis again."""
-    if all(array.ndim == 1 for array in arrays) and axis in (0, -1):
+    if axis in (-1, 0) and all(array.ndim == 1 for array in arrays):
         return list(transform(*arrays))
     axis = _axis(arrays[0], axis)
     moved = [np.moveaxis(array, axis, -1) for array in arrays]
