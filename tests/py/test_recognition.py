@@ -167,7 +167,7 @@ def test_other_threads_run_while_training(clips: Clips) -> None:
 
     counter = threading.Thread(target=count)
     counter.start()
-    hri.WordRecognizer(max_iterations=60, num_states=20).fit(x, y, sample_rate_hz=RATE_HZ)
+    hri.WordRecognizer(max_iterations=30, num_states=16).fit(x, y, sample_rate_hz=RATE_HZ, fillers=())
     done.set()
     counter.join()
     assert ticks >= 5

@@ -9,7 +9,6 @@ import os
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -111,14 +110,16 @@ def endure(
 ) -> dict[str, Any]:
     """Go on for so many hours: by hour, the share of rounds decided as the second one was, and the memory held.
 
-    The first round is left out, in which levels, colours and the floor of the noise are still learned.
+    Two rounds are left out: the first, in which levels, colours and the floor of the noise are still learned, and one
+    after the last hour, at whose end nothing follows.
     """
     rounds_an_hour = max(2, round(3600 / round_s))
     begun = time.perf_counter()
     reference: list[Said] | None = None
     shares, memory, equal = {}, [], []
     num_decisions = 0
-    for turn, said in zip(count(), rounds_of(listen(hours * rounds_an_hour), round_s)):
+    num_rounds = hours * rounds_an_hour
+    for turn, said in zip(range(num_rounds), rounds_of(listen(num_rounds + 1), round_s), strict=False):
         num_decisions += len(said)
         if turn == 1:
             reference = said
