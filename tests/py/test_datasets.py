@@ -317,7 +317,7 @@ def test_real_data_sets_are_recognised(
 ) -> None:
     root = Path(os.environ.get("HRI_DATA", "no such folder")) / folder
     if not root.is_dir():
-        pytest.skip("no data")
+        pytest.skip(f"HRI_DATA has no folder {folder}")
     dataset = Dataset.load(root)
     assert dataset.pattern == pattern
     found = len(dataset), len(dataset.labels), len(dataset.persons)

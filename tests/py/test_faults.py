@@ -29,8 +29,6 @@ from hri.media import write_video
 
 Run = Callable[..., CommandResult]
 
-pytestmark = pytest.mark.usefixtures("few_fillers")
-
 
 @pytest.fixture(scope="module")
 def models(spoken: Path, signed: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:

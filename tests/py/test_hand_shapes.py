@@ -226,7 +226,7 @@ def test_real_hands_may_be_moved_turned_and_scaled(kind: str) -> None:
     """On pictures of 100 x 100 a finger is 8 pixels wide, so that half a pixel counts."""
     folder = Path(os.environ["HRI_DATA"]) / "sign_digits"
     if not folder.is_dir():
-        pytest.skip("no data: no folder sign_digits")
+        pytest.skip("HRI_DATA has no folder sign_digits")
     masks = []
     for number, person in enumerate(sorted(path for path in folder.iterdir() if path.is_dir())[:20]):
         found = find_silhouettes([read_image(person / f"{number % 10}.jpg")])[0].mask

@@ -126,10 +126,11 @@ def test_motions_that_pass_keep_every_limit(count):
     assert (used[:, 2] > 0.5).mean() > 0.1
 
 
+@pytest.mark.parametrize("count", [20, pytest.param(60, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("step_s", [0.001, 0.004, 0.02])
-def test_the_limits_are_kept_whatever_the_step(step_s):
+def test_the_limits_are_kept_whatever_the_step(step_s, count):
     with Recorded(step_s) as robot:
-        for trajectory in itertools.islice(safe_motions(2), 20):
+        for trajectory in itertools.islice(safe_motions(2), count):
             robot.reset(HOAP2.rest_rad)
             robot.sent = [list(robot._positions.values())] * 2
             assert robot.perform(trajectory)

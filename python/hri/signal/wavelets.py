@@ -96,7 +96,7 @@ def wavedec(
     if level == 0:
         return [values.copy()]
     name, border = name_of(wavelet), as_mode(mode)
-    if values.ndim == 1 and axis in (-1, 0):
+    if values.ndim == 1 and axis in (-1, 0):  # the general case takes long beside the transform
         bands: list[Array] = _native.wavedec(values, name, border, level)
         return bands
     return _along([values], axis, lambda x: _native.wavedec(x, name, border, level))
@@ -214,7 +214,7 @@ def _of_one_type(*arrays: Array) -> list[Array]:
 
 
 def _are_lines(arrays: Sequence[Array], axis: int) -> bool:
-    """Whether they are signals of one type already. To ask in general takes as long as a transform."""
+    """Whether they are signals of one type, as they mostly are: the general case takes long beside the transform."""
     if axis not in (-1, 0):
         return False
     dtype = arrays[0].dtype

@@ -61,7 +61,7 @@ void MultiStreamCodebook::quantise(ConstMatrixRefF frames, Span<std::int32_t> ou
   check(frames);
   require(out.size() == static_cast<std::size_t>(frames.rows()) * streams_.size(),
           "out must have num_streams() places a frame");
-  if (out.empty()) return;  // nothing has no second place
+  if (out.empty()) return;  // no frames have no place for a second stream
   Eigen::Index first = 0;
   for (int s = 0; s < num_streams(); ++s) {
     stream(s).quantise(frames.middleCols(first, stream(s).dim()), out.data() + s, num_streams());
