@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import gc
-import os
+import re
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -36,6 +36,8 @@ SOUND_S = 300
 REST_S = 3.0
 """For so long the first picture of every clip is shown before it, so that the hand rests between two gestures."""
 MAX_GROWTH = 0.05
+# What /proc/self/status says of a process, in kB.
+LINES_OF_STATUS = re.compile(r"^(RssAnon|VmRSS|VmSwap):\s*(\d+ kB)$", re.MULTILINE)
 Said = tuple[float, str, str]
 """Of a decision: when in its round, in seconds, its label and its status."""
 
@@ -66,12 +68,16 @@ class RepeatedPictures(ClipSource):
 
 
 def memory_bytes() -> int:
-    """What this process holds in memory now. Raises InvalidArgument on other systems than Linux."""
+    """What this process holds of its own, in memory or swapped out. Raises InvalidArgument on other systems than Linux.
+
+    Pages of files (programs, libraries) are left out: the kernel takes and returns them as it likes.
+    """
     try:
-        pages = int(Path("/proc/self/statm").read_text("ascii").split()[1])
+        status = Path("/proc/self/status").read_text("utf-8", "replace")
     except OSError as error:
         raise InvalidArgument("the memory of a process is measured on Linux only") from error
-    return pages * os.sysconf("SC_PAGE_SIZE")
+    held = {key: int(value.split()[0]) * 1024 for key, value in LINES_OF_STATUS.findall(status)}
+    return held.get("RssAnon", held.get("VmRSS", 0)) + held.get("VmSwap", 0)
 
 
 def rounds_of(events: Iterable[Event], round_s: float) -> Iterator[list[Said]]:
