@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include "hri/core/error.hpp"
+#include "hri/core/threads.hpp"
 #include "hri/core/version.hpp"
 
 namespace py = pybind11;
@@ -98,6 +99,10 @@ PYBIND11_MODULE(_native, m) {
   m.doc() = "libhri's core: signal, features, models and recognition, without OpenCV.";
   m.attr("__version__") = HRI_VERSION;
   bind_errors(m);
+  m.def("set_num_threads", &hri::set_num_threads, py::arg("count"),
+        "At most this many threads train from now on, in this process; 0 (as at the start): one for "
+        "each processor.\n\nWhat is trained is the same to the bit for any number.");
+  m.def("num_threads", &hri::num_threads, "How many threads train, as set.");
   bind_option_field(m);
   bind_files(m);
   bind_resample(m);

@@ -10,7 +10,7 @@ The names below are loaded on first use, so that ``import hri`` pulls in neither
 import logging
 from typing import TYPE_CHECKING
 
-from hri._native import __version__
+from hri._native import __version__, num_threads, set_num_threads
 from hri.core.errors import Error, FormatError, Interrupted, InvalidArgument, IoError, NotFittedError
 
 if TYPE_CHECKING:
@@ -130,12 +130,14 @@ __all__ = [
     "load",
     "media",
     "models",
+    "num_threads",
     "open_robot",
     "read_audio",
     "read_frames",
     "recognition",
     "render_video",
     "robot",
+    "set_num_threads",
     "signal",
     "synthetic",
     "train",

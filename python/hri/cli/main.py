@@ -15,7 +15,7 @@ try:
 except ImportError:  # the base install has no command line
     sys.exit("hri: error: the command line needs click: pip install libhri[cli]")
 
-from hri import __version__
+from hri import __version__, set_num_threads
 from hri.cli.groups import SuggestingGroup
 from hri.cli.messages import set_verbosity
 from hri.cli.output import print_any_name
@@ -71,7 +71,13 @@ class LazyGroup(SuggestingGroup):
 @click.version_option(__version__, prog_name="hri")
 @click.option("-v", "--verbose", count=True, help="Also say what the library does; -vv every detail.")
 @click.option("-q", "--quiet", is_flag=True, help="Results and errors only.")
-def hri(verbose: int, quiet: bool) -> None:
+@click.option(
+    "--threads",
+    type=click.IntRange(0),
+    metavar="N",
+    help="Train on at most N threads; 0, the default: one for each processor. The result is the same to the bit.",
+)
+def hri(verbose: int, quiet: bool, threads: int | None) -> None:
     """Command a humanoid robot with spoken words and signed gestures.
 
     \b
@@ -89,6 +95,8 @@ def hri(verbose: int, quiet: bool) -> None:
     if verbose and quiet:
         raise click.UsageError("--verbose and --quiet exclude each other")
     set_verbosity(-1 if quiet else verbose)
+    if threads is not None:
+        set_num_threads(threads)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // SequenceScorer of Gaussian-mixture HMMs, with a garbage model of all classes and filler models.
+#include <optional>
 #include <utility>
 
+#include "core/parallel_for.hpp"
 #include "hri/core/error.hpp"
 #include "hri/models/adaptation/linear_adaptation.hpp"
 #include "hri/models/adaptation/map_adaptation.hpp"
@@ -136,36 +138,60 @@ std::vector<GaussianMixtureHmm> read_hmms(const ModelFile& file, const std::stri
   return hmms;
 }
 
-}  // namespace
-
-std::vector<GaussianMixtureHmm> train_hmms(const ClassSequences& sequences,
-                                           const SequenceModelOptions& options,
-                                           const StopCheck& should_stop) {
+GaussianMixtureHmmOptions hmm_options(const SequenceModelOptions& options, const StopCheck& stop) {
   GaussianMixtureHmmOptions of_hmm;
   of_hmm.topology = left_right(options.num_states);
   of_hmm.num_mixtures = options.num_mixtures;
   of_hmm.max_iterations = options.max_iterations;
   of_hmm.seed = options.seed;
-  of_hmm.should_stop = should_stop;
+  of_hmm.should_stop = stop;
+  return of_hmm;
+}
+
+GaussianMixtureOptions garbage_options(const SequenceModelOptions& options, const StopCheck& stop) {
+  GaussianMixtureOptions of_garbage;
+  of_garbage.num_mixtures = options.garbage_mixtures;
+  of_garbage.wide_weight = kGarbageWideWeight;
+  of_garbage.seed = options.seed;
+  of_garbage.should_stop = stop;
+  return of_garbage;
+}
+
+std::vector<GaussianMixtureHmm> all_of(std::vector<std::optional<GaussianMixtureHmm>> trained) {
   std::vector<GaussianMixtureHmm> result;
-  result.reserve(sequences.size());
-  for (const auto& list : sequences) result.push_back(GaussianMixtureHmm::train(list, of_hmm));
+  result.reserve(trained.size());
+  for (auto& hmm : trained) result.push_back(std::move(*hmm));
   return result;
+}
+
+}  // namespace
+
+std::vector<GaussianMixtureHmm> train_hmms(const ClassSequences& sequences,
+                                           const SequenceModelOptions& options,
+                                           const StopCheck& should_stop) {
+  std::vector<std::optional<GaussianMixtureHmm>> trained(sequences.size());
+  parallel_for(sequences.size(), should_stop, [&](std::size_t c, const StopCheck& stop) {
+    trained[c] = GaussianMixtureHmm::train(sequences[c], hmm_options(options, stop));
+  });
+  return all_of(std::move(trained));
 }
 
 std::shared_ptr<const SequenceScorer> train_hmm_scorer(const ClassSequences& sequences,
                                                        const SequenceModelOptions& options,
                                                        const StopCheck& should_stop,
                                                        const FillerModels& fillers) {
-  std::vector<GaussianMixtureHmm> hmms = train_hmms(sequences, options, should_stop);
-  GaussianMixtureOptions of_garbage;
-  of_garbage.num_mixtures = options.garbage_mixtures;
-  of_garbage.wide_weight = kGarbageWideWeight;
-  of_garbage.seed = options.seed;
-  of_garbage.should_stop = should_stop;
-  return std::make_shared<HmmScorer>(options.max_iterations, std::move(hmms),
-                                     GaussianMixture::train(stack_frames(sequences), of_garbage),
-                                     fillers);
+  std::vector<std::optional<GaussianMixtureHmm>> hmms(sequences.size());
+  std::optional<GaussianMixture> garbage;
+  // The model of all frames takes longest, and begins first.
+  parallel_for(sequences.size() + 1, should_stop, [&](std::size_t i, const StopCheck& stop) {
+    if (i == 0) {
+      garbage = GaussianMixture::train(stack_frames(sequences), garbage_options(options, stop));
+    } else {
+      hmms[i - 1] = GaussianMixtureHmm::train(sequences[i - 1], hmm_options(options, stop));
+    }
+  });
+  return std::make_shared<HmmScorer>(options.max_iterations, all_of(std::move(hmms)),
+                                     std::move(*garbage), fillers);
 }
 
 std::shared_ptr<const SequenceScorer> read_hmm_scorer(const ModelFile& file,

@@ -4,8 +4,10 @@
 // Training of WordRecognizer: features of every sample and of its augmented copies, models without
 // each fold of speakers for verifier and calibration, then the models that are kept.
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "core/parallel_for.hpp"
 #include "hri/core/error.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "recognition/word/non_words.hpp"
@@ -53,6 +55,12 @@ struct HeldOutFolds {
   std::vector<HeldOut> decisions;
   std::vector<VectorD> features;  // of each decision
   std::vector<VerifierExample> examples;
+
+  void append(HeldOutFolds more) {
+    std::move(more.decisions.begin(), more.decisions.end(), std::back_inserter(decisions));
+    std::move(more.features.begin(), more.features.end(), std::back_inserter(features));
+    std::move(more.examples.begin(), more.examples.end(), std::back_inserter(examples));
+  }
 };
 
 class WordTrainer {
@@ -69,7 +77,7 @@ class WordTrainer {
   WordRecognizer run(const std::vector<WordSample>& samples, const std::vector<WordSample>& fillers,
                      const TrainingProgress& progress) {
     train_fillers(fillers);
-    for (std::size_t i = 0; i < samples.size(); ++i) prepare(samples[i], i);
+    prepare(samples);
     const int num_folds = assign_folds();
     const int num_steps = num_folds + 2;
     int step = 0;
@@ -94,15 +102,17 @@ class WordTrainer {
     std::vector<std::string> words = words_of(fillers);
     std::sort(words.begin(), words.end());
     words.erase(std::unique(words.begin(), words.end()), words.end());
-    std::vector<std::vector<StreamFrames>> copies(words.size());
-    for (std::size_t i = 0; i < fillers.size(); ++i) {
-      poll(should_stop_);
+    std::vector<std::vector<StreamFrames>> of_samples(fillers.size());
+    detail::parallel_for(fillers.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
       const std::vector<float> word =
           augmentation_.trim(fillers[i], detail::sample_name(fillers[i], "fillers", i));
-      if (word.empty()) continue;
-      auto& list = copies[static_cast<std::size_t>(label_index(words, fillers[i].label))];
       // Augmented as the vocabulary is, so that neither of the two fits noise or a voice better.
-      for (StreamFrames& copy : augmentation_.copies(word, i)) list.push_back(std::move(copy));
+      if (!word.empty()) of_samples[i] = augmentation_.copies(word, i);
+    });
+    std::vector<std::vector<StreamFrames>> copies(words.size());
+    for (std::size_t i = 0; i < fillers.size(); ++i) {
+      auto& list = copies[static_cast<std::size_t>(label_index(words, fillers[i].label))];
+      for (StreamFrames& copy : of_samples[i]) list.push_back(std::move(copy));
     }
     ClassStreams sequences;
     for (const auto& list : copies) {
@@ -115,28 +125,52 @@ class WordTrainer {
   }
 
   // Samples without speech are left out; train_without() refuses a label that has no other.
-  void prepare(const WordSample& sample, std::size_t index) {
-    poll(should_stop_);
-    const std::vector<float> word =
-        augmentation_.trim(sample, detail::sample_name(sample, "samples", index));
-    if (word.empty()) return;
-    PreparedSample p;
-    p.label = label_index(labels_, sample.label);
-    p.group = sample.group;
-    p.copies = augmentation_.copies(word, index);
-    if (index % source_step_ == 0) {
-      add_non_words(non_words_.sounds(word), VerifierExample::Kind::sound, &p);
-      add_non_words(non_words_.speech(word, sample.label, sample.group),
-                    VerifierExample::Kind::other_word, &p);
+  void prepare(const std::vector<WordSample>& samples) {
+    std::vector<std::vector<float>> words(samples.size());
+    std::vector<PreparedSample> made(samples.size());
+    detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
+      words[i] =
+          augmentation_.trim(samples[i], detail::sample_name(samples[i], "samples", i));
+      if (words[i].empty()) return;
+      made[i].label = label_index(labels_, samples[i].label);
+      made[i].group = samples[i].group;
+      made[i].copies = augmentation_.copies(words[i], i);
+    });
+    add_non_words(samples, words, &made);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (!words[i].empty()) prepared_.push_back(std::move(made[i]));
     }
-    prepared_.push_back(std::move(p));
   }
 
-  void add_non_words(const std::vector<std::vector<float>>& audio, VerifierExample::Kind kind,
-                     PreparedSample* p) const {
+  // Each non-word depends on the words before it, so that only their features are independent.
+  void add_non_words(const std::vector<WordSample>& samples,
+                     const std::vector<std::vector<float>>& words,
+                     std::vector<PreparedSample>* made) {
+    using Kind = VerifierExample::Kind;
+    struct Sounds {
+      std::size_t source;
+      std::vector<std::vector<float>> noises, speech;
+    };
+    std::vector<Sounds> all;
+    for (std::size_t i = 0; i < samples.size(); i += source_step_) {
+      poll(should_stop_);
+      if (words[i].empty()) continue;
+      std::vector<std::vector<float>> noises = non_words_.sounds(words[i]);
+      all.push_back({i, std::move(noises),
+                     non_words_.speech(words[i], samples[i].label, samples[i].group)});
+    }
+    detail::parallel_for(all.size(), should_stop_, [&](std::size_t k, const StopCheck&) {
+      std::vector<NonWord>& to = (*made)[all[k].source].non_words;
+      append_frames(all[k].noises, Kind::sound, &to);
+      append_frames(all[k].speech, Kind::other_word, &to);
+    });
+  }
+
+  void append_frames(const std::vector<std::vector<float>>& audio, VerifierExample::Kind kind,
+                     std::vector<NonWord>* to) const {
     const WordFrontEnd& front_end = augmentation_.front_end();
     for (const std::vector<float>& a : audio) {
-      if (front_end.num_frames(a.size()) > 0) p->non_words.push_back({kind, front_end.frames(a)});
+      if (front_end.num_frames(a.size()) > 0) to->push_back({kind, front_end.frames(a)});
     }
   }
 
@@ -186,11 +220,15 @@ class WordTrainer {
   void score_fold(int fold, HeldOutFolds* held_out) const {
     if (!has_every_class_without(fold)) return;  // there is nothing to calibrate on
     const MultiStreamScorer scorer = train_without(fold);
+    std::vector<const PreparedSample*> left_out;
     for (const PreparedSample& p : prepared_) {
-      if (p.fold != fold) continue;
-      poll(should_stop_);
-      score_sample(p, scorer, held_out);
+      if (p.fold == fold) left_out.push_back(&p);
     }
+    std::vector<HeldOutFolds> found(left_out.size());
+    detail::parallel_for(left_out.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
+      score_sample(*left_out[i], scorer, &found[i]);
+    });
+    for (HeldOutFolds& one : found) held_out->append(std::move(one));
   }
 
   static void score_sample(const PreparedSample& p, const MultiStreamScorer& scorer,

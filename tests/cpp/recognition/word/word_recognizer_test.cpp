@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "hri/core/error.hpp"
+#include "hri/core/threads.hpp"
 #include "hri/io/wav.hpp"
 #include "recognition/tone_words.hpp"
 
@@ -137,6 +138,22 @@ TEST(WordRecognizer, AnswersTheSameInEveryThread) {
     threads.emplace_back([&] { f = recognizer.scores(all.audio[0], kRateHz); });
   for (std::thread& t : threads) t.join();
   for (const VectorF& f : found) EXPECT_EQ(f, expected);
+}
+
+TEST(WordRecognizer, IsTheSameFromAnyNumberOfThreads) {
+  const Clips all = tone_clips();
+  const std::vector<WordSample> fillers(all.samples.begin(), all.samples.begin() + 2);
+  std::vector<std::vector<std::uint8_t>> models;
+  for (const int count : {1, 2, 3}) {
+    set_num_threads(count);
+    WordRecognizerOptions options;
+    options.num_noisy_copies = 1;
+    models.push_back(
+        WordRecognizer::train(all.samples, options, {}, {}, fillers).to_model_file().serialise());
+  }
+  set_num_threads(0);
+  EXPECT_EQ(models[0], models[1]);
+  EXPECT_EQ(models[0], models[2]);
 }
 
 }  // namespace
