@@ -114,7 +114,11 @@ void bind_dwt(py::module_& m) {
         const hri::Wavelet& w = hri::wavelet(wavelet);
         std::vector<Array<T>> held;
         std::vector<hri::Span<const T>> bands;
+        held.reserve(coefficients.size());
+        bands.reserve(coefficients.size());
         for (const auto& c : coefficients) {
+          // As for arrays of two types: Python then takes the general way.
+          if (c.ndim() != 1) throw py::type_error("coefficients must have one dimension");
           held.push_back(contiguous(c));
           bands.push_back(as_span(held.back(), "coefficients"));
         }

@@ -128,13 +128,17 @@ def waverec(
     """
     if not coeffs:
         raise InvalidArgument("there are no coefficients")
+    name, border, count = name_of(wavelet), as_mode(mode), _WHOLE if num_samples is None else num_samples
+    if axis in (-1, 0) and len(coeffs) > 1:
+        # Signals of one type, as they mostly are; to find that out here would take long beside the transform.
+        try:
+            line: Array = _native.waverec(coeffs, name, border, count)
+            return line
+        except TypeError:
+            pass
     bands = [as_real(band) for band in coeffs]
     if len(bands) == 1:
         return bands[0].copy()
-    name, border, count = name_of(wavelet), as_mode(mode), _WHOLE if num_samples is None else num_samples
-    if _are_lines(bands, axis):
-        line: Array = _native.waverec(bands, name, border, count)
-        return line
     bands = _of_one_type(*bands)
     (signal,) = _along(bands, axis, lambda *lines: [_native.waverec(list(lines), name, border, count)])
     return signal
@@ -211,19 +215,6 @@ def _of_one_type(*arrays: Array) -> list[Array]:
     """The arrays as float32 where all are, else as float64."""
     dtype = np.result_type(*arrays)
     return [array.astype(dtype, copy=False) for array in arrays]
-
-
-def _are_lines(arrays: Sequence[Array], axis: int) -> bool:
-    """Whether they are signals of one type, as they mostly are: the general case takes long beside the transform."""
-    if axis not in (-1, 0):
-        return False
-    dtype = arrays[0].dtype
-    for array in arrays:
-        if array.ndim != 1 or array.dtype is not dtype:
-            break
-    else:
-        return True
-    return False
 
 
 def _along(arrays: Sequence[Array], axis: int, transform: Callable[..., Sequence[Array]]) -> list[Array]:
