@@ -142,6 +142,7 @@ __all__: list[str] = [
     "necessity_of",
     "noise_level",
     "normalise_time",
+    "num_threads",
     "orientation_histogram",
     "parse_wav",
     "possibilities",
@@ -152,6 +153,7 @@ __all__: list[str] = [
     "require_whole_video",
     "resample",
     "resample_contour",
+    "set_num_threads",
     "shape_axis",
     "shape_moments",
     "shape_number",
@@ -6303,6 +6305,11 @@ def normalise_time(
     Frames stretched or squeezed to num_rows rows by linear interpolation, float32.
     """
 
+def num_threads() -> int:
+    """
+    How many threads train, as set.
+    """
+
 def orientation_histogram(
     image: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], options: OrientationHistogramOptions = ...
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -6402,6 +6409,13 @@ def resample_contour(
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Points at equal distances along the smoothed outline: float32, shape (num_points, 2).
+    """
+
+def set_num_threads(count: typing.SupportsInt | typing.SupportsIndex) -> None:
+    """
+    At most this many threads train from now on, in this process; 0 (as at the start): one for each processor.
+
+    What is trained is the same to the bit for any number.
     """
 
 def shape_axis(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> tuple[float, float]:

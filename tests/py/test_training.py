@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import hri
+from hri.cli.main import main
 from hri.core.errors import InvalidArgument
 
 
@@ -27,6 +28,29 @@ def test_train_keeps_the_options_it_is_given(signed: Path) -> None:
     assert isinstance(recognizer, hri.GestureRecognizer)
     assert str(recognizer.get_params()["model"]).endswith("knn")
     assert list(recognizer.classes_) == ["1", "2"]
+
+
+def test_threads_do_not_change_what_is_trained(spoken: Path, tmp_path: Path, few_fillers: None) -> None:
+    models = []
+    try:
+        for count in (1, 3):
+            command = [
+                "--threads",
+                str(count),
+                "train",
+                "speech",
+                "--data",
+                str(spoken),
+                "--out",
+                str(tmp_path / "words.hri"),
+            ]
+            assert main(command) == 0 and hri.num_threads() == count
+            models.append((tmp_path / "words.hri").read_bytes())
+    finally:
+        hri.set_num_threads(0)
+    assert models[0] == models[1] and hri.num_threads() >= 1
+    with pytest.raises(InvalidArgument, match="num_threads"):
+        hri.set_num_threads(-1)
 
 
 def test_train_refuses_a_recogniser_of_the_other_mode(spoken: Path) -> None:

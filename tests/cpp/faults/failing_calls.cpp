@@ -7,6 +7,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
@@ -15,9 +16,9 @@
 
 namespace {
 
-std::int64_t g_calls[2] = {0, 0};
-std::int64_t g_fails[2] = {0, 0};
-std::int64_t g_blocks = 0;
+std::atomic<std::int64_t> g_calls[2] = {0, 0};
+std::atomic<std::int64_t> g_fails[2] = {0, 0};
+std::atomic<std::int64_t> g_blocks = 0;
 
 bool fails(hri::testing_data::Call kind) {
   const auto k = static_cast<std::size_t>(kind);

@@ -12,6 +12,7 @@
 
 #include "faults/failing_calls.hpp"
 #include "hri/core/error.hpp"
+#include "hri/core/threads.hpp"
 #include "hri/io/file.hpp"
 #include "hri/io/wav.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
@@ -123,8 +124,12 @@ TEST_F(Faults, TrainingLeavesNothing) {
     options.garbage_mixtures = 2;
     options.num_vtlp_factors = 1;
     options.num_noisy_copies = 0;
-    expect_no_leak(400, [&] { WordRecognizer::train(clips.samples, options); });
+    for (const int threads : {1, 2}) {
+      set_num_threads(threads);
+      expect_no_leak(200, [&] { WordRecognizer::train(clips.samples, options); });
+    }
   }
+  set_num_threads(0);
 }
 
 TEST_F(Faults, SavingKeepsAWholeFile) {
