@@ -28,6 +28,11 @@ Array<T> contiguous(const AnyLayout<T>& a) {
   return Array<T>(a);
 }
 
+// As for arrays of other types: Python then takes the general way.
+void require_signal(const py::array& a) {
+  if (a.ndim() != 1) throw py::type_error("a signal has one dimension");
+}
+
 // An array that the transform writes to itself.
 template <class T>
 Array<T> new_array(std::size_t size) {
@@ -86,6 +91,7 @@ void bind_dwt(py::module_& m) {
   m.def(
       "wavedec",
       [](const AnyLayout<T>& x, const std::string& wavelet, hri::Border border, int num_levels) {
+        require_signal(x);
         const Array<T> held = contiguous(x);
         const auto samples = as_span(held, "x");
         const hri::Wavelet& w = hri::wavelet(wavelet);
@@ -117,8 +123,7 @@ void bind_dwt(py::module_& m) {
         held.reserve(coefficients.size());
         bands.reserve(coefficients.size());
         for (const auto& c : coefficients) {
-          // As for arrays of two types: Python then takes the general way.
-          if (c.ndim() != 1) throw py::type_error("coefficients must have one dimension");
+          require_signal(c);
           held.push_back(contiguous(c));
           bands.push_back(as_span(held.back(), "coefficients"));
         }

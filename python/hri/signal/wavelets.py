@@ -90,15 +90,20 @@ def wavedec(
     list of ndarray
         Approximation, then details from coarse to fine.
     """
-    values = as_real(data)
+    name, border = name_of(wavelet), as_mode(mode)
     if level is None:
-        level = dwt_max_level(values.shape[_axis(values, axis)], wavelet)
+        data = as_real(data)
+        level = dwt_max_level(data.shape[_axis(data, axis)], wavelet)
+    if level and axis in (-1, 0):
+        # A signal of either type, as it mostly is; to find that out here would take long beside the transform.
+        try:
+            bands: list[Array] = _native.wavedec(data, name, border, level)  # type: ignore[call-overload]
+            return bands
+        except TypeError:
+            pass
+    values = as_real(data)
     if level == 0:
         return [values.copy()]
-    name, border = name_of(wavelet), as_mode(mode)
-    if values.ndim == 1 and axis in (-1, 0):  # the general case takes long beside the transform
-        bands: list[Array] = _native.wavedec(values, name, border, level)
-        return bands
     return _along([values], axis, lambda x: _native.wavedec(x, name, border, level))
 
 
@@ -132,7 +137,7 @@ def waverec(
     if axis in (-1, 0) and len(coeffs) > 1:
         # Signals of one type, as they mostly are; to find that out here would take long beside the transform.
         try:
-            line: Array = _native.waverec(coeffs, name, border, count)
+            line: Array = _native.waverec(coeffs, name, border, count)  # type: ignore[call-overload]
             return line
         except TypeError:
             pass
