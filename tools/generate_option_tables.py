@@ -19,7 +19,12 @@ from typing import Any
 from hri import _native, _native_vision
 
 ROOT = Path(__file__).resolve().parent.parent
-KEYWORDS_OF = (_native.WordRecognizerOptions, _native.GestureRecognizerOptions, _native.SpeakerAdapterOptions)
+KEYWORDS_OF = (
+    _native.WordRecognizerOptions,
+    _native.GestureRecognizerOptions,
+    _native.SpeakerAdapterOptions,
+    _native.SpeechEmbeddingOptions,
+)
 
 KEYWORDS_HEAD = '''# SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0

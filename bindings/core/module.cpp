@@ -31,6 +31,7 @@ void bind_hmm(py::module_& m);
 void bind_possibilistic(py::module_& m);
 void bind_recognition(py::module_& m);
 void bind_speaker_adapter(py::module_& m);
+void bind_speech_embedding(py::module_& m);
 void bind_gesture_segments(py::module_& m);
 
 namespace {
@@ -99,9 +100,10 @@ PYBIND11_MODULE(_native, m) {
   m.doc() = "libhri's core: signal, features, models and recognition, without OpenCV.";
   m.attr("__version__") = HRI_VERSION;
   bind_errors(m);
-  m.def("set_num_threads", &hri::set_num_threads, py::arg("count"),
-        "At most this many threads train from now on, in this process; 0 (as at the start): one for "
-        "each processor.\n\nWhat is trained is the same to the bit for any number.");
+  m.def(
+      "set_num_threads", &hri::set_num_threads, py::arg("count"),
+      "At most this many threads train from now on, in this process; 0 (as at the start): one for "
+      "each processor.\n\nWhat is trained is the same to the bit for any number.");
   m.def("num_threads", &hri::num_threads, "How many threads train, as set.");
   bind_option_field(m);
   bind_files(m);
@@ -123,5 +125,6 @@ PYBIND11_MODULE(_native, m) {
   bind_possibilistic(m);
   bind_recognition(m);
   bind_speaker_adapter(m);
+  bind_speech_embedding(m);
   bind_gesture_segments(m);
 }

@@ -98,6 +98,8 @@ __all__: list[str] = [
     "SilhouetteOptions",
     "SpeakerAdapter",
     "SpeakerAdapterOptions",
+    "SpeechEmbedding",
+    "SpeechEmbeddingOptions",
     "StateChoice",
     "StateChoiceOptions",
     "Topology",
@@ -5660,6 +5662,129 @@ class SpeakerAdapter:
     def recognizer(self) -> WordRecognizer: ...
     @property
     def update_due(self) -> bool: ...
+
+class SpeechEmbeddingOptions:
+    """
+    How one word becomes one vector.
+
+    Parameters
+    ----------
+    trim : bool, default True
+        trim the clip to the word, and activity.padding_ms before and after it
+    activity : ActivityOptions or dict
+        how the word is found in the clip
+    level : float, default 0.1
+        peak that the word is brought to; 0.001..1
+    noise_floor_db : float, default 50.0
+        level of the noise added under and around the word, below its peak; 20..120 dB
+    padding_s : float, default 0.6
+        noise before and after the word; 0.4..10 s
+    rows_per_step : int, default 2
+        1, 2, 4 or 8: windows begin so many times as often as every 80 ms; 1..8
+    num_pieces : int, default 6
+        pieces of equal length whose mean embeddings make up the vector; 1..10
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        trim: bool = True,
+        activity: ActivityOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        level: float = 0.1,
+        noise_floor_db: float = 50.0,
+        padding_s: float = 0.6,
+        rows_per_step: int = 2,
+        num_pieces: int = 6,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def activity(self) -> ActivityOptions:
+        """
+        how the word is found in the clip
+        """
+    @activity.setter
+    def activity(self, arg1: typing.Any) -> None: ...
+    @property
+    def level(self) -> float:
+        """
+        peak that the word is brought to
+        """
+    @level.setter
+    def level(self, arg1: typing.Any) -> None: ...
+    @property
+    def noise_floor_db(self) -> float:
+        """
+        level of the noise added under and around the word, below its peak
+        """
+    @noise_floor_db.setter
+    def noise_floor_db(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_pieces(self) -> int:
+        """
+        pieces of equal length whose mean embeddings make up the vector
+        """
+    @num_pieces.setter
+    def num_pieces(self, arg1: typing.Any) -> None: ...
+    @property
+    def padding_s(self) -> float:
+        """
+        noise before and after the word
+        """
+    @padding_s.setter
+    def padding_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def rows_per_step(self) -> int:
+        """
+        1, 2, 4 or 8: windows begin so many times as often as every 80 ms
+        """
+    @rows_per_step.setter
+    def rows_per_step(self, arg1: typing.Any) -> None: ...
+    @property
+    def trim(self) -> bool:
+        """
+        trim the clip to the word, and activity.padding_ms before and after it
+        """
+    @trim.setter
+    def trim(self, arg1: typing.Any) -> None: ...
+
+class SpeechEmbedding:
+    """
+    A pretrained speech embedding.
+    """
+    def __init__(self, path: str, options: SpeechEmbeddingOptions = ...) -> None: ...
+    def compute(
+        self,
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def word(
+        self,
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    @property
+    def checksum(self) -> str: ...
+    @property
+    def num_outputs(self) -> int: ...
+    @property
+    def options(self) -> SpeechEmbeddingOptions: ...
+    @property
+    def step_s(self) -> float: ...
+    @property
+    def window_s(self) -> float: ...
 
 class GestureSegmenterOptions:
     """

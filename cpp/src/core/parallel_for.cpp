@@ -61,7 +61,7 @@ class Loop {
     std::vector<std::thread> others;
     others.reserve(threads - 1);
     try {
-      while (others.size() + 1 < threads) others.emplace_back([this] { work(told()); });
+      while (others.size() + 1 < threads) others.emplace_back([this] { work(flag()); });
     } catch (const std::exception&) {  // no more threads, or no memory for one: fewer do it, too
     }
     work(asked());
@@ -70,7 +70,7 @@ class Loop {
   }
 
  private:
-  [[nodiscard]] StopCheck told() const {
+  [[nodiscard]] StopCheck flag() const {
     return [this] { return stopped_.load(); };
   }
   [[nodiscard]] StopCheck asked() {

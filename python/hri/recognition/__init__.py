@@ -15,13 +15,22 @@ from hri._native import (
     GestureSegmenterOptions,
     SequenceModelOptions,
     SpeakerAdapterOptions,
+    SpeechEmbeddingOptions,
     WordRecognizerOptions,
 )
 from hri.core.lazy import loader
 from hri.recognition.decision import Decision, NBest
 from hri.recognition.files import load
 from hri.recognition.gesture import GestureRecognizer
-from hri.recognition.word import FillerWord, SpeakerAdapter, Utterance, WordRecognizer, filler_words
+from hri.recognition.word import (
+    FillerWord,
+    SpeakerAdapter,
+    SpeechEmbedding,
+    Utterance,
+    WordRecognizer,
+    embedding_weights,
+    filler_words,
+)
 
 if TYPE_CHECKING:
     from hri._native_vision import GestureEvent, GestureSpotter, GestureStream, GestureStreamOptions
@@ -46,9 +55,12 @@ __all__ = [
     "SequenceModelOptions",
     "SpeakerAdapter",
     "SpeakerAdapterOptions",
+    "SpeechEmbedding",
+    "SpeechEmbeddingOptions",
     "Utterance",
     "WordRecognizer",
     "WordRecognizerOptions",
+    "embedding_weights",
     "filler_words",
     "load",
 ]

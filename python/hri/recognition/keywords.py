@@ -226,3 +226,15 @@ class SpeakerAdapterKeywords(TypedDict, total=False):
     num_iterations: int
     trusted_share: float
     max_words: int
+
+
+class SpeechEmbeddingKeywords(TypedDict, total=False):
+    """Fields of `SpeechEmbeddingOptions`."""
+
+    trim: bool
+    activity: _native.ActivityOptions | ActivityKeywords
+    level: float
+    noise_floor_db: float
+    padding_s: float
+    rows_per_step: int
+    num_pieces: int

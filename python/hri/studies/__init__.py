@@ -24,6 +24,7 @@ from hri.studies import (
     sign_features,
     signs,
     speech,
+    speech_embedding,
     synthetic_speakers,
     tempo,
     training_size,
@@ -38,6 +39,7 @@ from hri.studies.registry import Layout, Study, find_data, run_study
 
 _MODULES = (
     speech,
+    speech_embedding,
     noise,
     distance,
     tempo,

@@ -25,6 +25,7 @@
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/gesture/gesture_stream.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
+#include "hri/recognition/word/speech_embedding.hpp"
 #include "hri/signal/endpointer.hpp"
 #include "hri/signal/shrinkage.hpp"
 #include "hri/signal/wavelet_stream.hpp"
@@ -45,9 +46,9 @@ using All = testing::Types<
     RbfClassifierOptions, MapAdaptationOptions, Topology, PossibilisticRule,
     PossibilisticHmmOptions, HmmStreamOptions, FewSampleOptions, GaussianMixtureHmmOptions,
     GaussianMixtureOptions, DiscreteHmmOptions, StateChoiceOptions, SequenceModelOptions,
-    AdaptationOptions, SpeakerAdapterOptions, WordRecognizerOptions, GestureRecognizerOptions,
-    SilhouetteOptions, HandColourOptions, MaskSmoothingOptions, HandFinderOptions,
-    GestureSegmenterOptions, GestureStreamOptions>;
+    AdaptationOptions, SpeakerAdapterOptions, SpeechEmbeddingOptions, WordRecognizerOptions,
+    GestureRecognizerOptions, SilhouetteOptions, HandColourOptions, MaskSmoothingOptions,
+    HandFinderOptions, GestureSegmenterOptions, GestureStreamOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

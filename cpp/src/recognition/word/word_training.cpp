@@ -129,8 +129,7 @@ class WordTrainer {
     std::vector<std::vector<float>> words(samples.size());
     std::vector<PreparedSample> made(samples.size());
     detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-      words[i] =
-          augmentation_.trim(samples[i], detail::sample_name(samples[i], "samples", i));
+      words[i] = augmentation_.trim(samples[i], detail::sample_name(samples[i], "samples", i));
       if (words[i].empty()) return;
       made[i].label = label_index(labels_, samples[i].label);
       made[i].group = samples[i].group;
@@ -156,8 +155,8 @@ class WordTrainer {
       poll(should_stop_);
       if (words[i].empty()) continue;
       std::vector<std::vector<float>> noises = non_words_.sounds(words[i]);
-      all.push_back({i, std::move(noises),
-                     non_words_.speech(words[i], samples[i].label, samples[i].group)});
+      all.push_back(
+          {i, std::move(noises), non_words_.speech(words[i], samples[i].label, samples[i].group)});
     }
     detail::parallel_for(all.size(), should_stop_, [&](std::size_t k, const StopCheck&) {
       std::vector<NonWord>& to = (*made)[all[k].source].non_words;

@@ -25,7 +25,8 @@ std::vector<float> around(Span<const float> audio, const SpeechBounds& bounds, s
   return result;
 }
 
-// White noise of this standard deviation, the same every time.
+}  // namespace
+
 void add_noise_floor(double deviation, std::vector<float>* audio) {
   constexpr std::uint64_t kSeed = 1;
   constexpr double kRangeOfUnitPower = 3.4641016151377544;  // sqrt(12)
@@ -33,8 +34,6 @@ void add_noise_floor(double deviation, std::vector<float>* audio) {
   for (float& x : *audio)
     x += static_cast<float>(kRangeOfUnitPower * deviation * (random.uniform() - 0.5));
 }
-
-}  // namespace
 
 std::vector<float> trim_to_word(Span<const float> audio, const SpeechBounds& speech,
                                 int sample_rate_hz, const ActivityOptions& activity,

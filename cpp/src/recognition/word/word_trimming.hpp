@@ -19,4 +19,7 @@ std::vector<float> trim_to_word(Span<const float> audio, const SpeechBounds& spe
                                 int sample_rate_hz, const ActivityOptions& activity,
                                 double noise_floor_db);
 
+/// Adds white noise of this standard deviation, the same every time.
+void add_noise_floor(double deviation, std::vector<float>* audio);
+
 }  // namespace hri::detail

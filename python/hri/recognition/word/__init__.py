@@ -2,8 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Isolated words: training, recognition, adaptation to a speaker."""
 
+from hri.recognition.word.embedding import SpeechEmbedding, embedding_weights
 from hri.recognition.word.fillers import FillerWord, filler_words
 from hri.recognition.word.recognizer import Utterance, WordRecognizer
 from hri.recognition.word.speaker import SpeakerAdapter
 
-__all__ = ["FillerWord", "SpeakerAdapter", "Utterance", "WordRecognizer", "filler_words"]
+__all__ = [
+    "FillerWord",
+    "SpeakerAdapter",
+    "SpeechEmbedding",
+    "Utterance",
+    "WordRecognizer",
+    "embedding_weights",
+    "filler_words",
+]
