@@ -13,6 +13,8 @@
 namespace hri {
 namespace {
 
+constexpr int kRowsAtOnce = 64;
+
 // A feature map: frames of bands of channels, which are `stride` values apart.
 struct MapShape {
   int frames = 0;
@@ -216,12 +218,21 @@ MatrixF ConvNetwork::compute(ConstMatrixRefF frames) const {
   }
   const int rows = num_rows(static_cast<int>(frames.rows()));
   MatrixF result(rows, num_outputs_);
-  if (rows == 0) return result;
+  // Maps of an hour would take gigabytes.
+  for (int first = 0; first < rows; first += kRowsAtOnce) {
+    const int count = std::min(kRowsAtOnce, rows - first);
+    compute_rows(frames.middleRows(static_cast<Eigen::Index>(first) * step_frames_,
+                                   window_frames_ + (count - 1) * step_frames_),
+                 result.middleRows(first, count));
+  }
+  return result;
+}
+
+void ConvNetwork::compute_rows(ConstMatrixRefF frames, MatrixRefF out) const {
   Workspace& work = workspace();
-  // What the last row does not need is left out.
-  MapShape shape{window_frames_ + (rows - 1) * step_frames_, num_bands_, 1};
+  MapShape shape{static_cast<int>(frames.rows()), num_bands_, 1};
   work.map.resize(shape.size());
-  Eigen::Map<MatrixF>(work.map.data(), shape.frames, num_bands_) = frames.topRows(shape.frames);
+  Eigen::Map<MatrixF>(work.map.data(), shape.frames, num_bands_) = frames;
   ConvLayer before;
   int channels = 1;
   for (const auto& layer : layers_) {
@@ -234,8 +245,7 @@ MatrixF ConvNetwork::compute(ConstMatrixRefF frames) const {
   }
   const MapShape last{shape.frames / before.pool_frames, shape.bands / before.pool_bands, channels};
   pool_and_pad(work.map, shape, before, channels, 0, last, &work.padded);
-  std::copy(work.padded.begin(), work.padded.begin() + result.size(), result.data());
-  return result;
+  out = Eigen::Map<const MatrixF>(work.padded.data(), out.rows(), out.cols());
 }
 
 }  // namespace hri

@@ -64,6 +64,8 @@ class HRI_API ConvNetwork {
   [[nodiscard]] MatrixF compute(ConstMatrixRefF frames) const;
 
  private:
+  void compute_rows(ConstMatrixRefF frames, MatrixRefF out) const;
+
   int num_bands_;
   int num_outputs_ = 0;
   int window_frames_ = 1;
