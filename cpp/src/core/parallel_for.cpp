@@ -60,9 +60,7 @@ class Loop {
   void run(std::size_t threads) {
     std::vector<std::thread> others;
     others.reserve(threads - 1);
-    try {
-      while (others.size() + 1 < threads) others.emplace_back([this] { work(flag()); });
-    } catch (const std::exception&) {  // no more threads, or no memory for one: fewer do it, too
+    while (others.size() + 1 < threads && begin_another(&others)) {
     }
     work(asked());
     for (std::thread& other : others) other.join();
@@ -78,6 +76,16 @@ class Loop {
       if (!stopped_ && should_stop_ && should_stop_()) stopped_ = true;
       return stopped_.load();
     };
+  }
+
+  // False without threads or memory for one: fewer do it, too.
+  bool begin_another(std::vector<std::thread>* others) {
+    try {
+      others->emplace_back([this] { work(flag()); });
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
   }
 
   void work(const StopCheck& stop) noexcept {

@@ -12,7 +12,7 @@
 namespace hri {
 namespace {
 
-const CepstraOptions& checked(const CepstraOptions& options) {
+CepstraOptions checked(const CepstraOptions& options) {
   validate(options);
   require(options.kind == CepstraKind::filter_bank && options.padding == FramePadding::none &&
               options.pre_emphasis == 0 && !options.remove_dc,

@@ -3,6 +3,7 @@
 #include "hri/models/network/conv_network.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -73,7 +74,7 @@ void check(const ConvLayer& layer, std::size_t index, int in_channels) {
   }
   if (first_not_finite(layer.weights.data(), weights) < weights ||
       first_not_finite(layer.bias.data(), layer.bias.size()) < layer.bias.size() ||
-      !(layer.slope >= 0 && layer.slope <= 1) || layer.floor != layer.floor) {
+      !(layer.slope >= 0 && layer.slope <= 1) || std::isnan(layer.floor)) {
     fail_at(index, "a weight is not finite, or the activation is not one");
   }
 }

@@ -32,11 +32,11 @@ std::string hexadecimal(std::uint32_t value) {
 
 }  // namespace
 
-SpeechEmbedding::SpeechEmbedding(ConvNetwork network, std::string checksum,
+SpeechEmbedding::SpeechEmbedding(const ConvNetwork& network, std::string checksum,
                                  const SpeechEmbeddingOptions& options)
     : options_(validated(options)),
       mel_(LogMel::speech_embedding()),
-      network_(std::move(network)),
+      network_(network),
       checksum_(std::move(checksum)) {
   require(network_.step_frames() % options_.rows_per_step == 0,
           "rows_per_step must divide the frames from one embedding to the next");
@@ -70,7 +70,7 @@ double SpeechEmbedding::window_s() const {
 }
 
 double SpeechEmbedding::step_s() const {
-  return network_.step_frames() / options_.rows_per_step * mel_.options().frame_shift_ms / 1000;
+  return network_.step_frames() * mel_.options().frame_shift_ms / options_.rows_per_step / 1000;
 }
 
 MatrixF SpeechEmbedding::compute(Span<const float> audio, int sample_rate_hz) const {

@@ -88,7 +88,8 @@ class HRI_API SpeechEmbedding {
   [[nodiscard]] VectorF word(Span<const float> audio, int sample_rate_hz) const;
 
  private:
-  SpeechEmbedding(ConvNetwork network, std::string checksum, const SpeechEmbeddingOptions& options);
+  SpeechEmbedding(const ConvNetwork& network, std::string checksum,
+                  const SpeechEmbeddingOptions& options);
   [[nodiscard]] std::vector<float> prepared(Span<const float> word) const;
 
   SpeechEmbeddingOptions options_;
