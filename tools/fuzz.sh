@@ -2,7 +2,7 @@
 # fuzz.sh [TARGET|all] [SECONDS]: lets libFuzzer look for inputs that crash, hang, take too much memory or throw what is
 # no hri::Error. TARGET is a file of tests/fuzz without its ending, as in model_fuzz; SECONDS are for each (60). What is
 # learned stays in build/fuzz/corpus, what is found goes to build/fuzz/findings: reduce it, fix the cause, and keep it
-# in tests/fuzz/seeds.
+# in tests/fuzz/seeds. HRI_JOBS is how many targets run at a time, 1 by default.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -23,10 +23,10 @@ mkdir -p build/fuzz
 { cmake --preset asan && cmake --build build/asan --target "${targets[@]}"; } >build/fuzz/build.log 2>&1 ||
   { tail -40 build/fuzz/build.log >&2; exit 1; }
 
-failed=()
-for name in "${targets[@]}"; do
+# look_for NAME: with one target, for so many seconds.
+look_for() {
+  local name=$1 seeds=()
   mkdir -p "build/fuzz/corpus/$name" build/fuzz/findings
-  seeds=()
   [[ -d tests/fuzz/seeds/$name ]] && seeds+=("tests/fuzz/seeds/$name")
   [[ $name == model_fuzz ]] && seeds+=(tests/py/models_v1 tests/py/models_v2)
   if "build/asan/tests/fuzz/$name" -max_total_time="$seconds" -timeout="$max_seconds" -rss_limit_mb="$max_megabytes" \
@@ -35,11 +35,12 @@ for name in "${targets[@]}"; do
     printf '%s: %s executions in %s s, nothing found\n' "$name" \
       "$(sed -n 's/^stat::number_of_executed_units: *//p' "build/fuzz/$name.log")" "$seconds"
   else
-    failed+=("$name")
+    printf 'fuzz: %s found something\n' "$name" >&2
     tail -40 "build/fuzz/$name.log" >&2
+    return 1
   fi
-done
-if ((${#failed[@]})); then
-  printf 'fuzz: found something: %s\n' "${failed[*]}" >&2
-  exit 1
-fi
+}
+export -f look_for
+export seconds max_seconds max_megabytes
+# shellcheck disable=SC2016 # the other shell expands it
+printf '%s\n' "${targets[@]}" | xargs -P "${HRI_JOBS:-1}" -I '{}' bash -c 'look_for "$1"' _ '{}'
