@@ -8,9 +8,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 target=${1:-all}
 seconds=${2:-60}
-# The sanitizers make everything about ten times as slow: this stands for two seconds.
+# The sanitizers make everything about ten times as slow: this stands for two seconds. They also take memory of their own
+# for every block, and keep blocks that were given back: this stands for 512 megabytes, which no single block may exceed.
 max_seconds=20
-max_megabytes=512
+max_megabytes=1024
+max_block_megabytes=512
+export ASAN_OPTIONS=${ASAN_OPTIONS:-quarantine_size_mb=16}
 
 targets=()
 for source in tests/fuzz/*_fuzz.cpp; do targets+=("$(basename "$source" .cpp)"); done
@@ -30,7 +33,7 @@ look_for() {
   [[ -d tests/fuzz/seeds/$name ]] && seeds+=("tests/fuzz/seeds/$name")
   [[ $name == model_fuzz ]] && seeds+=(tests/py/models_v1 tests/py/models_v2)
   if "build/asan/tests/fuzz/$name" -max_total_time="$seconds" -timeout="$max_seconds" -rss_limit_mb="$max_megabytes" \
-    -max_len=65536 -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$name-" \
+    -malloc_limit_mb="$max_block_megabytes" -max_len=65536 -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$name-" \
     "build/fuzz/corpus/$name" ${seeds[@]+"${seeds[@]}"} >"build/fuzz/$name.log" 2>&1; then
     printf '%s: %s executions in %s s, nothing found\n' "$name" \
       "$(sed -n 's/^stat::number_of_executed_units: *//p' "build/fuzz/$name.log")" "$seconds"
@@ -41,6 +44,6 @@ look_for() {
   fi
 }
 export -f look_for
-export seconds max_seconds max_megabytes
+export seconds max_seconds max_megabytes max_block_megabytes
 # shellcheck disable=SC2016 # the other shell expands it
 printf '%s\n' "${targets[@]}" | xargs -P "${HRI_JOBS:-1}" -I '{}' bash -c 'look_for "$1"' _ '{}'

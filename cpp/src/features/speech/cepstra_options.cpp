@@ -93,6 +93,8 @@ const char* CepstraOptions::conflict() const {
   if (use_energy && !use_c0) return "use_energy needs use_c0";
   const FilterBankOptions bank = filter_bank_options();
   if (sample_rate_hz == 0) return bank.conflict();
+  // As fft_size: the weights of all filters would take half a gigabyte.
+  if (samples_of(frame_length_ms) > 65536) return "a frame must not have more than 65536 samples";
   if (fft_size != 0 && fft_size < samples_of(frame_length_ms))
     return "fft_size must not be less than the samples of a frame";
   return bank.conflict_at(sample_rate_hz);

@@ -75,6 +75,16 @@ TEST(CepstraComputer, RefusesWithThePlace) {
   EXPECT_THROW(computer.compute(noise(4000), wrong), InvalidArgument);
 }
 
+// The weights of 512 filters over a frame of a second at 384 kHz would take half a gigabyte.
+TEST(CepstraComputer, RefusesFramesOfMoreSamplesThanAnFft) {
+  CepstraOptions options;
+  options.sample_rate_hz = 384000;
+  options.frame_length_ms = 170;
+  EXPECT_EQ(CepstraComputer(options).frame_length(), 65280);
+  options.frame_length_ms = 1000;
+  EXPECT_THROW(CepstraComputer{options}, InvalidArgument);
+}
+
 TEST(CepstraComputer, GivesEveryThreadTheSame) {
   const CepstraComputer computer({});
   const std::vector<float> x = noise(8000);
