@@ -167,6 +167,7 @@ class Endpointer::Stream {
     const std::size_t shift = meter_.frame_shift();
     const detail::WordFrames word =
         finder_.find({frames_.data() + skipped, frames_.size() - skipped});
+    judged_ = begin + word.last;
     Endpoint event;
     event.at = num_samples_;
     event.segment_first = begin * shift;
@@ -183,9 +184,11 @@ class Endpointer::Stream {
     const std::size_t earliest = std::max(oldest(), reported_);
     *event = judge(onset_ > earliest + context_ ? onset_ - context_ : earliest);
     event->cut = cut;
-    // The silence after this utterance is also the silence before the next one.
-    reported_ =
-        event->kind == EndpointKind::speech_end ? event->last / meter_.frame_shift() : num_frames_;
+    // The silence after this utterance is also the silence before the next one. Where frames are
+    // shorter than their shift, the last one ends before the next begins.
+    reported_ = event->kind == EndpointKind::speech_end
+                    ? std::max(judged_, event->last / meter_.frame_shift())
+                    : num_frames_;
     state_ = State::silence;
     loud_ = 0;
   }
@@ -193,7 +196,7 @@ class Endpointer::Stream {
   void reset() {
     meter_.reset();
     frames_.clear();
-    num_samples_ = num_frames_ = onset_ = reported_ = loud_ = quiet_ = 0;
+    num_samples_ = num_frames_ = onset_ = reported_ = judged_ = loud_ = quiet_ = 0;
     voiced_ = 0;
     over_ = {};
     state_ = State::silence;
@@ -215,6 +218,7 @@ class Endpointer::Stream {
   std::size_t num_frames_ = 0;
   std::size_t onset_ = 0;     // the frame where the sound began
   std::size_t reported_ = 0;  // frames before this belong to utterances that were reported
+  std::size_t judged_ = 0;    // the frame behind the word that was judged last
   std::size_t loud_ = 0;
   std::size_t quiet_ = 0;
   float voiced_ = 0;

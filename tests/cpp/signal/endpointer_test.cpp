@@ -198,6 +198,33 @@ TEST(Endpointer, IsAsNewAfterTheEndOfAStream) {
   }
 }
 
+TEST(Endpointer, EndsWhereFramesAreShorterThanTheirShift) {
+  EndpointerOptions options;
+  options.activity.frame_ms = 20;
+  options.activity.shift_ms = 60;
+  options.activity.padding_ms = 0;
+  options.activity.min_voicing = 0.1;
+  std::size_t num_ends = 0;
+  // Recordings that end anywhere in a word, some with its only frame.
+  for (std::size_t size = 15000; size < 20000; size += 160) {
+    const std::vector<float> audio = speech(size, 0.9, 0.001, {{14000, size}});
+    Endpointer endpointer(kRateHz, options);
+    Endpoint event;
+    for (std::size_t at = 0; at < audio.size();)
+      at += endpointer.consume({audio.data() + at, audio.size() - at}, &event);
+    std::size_t last = 0;
+    int left = 100;
+    while ((event = endpointer.finish()).kind != EndpointKind::none && --left > 0) {
+      if (event.kind != EndpointKind::speech_end) continue;
+      EXPECT_GT(event.last, last) << size;
+      last = event.last;
+      ++num_ends;
+    }
+    EXPECT_GT(left, 0) << size;
+  }
+  EXPECT_GT(num_ends, 10U);
+}
+
 TEST(Endpointer, RefusesWhatItCannotJudge) {
   Endpointer endpointer(kRateHz, {});
   std::vector<float> x(1000, 0.0F);
