@@ -111,12 +111,13 @@ hri::WordRecognizer train_words(
     const std::vector<std::string>& labels, const std::vector<std::string>& groups,
     const hri::WordRecognizerOptions& options, const std::function<void(int, int)>& progress,
     const std::vector<FloatArray>& fillers, const std::vector<int>& filler_rates_hz,
-    const std::vector<std::string>& filler_labels) {
+    const std::vector<std::string>& filler_labels,
+    const std::shared_ptr<hri::SpeechEmbedding>& embedding) {
   const auto words = as_word_samples(samples, sample_rates_hz, labels, groups, "X");
   const auto others = as_word_samples(fillers, filler_rates_hz, filler_labels, {}, "fillers");
   const py::gil_scoped_release release;
   return hri::WordRecognizer::train(words, options, with_gil(progress), python_wants_to_stop,
-                                    others);
+                                    others, embedding);
 }
 
 void bind_words(py::module_& m) {
@@ -130,17 +131,26 @@ void bind_words(py::module_& m) {
                   py::arg("labels"), py::arg("groups"), py::arg("options"),
                   py::arg("progress") = nullptr, py::arg("fillers") = std::vector<FloatArray>{},
                   py::arg("filler_rates_hz") = std::vector<int>{},
-                  py::arg("filler_labels") = std::vector<std::string>{})
+                  py::arg("filler_labels") = std::vector<std::string>{},
+                  py::arg("embedding") = nullptr)
       .def("with_word", &with_word, py::arg("label"), py::arg("clips"), py::arg("sample_rates_hz"))
       .def("without_word", &hri::WordRecognizer::without_word, py::arg("label"))
       .def_static(
-          "load", [](const hri_bind::Path& path) { return hri::WordRecognizer::load(path.text); },
-          py::arg("path"), py::call_guard<py::gil_scoped_release>())
+          "load",
+          [](const hri_bind::Path& path, const std::shared_ptr<hri::SpeechEmbedding>& embedding) {
+            return hri::WordRecognizer::load(path.text, embedding);
+          },
+          py::arg("path"), py::arg("embedding") = nullptr, py::call_guard<py::gil_scoped_release>())
       .def(
           "save",
           [](const hri::WordRecognizer& self, const hri_bind::Path& path) { self.save(path.text); },
           py::arg("path"), py::call_guard<py::gil_scoped_release>())
-      .def_static("from_model_file", &hri::WordRecognizer::from_model_file, py::arg("file"))
+      .def_static(
+          "from_model_file",
+          [](const hri::ModelFile& file, const std::shared_ptr<hri::SpeechEmbedding>& embedding) {
+            return hri::WordRecognizer::from_model_file(file, embedding);
+          },
+          py::arg("file"), py::arg("embedding") = nullptr)
       .def("to_model_file", &hri::WordRecognizer::to_model_file)
       .def(
           "recognise",

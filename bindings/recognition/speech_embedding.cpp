@@ -7,6 +7,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <memory>
+
 #include "core/arrays.hpp"
 #include "core/options.hpp"
 
@@ -23,7 +25,8 @@ using hri_bind::to_array;
 void bind_speech_embedding(py::module_& m) {
   hri_bind::bind_options<hri::SpeechEmbeddingOptions>(m, "How one word becomes one vector.");
 
-  py::class_<hri::SpeechEmbedding>(m, "SpeechEmbedding", "A pretrained speech embedding.")
+  py::class_<hri::SpeechEmbedding, std::shared_ptr<hri::SpeechEmbedding>>(
+      m, "SpeechEmbedding", "A pretrained speech embedding.")
       .def(py::init(&hri::SpeechEmbedding::load), py::arg("path"),
            py::arg("options") = hri::SpeechEmbeddingOptions{})
       .def(

@@ -5068,6 +5068,8 @@ class WordRecognizerOptions:
         iterations of Baum-Welch at most; 1..1000
     seed : int, default 0
         of everything random in training; 0..2^64 - 1
+    front_end : {'cepstra', 'both'}, default 'cepstra'
+        cepstra, or both: with a pretrained speech embedding, whose weights are an extra
     cepstra : CepstraOptions or dict
         features of the speech
     activity : ActivityOptions or dict
@@ -5090,6 +5092,10 @@ class WordRecognizerOptions:
         largest; each copy has its own, at random; -20..100 dB
     false_reject_rate : float, default 0.02
         share of correct held-out words that the threshold may reject; 0..0.5
+    embedding_weight : float, default 10.0
+        weight of the speech embedding beside the streams of cepstra (front_end both); 0.01..1000
+    embedding_shrinkage : float, default 0.2
+        shrinkage of the embedding's linear discriminants (front_end both); 0..1
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -5110,6 +5116,7 @@ class WordRecognizerOptions:
         garbage_mixtures: int = 16,
         max_iterations: int = 12,
         seed: int = 0,
+        front_end: typing.Literal["cepstra", "both"] = "cepstra",
         cepstra: CepstraOptions | collections.abc.Mapping[str, typing.Any] = ...,
         activity: ActivityOptions | collections.abc.Mapping[str, typing.Any] = ...,
         trim: bool = True,
@@ -5121,6 +5128,8 @@ class WordRecognizerOptions:
         min_snr_db: float = 10.0,
         max_snr_db: float = 25.0,
         false_reject_rate: float = 0.02,
+        embedding_weight: float = 10.0,
+        embedding_shrinkage: float = 0.2,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -5143,12 +5152,33 @@ class WordRecognizerOptions:
     @cepstra.setter
     def cepstra(self, arg1: typing.Any) -> None: ...
     @property
+    def embedding_shrinkage(self) -> float:
+        """
+        shrinkage of the embedding's linear discriminants (front_end both)
+        """
+    @embedding_shrinkage.setter
+    def embedding_shrinkage(self, arg1: typing.Any) -> None: ...
+    @property
+    def embedding_weight(self) -> float:
+        """
+        weight of the speech embedding beside the streams of cepstra (front_end both)
+        """
+    @embedding_weight.setter
+    def embedding_weight(self, arg1: typing.Any) -> None: ...
+    @property
     def false_reject_rate(self) -> float:
         """
         share of correct held-out words that the threshold may reject
         """
     @false_reject_rate.setter
     def false_reject_rate(self, arg1: typing.Any) -> None: ...
+    @property
+    def front_end(self) -> typing.Literal["cepstra", "both"]:
+        """
+        cepstra, or both: with a pretrained speech embedding, whose weights are an extra
+        """
+    @front_end.setter
+    def front_end(self, arg1: typing.Any) -> None: ...
     @property
     def garbage_mixtures(self) -> int:
         """
@@ -5260,9 +5290,9 @@ class WordRecognizer:
     Isolated words; hri.WordRecognizer wraps it.
     """
     @staticmethod
-    def from_model_file(file: ModelFile) -> WordRecognizer: ...
+    def from_model_file(file: ModelFile, embedding: ... = None) -> WordRecognizer: ...
     @staticmethod
-    def load(path: str | bytes | os.PathLike[str]) -> WordRecognizer: ...
+    def load(path: str | bytes | os.PathLike[str], embedding: ... = None) -> WordRecognizer: ...
     @staticmethod
     def train(
         samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
@@ -5274,6 +5304,7 @@ class WordRecognizer:
         fillers: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = [],
         filler_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         filler_labels: collections.abc.Sequence[str] = [],
+        embedding: ... = None,
     ) -> WordRecognizer: ...
     def recognise(
         self,

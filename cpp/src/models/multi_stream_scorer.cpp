@@ -10,6 +10,9 @@
 namespace hri {
 namespace {
 
+constexpr const char* kVectors = "vectors.";
+constexpr double kPriorVectors = 10;  // imagined words that hold adaptation of the vectors back
+
 using Streams = std::vector<std::shared_ptr<const SequenceScorer>>;
 
 std::string prefix_of(std::size_t stream) { return "stream." + std::to_string(stream) + "."; }
@@ -38,30 +41,43 @@ std::size_t num_streams_of(const ClassStreams& sequences) {
 
 }  // namespace
 
-MultiStreamScorer::MultiStreamScorer(Streams streams) : streams_(std::move(streams)) {
+MultiStreamScorer::MultiStreamScorer(Streams streams, std::shared_ptr<const LdaScorer> vectors)
+    : streams_(std::move(streams)), vectors_(std::move(vectors)) {
   require(!streams_.empty(), "a scorer needs at least one stream");
   for (const auto& stream : streams_) {
     require(stream->kind() == kind() && stream->num_classes() == num_classes(),
             "streams differ in their models");
     require(stream->num_fillers() == num_fillers(), "streams differ in their filler words");
   }
+  require(vectors_ == nullptr || vectors_->num_classes() == num_classes(),
+          "streams and vectors differ in their classes");
 }
 
 MultiStreamScorer MultiStreamScorer::train(const ClassStreams& sequences,
                                            const SequenceModelOptions& options,
                                            const std::vector<FillerModels>& fillers,
-                                           const StopCheck& should_stop) {
-  const std::size_t num_streams = num_streams_of(sequences);
+                                           const StopCheck& should_stop,
+                                           const VectorTraining* vectors) {
+  const std::size_t num_streams = num_streams_of(sequences) - (vectors == nullptr ? 0 : 1);
   require(fillers.empty() || fillers.size() == num_streams, "fillers needs one list a stream");
   Streams streams;
   for (std::size_t s = 0; s < num_streams; ++s) {
     streams.push_back(train_sequence_scorer(of_stream(sequences, s), options, should_stop,
                                             fillers.empty() ? FillerModels{} : fillers[s]));
   }
-  return MultiStreamScorer(std::move(streams));
+  if (vectors == nullptr) return MultiStreamScorer(std::move(streams));
+  auto scorer = std::make_shared<const LdaScorer>(
+      LdaScorer::train(of_stream(sequences, num_streams), vectors->fillers, vectors->options));
+  return MultiStreamScorer(std::move(streams), std::move(scorer));
 }
 
 VectorF MultiStreamScorer::scores(const StreamFrames& frames) const {
+  VectorF sum = stream_scores(frames);
+  if (vectors_ != nullptr) sum += vectors_->scores(frames.back());
+  return sum;
+}
+
+VectorF MultiStreamScorer::stream_scores(const StreamFrames& frames) const {
   VectorF sum = streams_.front()->scores(frames.front());
   for (std::size_t s = 1; s < streams_.size(); ++s) sum += streams_[s]->scores(frames[s]);
   return sum;
@@ -85,7 +101,10 @@ MultiStreamScorer MultiStreamScorer::adapted(const ClassStreams& sequences,
   Streams streams;
   for (std::size_t s = 0; s < streams_.size(); ++s)
     streams.push_back(streams_[s]->adapted(of_stream(sequences, s), options));
-  return MultiStreamScorer(std::move(streams));
+  if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
+  auto moved = std::make_shared<const LdaScorer>(
+      vectors_->adapted(of_stream(sequences, streams_.size()), kPriorVectors));
+  return MultiStreamScorer(std::move(streams), std::move(moved));
 }
 
 MultiStreamScorer MultiStreamScorer::with_class(int index,
@@ -97,17 +116,23 @@ MultiStreamScorer MultiStreamScorer::with_class(int index,
     streams.push_back(
         streams_[s]->with_class(index, of_stream(sequences, s), num_recordings, should_stop));
   }
-  return MultiStreamScorer(std::move(streams));
+  if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
+  auto more = std::make_shared<const LdaScorer>(
+      vectors_->with_class(index, of_stream(sequences, streams_.size())));
+  return MultiStreamScorer(std::move(streams), std::move(more));
 }
 
 MultiStreamScorer MultiStreamScorer::without_class(int index) const {
   Streams streams;
   for (const auto& stream : streams_) streams.push_back(stream->without_class(index));
-  return MultiStreamScorer(std::move(streams));
+  if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
+  auto fewer = std::make_shared<const LdaScorer>(vectors_->without_class(index));
+  return MultiStreamScorer(std::move(streams), std::move(fewer));
 }
 
 void MultiStreamScorer::write(ModelFile& file) const {
   for (std::size_t s = 0; s < streams_.size(); ++s) streams_[s]->write(file, prefix_of(s));
+  if (vectors_ != nullptr) vectors_->write(file, kVectors);
 }
 
 MultiStreamScorer MultiStreamScorer::read(const ModelFile& file,
@@ -120,7 +145,9 @@ MultiStreamScorer MultiStreamScorer::read(const ModelFile& file,
     if (streams.back()->num_fillers() != streams.front()->num_fillers())
       fail(ErrorKind::format, file.name() + ": streams differ in their filler words");
   }
-  return MultiStreamScorer(std::move(streams));
+  if (!file.has(std::string(kVectors) + "weight")) return MultiStreamScorer(std::move(streams));
+  auto vectors = std::make_shared<const LdaScorer>(LdaScorer::read(file, kVectors, num_classes));
+  return MultiStreamScorer(std::move(streams), std::move(vectors));
 }
 
 std::vector<FillerModels> train_fillers(const ClassStreams& sequences, int num_streams,

@@ -21,7 +21,7 @@ from hri.cli.recognizers import (
 )
 from hri.evaluation.training import fillers_of
 from hri.evaluation.training import train as train_recognizer
-from hri.recognition import FillerWord
+from hri.recognition import FillerWord, WordRecognizer
 
 
 @click.command()
@@ -37,6 +37,12 @@ from hri.recognition import FillerWord
     help="Speech only: a folder of words outside the vocabulary, for rejection, in place of the synthetic ones of hri.",
 )
 @click.option("--no-fillers", is_flag=True, help="Speech only: no filler words; training and recognition are faster.")
+@click.option(
+    "--front-end",
+    type=click.Choice(["cepstra", "both"]),
+    help="Speech only: cepstra alone (the default), or both: with a pretrained speech embedding, which the extra "
+    "embedding installs. The same as --option front_end=...",
+)
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train(
@@ -47,6 +53,7 @@ def train(
     options: tuple[str, ...],
     fillers: str | None,
     no_fillers: bool,
+    front_end: str | None,
     seed: int,
     json_path: str | None,
 ) -> None:
@@ -57,11 +64,16 @@ def train(
       hri train speech --data spoken/
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
       hri train speech --data spoken/ --out digits.hri --option model=ptbhmm
+      hri train speech --data spoken/ --front-end both
     """
     if mode != "speech" and (fillers or no_fillers):
         raise click.UsageError("--fillers and --no-fillers are for speech")
     if fillers and no_fillers:
         raise click.UsageError("--fillers and --no-fillers exclude each other")
+    if front_end is not None:
+        if mode != "speech":
+            raise click.UsageError("--front-end is for speech")
+        options = (*options, f"front_end={front_end}")
     make = recognizer_factory(mode, options, seed)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
@@ -75,6 +87,8 @@ def train(
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
     note(f"{len(dataset)} recordings{persons}, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
+    if isinstance(recognizer, WordRecognizer):
+        note(f"front end: {_front_end(recognizer.options.front_end)}")
     if len(dataset.persons) < 2:
         note("confidences are calibrated best with two persons or more")
     write_json(
@@ -89,3 +103,12 @@ def train(
             "options": recognizer.options.as_dict(),
         },
     )
+
+
+def _front_end(name: str) -> str:
+    """What a model was trained on, and what else there is."""
+    if name == "both":
+        return (
+            "both, cepstra and a speech embedding (extra embedding); wherever the model is used it needs the extra too"
+        )
+    return "cepstra; --front-end both understands people better whom it has not met (extra embedding)"

@@ -110,7 +110,10 @@ class Recognizer:
             raise FormatError(f"the state of {name} must have a dict and bytes")
         self.__init__(**params)  # type: ignore[misc]
         if model is not None:
-            self._native = self._native_class.from_model_file(ModelFile.from_bytes(model, f"the state of {name}"))
+            self._native = self._from_model_file(ModelFile.from_bytes(model, f"the state of {name}"))
+
+    def _from_model_file(self, file: ModelFile) -> Any:
+        return self._native_class.from_model_file(file)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the model (safetensors layout). The old file stays whole if this fails."""

@@ -75,6 +75,7 @@ class WordRecognizerKeywords(TypedDict, total=False):
     garbage_mixtures: int
     max_iterations: int
     seed: int
+    front_end: Literal["cepstra", "both"]
     cepstra: _native.CepstraOptions | CepstraKeywords
     activity: _native.ActivityOptions | ActivityKeywords
     trim: bool
@@ -86,6 +87,8 @@ class WordRecognizerKeywords(TypedDict, total=False):
     min_snr_db: float
     max_snr_db: float
     false_reject_rate: float
+    embedding_weight: float
+    embedding_shrinkage: float
 
 
 class SilhouetteKeywords(TypedDict, total=False):

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -21,8 +22,8 @@ _KINDS = {
 }
 
 
-def load_native(native_class: Any, path: str | PathLike[str], kind: str) -> Any:
-    """The native recogniser in a file.
+def load_native(make: Callable[[ModelFile], Any], path: str | PathLike[str], kind: str) -> Any:
+    """The native recogniser that `make` makes of a file.
 
     Raises
     ------
@@ -37,7 +38,7 @@ def load_native(native_class: Any, path: str | PathLike[str], kind: str) -> Any:
     if kind_of_path not in ("", "a model"):
         raise FormatError(f"{text} is {kind_of_path}, and a {wanted} is needed here: train makes one, save writes it")
     try:
-        recognizer = native_class.load(text)
+        recognizer = make(ModelFile.read(text))
         _log.info("%s: a %s of %d labels", text, wanted, len(recognizer.labels))
         return recognizer
     except FormatError as error:

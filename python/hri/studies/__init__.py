@@ -7,6 +7,7 @@ from hri.core.suggest import did_you_mean
 from hri.studies import (
     adaptation,
     classifiers,
+    commands,
     cpp_parity,
     denoise,
     distance,
@@ -40,6 +41,7 @@ from hri.studies.registry import Layout, Study, find_data, run_study
 _MODULES = (
     speech,
     speech_embedding,
+    commands,
     noise,
     distance,
     tempo,

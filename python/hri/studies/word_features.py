@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -51,7 +51,11 @@ class SpokenWord:
 
 def load_words(data_dir: Path, name: str, takes: int | None = None) -> Dataset:
     """A data set of `WORD_FOLDERS`, with the first `takes` recordings of every word by every person."""
-    dataset = Dataset.load(data_dir / WORD_FOLDERS[name], "speech")
+    return first_takes(Dataset.load(data_dir / WORD_FOLDERS[name], "speech"), takes)
+
+
+def first_takes(dataset: Dataset, takes: int | None) -> Dataset:
+    """The first `takes` recordings of every word by every person; None: all."""
     if takes is None:
         return dataset
     met: Counter[tuple[str, str]] = Counter()
@@ -60,7 +64,7 @@ def load_words(data_dir: Path, name: str, takes: int | None = None) -> Dataset:
         met[sample.person, sample.label] += 1
         if met[sample.person, sample.label] <= takes:
             kept.append(sample)
-    return Dataset(dataset.root, "speech", kept)
+    return replace(dataset, samples=kept)
 
 
 def read_words(

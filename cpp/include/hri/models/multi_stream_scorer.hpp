@@ -1,37 +1,50 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Streams of features that vote: one SequenceScorer a stream, whose log scores add up.
+// Streams of features that vote: one SequenceScorer a stream, whose log scores add up, and where
+// there is one an LdaScorer of a vector for the whole sequence.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "hri/core/export.hpp"
+#include "hri/models/classifiers/lda_scorer.hpp"
 #include "hri/models/sequence_scorer.hpp"
 
 namespace hri {
 
-/// The frames of one sequence, one matrix a stream.
+/// The frames of one sequence, one matrix a stream; behind them a row for the whole sequence, where
+/// there is an LdaScorer.
 using StreamFrames = std::vector<MatrixF>;
 
 /// Training sequences of every class; pointers, since folds share them.
 using ClassStreams = std::vector<std::vector<const StreamFrames*>>;
 
+/// What the vectors of sequences are trained with.
+struct VectorTraining {
+  LdaScorerOptions options;
+  ClassSequences fillers;  ///< vectors of words outside the vocabulary, one list a word
+};
+
 /// Immutable; const calls are safe from several threads. Copies share their models.
 class HRI_API MultiStreamScorer {
  public:
   /// Throws InvalidArgument for no stream, and for streams that differ in kind, classes or fillers.
-  explicit MultiStreamScorer(std::vector<std::shared_ptr<const SequenceScorer>> streams);
+  explicit MultiStreamScorer(std::vector<std::shared_ptr<const SequenceScorer>> streams,
+                             std::shared_ptr<const LdaScorer> vectors = nullptr);
 
   /// Trains every stream, as train_sequence_scorer() does; `fillers` holds the models of each
-  /// stream, or nothing.
+  /// stream, or nothing. With `vectors`, the last matrix of every sequence is its vector.
   static MultiStreamScorer train(const ClassStreams& sequences, const SequenceModelOptions& options,
                                  const std::vector<FillerModels>& fillers,
-                                 const StopCheck& should_stop);
+                                 const StopCheck& should_stop,
+                                 const VectorTraining* vectors = nullptr);
 
-  /// The sums over streams of what SequenceScorer gives.
+  /// The sums over streams of what SequenceScorer gives, and LdaScorer.
   [[nodiscard]] VectorF scores(const StreamFrames& frames) const;
+  /// Those of streams alone.
+  [[nodiscard]] VectorF stream_scores(const StreamFrames& frames) const;
   [[nodiscard]] double garbage_score(const StreamFrames& frames) const;
   [[nodiscard]] VectorF filler_scores(const StreamFrames& frames) const;
 
@@ -46,6 +59,8 @@ class HRI_API MultiStreamScorer {
   [[nodiscard]] const std::vector<std::shared_ptr<const SequenceScorer>>& streams() const {
     return streams_;
   }
+  /// nullptr: there are no vectors.
+  [[nodiscard]] const std::shared_ptr<const LdaScorer>& vectors() const { return vectors_; }
   [[nodiscard]] SequenceModelKind kind() const { return streams_.front()->kind(); }
   [[nodiscard]] int num_classes() const { return streams_.front()->num_classes(); }
   [[nodiscard]] int num_fillers() const { return streams_.front()->num_fillers(); }
@@ -57,6 +72,7 @@ class HRI_API MultiStreamScorer {
 
  private:
   std::vector<std::shared_ptr<const SequenceScorer>> streams_;
+  std::shared_ptr<const LdaScorer> vectors_;
 };
 
 /// Trains the fillers of every stream, as train_fillers() does.

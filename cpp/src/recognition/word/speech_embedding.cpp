@@ -57,12 +57,20 @@ SpeechEmbedding SpeechEmbedding::parse(Span<const std::uint8_t> bytes, const std
                                 std::to_string(embedding.network_.num_bands()) +
                                 " bands, a speech embedding takes " + std::to_string(bands));
   }
-  if (embedding.window_s() > 2 * embedding.options_.padding_s) {
+  if (!embedding.fits_padding()) {
     fail(ErrorKind::format, name + ": its windows of " + std::to_string(embedding.window_s()) +
                                 " s are longer than twice padding_s");
   }
   return embedding;
 }
+
+SpeechEmbedding SpeechEmbedding::with_options(const SpeechEmbeddingOptions& options) const {
+  SpeechEmbedding embedding(network_, checksum_, options);
+  require(embedding.fits_padding(), "padding_s must be at least half of a window of the network");
+  return embedding;
+}
+
+bool SpeechEmbedding::fits_padding() const { return window_s() <= 2 * options_.padding_s; }
 
 double SpeechEmbedding::window_s() const {
   const CepstraOptions& mel = mel_.options();
@@ -98,6 +106,7 @@ std::vector<float> SpeechEmbedding::prepared(Span<const float> word) const {
   const auto padding = static_cast<std::size_t>(std::lround(options_.padding_s * kSampleRateHz));
   float peak = 0;
   for (const float x : word) peak = std::max(peak, std::abs(x));
+  if (peak == 0) peak = 1;
   const auto level = static_cast<float>(options_.level);
   std::vector<float> result(word.size() + 2 * padding, 0.0F);
   for (std::size_t n = 0; n < word.size(); ++n) result[padding + n] = word[n] / peak * level;
@@ -117,7 +126,16 @@ VectorF SpeechEmbedding::word(Span<const float> audio, int sample_rate_hz) const
   const SpeechBounds speech = find_speech(audio, kSampleRateHz, options_.activity);
   if (!speech.found) return {};
   if (options_.trim) audio = {audio.data() + speech.first, speech.last - speech.first};
-  const std::vector<float> samples = prepared(audio);
+  return vector_of(audio, kSampleRateHz);
+}
+
+VectorF SpeechEmbedding::vector_of(Span<const float> word, int sample_rate_hz) const {
+  std::vector<float> resampled;
+  if (sample_rate_hz != kSampleRateHz) {
+    resampled = resample(word, sample_rate_hz, kSampleRateHz);
+    word = {resampled.data(), resampled.size()};
+  }
+  const std::vector<float> samples = prepared(word);
   const MatrixF rows = compute({samples.data(), samples.size()}, kSampleRateHz);
   const int pieces = options_.num_pieces;
   VectorF result(static_cast<Eigen::Index>(pieces) * num_outputs());

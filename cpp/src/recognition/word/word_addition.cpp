@@ -32,8 +32,9 @@ std::string new_label(const std::vector<std::string>& labels,
 // The frames of every sample and of its augmented copies.
 std::vector<StreamFrames> augmented(const std::vector<WordSample>& samples,
                                     const WordRecognizerOptions& options,
+                                    const std::shared_ptr<const SpeechEmbedding>& embedding,
                                     const StopCheck& should_stop) {
-  const detail::WordAugmentation augmentation(options);
+  const detail::WordAugmentation augmentation(options, embedding);
   std::vector<StreamFrames> result;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     poll(should_stop);
@@ -54,15 +55,20 @@ WordRecognizer WordRecognizer::with_word(const std::vector<WordSample>& samples,
   std::vector<std::string> labels = labels_;
   labels.push_back(label);
   labels = sorted_labels(labels);
-  const std::vector<StreamFrames> frames = augmented(samples, options_, should_stop);
+  const std::vector<StreamFrames> frames =
+      augmented(samples, options_, front_end_.embedding(), should_stop);
   std::vector<const StreamFrames*> sequences;
   sequences.reserve(frames.size());
   for (const StreamFrames& copy : frames) sequences.push_back(&copy);
   const int index = label_index(labels, label);
   MultiStreamScorer scorer =
       scorer_.with_class(index, sequences, static_cast<int>(samples.size()), should_stop);
-  return {options_, std::move(labels), std::move(scorer), verifier_,
-          calibration_.with_class(index)};
+  return {options_,
+          std::move(labels),
+          std::move(scorer),
+          verifier_,
+          calibration_.with_class(index),
+          front_end_.embedding()};
 }
 
 WordRecognizer WordRecognizer::without_word(const std::string& label) const {
@@ -73,8 +79,12 @@ WordRecognizer WordRecognizer::without_word(const std::string& label) const {
   const int index = label_index(labels_, label);
   std::vector<std::string> labels = labels_;
   labels.erase(labels.begin() + index);
-  return {options_, std::move(labels), scorer_.without_class(index), verifier_,
-          calibration_.without_class(index)};
+  return {options_,
+          std::move(labels),
+          scorer_.without_class(index),
+          verifier_,
+          calibration_.without_class(index),
+          front_end_.embedding()};
 }
 
 }  // namespace hri

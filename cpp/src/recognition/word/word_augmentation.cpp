@@ -38,9 +38,19 @@ void check(const WordSample& sample, const std::string& name, double frame_ms) {
 
 }  // namespace
 
-WordAugmentation::WordAugmentation(const WordRecognizerOptions& options)
+WordAugmentation::WordAugmentation(const WordRecognizerOptions& options,
+                                   const std::shared_ptr<const SpeechEmbedding>& embedding)
     : options_(validated(options)) {
-  for (const double factor : warp_factors(options)) front_ends_.emplace_back(options, factor);
+  // The embedding has no filters to warp: all copies share the first front end's.
+  WordRecognizerOptions cepstra_only = options;
+  cepstra_only.front_end = FrontEndKind::cepstra;
+  for (const double factor : warp_factors(options)) {
+    if (front_ends_.empty()) {
+      front_ends_.emplace_back(options, factor, embedding);
+    } else {
+      front_ends_.emplace_back(cepstra_only, factor);
+    }
+  }
 }
 
 std::vector<float> WordAugmentation::trim(const WordSample& sample, const std::string& name) const {
@@ -51,8 +61,13 @@ std::vector<float> WordAugmentation::trim(const WordSample& sample, const std::s
 std::vector<StreamFrames> WordAugmentation::copies(Span<const float> word,
                                                    std::size_t index) const {
   std::vector<StreamFrames> result;
-  result.reserve(front_ends_.size());
-  for (const WordFrontEnd& front_end : front_ends_) result.push_back(front_end.frames(word));
+  result.reserve(front_ends_.size() + static_cast<std::size_t>(options_.num_noisy_copies));
+  const SpeechEmbedding* embedding = front_end().embedding().get();
+  result.push_back(front_end().frames(word));
+  for (std::size_t warp = 1; warp < front_ends_.size(); ++warp) {
+    result.push_back(front_ends_[warp].frames(word));
+    if (embedding != nullptr) result.back().push_back(result.front().back());
+  }
   Random random(options_.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
   for (int copy = 0; copy < options_.num_noisy_copies; ++copy) {
     const double snr_db =
@@ -60,6 +75,10 @@ std::vector<StreamFrames> WordAugmentation::copies(Span<const float> word,
     const std::vector<float> noisy = with_noise(word, snr_db, &random);
     const std::size_t warp = (index + static_cast<std::size_t>(copy)) % front_ends_.size();
     result.push_back(front_ends_[warp].frames(noisy));
+    if (embedding != nullptr && warp > 0) {
+      result.back().emplace_back(
+          embedding->vector_of(noisy, front_end().sample_rate_hz()).transpose());
+    }
   }
   return result;
 }

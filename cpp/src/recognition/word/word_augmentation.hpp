@@ -16,7 +16,8 @@ namespace hri::detail {
 class WordAugmentation {
  public:
   /// Throws InvalidArgument naming the option of VTLP or noise that is out of range.
-  explicit WordAugmentation(const WordRecognizerOptions& options);
+  explicit WordAugmentation(const WordRecognizerOptions& options,
+                            const std::shared_ptr<const SpeechEmbedding>& embedding = nullptr);
 
   /// The front end without warp.
   [[nodiscard]] const WordFrontEnd& front_end() const { return front_ends_.front(); }

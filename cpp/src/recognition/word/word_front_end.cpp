@@ -34,11 +34,17 @@ void check(Span<const float> audio, int sample_rate_hz) {
 
 }  // namespace
 
-WordFrontEnd::WordFrontEnd(const WordRecognizerOptions& options, double warp_factor)
+WordFrontEnd::WordFrontEnd(const WordRecognizerOptions& options, double warp_factor,
+                           std::shared_ptr<const SpeechEmbedding> embedding)
     : sample_rate_hz_(options.cepstra.sample_rate_hz),
       activity_(options.activity),
       trim_(options.trim),
-      noise_floor_db_(options.noise_floor_db) {
+      noise_floor_db_(options.noise_floor_db),
+      embedding_(std::move(embedding)) {
+  require(options.front_end == FrontEndKind::cepstra || embedding_ != nullptr,
+          "front_end both needs the weights of a speech embedding");
+  require(options.front_end == FrontEndKind::both || embedding_ == nullptr,
+          "front_end cepstra takes no speech embedding");
   CepstraOptions cepstra = options.cepstra;
   cepstra.warp *= warp_factor;
   streams_.emplace_back(cepstra);
@@ -81,6 +87,8 @@ StreamFrames WordFrontEnd::frames(Span<const float> word) const {
   StreamFrames result;
   result.reserve(streams_.size());
   for (const CepstraComputer& stream : streams_) result.push_back(stream.compute(word));
+  if (embedding_ != nullptr)
+    result.emplace_back(embedding_->vector_of(word, sample_rate_hz_).transpose());
   return result;
 }
 

@@ -15,10 +15,11 @@ const char* WordRecognizerOptions::conflict() const {
 
 WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
                                std::vector<std::string> labels, MultiStreamScorer scorer,
-                               WordVerifier verifier, const Calibration& calibration)
+                               WordVerifier verifier, const Calibration& calibration,
+                               std::shared_ptr<const SpeechEmbedding> embedding)
     : options_(validated(options)),
       labels_(std::move(labels)),
-      front_end_(options),
+      front_end_(options, 1, std::move(embedding)),
       scorer_(std::move(scorer)),
       verifier_(std::move(verifier)),
       calibration_(calibration) {
@@ -27,10 +28,12 @@ WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
           "labels and the scorer's classes differ in number");
   require(scorer_.streams().size() == static_cast<std::size_t>(front_end_.num_streams()),
           "the scorer and the front end differ in their streams");
+  require((scorer_.vectors() != nullptr) == (front_end_.embedding() != nullptr),
+          "the scorer and the front end differ in their embedding");
 }
 
 WordRecognizer WordRecognizer::with_scorer(MultiStreamScorer scorer) const {
-  return {options_, labels_, std::move(scorer), verifier_, calibration_};
+  return {options_, labels_, std::move(scorer), verifier_, calibration_, front_end_.embedding()};
 }
 
 Decision WordRecognizer::recognise(Span<const float> audio, int sample_rate_hz) const {
@@ -83,8 +86,9 @@ float WordRecognizer::verification_score(const StreamFrames& frames, const Vecto
 
 void WordRecognizer::save(const std::string& path) const { to_model_file().write(path); }
 
-WordRecognizer WordRecognizer::load(const std::string& path) {
-  return from_model_file(ModelFile::read(path));
+WordRecognizer WordRecognizer::load(const std::string& path,
+                                    std::shared_ptr<const SpeechEmbedding> embedding) {
+  return from_model_file(ModelFile::read(path), std::move(embedding));
 }
 
 }  // namespace hri

@@ -4,6 +4,7 @@
 // Training of WordRecognizer: features of every sample and of its augmented copies, models without
 // each fold of speakers for verifier and calibration, then the models that are kept.
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -20,6 +21,7 @@ constexpr int kMaxFolds = 4;
 constexpr std::size_t kNonWordSources = 300;  // samples from which non-words are made, at most
 constexpr int kDefaultRateHz = 16000;
 constexpr int kNoFold = -1;
+constexpr std::array<double, 4> kShrinkages{0.8, 0.5, 0.2, 0.05};  // of few speakers first
 
 int training_rate_hz(const std::vector<WordSample>& samples, int wanted_hz) {
   if (wanted_hz != 0) return wanted_hz;
@@ -66,10 +68,10 @@ struct HeldOutFolds {
 class WordTrainer {
  public:
   WordTrainer(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
-              StopCheck should_stop)
+              const std::shared_ptr<const SpeechEmbedding>& embedding, StopCheck should_stop)
       : options_(options),
         labels_(sorted_labels(words_of(samples))),
-        augmentation_(options),
+        augmentation_(options, embedding),
         non_words_(options.cepstra.sample_rate_hz, options.seed),
         source_step_(1 + samples.size() / kNonWordSources),
         should_stop_(std::move(should_stop)) {}
@@ -79,6 +81,7 @@ class WordTrainer {
     train_fillers(fillers);
     prepare(samples);
     const int num_folds = assign_folds();
+    fit_vector_options(num_folds);
     const int num_steps = num_folds + 2;
     int step = 0;
     const auto report = [&] {
@@ -122,6 +125,11 @@ class WordTrainer {
     }
     fillers_ = hri::train_fillers(sequences, augmentation_.front_end().num_streams(), options_,
                                   should_stop_);
+    if (augmentation_.front_end().embedding() == nullptr) return;
+    for (const auto& list : sequences) {
+      filler_vectors_.emplace_back();
+      for (const StreamFrames* copy : list) filler_vectors_.back().push_back(copy->back());
+    }
   }
 
   // Samples without speech are left out; train_without() refuses a label that has no other.
@@ -189,6 +197,68 @@ class WordTrainer {
     return num_folds;
   }
 
+  // Words held out, scored by linear discriminants alone.
+  struct HeldOutVectors {
+    int num_right = 0;
+    double spread = 0;  // sum over words of the mean square by which a discriminant misses its mean
+    int count = 0;
+  };
+
+  // How far the covariance can be trusted depends on how many people spoke: the shrinkage is the
+  // one that is right most often on words held out, and their spread is the unit of distance.
+  void fit_vector_options(int num_folds) {
+    vector_options_ = {options_.embedding_shrinkage, options_.embedding_weight};
+    if (augmentation_.front_end().embedding() == nullptr) return;
+    std::vector<double> shrinkages{options_.embedding_shrinkage};
+    if (options_.embedding_shrinkage == 0)
+      shrinkages.assign(kShrinkages.begin(), kShrinkages.end());
+    std::vector<int> folds;
+    for (int fold = 0; fold < num_folds; ++fold) {
+      if (has_every_class_without(fold)) folds.push_back(fold);
+    }
+    std::vector<HeldOutVectors> found(folds.size() * shrinkages.size());
+    detail::parallel_for(found.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
+      found[i] = score_vectors(folds[i / shrinkages.size()], shrinkages[i % shrinkages.size()]);
+    });
+    vector_options_.shrinkage = shrinkages.front();
+    int most = 0;
+    for (std::size_t k = 0; k < shrinkages.size(); ++k) {
+      HeldOutVectors sum;
+      for (std::size_t f = 0; f < folds.size(); ++f) {
+        const HeldOutVectors& one = found[f * shrinkages.size() + k];
+        sum.num_right += one.num_right;
+        sum.spread += one.spread;
+        sum.count += one.count;
+      }
+      if (sum.num_right <= most || sum.spread <= 0) continue;
+      most = sum.num_right;
+      vector_options_ = {shrinkages[k], options_.embedding_weight * sum.count / sum.spread};
+    }
+  }
+
+  [[nodiscard]] HeldOutVectors score_vectors(int fold, double shrinkage) const {
+    ClassSequences vectors(labels_.size());
+    for (const PreparedSample& p : prepared_) {
+      if (p.fold == fold) continue;
+      for (const StreamFrames& copy : p.copies)
+        vectors[static_cast<std::size_t>(p.label)].push_back(copy.back());
+    }
+    const LdaScorer scorer = LdaScorer::train(vectors, filler_vectors_, {shrinkage, 1});
+    HeldOutVectors result;
+    for (const PreparedSample& p : prepared_) {
+      if (p.fold != fold) continue;
+      for (const StreamFrames& copy : p.copies) {
+        const VectorF scores = scorer.scores(copy.back());
+        Eigen::Index best = 0;
+        scores.maxCoeff(&best);
+        result.num_right += best == p.label ? 1 : 0;
+        result.spread += -2.0 * static_cast<double>(scores[p.label]) / scorer.num_components();
+        result.count += 1;
+      }
+    }
+    return result;
+  }
+
   [[nodiscard]] ClassStreams sequences_without(int fold) const {
     ClassStreams sequences(labels_.size());
     for (const PreparedSample& p : prepared_) {
@@ -207,7 +277,10 @@ class WordTrainer {
              "label '" + labels_[c] + "': no sample with speech in it");
       }
     }
-    return MultiStreamScorer::train(sequences, options_, fillers_, should_stop_);
+    if (augmentation_.front_end().embedding() == nullptr)
+      return MultiStreamScorer::train(sequences, options_, fillers_, should_stop_);
+    const VectorTraining vectors{vector_options_, filler_vectors_};
+    return MultiStreamScorer::train(sequences, options_, fillers_, should_stop_, &vectors);
   }
 
   [[nodiscard]] bool has_every_class_without(int fold) const {
@@ -230,34 +303,46 @@ class WordTrainer {
     for (HeldOutFolds& one : found) held_out->append(std::move(one));
   }
 
-  static void score_sample(const PreparedSample& p, const MultiStreamScorer& scorer,
-                           HeldOutFolds* held_out) {
-    using Kind = VerifierExample::Kind;
-    const StreamFrames& frames = p.copies.front();
-    const VectorF scores = scorer.scores(frames);
-    Eigen::Index best = 0;
-    scores.maxCoeff(&best);
-    const VectorD features = WordVerifier::features(scorer, frames, scores);
-    held_out->decisions.push_back({scores, p.label, 0});
-    held_out->features.push_back(features);
-    if (best == p.label) held_out->examples.push_back({features, Kind::word});
-    if (scores.size() > 2) {
-      held_out->examples.push_back(
-          {WordVerifier::features(scorer, frames, scores, p.label), Kind::other_word});
-    }
+  void score_sample(const PreparedSample& p, const MultiStreamScorer& scorer,
+                    HeldOutFolds* held_out) const {
+    score_copy(p.copies.front(), p.label, scorer, held_out);
+    // How far noise takes a word from its fillers differs between cepstra and vectors.
+    const std::size_t num_noisy =
+        scorer.vectors() == nullptr ? 0 : static_cast<std::size_t>(options_.num_noisy_copies);
+    for (std::size_t i = p.copies.size() - num_noisy; i < p.copies.size(); ++i)
+      score_copy(p.copies[i], p.label, scorer, held_out);
     for (const NonWord& n : p.non_words) {
       held_out->examples.push_back(
           {WordVerifier::features(scorer, n.frames, scorer.scores(n.frames)), n.kind});
     }
   }
 
+  static void score_copy(const StreamFrames& frames, int label, const MultiStreamScorer& scorer,
+                         HeldOutFolds* held_out) {
+    using Kind = VerifierExample::Kind;
+    const VectorF scores = scorer.scores(frames);
+    Eigen::Index best = 0;
+    scores.maxCoeff(&best);
+    const VectorD features = WordVerifier::features(scorer, frames, scores);
+    held_out->decisions.push_back({scores, label, 0});
+    held_out->features.push_back(features);
+    if (best == label) held_out->examples.push_back({features, Kind::word});
+    if (scores.size() > 2) {
+      held_out->examples.push_back(
+          {WordVerifier::features(scorer, frames, scores, label), Kind::other_word});
+    }
+  }
+
   [[nodiscard]] WordRecognizer assemble(MultiStreamScorer scorer, HeldOutFolds held_out) const {
-    WordVerifier verifier = WordVerifier::fit(held_out.examples, scorer.num_fillers() > 0);
+    WordVerifier verifier =
+        WordVerifier::fit(held_out.examples, WordVerifier::num_filler_features(scorer));
     for (std::size_t i = 0; i < held_out.decisions.size(); ++i)
       held_out.decisions[i].score = verifier.verification_score(held_out.features[i]);
     const Calibration calibration =
         Calibration::fit(held_out.decisions, options_.false_reject_rate);
-    return {options_, labels_, std::move(scorer), std::move(verifier), calibration};
+    return {options_,          labels_,
+            std::move(scorer), std::move(verifier),
+            calibration,       augmentation_.front_end().embedding()};
   }
 
   WordRecognizerOptions options_;
@@ -267,6 +352,8 @@ class WordTrainer {
   std::size_t source_step_;
   StopCheck should_stop_;
   std::vector<FillerModels> fillers_;  // of every stream
+  ClassSequences filler_vectors_;
+  LdaScorerOptions vector_options_;
   std::vector<PreparedSample> prepared_;
 };
 
@@ -275,11 +362,12 @@ class WordTrainer {
 WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
                                      const WordRecognizerOptions& options,
                                      const TrainingProgress& progress, const StopCheck& should_stop,
-                                     const std::vector<WordSample>& fillers) {
+                                     const std::vector<WordSample>& fillers,
+                                     std::shared_ptr<const SpeechEmbedding> embedding) {
   validate(options);
   WordRecognizerOptions used = options;
   used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);
-  return WordTrainer(samples, used, should_stop).run(samples, fillers, progress);
+  return WordTrainer(samples, used, embedding, should_stop).run(samples, fillers, progress);
 }
 
 }  // namespace hri

@@ -22,65 +22,65 @@ constexpr double kPenalty = 10;       // of the regression; few people speak in 
 // Logs of deviations stay finite where a word is spoken exactly as long as usual.
 constexpr double kLeastLength = 0.006;
 constexpr double kLeastPace = 0.06;
+constexpr double kLeastDistance = 1e-3;  // of the distance that it is compared with
 
-// The best word, and the scores of the others in falling order.
-struct Ranking {
-  std::size_t best = 0;
-  std::vector<float> others;
-};
-
-Ranking ranking(const VectorF& scores, int left_out) {
-  Ranking result;
-  bool found = false;
-  for (Eigen::Index c = 0; c < scores.size(); ++c) {
-    if (c == left_out) continue;
-    if (!found || scores[c] > scores[static_cast<Eigen::Index>(result.best)])
-      result.best = static_cast<std::size_t>(c);
-    found = true;
+// The word of the highest score.
+std::size_t best_word(const VectorF& scores, int left_out) {
+  Eigen::Index best = left_out == 0 ? 1 : 0;
+  for (Eigen::Index c = best + 1; c < scores.size(); ++c) {
+    if (c != left_out && scores[c] > scores[best]) best = c;
   }
-  for (Eigen::Index c = 0; c < scores.size(); ++c) {
-    if (c != left_out && c != static_cast<Eigen::Index>(result.best))
-      result.others.push_back(scores[c]);
-  }
-  std::sort(result.others.rbegin(), result.others.rend());
-  return result;
+  return static_cast<std::size_t>(best);
 }
 
 // The mean score of the filler words that fit best: one that sounds like a word of the vocabulary
 // by chance does not decide alone.
-double filler_score(const MultiStreamScorer& scorer, const StreamFrames& frames) {
-  VectorF sums = scorer.filler_scores(frames);
+double best_fillers(VectorF sums) {
   const auto count = std::min<Eigen::Index>(kFillers, sums.size());
   std::partial_sort(sums.data(), sums.data() + count, sums.data() + sums.size(), std::greater<>());
   return static_cast<double>(sums.head(count).sum()) / static_cast<double>(count);
 }
 
-// The mean score of the best other words.
-double rival_score(const Ranking& ranks, double top) {
-  const std::size_t count = std::min(kRivals, ranks.others.size());
-  if (count == 0) return top;
+// The mean score of the best words other than `best`.
+double rival_score(const VectorF& scores, std::size_t best, int left_out) {
+  std::vector<float> others;
+  for (Eigen::Index c = 0; c < scores.size(); ++c) {
+    if (c != left_out && c != static_cast<Eigen::Index>(best)) others.push_back(scores[c]);
+  }
+  const std::size_t count = std::min(kRivals, others.size());
+  if (count == 0) return static_cast<double>(scores[static_cast<Eigen::Index>(best)]);
+  std::sort(others.rbegin(), others.rend());
   double sum = 0;
-  for (std::size_t k = 0; k < count; ++k) sum += static_cast<double>(ranks.others[k]);
+  for (std::size_t k = 0; k < count; ++k) sum += static_cast<double>(others[k]);
   return sum / static_cast<double>(count);
+}
+
+// Of squared distances, whose negative multiples the scores are. Noise draws all vectors towards
+// one another; their ratio stays about the same, where their difference does not.
+double log_distance_ratio(double score, double other_score) {
+  if (other_score >= 0) return score >= 0 ? 0 : -std::log(kLeastDistance);
+  return std::log(std::clamp(score / other_score, kLeastDistance, 1 / kLeastDistance));
 }
 
 // "states", "length" and "pace", over the best path of every stream.
 void add_path_features(const MultiStreamScorer& scorer, const StreamFrames& frames,
-                       std::size_t best, int left_out, VectorD* features) {
+                       std::size_t best, int left_out, std::vector<double>* features) {
   const auto num_frames = static_cast<double>(frames.front().rows());
-  const auto num_streams = static_cast<double>(frames.size());
+  const auto num_streams = static_cast<double>(scorer.streams().size());
+  double margin = 0;
   double length = 0;
   double deviation = 0;
   int num_states = 0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  for (std::size_t i = 0; i < scorer.streams().size(); ++i) {
     const PathFit fit = scorer.streams()[i]->path_fit(frames[i], static_cast<int>(best), left_out);
-    (*features)[2] += fit.state_margin / num_frames;
+    margin += fit.state_margin / num_frames;
     length += fit.log_duration_ratio / num_streams;
     deviation += fit.duration_deviation;
     num_states += fit.num_states;
   }
-  (*features)[3] = std::log(length * length + kLeastLength);
-  (*features)[4] = std::log(deviation / std::max(1, num_states) + kLeastPace);
+  features->push_back(margin);
+  features->push_back(std::log(length * length + kLeastLength));
+  features->push_back(std::log(deviation / std::max(1, num_states) + kLeastPace));
 }
 
 using Kind = VerifierExample::Kind;
@@ -116,40 +116,66 @@ double log_odds(const LogisticRegression& model, const VectorD& features) {
 
 // In files since format version 1.
 std::vector<std::string> stored_names(const MultiStreamScorer& scorer) {
-  std::vector<std::string> names =
-      WordVerifier::feature_names(scorer.kind(), scorer.num_fillers() > 0);
-  if (names.back() == "fillers") names.back() = "background";
+  std::vector<std::string> names = WordVerifier::feature_names(scorer);
+  std::replace(names.begin(), names.end(), std::string("fillers"), std::string("background"));
   return names;
 }
 
 }  // namespace
 
-std::vector<std::string> WordVerifier::feature_names(SequenceModelKind kind, bool fillers) {
-  if (kind == SequenceModelKind::ptbhmm) return {"ratio", "rivals"};
-  std::vector<std::string> names{"ratio", "rivals", "states", "length", "pace"};
-  if (fillers) names.emplace_back("fillers");
+std::vector<std::string> WordVerifier::feature_names(const MultiStreamScorer& scorer) {
+  std::vector<std::string> names{"ratio", "rivals"};
+  if (scorer.streams().front()->has_paths()) {
+    for (const char* name : {"states", "length", "pace"}) names.emplace_back(name);
+  }
+  const bool vectors = scorer.vectors() != nullptr;
+  if (vectors) names.emplace_back("vector_rivals");
+  if (scorer.num_fillers() > 0) {
+    names.emplace_back("fillers");
+    if (vectors) names.emplace_back("vector_fillers");
+  }
   return names;
 }
 
 VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFrames& frames,
                                const VectorF& scores, int left_out) {
-  const bool fillers = scorer.num_fillers() > 0;
-  VectorD result =
-      VectorD::Zero(static_cast<Eigen::Index>(feature_names(scorer.kind(), fillers).size()));
+  std::vector<double> result;
   const auto num_frames = static_cast<double>(frames.front().rows());
-  const Ranking ranks = ranking(scores, left_out);
-  const auto top = static_cast<double>(scores[static_cast<Eigen::Index>(ranks.best)]);
-  result[0] = (top - scorer.garbage_score(frames)) / num_frames;
-  result[1] = (top - rival_score(ranks, top)) / num_frames;
+  const LdaScorer* vectors = scorer.vectors().get();
+  VectorF of_vector;
+  VectorF of_streams = scores;
+  if (vectors != nullptr) {
+    of_vector = vectors->scores(frames.back());
+    of_streams -= of_vector;
+  }
+  const std::size_t best = best_word(scores, left_out);
+  const auto at = static_cast<Eigen::Index>(best);
+  const auto top = static_cast<double>(of_streams[at]);
+  result.push_back((top - scorer.garbage_score(frames)) / num_frames);
+  result.push_back((top - rival_score(of_streams, best, left_out)) / num_frames);
   if (scorer.streams().front()->has_paths())
-    add_path_features(scorer, frames, ranks.best, left_out, &result);
-  if (fillers) result[5] = (top - filler_score(scorer, frames)) / num_frames;
-  return result;
+    add_path_features(scorer, frames, best, left_out, &result);
+  const double near = vectors != nullptr ? static_cast<double>(of_vector[at]) : 0.0;
+  if (vectors != nullptr)
+    result.push_back(log_distance_ratio(near, rival_score(of_vector, best, left_out)));
+  if (scorer.num_fillers() > 0) {
+    result.push_back((top - best_fillers(scorer.filler_scores(frames))) / num_frames);
+    if (vectors != nullptr)
+      result.push_back(
+          log_distance_ratio(near, best_fillers(vectors->filler_scores(frames.back()))));
+  }
+  return Eigen::Map<const VectorD>(result.data(), static_cast<Eigen::Index>(result.size()));
 }
 
-WordVerifier WordVerifier::fit(const std::vector<VerifierExample>& examples, bool fillers) {
+int WordVerifier::num_filler_features(const MultiStreamScorer& scorer) {
+  if (scorer.num_fillers() == 0) return 0;
+  return scorer.vectors() != nullptr ? 2 : 1;
+}
+
+WordVerifier WordVerifier::fit(const std::vector<VerifierExample>& examples,
+                               int num_filler_features) {
   WordVerifier result;
-  result.words_ = regression(examples, Kind::other_word, fillers ? 1 : 0);
+  result.words_ = regression(examples, Kind::other_word, num_filler_features);
   result.sounds_ = regression(examples, Kind::sound, 0);
   return result;
 }
@@ -188,7 +214,8 @@ WordVerifier WordVerifier::read(const ModelFile& file, const MultiStreamScorer& 
     }
     return model;
   };
-  result.words_ = read_model(kWords, scorer.num_fillers() > 0 ? 1 : names.size());
+  const auto of_fillers = static_cast<std::size_t>(num_filler_features(scorer));
+  result.words_ = read_model(kWords, of_fillers > 0 ? of_fillers : names.size());
   result.sounds_ = read_model(kSounds, names.size());
   return result;
 }

@@ -227,4 +227,4 @@ class GestureRecognizer(Recognizer):
     @classmethod
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
-        return cls._wrap(load_native(_native.GestureRecognizer, path, "gesture_recognizer"))
+        return cls._wrap(load_native(_native.GestureRecognizer.from_model_file, path, "gesture_recognizer"))

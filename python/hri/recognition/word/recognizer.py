@@ -8,7 +8,7 @@ import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
-from typing import Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +16,14 @@ from numpy.typing import NDArray
 from hri import _native
 from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
+from hri.io import ModelFile
 from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
 from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.loading import load_native
+from hri.recognition.word.embedding import SpeechEmbedding
 from hri.recognition.word.fillers import FillerWord, filler_words
 
 _log = logging.getLogger(__name__)
@@ -83,6 +85,7 @@ class WordRecognizer(Recognizer):
         sample_rate_hz: int | Sequence[int] | None = None,
         groups: Sequence[str] | None = None,
         fillers: Sequence[FillerWord] | None = None,
+        embedding: SpeechEmbedding | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> WordRecognizer:
         """Train one model a label.
@@ -101,14 +104,18 @@ class WordRecognizer(Recognizer):
             Words outside the vocabulary, whose models the model "hmm" compares with to reject others of their kind. By
             default those that come with the package (`filler_words`); an empty sequence turns them off. They may sound
             like a word of the vocabulary, but should not be one.
+        embedding : SpeechEmbedding, optional
+            For ``front_end="both"``; by default of the weights that the extra `embedding` installs.
         progress : callable, optional
             Called with (done, total) training steps.
 
         Raises
         ------
+        ImportError
+            For ``front_end="both"`` without weights; names the extra.
         InvalidArgument
-            For lengths that differ, a clip that is not finite or too short (names it, as in ``X[3]``), or a label
-            without speech.
+            For lengths that differ, a clip that is not finite or too short (names it, as in ``X[3]``), a label
+            without speech, or an embedding where the front end is "cepstra".
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
@@ -117,6 +124,8 @@ class WordRecognizer(Recognizer):
             raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
+        if embedding is not None and self.options.front_end != "both":
+            raise InvalidArgument(f"front_end={self.options.front_end!r} takes no speech embedding")
         others = filler_words() if fillers is None else fillers
         with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(
@@ -129,6 +138,7 @@ class WordRecognizer(Recognizer):
                 [np.ascontiguousarray(word.samples, dtype=np.float32) for word in others],
                 [word.sample_rate_hz for word in others],
                 [word.label for word in others],
+                _embedding_for(self.options.front_end, embedding),
             )
         return self
 
@@ -270,6 +280,36 @@ class WordRecognizer(Recognizer):
         return float(self._trained.threshold)
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> WordRecognizer:
-        """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
-        return cls._wrap(load_native(_native.WordRecognizer, path, "word_recognizer"))
+    def load(cls, path: str | PathLike[str], *, embedding: SpeechEmbedding | None = None) -> WordRecognizer:
+        """Read a model that `save` wrote, in Python or C++.
+
+        Parameters
+        ----------
+        path : path
+        embedding : SpeechEmbedding, optional
+            For a model of the front end "both": of the weights that it was trained with, by default those that the
+            extra `embedding` installs.
+
+        Raises
+        ------
+        FormatError
+            For anything else, and for other weights than those of training.
+        ImportError
+            For a model of the front end "both" without weights; names the extra.
+        """
+        return cls._wrap(load_native(lambda file: _recognizer_in(file, embedding), path, "word_recognizer"))
+
+    def _from_model_file(self, file: ModelFile) -> Any:
+        return _recognizer_in(file)
+
+
+def _embedding_for(front_end: str, given: SpeechEmbedding | None) -> _native.SpeechEmbedding | None:
+    """What training with this front end takes: `given`, or the installed one where there has to be one."""
+    if front_end != "both":
+        return None
+    return (SpeechEmbedding() if given is None else given)._native
+
+
+def _recognizer_in(file: ModelFile, embedding: SpeechEmbedding | None = None) -> _native.WordRecognizer:
+    front_end = file.metadata().get("front_end", "") if file.kind == "word_recognizer" else ""
+    return _native.WordRecognizer.from_model_file(file, _embedding_for(front_end, embedding))

@@ -12,24 +12,12 @@
 #include <vector>
 
 #include "hri/core/error.hpp"
-#include "models/network/onnx_writer.hpp"
-#include "models/network/random_layers.hpp"
+#include "recognition/word/small_embedding.hpp"
 
 namespace hri {
 namespace {
 
-using testing_data::OnnxWriter;
-using testing_data::random_layer;
-
-SpeechEmbedding embedding(const SpeechEmbeddingOptions& options = {}, int bands = 32,
-                          int window = 9) {
-  std::vector<ConvLayer> layers{random_layer(window, 3, 1, 8), random_layer(1, 1, 8, 4)};
-  layers[0].pool_frames = 8;
-  layers[0].pool_bands = layers[1].pool_bands = 5;
-  const std::string bytes = OnnxWriter().model(bands, layers);
-  return SpeechEmbedding::parse({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
-                                "small.onnx", options);
-}
+using testing_data::small_embedding;
 
 // A word of two tones in the middle of near silence.
 std::vector<float> word(int rate_hz, float level) {
@@ -43,7 +31,7 @@ std::vector<float> word(int rate_hz, float level) {
 }
 
 TEST(SpeechEmbedding, HasARowAWindow) {
-  const SpeechEmbedding small = embedding();
+  const SpeechEmbedding small = small_embedding();
   EXPECT_EQ(small.num_outputs(), 4);
   EXPECT_NEAR(small.window_s(), 0.175, 1e-9);
   EXPECT_NEAR(small.step_s(), 0.04, 1e-9);
@@ -54,7 +42,7 @@ TEST(SpeechEmbedding, HasARowAWindow) {
   const MatrixF whole_steps = [&] {
     SpeechEmbeddingOptions options;
     options.rows_per_step = 1;
-    return embedding(options).compute(samples, 16000);
+    return small_embedding(options).compute(samples, 16000);
   }();
   for (Eigen::Index i = 0; i < whole_steps.rows(); ++i)
     EXPECT_EQ(whole_steps.row(i), rows.row(2 * i)) << i;
@@ -62,7 +50,7 @@ TEST(SpeechEmbedding, HasARowAWindow) {
 }
 
 TEST(SpeechEmbedding, AWordIsTheSameAtEveryLevelAndPlace) {
-  const SpeechEmbedding small = embedding();
+  const SpeechEmbedding small = small_embedding();
   const VectorF one = small.word(word(16000, 0.3F), 16000);
   ASSERT_EQ(one.size(), 6 * 4);
   const VectorF quiet = small.word(word(16000, 0.075F), 16000);
@@ -78,18 +66,18 @@ TEST(SpeechEmbedding, AWordIsTheSameAtEveryLevelAndPlace) {
 TEST(SpeechEmbedding, RefusesWhatItCannotTake) {
   SpeechEmbeddingOptions options;
   options.rows_per_step = 3;
-  EXPECT_THROW((void)embedding(options), InvalidArgument);
+  EXPECT_THROW((void)small_embedding(options), InvalidArgument);
   options.rows_per_step = 2;
   options.level = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW((void)embedding(options), InvalidArgument);
-  EXPECT_THROW((void)embedding({}, 31), FormatError);
-  EXPECT_THROW((void)embedding({}, 32, 130), FormatError);
+  EXPECT_THROW((void)small_embedding(options), InvalidArgument);
+  EXPECT_THROW((void)small_embedding({}, 31), FormatError);
+  EXPECT_THROW((void)small_embedding({}, 32, 130), FormatError);
   EXPECT_THROW((void)SpeechEmbedding::load("/nowhere/w.onnx"), IoError);
   std::vector<float> samples = word(16000, 0.3F);
   samples[3] = std::numeric_limits<float>::infinity();
-  EXPECT_THROW((void)embedding().compute(samples, 16000), InvalidArgument);
-  EXPECT_THROW((void)embedding().word(samples, 16000), InvalidArgument);
-  EXPECT_THROW((void)embedding().word(samples, 100), InvalidArgument);
+  EXPECT_THROW((void)small_embedding().compute(samples, 16000), InvalidArgument);
+  EXPECT_THROW((void)small_embedding().word(samples, 16000), InvalidArgument);
+  EXPECT_THROW((void)small_embedding().word(samples, 100), InvalidArgument);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ std::vector<VerifierExample> examples(double distance) {
 }
 
 TEST(WordVerifier, WeighsTheFeatureThatSeparatesWords) {
-  const WordVerifier verifier = WordVerifier::fit(examples(3), false);
+  const WordVerifier verifier = WordVerifier::fit(examples(3), 0);
   EXPECT_GT(verifier.word_weights()[0], 1);
   EXPECT_NEAR(verifier.word_weights()[1], 0, 0.3);
   EXPECT_GT(verifier.sound_weights()[0], 1);
@@ -91,8 +91,8 @@ TEST(WordVerifier, TakesTheRatioWhenUntrained) {
   EXPECT_EQ(WordVerifier().verification_score(features), 0.25F);
   std::vector<VerifierExample> words_only = examples(3);
   for (VerifierExample& e : words_only) e.kind = Kind::word;
-  EXPECT_EQ(WordVerifier::fit(words_only, false).word_weights().size(), 0);
-  EXPECT_EQ(WordVerifier::fit({}, false).verification_score(features), 0.25F);
+  EXPECT_EQ(WordVerifier::fit(words_only, 0).word_weights().size(), 0);
+  EXPECT_EQ(WordVerifier::fit({}, 0).verification_score(features), 0.25F);
 }
 
 // A model with two states, of frames near 0 and then near 5, and one of frames near 5 and then 0.
@@ -114,7 +114,7 @@ std::vector<GaussianMixtureHmm> steps() {
 }
 
 TEST(WordVerifier, FilesBelongToAKindOfModels) {
-  const WordVerifier verifier = WordVerifier::fit(examples(3), false);
+  const WordVerifier verifier = WordVerifier::fit(examples(3), 0);
   SequenceModelOptions options;
   options.num_states = 2;
   options.num_codewords = 2;
@@ -134,9 +134,9 @@ TEST(WordVerifier, FilesBelongToAKindOfModels) {
   EXPECT_EQ(WordVerifier::read(ModelFile(), with_fillers).word_weights().size(), 0);
   // The names in files stay those of format version 1.
   ModelFile names;
-  WordVerifier::fit(examples(3), true).write(names, with_fillers);
+  WordVerifier::fit(examples(3), 1).write(names, with_fillers);
   EXPECT_EQ(names.text_list("verifier.features").back(), "background");
-  EXPECT_EQ(WordVerifier::feature_names(SequenceModelKind::hmm, true).back(), "fillers");
+  EXPECT_EQ(WordVerifier::feature_names(with_fillers).back(), "fillers");
 }
 
 // As features() finds them from a file of such models, of frames that fit the first one.
@@ -160,8 +160,6 @@ VectorD features_of(int first_frames, int second_frames, int left_out) {
 }
 
 TEST(WordVerifier, FeaturesAreThoseOfTheAlignment) {
-  EXPECT_EQ(WordVerifier::feature_names(SequenceModelKind::hmm, false),
-            (std::vector<std::string>{"ratio", "rivals", "states", "length", "pace"}));
   const VectorD usual = features_of(4, 4, -1);
   const VectorD slow = features_of(40, 4, -1);
   ASSERT_EQ(usual.size(), 5);

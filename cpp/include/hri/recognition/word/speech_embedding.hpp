@@ -68,6 +68,8 @@ class HRI_API SpeechEmbedding {
                                const SpeechEmbeddingOptions& options = {});
 
   [[nodiscard]] const SpeechEmbeddingOptions& options() const { return options_; }
+  /// The same weights with other options. Throws InvalidArgument for options out of range.
+  [[nodiscard]] SpeechEmbedding with_options(const SpeechEmbeddingOptions& options) const;
   /// Values of an embedding: 96 of the published network.
   [[nodiscard]] int num_outputs() const { return network_.num_outputs(); }
   /// The audio that one embedding is computed from: 0.775 s of the published network.
@@ -86,10 +88,13 @@ class HRI_API SpeechEmbedding {
   /// one level, padded, and its embeddings averaged piece by piece. Empty without speech. Throws
   /// InvalidArgument as compute() does.
   [[nodiscard]] VectorF word(Span<const float> audio, int sample_rate_hz) const;
+  /// The same of a word that is trimmed already, with speech in it or without.
+  [[nodiscard]] VectorF vector_of(Span<const float> word, int sample_rate_hz) const;
 
  private:
   SpeechEmbedding(const ConvNetwork& network, std::string checksum,
                   const SpeechEmbeddingOptions& options);
+  [[nodiscard]] bool fits_padding() const;
   [[nodiscard]] std::vector<float> prepared(Span<const float> word) const;
 
   SpeechEmbeddingOptions options_;

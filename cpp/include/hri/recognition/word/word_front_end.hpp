@@ -5,6 +5,7 @@
 // the word over a noise floor, cepstra (thesis section 6.2).
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
 #include "hri/models/multi_stream_scorer.hpp"
+#include "hri/recognition/word/speech_embedding.hpp"
 #include "hri/signal/activity.hpp"
 
 namespace hri {
@@ -38,8 +40,10 @@ struct WordFeatures {
 class HRI_API WordFrontEnd {
  public:
   /// Every filter bank has its frequency axis warped by `warp_factor`, on top of
-  /// options.cepstra.warp. Throws InvalidArgument naming the option that is out of range.
-  explicit WordFrontEnd(const WordRecognizerOptions& options, double warp_factor = 1);
+  /// options.cepstra.warp. Throws InvalidArgument naming the option that is out of range, and where
+  /// options.front_end asks for an embedding that is not given, or does not.
+  explicit WordFrontEnd(const WordRecognizerOptions& options, double warp_factor = 1,
+                        std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
 
   /// trim(), then frames().
   [[nodiscard]] WordFeatures process(Span<const float> audio, int sample_rate_hz) const;
@@ -49,12 +53,17 @@ class HRI_API WordFrontEnd {
   /// finite, for audio shorter than one frame and for a sample rate out of range.
   [[nodiscard]] TrimmedWord trim(Span<const float> audio, int sample_rate_hz) const;
 
-  /// The cepstra of every stream of a trimmed word.
+  /// The cepstra of every stream of a trimmed word, and behind them its embedding, one row.
   [[nodiscard]] StreamFrames frames(Span<const float> word) const;
   /// How many frames a word of so many samples has.
   [[nodiscard]] int num_frames(std::size_t num_samples) const;
 
+  /// nullptr: there is none.
+  [[nodiscard]] const std::shared_ptr<const SpeechEmbedding>& embedding() const {
+    return embedding_;
+  }
   [[nodiscard]] int sample_rate_hz() const { return sample_rate_hz_; }
+  /// Of cepstra.
   [[nodiscard]] int num_streams() const { return static_cast<int>(streams_.size()); }
   [[nodiscard]] int num_features() const { return streams_.front().num_features(); }
 
@@ -64,6 +73,7 @@ class HRI_API WordFrontEnd {
   bool trim_;
   double noise_floor_db_;
   std::vector<CepstraComputer> streams_;
+  std::shared_ptr<const SpeechEmbedding> embedding_;
 };
 
 }  // namespace hri

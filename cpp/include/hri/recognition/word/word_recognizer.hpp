@@ -5,7 +5,9 @@
 // Decision (thesis section 6.2).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,12 @@
 
 namespace hri {
 
+enum class FrontEndKind : std::uint8_t {
+  cepstra,  ///< streams of cepstra alone
+  both,     ///< and a pretrained speech embedding, which votes too (speech_embedding.hpp)
+};
+constexpr auto enum_names(FrontEndKind) { return std::array{"cepstra", "both"}; }
+
 /// The fields of SequenceModelOptions are those of the models trained on each stream.
 struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   WordRecognizerOptions() {
@@ -32,6 +40,7 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
     activity.padding_ms = 60;
   }
 
+  FrontEndKind front_end = FrontEndKind::cepstra;
   CepstraOptions cepstra;
   ActivityOptions activity;
   bool trim = true;
@@ -43,11 +52,15 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   double min_snr_db = 10;
   double max_snr_db = 25;
   double false_reject_rate = 0.02;
+  double embedding_weight = 30;
+  double embedding_shrinkage = 0;
 
   static constexpr const char* kName = "WordRecognizerOptions";
   template <class Self, class Visitor>
   static void visit(Self& o, Visitor&& v) {
     SequenceModelOptions::visit(o, v);
+    v("front_end", o.front_end, any_value,
+      "cepstra, or both: with a pretrained speech embedding, whose weights are an extra");
     v("cepstra", o.cepstra, any_value, "features of the speech");
     v("activity", o.activity, any_value, "how the word is found in the clip");
     v("trim", o.trim, any_value,
@@ -73,6 +86,12 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
       formerly("noise_high_db"));
     v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
       "share of correct held-out words that the threshold may reject");
+    v("embedding_weight", o.embedding_weight, within(0.01, 1000),
+      "weight of the speech embedding beside the streams of cepstra, where words held out are 1 a "
+      "discriminant off their mean (front_end both)");
+    v("embedding_shrinkage", o.embedding_shrinkage, within(0, 1),
+      "shrinkage of the embedding's linear discriminants (front_end both); 0: chosen on words of "
+      "speakers held out");
   }
   /// nullptr, or which fields do not go together.
   [[nodiscard]] const char* conflict() const;
@@ -99,9 +118,10 @@ struct UtteranceDecision {
 class HRI_API WordRecognizer {
  public:
   /// From trained parts. Throws InvalidArgument for labels that are not sorted or do not fit the
-  /// scorer, and for options out of range.
+  /// scorer, for options out of range, and as WordFrontEnd does for the embedding.
   WordRecognizer(const WordRecognizerOptions& options, std::vector<std::string> labels,
-                 MultiStreamScorer scorer, WordVerifier verifier, const Calibration& calibration);
+                 MultiStreamScorer scorer, WordVerifier verifier, const Calibration& calibration,
+                 std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
 
   /// Trains one model a label. `fillers` are words outside the vocabulary, of any speakers: their
   /// models serve rejection alone (kind hmm; ptbhmm leaves them aside). Throws InvalidArgument for
@@ -112,7 +132,8 @@ class HRI_API WordRecognizer {
                               const WordRecognizerOptions& options,
                               const TrainingProgress& progress = {},
                               const StopCheck& should_stop = {},
-                              const std::vector<WordSample>& fillers = {});
+                              const std::vector<WordSample>& fillers = {},
+                              std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
 
   /// This recogniser with one word more, trained on few recordings (from one on, all of one label)
   /// and on the statistics of the words it has. Their models stay as they are, to the bit, and so
@@ -126,10 +147,14 @@ class HRI_API WordRecognizer {
   /// The same with another scorer of the same labels, such as an adapted one.
   [[nodiscard]] WordRecognizer with_scorer(MultiStreamScorer scorer) const;
 
-  static WordRecognizer load(const std::string& path);
+  /// One of the front end `both` needs the embedding that it was trained with: throws
+  /// InvalidArgument without one, and FormatError for one of other weights.
+  static WordRecognizer load(const std::string& path,
+                             std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
   void save(const std::string& path) const;
   [[nodiscard]] ModelFile to_model_file() const;
-  static WordRecognizer from_model_file(const ModelFile& file);
+  static WordRecognizer from_model_file(const ModelFile& file,
+                                        std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
 
   /// Recognises one utterance; notes report resampling, and more than one utterance in the audio.
   /// Decision::score is the log odds that a word of the vocabulary was said (word_verifier.hpp).
@@ -156,7 +181,8 @@ class HRI_API WordRecognizer {
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
 
  private:
-  static WordRecognizer read(const ModelFile& file);
+  static WordRecognizer read(const ModelFile& file,
+                             std::shared_ptr<const SpeechEmbedding> embedding);
 
   WordRecognizerOptions options_;
   std::vector<std::string> labels_;

