@@ -6,6 +6,8 @@
 #include <pybind11/stl.h>
 
 #include <functional>
+#include <type_traits>
+#include <utility>
 
 #include "core/options.hpp"
 #include "hri/models/classifiers/distance_classifier.hpp"
@@ -32,10 +34,35 @@ using hri_bind::to_array;
 
 namespace {
 
+// Whether a model takes many rows at once.
+template <class Model, class = void>
+inline constexpr bool takes_matrices = false;
+template <class Model>
+inline constexpr bool
+    takes_matrices<Model, std::void_t<decltype(std::declval<const Model&>().decision_values(
+                              std::declval<hri::ConstMatrixRefF>()))>> = true;
+
+using OneRow = hri::Span<const float>;
+
+// Applies one const member to a row, giving a vector, or another one to a matrix.
+template <class Model>
+py::array_t<float> row_or_rows(const Model& model, const FloatArray& rows,
+                               hri::VectorF (Model::*of_row)(OneRow) const,
+                               hri::MatrixF (Model::*of_rows)(hri::ConstMatrixRefF) const) {
+  if (rows.ndim() == 1) return to_array((model.*of_row)(as_span(rows, "rows")));
+  const auto matrix = as_matrix(rows, "rows");
+  hri::MatrixF values;
+  {
+    const py::gil_scoped_release release;
+    values = (model.*of_rows)(matrix);
+  }
+  return to_array(values);
+}
+
 // Applies a const member that takes one row to a row, giving a vector, or to every row of a matrix.
 template <class Model>
 py::array_t<float> per_row(const Model& model, const FloatArray& rows,
-                           hri::VectorF (Model::*method)(hri::Span<const float>) const) {
+                           hri::VectorF (Model::*method)(OneRow) const) {
   if (rows.ndim() == 1) return to_array((model.*method)(as_span(rows, "rows")));
   const auto matrix = as_matrix(rows, "rows");
   hri::MatrixF values(matrix.rows(), model.num_classes());
@@ -70,7 +97,11 @@ void bind_classifier(py::class_<Model>& cls, const std::function<void(Options*)>
   cls.def(
       "decision_values",
       [](const Model& self, const FloatArray& rows) {
-        return per_row(self, rows, &Model::decision_values);
+        if constexpr (takes_matrices<Model>) {
+          return row_or_rows<Model>(self, rows, &Model::decision_values, &Model::decision_values);
+        } else {
+          return per_row(self, rows, &Model::decision_values);
+        }
       },
       py::arg("rows"),
       "Scores, larger is likelier: (num_classes,) for one row, (num_rows, num_classes) for a "
@@ -178,7 +209,8 @@ void bind_bayes(py::module_& m) {
   cls.def(
       "log_densities",
       [](const hri::GaussianBayes& self, const FloatArray& rows) {
-        return per_row(self, rows, &hri::GaussianBayes::log_densities);
+        return row_or_rows<hri::GaussianBayes>(self, rows, &hri::GaussianBayes::log_densities,
+                                               &hri::GaussianBayes::log_densities);
       },
       py::arg("rows"), "log p(row | class), shapes as decision_values.");
 }

@@ -93,6 +93,21 @@ def test_linear_svm_matches_liblinear(cost: float) -> None:
     np.testing.assert_allclose(ours.decision_values(rows), peer.decision_function(rows), rtol=1e-3, atol=1e-3)
 
 
+@pytest.mark.parametrize("name", ["GaussianBayes", "Knn", "LinearSvm"])
+def test_scores_of_a_row_are_those_it_has_among_others(name: str) -> None:
+    model_type, options = getattr(_native, name), getattr(_native, f"{name}Options")()
+    rows, classes = blobs(3, 40, 0.8, 11)
+    rows += np.float32(1000)  # squares of distances by |x|^2 - 2 x.y + |y|^2 would be lost
+    model = model_type.train(rows, classes, 3, options)
+    together = model.decision_values(rows)
+    assert together.dtype == np.float32 and together.shape == (120, 3)
+    np.testing.assert_array_equal([model.decision_values(row) for row in rows], together)
+    np.testing.assert_array_equal(model.decision_values(rows[::2]), together[::2])
+    rows[7, 1] = np.nan
+    with pytest.raises(InvalidArgument, match="row 7, column 1"):
+        model.decision_values(rows)
+
+
 @pytest.mark.parametrize("shape", [(200, 12), (9, 30)])
 def test_pca_matches_scikit_learn(shape: tuple[int, int]) -> None:
     from sklearn.decomposition import PCA

@@ -11,6 +11,10 @@
 namespace hri {
 
 void validate_finite(ConstMatrixRefF rows, const char* what) {
+  // One walk over a contiguous matrix; the rows are looked at only to name the bad one.
+  const auto size = static_cast<std::size_t>(rows.size());
+  const bool contiguous = rows.rows() <= 1 || rows.outerStride() == rows.cols();
+  if (contiguous && first_not_finite(rows.data(), size) == size) return;
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const auto dim = static_cast<std::size_t>(rows.cols());
     const std::size_t c = first_not_finite(rows.data() + r * rows.outerStride(), dim);
@@ -30,6 +34,13 @@ void validate_row(Span<const float> row, int dim) {
   if (i < row.size()) {
     fail(ErrorKind::invalid_argument,
          "row[" + std::to_string(i) + "] is not finite: " + std::to_string(row[i]));
+  }
+}
+
+void validate_width(ConstMatrixRefF rows, int dim) {
+  if (rows.cols() != dim) {
+    fail(ErrorKind::invalid_argument, "rows have " + std::to_string(rows.cols()) +
+                                          " columns, the model has " + std::to_string(dim));
   }
 }
 

@@ -18,6 +18,9 @@ HRI_API void validate_finite(ConstMatrixRefF rows, const char* what);
 /// Throws InvalidArgument unless the row has `dim` values, all finite; the message names the index.
 HRI_API void validate_row(Span<const float> row, int dim);
 
+/// Throws InvalidArgument unless the rows have `dim` columns.
+HRI_API void validate_width(ConstMatrixRefF rows, int dim);
+
 /// What every classifier of rows demands: throws InvalidArgument for shapes that differ, rows not
 /// finite (names row and column), fewer than two classes, classes outside
 /// lowest_class..num_classes - 1 or without a row (names them); kNoClass needs no row.

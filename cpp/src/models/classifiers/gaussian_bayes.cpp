@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/models/classifiers/gaussian_bayes.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "hri/core/error.hpp"
 #include "hri/models/row_checks.hpp"
 #include "models/classifiers/class_statistics.hpp"
+#include "models/classifiers/row_kernels.hpp"
 
 namespace hri {
 namespace {
@@ -41,9 +43,9 @@ GaussianBayes GaussianBayes::train(ConstMatrixRefF rows, Span<const int> classes
 bool GaussianBayes::finish() {
   const Eigen::Index n = dim();
   for (Eigen::Index at = 0; at < covariances_.rows(); at += n) {
-    detail::Whitening found = detail::whiten(covariances_.middleRows(at, n));
+    const detail::Whitening found = detail::whiten(covariances_.middleRows(at, n));
     if (!found.valid) return false;
-    whitening_.push_back(std::move(found.inverse));
+    whitening_.push_back(std::make_shared<const detail::RowTable>(found.inverse));
     log_norms_.push_back(
         static_cast<float>(found.log_root + 0.5 * static_cast<double>(n) * kLog2Pi));
   }
@@ -52,18 +54,39 @@ bool GaussianBayes::finish() {
 
 VectorF GaussianBayes::log_densities(Span<const float> row) const {
   validate_row(row, dim());
-  const Eigen::Map<const VectorF> x(row.data(), dim());
-  VectorF result(num_classes());
-  for (int c = 0; c < num_classes(); ++c) {
-    const std::size_t k = whitening_.size() == 1 ? 0 : static_cast<std::size_t>(c);
-    const VectorF centred = x - means_.row(c).transpose().cast<float>();
-    result[c] = -0.5F * (whitening_[k] * centred).squaredNorm() - log_norms_[k];
+  return log_densities(Eigen::Map<const MatrixF>(row.data(), 1, dim())).row(0).transpose();
+}
+
+MatrixF GaussianBayes::log_densities(ConstMatrixRefF rows) const {
+  validate_width(rows, dim());
+  validate_finite(rows, "rows");
+  constexpr Eigen::Index kRowsAtOnce = 64;
+  const detail::RowKernels& kernels = detail::row_kernels();
+  MatrixF centred(std::min(kRowsAtOnce, rows.rows()), dim());
+  MatrixF white(centred.rows(), whitening_[0]->padded_rows());
+  MatrixF result(rows.rows(), num_classes());
+  for (Eigen::Index first = 0; first < rows.rows(); first += kRowsAtOnce) {
+    const Eigen::Index now = std::min(kRowsAtOnce, rows.rows() - first);
+    for (int c = 0; c < num_classes(); ++c) {
+      const std::size_t k = whitening_.size() == 1 ? 0 : static_cast<std::size_t>(c);
+      centred.topRows(now) = rows.middleRows(first, now).rowwise() - means_.row(c).cast<float>();
+      kernels.project(centred.data(), centred.cols(), now, whitening_[k]->layout(), white.data(),
+                      white.cols());
+      for (Eigen::Index r = 0; r < now; ++r) {
+        const float distance = kernels.squared_norm(white.row(r).data(), dim());
+        result(first + r, c) = -0.5F * distance - log_norms_[k];
+      }
+    }
   }
   return result;
 }
 
 VectorF GaussianBayes::decision_values(Span<const float> row) const {
   return log_densities(row) + log_priors_.cast<float>();
+}
+
+MatrixF GaussianBayes::decision_values(ConstMatrixRefF rows) const {
+  return log_densities(rows).rowwise() + log_priors_.transpose().cast<float>();
 }
 
 void GaussianBayes::write(ModelFile& file, const std::string& prefix) const {

@@ -13,6 +13,7 @@
 #include "hri/core/kernels.hpp"
 #include "hri/core/random.hpp"
 #include "hri/models/row_checks.hpp"
+#include "models/classifiers/row_kernels.hpp"
 
 namespace hri {
 namespace {
@@ -88,14 +89,40 @@ LinearSvm LinearSvm::train(ConstMatrixRefF rows, Span<const int> classes, int nu
   return {std::move(weights), std::move(biases)};
 }
 
+void LinearSvm::margins(const float* row, float* out) const {
+  for (int c = 0; c < num_classes(); ++c) {
+    out[c] = dot(row, weights_.data() + static_cast<Eigen::Index>(c) * dim(), dim()) + biases_[c];
+  }
+}
+
 VectorF LinearSvm::decision_values(Span<const float> row) const {
   validate_row(row, dim());
   VectorF result(num_classes());
-  for (int c = 0; c < num_classes(); ++c) {
-    result[c] =
-        dot(row.data(), weights_.data() + static_cast<Eigen::Index>(c) * dim(), dim()) + biases_[c];
-  }
+  margins(row.data(), result.data());
   return result;
+}
+
+MatrixF LinearSvm::decision_values(ConstMatrixRefF rows) const {
+  validate_width(rows, dim());
+  validate_finite(rows, "rows");
+  constexpr Eigen::Index kFewRows = 4;  // below, the table would take longer than it saves
+  constexpr Eigen::Index kRowsAtOnce = 64;
+  MatrixF values(rows.rows(), num_classes());
+  if (rows.rows() < kFewRows) {
+    for (Eigen::Index r = 0; r < rows.rows(); ++r)
+      margins(rows.data() + r * rows.outerStride(), values.row(r).data());
+    return values;
+  }
+  const detail::RowTable table(weights_);
+  MatrixF products(std::min(kRowsAtOnce, rows.rows()), table.padded_rows());
+  for (Eigen::Index first = 0; first < rows.rows(); first += kRowsAtOnce) {
+    const Eigen::Index now = std::min(kRowsAtOnce, rows.rows() - first);
+    detail::row_kernels().dots(rows.data() + first * rows.outerStride(), rows.outerStride(), now,
+                               table.layout(), products.data(), products.cols());
+    values.middleRows(first, now) =
+        products.topLeftCorner(now, num_classes()).rowwise() + biases_.transpose();
+  }
+  return values;
 }
 
 void LinearSvm::write(ModelFile& file, const std::string& prefix) const {

@@ -23,14 +23,6 @@ using detail::CodewordTable;
 // Values between two polls of the stop check, about: some milliseconds.
 constexpr double kValuesPerPoll = 1 << 27;
 
-// One walk over a contiguous matrix; the rows are looked at only to name the bad one.
-void validate(ConstMatrixRefF rows, const char* what) {
-  const auto size = static_cast<std::size_t>(rows.size());
-  const bool contiguous = rows.rows() <= 1 || rows.outerStride() == rows.cols();
-  if (contiguous && first_not_finite(rows.data(), size) == size) return;
-  validate_finite(rows, what);
-}
-
 // Rows, the cells they lie in and the sums of the cells, kept from one iteration to the next.
 class Assignment {
  public:
@@ -124,7 +116,7 @@ MatrixF run_kmeans(MatrixF centroids, const CodebookOptions& options, Assignment
 void check(ConstMatrixRefF rows, const CodebookOptions& options) {
   validate(options);
   require(rows.rows() > 0 && rows.cols() > 0, "training needs at least one row and column");
-  validate(rows, "rows");
+  validate_finite(rows, "rows");
 }
 
 // Drops codewords without rows: fewer different rows than codewords leave some over.
@@ -179,7 +171,7 @@ Codebook Codebook::train_kmeans(ConstMatrixRefF rows, ConstMatrixRefF centroids,
   check(rows, options);
   require(centroids.rows() > 0 && centroids.cols() == rows.cols(),
           "centroids must have as many columns as the rows");
-  validate(centroids, "centroids");
+  validate_finite(centroids, "centroids");
   if (report != nullptr) *report = {};
   Assignment assignment(rows, options.should_stop);
   const MatrixF trained = run_kmeans(centroids, options, &assignment, report);
@@ -195,7 +187,7 @@ int Codebook::quantise(Span<const float> frame) const {
 
 void Codebook::quantise(ConstMatrixRefF frames, std::int32_t* out, std::ptrdiff_t stride) const {
   require(frames.cols() == dim(), "frames must have dim() columns");
-  validate(frames, "frames");
+  validate_finite(frames, "frames");
   detail::find_nearest()(frames.data(), frames.outerStride(), frames.rows(), table_->layout(), out,
                          stride);
 }

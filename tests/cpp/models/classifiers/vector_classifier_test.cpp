@@ -138,5 +138,52 @@ TYPED_TEST(VectorClassifier, ScoresTheSameFromManyThreads) {
   for (const MatrixF& s : scores) EXPECT_EQ(s, scores.front());
 }
 
+template <class Model>
+class ManyRows : public ::testing::Test {};
+using TakeManyRows =
+    ::testing::Types<Case<LinearSvm, LinearSvmOptions>, Case<GaussianBayes, GaussianBayesOptions>,
+                     BayesFull, BayesDiagonal, Case<Knn, KnnOptions>>;
+TYPED_TEST_SUITE(ManyRows, TakeManyRows);
+
+TYPED_TEST(ManyRows, ScoresDoNotDependOnTheRowsBeside) {
+  for (const int dim : {2, 16, 39}) {
+    for (const double offset : {0.0, 1e4}) {
+      LabelledRows data = blobs(5, 60, 2.0, 7, dim);
+      data.rows.array() += static_cast<float>(offset);
+      const auto model = TypeParam::train(data.rows, data.classes, 5);
+      const MatrixF all = model.decision_values(data.rows);
+      for (Eigen::Index r = 0; r < data.rows.rows(); ++r) {
+        const VectorF alone = model.decision_values(row_span(data.rows, r));
+        ASSERT_EQ(alone.transpose(), all.row(r)) << dim << " columns, row " << r;
+      }
+      const MatrixF some = model.decision_values(data.rows.middleRows(3, 70));
+      EXPECT_EQ(some, all.middleRows(3, 70));
+      // Rows that lie apart: the left part of wider ones.
+      MatrixF wide = MatrixF::Constant(data.rows.rows(), dim + 3, kNan);
+      wide.leftCols(dim) = data.rows;
+      EXPECT_EQ(MatrixF(model.decision_values(wide.leftCols(dim))), all);
+    }
+  }
+}
+
+TYPED_TEST(ManyRows, TakesNoRows) {
+  const LabelledRows data = blobs(3, 5, 2.0, 8);
+  const auto model = TypeParam::train(data.rows, data.classes, 3);
+  const MatrixF values = model.decision_values(MatrixF(0, 3));
+  EXPECT_EQ(values.rows(), 0);
+  EXPECT_EQ(values.cols(), 3);
+}
+
+TYPED_TEST(ManyRows, RefusesBadRowsByPlace) {
+  LabelledRows data = blobs(3, 5, 2.0, 9);
+  const auto model = TypeParam::train(data.rows, data.classes, 3);
+  const auto score = [&](const MatrixF& rows) {
+    return message_of<InvalidArgument>([&] { return model.decision_values(rows); });
+  };
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "2 columns, the model has 3", score(MatrixF(4, 2)));
+  data.rows(7, 1) = kNan;
+  EXPECT_PRED_FORMAT2(::testing::IsSubstring, "row 7, column 1", score(data.rows));
+}
+
 }  // namespace
 }  // namespace hri

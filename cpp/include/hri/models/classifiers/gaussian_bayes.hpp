@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@
 #include "hri/io/model_file.hpp"
 
 namespace hri {
+
+namespace detail {
+class RowTable;
+}
 
 enum class CovarianceKind : std::uint8_t {
   shared,    ///< one covariance for all classes: linear boundaries (LDA)
@@ -50,6 +55,9 @@ class HRI_API GaussianBayes {
   [[nodiscard]] VectorF decision_values(Span<const float> row) const;
   /// log p(row | class) alone, from which possibilities follow.
   [[nodiscard]] VectorF log_densities(Span<const float> row) const;
+  /// The same for many rows, a row each, equal to the bit and faster than one by one.
+  [[nodiscard]] MatrixF decision_values(ConstMatrixRefF rows) const;
+  [[nodiscard]] MatrixF log_densities(ConstMatrixRefF rows) const;
 
   [[nodiscard]] int num_classes() const { return static_cast<int>(means_.rows()); }
   [[nodiscard]] int dim() const { return static_cast<int>(means_.cols()); }
@@ -65,7 +73,7 @@ class HRI_API GaussianBayes {
   MatrixD covariances_;  // (num_covariances * dim, dim): one for all classes, or one a class
   VectorD log_priors_;
   // From finish(): whitening matrices L^-1 of each covariance, and log sqrt(|2 pi S|).
-  std::vector<MatrixF> whitening_;
+  std::vector<std::shared_ptr<const detail::RowTable>> whitening_;
   std::vector<float> log_norms_;
 };
 
