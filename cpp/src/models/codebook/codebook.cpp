@@ -41,7 +41,8 @@ class Assignment {
       const Eigen::Index count = std::min(at_once, rows_.rows() - first);
       const float* rows = rows_.data() + first * rows_.outerStride();
       std::int32_t* cells = cells_.data() + first;
-      detail::find_nearest()(rows, rows_.outerStride(), count, table.layout(), cells, 1);
+      detail::codeword_kernels().find_nearest(rows, rows_.outerStride(), count, table.layout(),
+                                              cells, 1);
       detail::add_to_cells(rows, rows_.outerStride(), count, centroids, cells, &cell_sums_);
     }
   }
@@ -181,15 +182,15 @@ Codebook Codebook::train_kmeans(ConstMatrixRefF rows, ConstMatrixRefF centroids,
 int Codebook::quantise(Span<const float> frame) const {
   validate_row(frame, dim());
   std::int32_t index = 0;
-  detail::find_nearest()(frame.data(), 0, 1, table_->layout(), &index, 1);
+  detail::codeword_kernels().find_nearest(frame.data(), 0, 1, table_->layout(), &index, 1);
   return index;
 }
 
 void Codebook::quantise(ConstMatrixRefF frames, std::int32_t* out, std::ptrdiff_t stride) const {
   require(frames.cols() == dim(), "frames must have dim() columns");
   validate_finite(frames, "frames");
-  detail::find_nearest()(frames.data(), frames.outerStride(), frames.rows(), table_->layout(), out,
-                         stride);
+  detail::codeword_kernels().find_nearest(frames.data(), frames.outerStride(), frames.rows(),
+                                          table_->layout(), out, stride);
 }
 
 void Codebook::quantise(ConstMatrixRefF frames, Span<std::int32_t> out) const {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/simd.hpp"
 
@@ -62,13 +64,13 @@ CodewordLayout CodewordTable::layout() const {
   return layout;
 }
 
-Span<const NamedSearch> searches() {
-  static constexpr NamedSearch kAll[] = {HRI_EVERY_SET(, kSearch)};
+Span<const CodewordKernels> all_codeword_kernels() {
+  static constexpr CodewordKernels kAll[] = {HRI_EVERY_SET(, kKernels)};
   return runnable(kAll);
 }
 
-Search find_nearest() {
-  static const Search best = widest(searches()).search;
+const CodewordKernels& codeword_kernels() {
+  static const CodewordKernels& best = widest(all_codeword_kernels());
   return best;
 }
 
@@ -81,38 +83,11 @@ float squared_distance(const float* a, const float* b, int dim) {
   return sum;
 }
 
-namespace {
-
-// With internal linkage: GCC exports clones of a hidden function.
-HRI_SIMD_CLONES
-void add_rows(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
-              const MatrixF& centroids, const std::int32_t* cells, CellSums* sums) {
-  const auto dim = static_cast<int>(centroids.cols());
-  const float* all_centroids = centroids.data();
-  double* all_sums = sums->sums.data();
-  double* counts = sums->counts.data();
-  double* distortions = sums->distortions.data();
-  for (std::ptrdiff_t r = 0; r < num_rows; ++r) {
-    const float* row = rows + r * stride;
-    const std::ptrdiff_t cell = cells[r];
-    const float* centroid = all_centroids + cell * dim;
-    double* sum = all_sums + cell * dim;
-    float distance = 0;
-    for (int d = 0; d < dim; ++d) {
-      const float step = row[d] - centroid[d];
-      distance += step * step;
-      sum[d] += static_cast<double>(row[d]);
-    }
-    counts[cell] += 1;
-    distortions[cell] += static_cast<double>(distance);
-  }
-}
-
-}  // namespace
-
 void add_to_cells(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
                   const MatrixF& centroids, const std::int32_t* cells, CellSums* sums) {
-  add_rows(rows, stride, num_rows, centroids, cells, sums);
+  codeword_kernels().add(rows, stride, num_rows, centroids.data(),
+                         static_cast<int>(centroids.cols()), cells, sums->sums.data(),
+                         sums->counts.data(), sums->distortions.data());
 }
 
 }  // namespace hri::detail

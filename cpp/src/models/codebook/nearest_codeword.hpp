@@ -44,20 +44,22 @@ class CodewordTable {
   float reach_ = 0;
 };
 
-/// The nearest codeword of every row. Rows are `stride` values apart, places in `out` are
-/// `out_stride` apart. Allocates nothing.
-using Search = void (*)(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
-                        const CodewordLayout& table, std::int32_t* out, std::ptrdiff_t out_stride);
-
-/// The search for the best instruction set of this machine.
-Search find_nearest();
-
-struct NamedSearch {
+/// Rows are `stride` values apart. Neither allocates.
+struct CodewordKernels {
   const char* name;
-  Search search;
+  /// The nearest codeword of every row; places in `out` are `out_stride` apart.
+  void (*find_nearest)(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
+                       const CodewordLayout& table, std::int32_t* out, std::ptrdiff_t out_stride);
+  /// Adds rows to the sums of their cells, `sums` having `dim` values a cell.
+  void (*add)(const float* rows, std::ptrdiff_t stride, std::ptrdiff_t num_rows,
+              const float* centroids, int dim, const std::int32_t* cells, double* sums,
+              double* counts, double* distortions);
 };
-/// The searches that this machine can run, the best one last.
-Span<const NamedSearch> searches();
+
+/// Those for the best instruction set of this machine.
+const CodewordKernels& codeword_kernels();
+/// Those that this machine can run, the best ones last.
+Span<const CodewordKernels> all_codeword_kernels();
 
 float squared_distance(const float* a, const float* b, int dim);
 

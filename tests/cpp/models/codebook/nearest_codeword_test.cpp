@@ -58,15 +58,15 @@ std::int32_t by_definition(const MatrixF& centroids, const float* row) {
 }
 
 TEST(NearestCodeword, IsTheSameByEveryInstructionSet) {
-  ASSERT_FALSE(searches().empty());
-  EXPECT_EQ(find_nearest(), searches()[searches().size() - 1].search);
+  ASSERT_FALSE(all_codeword_kernels().empty());
+  EXPECT_EQ(&codeword_kernels(), all_codeword_kernels().end() - 1);
   for (const int size : {1, 7, 8, 33, 100}) {
     for (const int dim : {1, 13, 39, 512, 513}) {
       for (const Case& c : cases(size, dim)) {
         const CodewordTable table(c.centroids);
-        for (const NamedSearch& named : searches()) {
+        for (const CodewordKernels& named : all_codeword_kernels()) {
           std::vector<std::int32_t> found(static_cast<std::size_t>(c.rows.rows()), -1);
-          named.search(c.rows.data(), dim, c.rows.rows(), table.layout(), found.data(), 1);
+          named.find_nearest(c.rows.data(), dim, c.rows.rows(), table.layout(), found.data(), 1);
           for (Eigen::Index r = 0; r < c.rows.rows(); ++r) {
             ASSERT_EQ(found[static_cast<std::size_t>(r)],
                       by_definition(c.centroids, c.rows.row(r).data()))
@@ -83,9 +83,9 @@ TEST(NearestCodeword, TakesRowsAndPlacesApart) {
   const MatrixF centroids = noise(20, 5, 3);
   const CodewordTable table(centroids);
   const MatrixF wide = noise(40, 9, 4);
-  for (const NamedSearch& named : searches()) {
+  for (const CodewordKernels& named : all_codeword_kernels()) {
     std::vector<std::int32_t> found(120, -1);
-    named.search(wide.data() + 2, 9, 40, table.layout(), found.data(), 3);
+    named.find_nearest(wide.data() + 2, 9, 40, table.layout(), found.data(), 3);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const float* row = wide.data() + i / 3 * 9 + 2;
       EXPECT_EQ(found[i], i % 3 == 0 ? by_definition(centroids, row) : -1) << named.name;
@@ -102,23 +102,31 @@ TEST(NearestCodeword, DistancesRoundAfterEveryStep) {
 }
 
 TEST(NearestCodeword, AddsRowsToTheirCells) {
-  const MatrixF centroids = noise(3, 4, 5);
-  const MatrixF rows = noise(30, 4, 6);
-  CellSums sums{MatrixD::Zero(3, 4), VectorD::Zero(3), VectorD::Zero(3)};
-  CellSums expected = sums;
-  std::vector<std::int32_t> cells;
-  for (int r = 0; r < 30; ++r) {
-    const int k = r % 2 * 2;
-    cells.push_back(k);
-    expected.sums.row(k) += rows.row(r).cast<double>();
-    expected.counts[k] += 1;
-    expected.distortions[k] +=
-        static_cast<double>(squared_distance(rows.row(r).data(), centroids.row(k).data(), 4));
+  for (const int dim : {1, 4, 13, 39}) {
+    const MatrixF centroids = noise(3, dim, 5);
+    const MatrixF rows = noise(30, dim + 2, 6);
+    CellSums expected{MatrixD::Zero(3, dim), VectorD::Zero(3), VectorD::Zero(3)};
+    std::vector<std::int32_t> cells;
+    for (int r = 0; r < 30; ++r) {
+      const int k = r % 2 * 2;
+      cells.push_back(k);
+      expected.sums.row(k) += rows.row(r).head(dim).cast<double>();
+      expected.counts[k] += 1;
+      expected.distortions[k] +=
+          static_cast<double>(squared_distance(rows.row(r).data(), centroids.row(k).data(), dim));
+    }
+    for (const CodewordKernels& named : all_codeword_kernels()) {
+      CellSums sums{MatrixD::Zero(3, dim), VectorD::Zero(3), VectorD::Zero(3)};
+      named.add(rows.data(), dim + 2, 30, centroids.data(), dim, cells.data(), sums.sums.data(),
+                sums.counts.data(), sums.distortions.data());
+      EXPECT_EQ(sums.sums, expected.sums) << named.name;
+      EXPECT_EQ(sums.counts, expected.counts) << named.name;
+      EXPECT_EQ(sums.distortions, expected.distortions) << named.name;
+    }
+    CellSums sums{MatrixD::Zero(3, dim), VectorD::Zero(3), VectorD::Zero(3)};
+    add_to_cells(rows.data(), dim + 2, 30, centroids, cells.data(), &sums);
+    EXPECT_EQ(sums.sums, expected.sums);
   }
-  add_to_cells(rows.data(), 4, 30, centroids, cells.data(), &sums);
-  EXPECT_EQ(sums.sums, expected.sums);
-  EXPECT_EQ(sums.counts, expected.counts);
-  EXPECT_EQ(sums.distortions, expected.distortions);
 }
 
 }  // namespace
