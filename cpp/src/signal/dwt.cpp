@@ -70,8 +70,10 @@ void analyse_line(const T* x, std::ptrdiff_t n, const FilterPair<T>& filters, Bo
       k += now;
     }
   };
-  // Whole registers at the edges, and between them outputs that read samples only.
-  const std::ptrdiff_t left = std::min(count, (-first / 2 + kWide) / kWide * kWide);
+  // Whole registers at the edges, and between them outputs that read samples only, from where
+  // registers of details do not lie across two cache lines.
+  const std::ptrdiff_t needed = (-first / 2 + kWide) / kWide * kWide;
+  const std::ptrdiff_t left = std::min(count, needed + to_cache_line(detail + needed));
   const std::ptrdiff_t inside = (n - first - filters.num_taps) / 2 + 1 - left;
   const std::ptrdiff_t right = left + std::max<std::ptrdiff_t>(inside, 0) / kWide * kWide;
   some(0, left);

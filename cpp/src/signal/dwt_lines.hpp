@@ -6,11 +6,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "hri/signal/dwt.hpp"
 #include "signal/filter_pair.hpp"
 
 namespace hri::detail {
+
+/// Values from `place` to the next cache line.
+template <class T>
+std::ptrdiff_t to_cache_line(const T* place) {
+  constexpr std::uintptr_t kLine = 64;
+  const auto over = reinterpret_cast<std::uintptr_t>(place) % kLine;
+  return static_cast<std::ptrdiff_t>((kLine - over) % kLine / sizeof(T));
+}
 
 /// n >= 1 samples to count = dwt_length(n) coefficients of each band.
 template <class T>

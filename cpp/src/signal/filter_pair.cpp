@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "signal/filter_pair.hpp"
 
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
 #include "hri/core/error.hpp"
 
 #define HRI_KERNEL_FILE "signal/filter_pair_kernel.inc"

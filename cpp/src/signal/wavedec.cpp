@@ -52,11 +52,16 @@ void wavedec(Span<const T> x, const Wavelet& wavelet, Border border, Span<const 
     sum += length;
   }
   require(bands[0].size() == length, "bands must have wavedec_lengths() values");
+  constexpr std::ptrdiff_t kLine = 64 / sizeof(T);
+  sum += bands.size() * static_cast<std::size_t>(kLine);
   std::vector<T>& between = between_levels<T>();
   if (between.size() < sum) between.resize(sum);
   T* next = between.data();
   for (std::size_t band = bands.size() - 1; band > 0; --band) {
     const std::size_t count = bands[band].size();
+    // As far from a cache line as the details, which are written beside.
+    next +=
+        (kLine + detail::to_cache_line(next) - detail::to_cache_line(bands[band].data())) % kLine;
     T* approx = band == 1 ? bands[0].data() : next;
     detail::analyse_line(x.data(), static_cast<std::ptrdiff_t>(x.size()), filters, border,
                          static_cast<std::ptrdiff_t>(count), approx, bands[band].data());

@@ -128,6 +128,7 @@ TYPED_TEST(VectorClassifier, ScoresTheSameFromManyThreads) {
   const auto model = TypeParam::train(data.rows, data.classes, 3);
   std::vector<MatrixF> scores(4, MatrixF(data.rows.rows(), 3));
   std::vector<std::thread> threads;
+  threads.reserve(scores.size());
   for (MatrixF& s : scores) {
     threads.emplace_back([&model, &data, &s] {
       for (Eigen::Index r = 0; r < s.rows(); ++r)
