@@ -10,6 +10,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
+#include "signal/resample_kernel.hpp"
 
 namespace hri {
 namespace {
@@ -40,10 +41,10 @@ double kernel(double t, double half_width, double cutoff) {
 }
 
 // The weights that bring one sample rate to another: output n lies at n * down / up input samples,
-// so only `up` different phases occur, with one row of weights each.
+// so only `up` different phases occur, with one row of weights each. Rows are padded by zeros.
 struct Phases {
   int from_hz = 0, to_hz = 0;
-  std::int64_t up = 0, down = 0, reach = 0, taps = 0;
+  std::int64_t up = 0, down = 0, reach = 0, taps = 0, stride = 0;
   std::vector<float> weights;
 };
 
@@ -61,11 +62,12 @@ Phases make_phases(int from_hz, int to_hz) {
   const double half_width = kZeroCrossings / cutoff;
   p.reach = static_cast<std::int64_t>(half_width);
   p.taps = 2 * p.reach + 2;
-  p.weights.resize(static_cast<std::size_t>(p.up * p.taps));
+  p.stride = p.taps - p.taps % detail::kDotLanes + detail::kDotLanes;
+  p.weights.resize(static_cast<std::size_t>(p.up * p.stride));
   for (std::int64_t phase = 0; phase < p.up; ++phase) {
     const double fraction = static_cast<double>(phase) / static_cast<double>(p.up);
     for (std::int64_t k = 0; k < p.taps; ++k) {
-      p.weights[static_cast<std::size_t>(phase * p.taps + k)] = static_cast<float>(
+      p.weights[static_cast<std::size_t>(phase * p.stride + k)] = static_cast<float>(
           kernel(static_cast<double>(k - p.reach) - fraction, half_width, cutoff));
     }
   }
@@ -84,6 +86,50 @@ std::shared_ptr<const Phases> phases_of(int from_hz, int to_hz) {
   return phases;
 }
 
+// Outputs before the first one at or behind an input sample.
+std::int64_t outputs_before(const Phases& phases, std::int64_t sample) {
+  return sample <= 0 ? 0 : (sample * phases.up + phases.down - 1) / phases.down;
+}
+
+// Outputs begin .. end; samples that lie beyond the signal count as zeros.
+void filter_edge(const Phases& phases, Span<const float> samples, std::int64_t begin,
+                 std::int64_t end, float* out) {
+  const auto num_in = static_cast<std::int64_t>(samples.size());
+  for (std::int64_t n = begin; n < end; ++n) {
+    const std::int64_t position = n * phases.down;
+    const std::int64_t first = position / phases.up - phases.reach;
+    const float* row = phases.weights.data() + (position % phases.up) * phases.stride;
+    const std::int64_t skipped = std::max<std::int64_t>(0, -first);
+    const std::int64_t count = std::min(phases.taps, num_in - first) - skipped;
+    if (count <= 0) continue;
+    out[n] = dot(row + skipped, samples.data() + first + skipped, static_cast<int>(count));
+  }
+}
+
+// Outputs from `begin`, which reads no sample before the first, as far as they and the kernel read
+// none behind the last; returns how many.
+std::int64_t filter_inside(const Phases& phases, Span<const float> samples, std::int64_t begin,
+                           std::int64_t num_out, float* out) {
+  const detail::ResampleKernel& kernel = detail::resample_kernel();
+  const auto num_in = static_cast<std::int64_t>(samples.size());
+  const std::int64_t end =
+      std::min(num_out, outputs_before(phases, num_in - phases.stride + phases.reach + 1));
+  const std::int64_t count = std::max<std::int64_t>(0, end - begin);
+  const std::int64_t whole = count - count % kernel.num_lanes;
+  if (whole == 0) return 0;
+  detail::PhaseTable table;
+  table.weights = phases.weights.data();
+  table.taps = phases.taps;
+  table.stride = phases.stride;
+  table.num_phases = phases.up;
+  table.phase_step = phases.down % phases.up;
+  table.sample_step = phases.down / phases.up;
+  const std::int64_t position = begin * phases.down;
+  kernel.filter(table, samples.data() + position / phases.up - phases.reach, position % phases.up,
+                whole, out + begin);
+  return whole;
+}
+
 }  // namespace
 
 std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz) {
@@ -94,23 +140,13 @@ std::vector<float> resample(Span<const float> samples, int from_hz, int to_hz) {
   }
   if (from_hz == to_hz) return {samples.begin(), samples.end()};
   const std::shared_ptr<const Phases> phases = phases_of(from_hz, to_hz);
-  const std::int64_t up = phases->up;
-  const std::int64_t down = phases->down;
-  const std::int64_t reach = phases->reach;
-  const std::int64_t taps = phases->taps;
   const auto num_in = static_cast<std::int64_t>(samples.size());
-  const std::int64_t num_out = (num_in * up + down - 1) / down;
+  const std::int64_t num_out = (num_in * phases->up + phases->down - 1) / phases->down;
   std::vector<float> out(static_cast<std::size_t>(num_out));
-  for (std::int64_t n = 0; n < num_out; ++n) {
-    const std::int64_t position = n * down;
-    const std::int64_t first = position / up - reach;
-    const float* row = phases->weights.data() + (position % up) * taps;
-    const std::int64_t begin = std::max<std::int64_t>(0, -first);
-    const std::int64_t end = std::min(taps, num_in - first);
-    if (begin >= end) continue;
-    out[static_cast<std::size_t>(n)] =
-        dot(row + begin, samples.data() + first + begin, static_cast<int>(end - begin));
-  }
+  const std::int64_t inside = std::min(num_out, outputs_before(*phases, phases->reach));
+  const std::int64_t done = inside + filter_inside(*phases, samples, inside, num_out, out.data());
+  filter_edge(*phases, samples, 0, inside, out.data());
+  filter_edge(*phases, samples, done, num_out, out.data());
   return out;
 }
 

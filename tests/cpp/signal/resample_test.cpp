@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -123,6 +124,30 @@ TEST(Resample, DoesNotDependOnWhatWasResampledBefore) {
   std::thread other([&] { EXPECT_EQ(resample(x, 16000, 11025), down); });
   other.join();
   EXPECT_EQ(resample(x, 16000, 11025), down);
+}
+
+TEST(Resample, OutputsDependOnTheSamplesNearThemAlone) {
+  // A long signal is filtered by many outputs at a time, a short piece of it one by one.
+  std::vector<float> x(30000);
+  Random random(7);
+  for (float& v : x) v = static_cast<float>(random.normal());
+  for (const auto& [from, to] : kRates) {
+    const std::vector<float> whole = resample(x, from, to);
+    const int common = std::gcd(from, to);
+    const auto down = static_cast<std::size_t>(from / common);
+    const auto up = static_cast<std::size_t>(to / common);
+    for (const std::size_t periods : {0U, 1U, 20U}) {
+      const std::size_t begin = periods * down;
+      const std::vector<float> piece(x.begin() + static_cast<std::ptrdiff_t>(begin),
+                                     x.begin() + static_cast<std::ptrdiff_t>(begin) + 1000);
+      const std::vector<float> part = resample(piece, from, to);
+      // Away from the ends of the piece by more than the filter is long.
+      const std::size_t edge = from > to ? 112 : 400;
+      for (std::size_t n = periods == 0 ? 0 : edge; n + edge < part.size(); ++n) {
+        ASSERT_EQ(part[n], whole[periods * up + n]) << from << " to " << to << ", output " << n;
+      }
+    }
+  }
 }
 
 TEST(Resample, RefusesRatesOutOfRangeByName) {
