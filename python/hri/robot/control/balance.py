@@ -70,7 +70,7 @@ class Balance:
         self._weight_n = 9.81 * sum(link.mass_kg for link in table.links.values())
         self._legs = _Legs(legs, self._place)
         self._soles = Soles(table)
-        self._getting_up = GettingUp(legs)
+        self._getting_up = GettingUp(legs, table)
         # Of every leg the lowest joint that rolls, pitches and turns: places in what is corrected.
         self._hands_on = [[_lowest(leg, axis, self._place) for axis in np.eye(3)] for leg in legs]
         self._hips = np.array([leg[2] if leg[2] is not None else -1 for leg in self._hands_on])
@@ -79,6 +79,11 @@ class Balance:
         self._most_speed = np.tile([_MOST_ANKLE_SPEED, _MOST_ANKLE_SPEED, _MOST_HIP_SPEED], (len(legs), 1))
         self._most[np.array([[place is None for place in leg] for leg in self._hands_on])] = 0.0
         self.start({})
+
+    @property
+    def rising(self) -> bool:
+        """Whether the robot lay and does not stand yet."""
+        return self._getting_up.rising
 
     def start(self, positions_rad: Mapping[str, float]) -> None:
         """Forget everything; joints are at these positions."""
@@ -97,6 +102,7 @@ class Balance:
         rate_rad_s: Floats,
         pressures: Floats,
         elapsed_s: float,
+        joints_rad: Mapping[str, float] | None = None,
     ) -> dict[str, float]:
         """What to add to positions that are sent to joints.
 
@@ -112,6 +118,8 @@ class Balance:
             Force on each foot, and x and y of its centre in the frame of the foot's link.
         elapsed_s : float
             Since the last call.
+        joints_rad : mapping of joint name to float, optional
+            Where all joints are; needed while `rising` alone.
         """
         goal = np.array([sent_rad.get(name, 0.0) for name in self._place])
         followed = 1.0 - (1.0 - self._follow_per_s * 0.001) ** (1000.0 * elapsed_s)
@@ -140,7 +148,7 @@ class Balance:
         speed = np.minimum(np.maximum((wanted - self._given) / elapsed_s, -self._most_speed), self._most_speed)
         self._given = self._given + elapsed_s * speed
         found = self._by_name(goal, self._given + speed / self._follow_per_s)  # joints follow late: lead by that
-        return found | self._getting_up.corrections(sent_rad, turn, share_carried, elapsed_s)
+        return found | self._getting_up.corrections(sent_rad, turn, share_carried, elapsed_s, joints_rad)
 
     def _ankles(self, leans: Floats, lean_rate: Floats, shares: Floats, learning_s: float) -> Floats:
         """Where ankles should be turned: legs by roll and pitch; `leans` is how the base leans as each leg sees it."""

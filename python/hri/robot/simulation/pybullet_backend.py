@@ -296,7 +296,8 @@ class PyBulletRobot(Robot):
         bullet, client = self._bullet, self._client
         turn = np.array(bullet.getMatrixFromQuaternion(self._base()[1])).reshape(3, 3)
         rate = np.array(bullet.getBaseVelocity(self._body, physicsClientId=client)[1])
-        found = balance.corrections(self._commanded, turn, rate, self._pressures(), elapsed_s)
+        joints = self._joint_positions() if balance.rising else None
+        found = balance.corrections(self._commanded, turn, rate, self._pressures(), elapsed_s, joints)
         self._corrections = [found.get(name, 0.0) for name in self._names]
 
     def _pressures(self) -> NDArray[np.float64]:
