@@ -128,6 +128,25 @@ def test_links_that_overlap_are_found_by_row():
     assert findings[0].row == min(finding.row for finding in findings)
 
 
+def closing_legs(*roll_rad: float) -> Trajectory:
+    return Trajectory(["lleg_joint_2"], 0.1, [[roll] for roll in roll_rad])
+
+
+def test_legs_that_come_within_5_mm_are_a_warning_and_arms_are_not():
+    assert check_trajectory(closing_legs(0.1, -0.01, 0.1)) == []
+    steps = closing_legs(0.1, -0.035, 0.1, -0.04, 0.1)
+    warnings = [finding for finding in check_trajectory(steps) if "lleg_link_6 and rleg_link_6" in finding.message]
+    assert [(w.row, w.joint, w.severity) for w in warnings] == [(4, "lleg_joint_6", "warning")], "the nearest alone"
+    gap_m = 0.078 - 2 * 0.0325 - 0.2 * 0.04  # the soles hang 0.2 m below the hips
+    assert float(warnings[0].value.removesuffix(" mm")) == pytest.approx(1000.0 * gap_m, abs=1.5)
+    overlap = check_trajectory(closing_legs(0.1, -0.1, 0.1))
+    assert {finding.severity for finding in overlap if "lleg_link_6 and rleg_link_6" in finding.message} == {"error"}
+    still = Trajectory(["lleg_joint_1"], 0.1, [[0.0], [0.0]])
+    close = {"lleg_joint_2": -0.04}
+    assert {finding.severity for finding in check_trajectory(still, others_rad=close)} == {"warning"}
+    assert check_trajectory(Trajectory(["larm_joint_1"], 0.1, [[0.9], [0.9]]), others_rad=close) == []
+
+
 def test_gestures_touch_nothing():
     for name in load_gestures():
         assert self_collisions(gesture_trajectory(name)) == [], name

@@ -20,6 +20,8 @@ from hri.robot.motion.self_collision import self_collisions
 from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
 
 LIMIT_TOLERANCE_RAD = float(np.radians(1.5 / 209.0))  # limits are written in whole pulses, or rounded
+# A leg moves its foot by 4 mm when its hip is off by a degree, and balancing turns hips and ankles.
+_LEGS_NEARER_THAN_M = 0.005
 _BEYOND_REASON_RAD = 1e6  # an error anyway; squares of what is measured stay finite
 
 
@@ -31,9 +33,10 @@ def check_trajectory(
     Errors are an unknown joint, a position that is not finite or outside its joint's limits, a speed, acceleration or
     jerk above the motors' (`rates`), jumps to single rows that are no isolated glitch (`jumps`), and links that overlap
     (`self_collisions`). A step to one row that is too fast, while the 10 ms about it are not, is a warning: a dropped
-    sample. The motion counts as held before its first row and after its last. Rows in succession with the same fault of
-    one joint make one finding, at the first of them; of several faults there of speed and what follows from it only the
-    first is reported. Nothing is clamped.
+    sample. So are legs that come within 5 mm of one another, once for every pair of links: on a robot that balances
+    they may graze. The motion counts as held before its first row and after its last. Rows in succession with the same
+    fault of one joint make one finding, at the first of them; of several faults there of speed and what follows from it
+    only the first is reported. Nothing is clamped.
 
     Parameters
     ----------
@@ -121,11 +124,15 @@ def require_within(joint: Joint, position_rad: float) -> None:
 def _touches(trajectory: Trajectory, table: JointTable, others_rad: Mapping[str, float] | None) -> list[Finding]:
     carriers = {joint.child: joint for joint in table.joints}
     findings = []
-    for touch in self_collisions(trajectory, table, others_rad):
+    touches = self_collisions(trajectory, table, others_rad, _LEGS_NEARER_THAN_M)
+    near = sorted((touch for touch in touches if not touch.overlaps), key=lambda touch: touch.depth_m)
+    nearest = {(touch.link, touch.other): touch for touch in near}
+    for touch in chain((touch for touch in touches if touch.overlaps), nearest.values()):
         joint = carriers[touch.link]
-        value = f"{1000.0 * touch.depth_m:.1f} mm"
-        message = f"{touch.link} and {touch.other} overlap by {value}"
-        findings.append(Finding(touch.row + 1, joint.column, joint.name, value, message))
+        value = f"{1000.0 * (touch.depth_m if touch.overlaps else max(-touch.depth_m, 0.0)):.1f} mm"
+        message = f"{touch.link} and {touch.other} {'overlap by' if touch.overlaps else 'come within'} {value}"
+        severity = "error" if touch.overlaps else "warning"
+        findings.append(Finding(touch.row + 1, joint.column, joint.name, value, message, severity))
     return findings
 
 

@@ -22,22 +22,34 @@ _TOLERANCE_M = 0.001
 
 @dataclass(frozen=True)
 class Touch:
-    """Two links that overlap in a row of a motion, counted from 0, and by how much; the base is never the first."""
+    """Two links that overlap in a row of a motion, counted from 0, and by how much; the base is never the first.
+
+    Of links that are only near, the depth is the negative of their distance, or a little more.
+    """
 
     row: int
     link: str
     other: str
     depth_m: float
 
+    @property
+    def overlaps(self) -> bool:
+        """By more than a millimetre; otherwise they are near."""
+        return self.depth_m > _TOLERANCE_M
+
 
 def self_collisions(
-    trajectory: Trajectory, table: JointTable = HOAP2, others_rad: Mapping[str, float] | None = None
+    trajectory: Trajectory,
+    table: JointTable = HOAP2,
+    others_rad: Mapping[str, float] | None = None,
+    legs_nearer_than_m: float = 0.0,
 ) -> list[Touch]:
     """Pairs of links whose solid shapes overlap by more than a millimetre.
 
     Joints that the motion does not name are at `others_rad`, and rest where that does not name them either. Links that
     adjoin (`JointTable.adjoining`) are left out. A row is looked at whenever a joint has moved by 0.08 rad; a row with
-    an unknown position is passed over.
+    an unknown position is passed over. `legs_nearer_than_m` above 0 also finds links of different legs that come that
+    near, in motions of the legs.
 
     Returns
     -------
@@ -49,14 +61,36 @@ def self_collisions(
         return []
     places = _link_frames(trajectory, rows, table, table.rest_rad | dict(others_rad or {}))
     touches: list[Touch] = []
+    leg_of = _legs(table) if legs_nearer_than_m > 0.0 and _moves_legs(trajectory, table) else {}
     for (first, a), (second, b) in _shape_pairs(table):
-        depths = _depths(a, places[first], b, places[second])
-        runs = np.flatnonzero(np.diff(np.concatenate(([False], depths > _TOLERANCE_M, [False])).astype(np.int8)))
+        two_legs = first in leg_of and second in leg_of and leg_of[first] != leg_of[second]
+        margin_m = legs_nearer_than_m if two_legs else 0.0
+        depths = _depths(a, places[first], b, places[second], margin_m)
+        least = -margin_m if two_legs else _TOLERANCE_M
+        runs = np.flatnonzero(np.diff(np.concatenate(([False], depths > least, [False])).astype(np.int8)))
         for begin, end in runs.reshape(-1, 2).tolist():
             deepest = begin + int(np.argmax(depths[begin:end]))
             link, other = sorted((first, second), key=lambda name: (name == table.base.name, name))
             touches.append(Touch(int(rows[deepest]), link, other, float(depths[deepest])))
     return sorted(touches, key=lambda touch: (touch.row, touch.link, touch.other))
+
+
+@lru_cache(maxsize=8)
+def _legs(table: JointTable) -> dict[str, str]:
+    """The foot of every link that is part of one leg alone."""
+    carriers = {joint.child: joint.parent for joint in table.joints}
+    found: dict[str, list[str]] = {}
+    for foot in table.feet:
+        link = foot
+        while link in carriers:
+            found.setdefault(link, []).append(foot)
+            link = carriers[link]
+    return {link: feet[0] for link, feet in found.items() if len(feet) == 1}
+
+
+def _moves_legs(trajectory: Trajectory, table: JointTable) -> bool:
+    legs = _legs(table)
+    return any(table[name].child in legs for name in trajectory.joint_names)
 
 
 def _rows_to_look_at(positions: Floats) -> NDArray[np.intp]:
@@ -99,11 +133,11 @@ def _shape_pairs(table: JointTable) -> list[tuple[tuple[str, Shape], tuple[str, 
     return pairs
 
 
-def _depths(a: Shape, at: tuple[Floats, Floats], b: Shape, bt: tuple[Floats, Floats]) -> Floats:
-    """By how much two shapes overlap in every row; below 0 where they do not."""
+def _depths(a: Shape, at: tuple[Floats, Floats], b: Shape, bt: tuple[Floats, Floats], margin_m: float) -> Floats:
+    """By how much two shapes overlap in every row; below 0 where they do not, -1 where they are further apart."""
     centre_a, centre_b = at[1] + at[0] @ np.array(a.start), bt[1] + bt[0] @ np.array(b.start)
     between = centre_b - centre_a
-    near = np.linalg.norm(between, axis=1) < _reach(a) + _reach(b)
+    near = np.linalg.norm(between, axis=1) < _reach(a) + _reach(b) + margin_m
     depths = np.full(len(between), -1.0)
     if not near.any():
         return depths
