@@ -9,6 +9,7 @@ import pytest
 
 from hri.robot import (
     HOAP2,
+    Physics,
     Trajectory,
     check_pulse_csv,
     check_trajectory,
@@ -145,6 +146,23 @@ def test_legs_that_come_within_5_mm_are_a_warning_and_arms_are_not():
     close = {"lleg_joint_2": -0.04}
     assert {finding.severity for finding in check_trajectory(still, others_rad=close)} == {"warning"}
     assert check_trajectory(Trajectory(["larm_joint_1"], 0.1, [[0.9], [0.9]]), others_rad=close) == []
+
+
+@pytest.mark.skipif(find_spec("pybullet") is None, reason="no pybullet")
+def test_legs_that_the_check_warns_of_touch_when_a_hip_is_off_by_a_degree_and_are_reported():
+    bent = {"leg_joint_3": -0.3, "leg_joint_4": 0.6, "leg_joint_5": -0.3}  # soles clear of the floor
+    bent = {side + name: angle for side in "lr" for name, angle in bent.items()}
+    near = closing_legs(*np.linspace(0.0, -0.05, 6), -0.05, -0.05, -0.05)
+    assert {finding.severity for finding in check_trajectory(near, others_rad=bent)} == {"warning"}
+
+    def touching(off_deg: float) -> set[frozenset[str]]:
+        with open_robot("pybullet", physics=Physics(joint_offsets_rad={"lleg_joint_2": np.radians(off_deg)})) as robot:
+            robot.reset(bent)
+            assert robot.perform(near)
+            return {frozenset((contact.link, contact.other)) for contact in robot.self_contacts}
+
+    assert touching(0.0) == set()
+    assert frozenset(HOAP2.feet) in touching(-1.0)
 
 
 def test_gestures_touch_nothing():
