@@ -27,16 +27,19 @@ struct Sums {
         mean_x(VectorD::Zero(dim)) {}
 
   void add(const MixtureAccumulator& found, const MixtureBank& bank) {
-    count += found.counts().sum();
-    for (Eigen::Index r = 0; r < found.counts().size(); ++r) {
+    const VectorD counts = found.counts();
+    const MatrixD sums = found.sums();
+    const MatrixD squares = found.squares();
+    count += counts.sum();
+    for (Eigen::Index r = 0; r < counts.size(); ++r) {
       const Eigen::ArrayXd precision = bank.variances().row(r).array().inverse().transpose();
       const Eigen::ArrayXd m = bank.means().row(r).array().transpose();
-      const Eigen::ArrayXd sum = found.sums().row(r).array().transpose();
-      weight.array() += found.counts()[r] * precision;
-      mean.array() += found.counts()[r] * precision * m;
-      mean2.array() += found.counts()[r] * precision * m.square();
+      const Eigen::ArrayXd sum = sums.row(r).array().transpose();
+      weight.array() += counts[r] * precision;
+      mean.array() += counts[r] * precision * m;
+      mean2.array() += counts[r] * precision * m.square();
       x.array() += precision * sum;
-      x2.array() += precision * found.squares().row(r).array().transpose();
+      x2.array() += precision * squares.row(r).array().transpose();
       mean_x.array() += precision * m * sum;
     }
   }

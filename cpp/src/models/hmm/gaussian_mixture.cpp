@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/models/hmm/gaussian_mixture.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "hri/core/error.hpp"
+#include "models/hmm/mixture_training.hpp"
 
 namespace hri {
 namespace {
 
-constexpr double kWideVariance = 25;  // times the variance of all rows
+constexpr Eigen::Index kBlock = 1024;  // rows between two looks whether to stop
+constexpr double kWideVariance = 25;   // times the variance of all rows
 
 MixtureBank with_wide_component(const MixtureBank& bank, const GlobalStatistics& all,
                                 double weight) {
@@ -38,23 +41,28 @@ GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtu
   const GlobalStatistics all = global_statistics(sequence);
   const VectorD floor = (all.variance * options.variance_floor).cwiseMax(1e-10);
   MixtureBank bank =
-      initial_bank(sequence, {std::vector<int>(static_cast<std::size_t>(rows.rows()), 0)}, 1,
-                   options.num_mixtures, floor, options.seed);
-  const MatrixD gamma = MatrixD::Ones(rows.rows(), 1);
+      detail::initial_bank(sequence, {std::vector<int>(static_cast<std::size_t>(rows.rows()), 0)},
+                           1, options.num_mixtures, floor, options.seed, all);
+  const double certain = 1;
   TrainingReport local;
-  MatrixD densities;
-  MatrixD components;
+  VectorD densities(rows.rows());
+  detail::PaddedMatrix components(kBlock, options.num_mixtures, 0);
   for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
-    poll(options.should_stop);
-    bank.log_densities(rows, &densities, &components);
+    MixtureAccumulator accumulator(1, options.num_mixtures, bank.dim());
+    for (Eigen::Index first = 0; first < rows.rows(); first += kBlock) {
+      poll(options.should_stop);
+      const auto block = rows.middleRows(first, std::min(kBlock, rows.rows() - first));
+      double* of_block = densities.data() + first;
+      detail::log_densities_of_finite(bank, block, of_block, 1, components.row(0),
+                                      components.stride());
+      accumulator.add(block, {&certain, 0, components.row(0), components.stride(), of_block, 1});
+    }
     const double total = densities.sum();
     if (!local.log_likelihoods.empty()) {
       local.converged = (total - local.log_likelihoods.back()) / static_cast<double>(rows.rows()) <
                         options.tolerance;
     }
     local.log_likelihoods.push_back(total);
-    MixtureAccumulator accumulator(1, options.num_mixtures, bank.dim());
-    accumulator.add(rows, gamma, components, densities);
     bank = accumulator.estimate(bank, {floor, 0.0, 0.0, false});
   }
   if (report != nullptr) *report = std::move(local);

@@ -2,67 +2,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/models/hmm/mixture_bank.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "core/simd.hpp"
 #include "hri/core/error.hpp"
 #include "hri/models/row_checks.hpp"
+#include "models/hmm/mixture_kernels.hpp"
 
 namespace hri {
 namespace {
 
 constexpr double kLog2Pi = 1.8378770664093454835606594728112;
 
-// Weighted squared distance of one frame to every row of means; the hot loop of scoring.
-template <class T>
-[[gnu::always_inline]] inline void weigh(const T* x, const T* means, const T* precisions,
-                                         int num_rows, int dim, T* out) {
-  constexpr int kLanes = 64 / sizeof(T);
-  for (int r = 0; r < num_rows; ++r) {
-    const T* m = means + static_cast<std::ptrdiff_t>(r) * dim;
-    const T* p = precisions + static_cast<std::ptrdiff_t>(r) * dim;
-    T lanes[kLanes] = {};
-    int d = 0;
-    for (; d + kLanes <= dim; d += kLanes) {
-      for (int l = 0; l < kLanes; ++l) {
-        const T diff = x[d + l] - m[d + l];
-        lanes[l] += diff * diff * p[d + l];
-      }
-    }
-    T sum = 0;
-    for (; d < dim; ++d) {
-      const T diff = x[d] - m[d];
-      sum += diff * diff * p[d];
-    }
-    for (int width = kLanes / 2; width > 0; width /= 2) {
-      for (int l = 0; l < width; ++l) lanes[l] += lanes[l + width];
-    }
-    out[r] = sum + lanes[0];
-  }
-}
-
-HRI_SIMD_CLONES
-void weighted_distances(const float* x, const float* means, const float* precisions, int num_rows,
-                        int dim, float* out) {
-  weigh(x, means, precisions, num_rows, dim, out);
-}
-
-HRI_SIMD_CLONES
-void weighted_distances(const double* x, const double* means, const double* precisions,
-                        int num_rows, int dim, double* out) {
-  weigh(x, means, precisions, num_rows, dim, out);
-}
-
 template <class T>
 T log_sum_exp(const T* values, int count) {
   T top = values[0];
   for (int i = 1; i < count; ++i) top = values[i] > top ? values[i] : top;
-  if (count == 1 || !(top > -std::numeric_limits<T>::infinity())) return top;
+  if (!(top > -std::numeric_limits<T>::infinity())) return top;
+  // Added to a sum of exp(highest) or more, what lies this far below is lost in rounding.
+  constexpr T kLost = sizeof(T) == sizeof(float) ? 19 : 39;
   T sum = 0;
-  for (int i = 0; i < count; ++i) sum += std::exp(values[i] - top);
+  T highest = -std::numeric_limits<T>::infinity();
+  for (int i = 0; i < count; ++i) {
+    const T exponent = values[i] - top;
+    if (exponent < highest - kLost) continue;
+    sum += std::exp(exponent);
+    highest = std::max(highest, exponent);
+  }
   return top + std::log(sum);
+}
+
+// The densities of states from those of their components.
+template <class T>
+void mix(const T* components, int num_states, int num_mixtures, T* out) {
+  if (num_mixtures == 1) {
+    std::copy_n(components, num_states, out);
+    return;
+  }
+  for (int j = 0; j < num_states; ++j)
+    out[j] = log_sum_exp(components + static_cast<std::ptrdiff_t>(j) * num_mixtures, num_mixtures);
+}
+
+// Means and precisions by columns, each row padded; after them there is nothing.
+template <class T, class Buffer>
+void lay_out(const MatrixD& means, const MatrixD& variances, Buffer* columns) {
+  const std::ptrdiff_t stride = detail::padded(means.rows());
+  columns->assign(static_cast<std::size_t>(2 * means.cols() * stride), T{0});
+  for (Eigen::Index d = 0; d < means.cols(); ++d) {
+    T* mean = columns->data() + d * stride;
+    T* precision = mean + means.cols() * stride;
+    for (Eigen::Index r = 0; r < means.rows(); ++r) {
+      mean[r] = static_cast<T>(means(r, d));
+      precision[r] = static_cast<T>(1.0 / variances(r, d));
+    }
+  }
+}
+
+template <class Buffer>
+auto table_of(const Buffer& columns, Eigen::Index rows, int dim) {
+  using T = typename Buffer::value_type;
+  const std::ptrdiff_t stride = detail::padded(rows);
+  return detail::GaussianColumns<T>{columns.data(), columns.data() + dim * stride, stride, dim};
 }
 
 }  // namespace
@@ -79,16 +81,16 @@ MixtureBank::MixtureBank(MatrixD weights, MatrixD means, MatrixD variances)
   require(
       weights_.minCoeff() >= 0 && (weights_.rowwise().sum().array() - 1.0).abs().maxCoeff() < 1e-6,
       "mixture bank: the weights of a state must be >= 0 and sum to 1");
-  constants_.resize(rows);
+  constants_.resize(static_cast<std::size_t>(rows));
   for (Eigen::Index r = 0; r < rows; ++r) {
     const double weight = weights_.data()[r];
-    constants_[r] = std::log(weight) - 0.5 * (static_cast<double>(means_.cols()) * kLog2Pi +
-                                              variances_.row(r).array().log().sum());
+    constants_[static_cast<std::size_t>(r)] =
+        std::log(weight) - 0.5 * (static_cast<double>(means_.cols()) * kLog2Pi +
+                                  variances_.row(r).array().log().sum());
   }
-  precisions_ = variances_.cwiseInverse();
-  means_f_ = means_.cast<float>();
-  precisions_f_ = precisions_.cast<float>();
-  constants_f_ = constants_.cast<float>();
+  constants_f_.assign(constants_.begin(), constants_.end());
+  lay_out<double>(means_, variances_, &columns_);
+  lay_out<float>(means_, variances_, &columns_f_);
 }
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
@@ -99,48 +101,52 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
   validate_finite(frames, "frames");
   require(out.rows() == frames.rows() && out.cols() == num_states(),
           "out must have shape (num_frames, num_states)");
-  const int num_rows = static_cast<int>(means_f_.rows());
   const int k = num_mixtures();
+  const auto table = table_of(columns_f_, means_.rows(), dim());
   thread_local std::vector<float> scratch;
-  scratch.resize(static_cast<std::size_t>(num_rows));
+  scratch.resize(static_cast<std::size_t>(table.stride));
+  const detail::MixtureKernels& kernels = detail::mixture_kernels();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    const float* x = frames.data() + t * frames.outerStride();
-    weighted_distances(x, means_f_.data(), precisions_f_.data(), num_rows, dim(), scratch.data());
-    for (int r = 0; r < num_rows; ++r) {
-      float& s = scratch[static_cast<std::size_t>(r)];
-      s = constants_f_[r] - 0.5F * s;
-    }
-    for (int j = 0; j < num_states(); ++j) out(t, j) = log_sum_exp(scratch.data() + j * k, k);
+    kernels.distances_f(frames.data() + t * frames.outerStride(), table, scratch.data());
+    for (std::size_t r = 0; r < constants_f_.size(); ++r)
+      scratch[r] = constants_f_[r] - 0.5F * scratch[r];
+    mix(scratch.data(), num_states(), k, out.data() + t * out.outerStride());
   }
 }
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* components) const {
   out->resize(frames.rows(), num_states());
   if (components != nullptr) components->resize(frames.rows(), means_.rows());
-  log_densities_in_double(frames, out->data(),
-                          components == nullptr ? nullptr : components->data());
+  validate_finite(frames, "frames");
+  detail::log_densities_of_finite(*this, frames, out->data(), num_states(),
+                                  components == nullptr ? nullptr : components->data(),
+                                  means_.rows());
 }
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, double* out) const {
-  log_densities_in_double(frames, out, nullptr);
+  validate_finite(frames, "frames");
+  detail::log_densities_of_finite(*this, frames, out, num_states(), nullptr, 0);
 }
 
-void MixtureBank::log_densities_in_double(ConstMatrixRefF frames, double* out,
-                                          double* components) const {
-  validate_finite(frames, "frames");
-  const int k = num_mixtures();
-  const auto width = static_cast<std::size_t>(dim());
-  thread_local std::vector<double> buffer;
-  buffer.resize(width + static_cast<std::size_t>(means_.rows()));
-  Eigen::Map<Eigen::RowVectorXd> x(buffer.data(), dim());
+void detail::log_densities_of_finite(const MixtureBank& bank, ConstMatrixRefF frames, double* out,
+                                     std::ptrdiff_t stride, double* components,
+                                     std::ptrdiff_t component_stride) {
+  const int k = bank.num_mixtures();
+  const auto num_rows = static_cast<std::ptrdiff_t>(bank.constants_.size());
+  const auto table = table_of(bank.columns_, num_rows, bank.dim());
+  thread_local AlignedVector buffer;
+  buffer.resize(static_cast<std::size_t>(table.stride + bank.dim()));
+  double* logs = buffer.data();
+  double* x = logs + table.stride;
+  const MixtureKernels& kernels = mixture_kernels();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    x = frames.row(t).cast<double>();
-    double* row = components == nullptr ? buffer.data() + width : components + t * means_.rows();
-    weighted_distances(x.data(), means_.data(), precisions_.data(), static_cast<int>(means_.rows()),
-                       dim(), row);
-    for (Eigen::Index r = 0; r < means_.rows(); ++r) row[r] = constants_[r] - 0.5 * row[r];
-    for (int j = 0; j < num_states(); ++j)
-      out[t * num_states() + j] = log_sum_exp(row + static_cast<std::ptrdiff_t>(j) * k, k);
+    const float* frame = frames.data() + t * frames.outerStride();
+    for (int d = 0; d < bank.dim(); ++d) x[d] = static_cast<double>(frame[d]);
+    kernels.distances(x, table, logs);
+    for (std::ptrdiff_t r = 0; r < num_rows; ++r)
+      logs[r] = bank.constants_[static_cast<std::size_t>(r)] - 0.5 * logs[r];
+    if (components != nullptr) std::copy_n(logs, num_rows, components + t * component_stride);
+    mix(logs, bank.num_states(), k, out + t * stride);
   }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Estimation of mixture banks: statistics, k-means starts, and the M step of Baum-Welch.
+// Estimation of mixture banks: statistics, k-means starts, as training begins with them.
+#include "models/hmm/mixture_training.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,20 +34,46 @@ MatrixD distant_rows(const MatrixD& rows, int count, Random* random) {
   return chosen;
 }
 
-// k-means of `rows` from `centres` on, which are moved; returns the cluster of each row.
-std::vector<int> clusters_of(const MatrixD& rows, MatrixD* moved, const StopCheck& should_stop) {
+// Rows of float, wherever they lie.
+struct FloatRows {
+  std::vector<const float*> rows;
+  Eigen::Index dim;
+
+  [[nodiscard]] std::size_t size() const { return rows.size(); }
+  const double* get(std::size_t r, double* buffer) const {
+    for (Eigen::Index d = 0; d < dim; ++d) buffer[d] = static_cast<double>(rows[r][d]);
+    return buffer;
+  }
+};
+
+struct DoubleRows {
+  const MatrixD& rows;
+
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(rows.rows()); }
+  const double* get(std::size_t r, double* /*buffer*/) const {
+    return rows.data() + static_cast<Eigen::Index>(r) * rows.cols();
+  }
+};
+
+// k-means of rows from `centres` on, which are moved; returns the cluster of each row.
+template <class Rows>
+std::vector<int> clusters_of(const Rows& rows, MatrixD* moved, const StopCheck& should_stop) {
   MatrixD& centres = *moved;
   const Eigen::Index num_clusters = centres.rows();
-  std::vector<int> nearest(static_cast<std::size_t>(rows.rows()), 0);
+  const Eigen::Index dim = centres.cols();
+  std::vector<int> nearest(rows.size(), 0);
+  std::vector<double> buffer(static_cast<std::size_t>(dim));
   for (int iteration = 0; iteration < kStartIterations; ++iteration) {
     poll(should_stop);
-    MatrixD sums = MatrixD::Zero(num_clusters, rows.cols());
+    detail::NearestCentre search(centres);
+    MatrixD sums = MatrixD::Zero(num_clusters, dim);
     VectorD counts = VectorD::Zero(num_clusters);
-    for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-      Eigen::Index best = 0;
-      (centres.rowwise() - rows.row(r)).rowwise().squaredNorm().minCoeff(&best);
-      nearest[static_cast<std::size_t>(r)] = static_cast<int>(best);
-      sums.row(best) += rows.row(r);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const double* row = rows.get(r, buffer.data());
+      const int best = search.find(row);
+      nearest[r] = best;
+      double* sum = sums.data() + best * dim;
+      for (Eigen::Index d = 0; d < dim; ++d) sum[d] += row[d];
       counts[best] += 1;
     }
     for (Eigen::Index k = 0; k < num_clusters; ++k) {
@@ -56,11 +84,11 @@ std::vector<int> clusters_of(const MatrixD& rows, MatrixD* moved, const StopChec
 }
 
 // As above from random rows.
-std::vector<int> clusters_of(const MatrixD& rows, int num_clusters, Random* random) {
-  MatrixD centres(num_clusters, rows.cols());
+std::vector<int> clusters_of(const FloatRows& rows, int num_clusters, Random* random) {
+  MatrixD centres(num_clusters, rows.dim);
   for (int k = 0; k < num_clusters; ++k)
-    centres.row(k) =
-        rows.row(static_cast<Eigen::Index>(random->below(static_cast<std::uint64_t>(rows.rows()))));
+    rows.get(static_cast<std::size_t>(random->below(rows.size())), centres.data() + k * rows.dim);
+  if (num_clusters == 1) return std::vector<int>(rows.size(), 0);
   return clusters_of(rows, &centres, {});
 }
 
@@ -88,7 +116,8 @@ std::vector<std::vector<int>> cluster_frames(const std::vector<MatrixF>& sequenc
   }
   Random random(seed);
   MatrixD centres = distant_rows(rows, num_states, &random);
-  clusters_of(rows, &centres, should_stop);
+  clusters_of(DoubleRows{rows}, &centres, should_stop);
+  detail::NearestCentre search(centres);
   std::vector<std::vector<int>> states;
   states.reserve(sequences.size());
   for (const MatrixF& s : sequences) {
@@ -96,10 +125,8 @@ std::vector<std::vector<int>> cluster_frames(const std::vector<MatrixF>& sequenc
     std::vector<int>& own = states.emplace_back();
     own.reserve(static_cast<std::size_t>(s.rows()));
     for (Eigen::Index t = 0; t < s.rows(); ++t) {
-      Eigen::Index best = 0;
       const Eigen::RowVectorXd x = standardised(s, t);
-      (centres.rowwise() - x).rowwise().squaredNorm().minCoeff(&best);
-      own.push_back(static_cast<int>(best));
+      own.push_back(search.find(x.data()));
     }
   }
   return states;
@@ -145,41 +172,47 @@ GlobalStatistics global_statistics(const std::vector<MatrixF>& sequences) {
 MixtureBank initial_bank(const std::vector<MatrixF>& sequences,
                          const std::vector<std::vector<int>>& states, int num_states,
                          int num_mixtures, const VectorD& variance_floor, std::uint64_t seed) {
-  const GlobalStatistics global = global_statistics(sequences);
+  return detail::initial_bank(sequences, states, num_states, num_mixtures, variance_floor, seed,
+                              global_statistics(sequences));
+}
+
+MixtureBank detail::initial_bank(const std::vector<MatrixF>& sequences,
+                                 const std::vector<std::vector<int>>& states, int num_states,
+                                 int num_mixtures, const VectorD& variance_floor,
+                                 std::uint64_t seed, const GlobalStatistics& global) {
   const auto dim = global.mean.size();
   const Eigen::Index k = num_mixtures;
   MatrixD weights = MatrixD::Constant(num_states, k, 1.0 / num_mixtures);
   MatrixD means(num_states * k, dim);
   MatrixD variances(num_states * k, dim);
-  Random random(seed);
-  for (int j = 0; j < num_states; ++j) {
-    std::vector<Eigen::RowVectorXd> members;
-    for (std::size_t s = 0; s < sequences.size(); ++s) {
-      for (std::size_t t = 0; t < states[s].size(); ++t) {
-        if (states[s][t] == j)
-          members.emplace_back(sequences[s].row(static_cast<Eigen::Index>(t)).cast<double>());
-      }
+  std::vector<FloatRows> members(static_cast<std::size_t>(num_states), FloatRows{{}, dim});
+  for (std::size_t s = 0; s < sequences.size(); ++s) {
+    for (std::size_t t = 0; t < states[s].size(); ++t) {
+      const int j = states[s][t];
+      members[static_cast<std::size_t>(j)].rows.push_back(sequences[s].data() +
+                                                          static_cast<Eigen::Index>(t) * dim);
     }
-    MatrixD rows(static_cast<Eigen::Index>(members.size()), dim);
-    for (std::size_t i = 0; i < members.size(); ++i)
-      rows.row(static_cast<Eigen::Index>(i)) = members[i];
+  }
+  Random random(seed);
+  VectorD row(dim);
+  for (int j = 0; j < num_states; ++j) {
+    const FloatRows& rows = members[static_cast<std::size_t>(j)];
     const std::vector<int> nearest =
-        members.empty() ? std::vector<int>{} : clusters_of(rows, num_mixtures, &random);
+        rows.size() == 0 ? std::vector<int>{} : clusters_of(rows, num_mixtures, &random);
     VectorD counts = VectorD::Zero(k);
+    MatrixD sums = MatrixD::Zero(k, dim);
+    MatrixD squares = MatrixD::Zero(k, dim);
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+      rows.get(i, row.data());
+      sums.row(nearest[i]) += row.transpose();
+      squares.row(nearest[i]) += row.cwiseAbs2().transpose();
+      counts[nearest[i]] += 1;
+    }
     for (Eigen::Index c = 0; c < k; ++c) {
-      VectorD sum = VectorD::Zero(dim);
-      VectorD squares = VectorD::Zero(dim);
-      for (std::size_t i = 0; i < nearest.size(); ++i) {
-        if (nearest[i] != c) continue;
-        const auto row = rows.row(static_cast<Eigen::Index>(i)).transpose();
-        sum += row;
-        squares += row.cwiseAbs2();
-        counts[c] += 1;
-      }
       const Eigen::Index at = j * k + c;
       if (counts[c] > 0) {
-        means.row(at) = (sum / counts[c]).transpose();
-        variances.row(at) = (squares / counts[c]).transpose() - means.row(at).cwiseAbs2();
+        means.row(at) = sums.row(c) / counts[c];
+        variances.row(at) = squares.row(c) / counts[c] - means.row(at).cwiseAbs2();
       } else {
         means.row(at) = global.mean.transpose();
         variances.row(at) = global.variance.transpose();
@@ -191,71 +224,6 @@ MixtureBank initial_bank(const std::vector<MatrixF>& sequences,
     weights.row(j) =
         ((counts.array() + 1.0) / (counts.sum() + static_cast<double>(k))).matrix().transpose();
   }
-  return {weights, means, variances};
-}
-
-MixtureAccumulator::MixtureAccumulator(int num_states, int num_mixtures, int dim)
-    : counts_(VectorD::Zero(num_states * num_mixtures)),
-      sums_(MatrixD::Zero(num_states * num_mixtures, dim)),
-      squares_(MatrixD::Zero(num_states * num_mixtures, dim)) {}
-
-void MixtureAccumulator::add(ConstMatrixRefF frames, const MatrixD& gamma,
-                             const MatrixD& components, const MatrixD& densities) {
-  const Eigen::Index k = components.cols() / gamma.cols();
-  for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    const Eigen::RowVectorXd x = frames.row(t).cast<double>();
-    const Eigen::RowVectorXd x2 = x.cwiseAbs2();
-    for (Eigen::Index r = 0; r < components.cols(); ++r) {
-      const Eigen::Index j = r / k;
-      if (!(gamma(t, j) > 1e-12)) continue;
-      const double w = gamma(t, j) * (k == 1 ? 1.0 : std::exp(components(t, r) - densities(t, j)));
-      if (!(w > 0)) continue;
-      counts_[r] += w;
-      sums_.row(r) += w * x;
-      squares_.row(r) += w * x2;
-    }
-  }
-}
-
-void MixtureAccumulator::add_prior(const MixtureBank& prior, double frames_per_state) {
-  const Eigen::Index k = prior.num_mixtures();
-  for (Eigen::Index r = 0; r < counts_.size(); ++r) {
-    const double frames = frames_per_state * prior.weights()(r / k, r % k);
-    counts_[r] += frames;
-    sums_.row(r) += frames * prior.means().row(r);
-    squares_.row(r) += frames * (prior.variances().row(r) + prior.means().row(r).cwiseAbs2());
-  }
-}
-
-MixtureBank MixtureAccumulator::estimate(const MixtureBank& previous,
-                                         const BankEstimation& options) const {
-  MatrixD weights = previous.weights();
-  MatrixD means = previous.means();
-  MatrixD variances = previous.variances();
-  const auto floor = options.variance_floor.transpose();
-  const Eigen::Index k = weights.cols();
-  constexpr double kUnvisited = 1e-8;
-  Eigen::RowVectorXd spread = Eigen::RowVectorXd::Zero(means.cols());  // of all components
-  double spread_count = 0;
-  for (Eigen::Index j = 0; j < weights.rows(); ++j) {
-    const double total = counts_.segment(j * k, k).sum();
-    if (total < kUnvisited) continue;
-    for (Eigen::Index c = 0; c < k; ++c) {
-      const Eigen::Index r = j * k + c;
-      weights(j, c) = std::max((counts_[r] + options.weight_prior) /
-                                   (total + options.weight_prior * static_cast<double>(k)),
-                               options.weight_floor);
-      if (counts_[r] < kUnvisited) continue;
-      means.row(r) = sums_.row(r) / counts_[r];
-      const Eigen::RowVectorXd variance = squares_.row(r) / counts_[r] - means.row(r).cwiseAbs2();
-      variances.row(r) = variance.cwiseMax(floor);
-      spread += counts_[r] * variance;
-      spread_count += counts_[r];
-    }
-    weights.row(j) /= weights.row(j).sum();
-  }
-  if (options.tied_variance && spread_count > 0)
-    variances.rowwise() = (spread / spread_count).cwiseMax(floor);
   return {weights, means, variances};
 }
 

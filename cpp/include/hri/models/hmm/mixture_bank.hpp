@@ -5,6 +5,7 @@
 // or with one state a plain mixture. Trained in double, scored in float.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,8 +14,22 @@
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/hmm/padded_matrix.hpp"
 
 namespace hri {
+
+class MixtureBank;
+
+namespace detail {
+struct Alignment;
+
+/// Log densities in double of frames that are known to be finite: of every state to rows of
+/// `stride` values, and of every component to rows of `component_stride`, if `components` is not
+/// null.
+void log_densities_of_finite(const MixtureBank& bank, ConstMatrixRefF frames, double* out,
+                             std::ptrdiff_t stride, double* components,
+                             std::ptrdiff_t component_stride);
+}  // namespace detail
 
 /// Immutable; const calls are safe from several threads. Invariant: weights of a state sum to 1,
 /// variances > 0.
@@ -49,18 +64,19 @@ class HRI_API MixtureBank {
   static MixtureBank read(const ModelFile& file, const std::string& prefix);
 
  private:
-  void log_densities_in_double(ConstMatrixRefF frames, double* out, double* components) const;
+  friend void detail::log_densities_of_finite(const MixtureBank& bank, ConstMatrixRefF frames,
+                                              double* out, std::ptrdiff_t stride,
+                                              double* components, std::ptrdiff_t component_stride);
 
   MatrixD weights_;
   MatrixD means_;
   MatrixD variances_;
-  // Float copies for scoring: log density of a component is constant - 0.5 * sum((x - mean)^2 *
-  // precision).
-  MatrixF means_f_;
-  MatrixF precisions_f_;
-  VectorF constants_f_;
-  VectorD constants_;
-  MatrixD precisions_;
+  // The log density of a component is constant - 0.5 * sum((x - mean)^2 * precision); means and
+  // precisions stand by columns, in double and in float.
+  detail::AlignedVector constants_;
+  detail::AlignedVector columns_;
+  std::vector<float, detail::CacheLineAllocator<float>> constants_f_;
+  std::vector<float, detail::CacheLineAllocator<float>> columns_f_;
 };
 
 /// How a bank is estimated from sums.
@@ -91,14 +107,19 @@ class HRI_API MixtureAccumulator {
 
   /// Of every component: weight of its frames (num_states * num_mixtures), their weighted sum and
   /// sum of squares, (num_states * num_mixtures, dim).
-  [[nodiscard]] const VectorD& counts() const { return counts_; }
-  [[nodiscard]] const MatrixD& sums() const { return sums_; }
-  [[nodiscard]] const MatrixD& squares() const { return squares_; }
+  [[nodiscard]] VectorD counts() const;
+  [[nodiscard]] MatrixD sums() const { return columns(0, dim_); }
+  [[nodiscard]] MatrixD squares() const { return columns(dim_, dim_); }
+
+  /// As add() above; private to the library.
+  void add(ConstMatrixRefF frames, const detail::Alignment& alignment);
 
  private:
-  VectorD counts_;
-  MatrixD sums_;
-  MatrixD squares_;
+  [[nodiscard]] MatrixD columns(Eigen::Index first, Eigen::Index count) const;
+
+  Eigen::Index num_mixtures_;
+  Eigen::Index dim_;
+  detail::PaddedMatrix totals_;  // of a component: sums, squares, count
 };
 
 /// Mean and variance of all rows of all sequences, each (dim).
