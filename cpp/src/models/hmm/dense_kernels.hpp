@@ -13,6 +13,27 @@
 
 namespace hri::detail {
 
+/// One sequence through a left-right chain without skips, of kLanes states at most, in logs. Rows
+/// of frames hold kLanes values.
+struct LogPass {
+  const double* const* chain = nullptr;  ///< MarkovChain::by_one()
+  const double* log_b = nullptr;         ///< log densities, padded with 0
+  std::ptrdiff_t num_frames = 0;
+  double* alpha = nullptr;  ///< log P(frames 0 to t, state); the caller sets the first row
+  std::ptrdiff_t alpha_stride = kLanes;  ///< 0: the last row is all that is kept
+  double* after = nullptr;  ///< log P(frames from t on | state before t), but for t = 0
+  double* beta = nullptr;   ///< log P(frames from t + 1 on | state); the caller sets the last row
+};
+
+/// Passes that are taken side by side, as each step has to wait for the one before.
+constexpr int kLogPasses = 4;
+
+/// Expected counts of one sequence, by the state that a step leaves.
+struct StepSums {
+  double stay[kLanes];
+  double go[kLanes];
+};
+
 struct DenseKernels {
   /// y[j] = sum over i of x[i] a(i, j), i ascending; y has `num_columns` values, not padded.
   void (*propagate)(const double* x, int num_rows, const double* a, std::ptrdiff_t stride,
@@ -35,6 +56,12 @@ struct DenseKernels {
   double (*largest)(const double* x, std::ptrdiff_t count);
   /// out[j] = exp(x[j] - offset), 0 where that is below 1e-307; at most exp(709).
   void (*exponentials)(const double* x, double offset, std::ptrdiff_t count, double* out);
+  /// log_forward_step() and log_backward_step() for all frames of `count` passes, 1..kLogPasses.
+  void (*forward_logs)(const LogPass* passes, int count);
+  void (*backward_logs)(const LogPass* passes, int count);
+  /// Posteriors of the states into `gamma`, kLanes values a frame, and sums over frames of what
+  /// times a_ij is the expected number of steps. False where that wants other arithmetic.
+  bool (*posteriors)(const LogPass& pass, double total, double* gamma, StepSums* sums);
   /// out[j] = log(x[j]) + offset where x[j] is a normal number above 0, and anything elsewhere.
   void (*logarithms)(const double* x, double offset, std::ptrdiff_t count, double* out);
 };

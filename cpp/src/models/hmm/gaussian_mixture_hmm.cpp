@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "models/hmm/expectation.hpp"
 #include "models/hmm/forward_backward.hpp"
 #include "models/hmm/forward_pass.hpp"
+#include "models/hmm/mixture_training.hpp"
 
 namespace hri {
 namespace {
@@ -83,8 +85,8 @@ GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequenc
   const VectorD floor = floor_of(global.variance, options.variance_floor);
   const int n = options.topology.num_states;
   return GaussianMixtureHmm(MarkovChain::initial(options.topology),
-                            initial_bank(sequences, first_states(sequences, options), n,
-                                         options.num_mixtures, floor, options.seed))
+                            detail::initial_bank(sequences, first_states(sequences, options), n,
+                                                 options.num_mixtures, floor, options.seed, global))
       .retrain(sequences, options, report);
 }
 
@@ -107,21 +109,11 @@ GaussianMixtureHmm GaussianMixtureHmm::retrain(const std::vector<MatrixF>& seque
   for (const MatrixF& s : sequences) num_frames += static_cast<double>(s.rows());
 
   TrainingReport local;
-  MatrixD densities;
-  MatrixD components;
-  MatrixD gamma;
   for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
     detail::ChainCounts counts(n);
     MixtureAccumulator accumulator(n, bank_.num_mixtures(), dim());
-    double total = 0;
-    for (const MatrixF& s : sequences) {
-      poll(options.should_stop);
-      model.bank_.log_densities(s, &densities, &components);
-      gamma.resize(s.rows(), n);
-      total += detail::forward_backward(model.chain_, detail::rows_of(densities), gamma.data(), n,
-                                        &counts);
-      accumulator.add(s, gamma, components, densities);
-    }
+    const double total =
+        detail::add_expectations(model, sequences, options.should_stop, &counts, &accumulator);
     if (!local.log_likelihoods.empty()) {
       local.converged = (total - local.log_likelihoods.back()) / num_frames < options.tolerance;
     }

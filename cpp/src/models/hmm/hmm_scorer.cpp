@@ -11,6 +11,7 @@
 #include "hri/models/adaptation/map_adaptation.hpp"
 #include "hri/models/hmm/few_samples.hpp"
 #include "hri/models/hmm/gaussian_mixture.hpp"
+#include "models/hmm/expectation.hpp"
 #include "models/hmm/path_fit.hpp"
 #include "models/scorer_kinds.hpp"
 
@@ -24,11 +25,8 @@ constexpr const char* kNumFillers = "num_background";
 constexpr const char* kFiller = "background";
 constexpr std::int64_t kMaxFillers = 10000;
 
-VectorF log_likelihoods(const std::vector<GaussianMixtureHmm>& hmms, ConstMatrixRefF frames) {
-  VectorF result(static_cast<Eigen::Index>(hmms.size()));
-  for (std::size_t c = 0; c < hmms.size(); ++c)
-    result[static_cast<Eigen::Index>(c)] = static_cast<float>(hmms[c].log_likelihood(frames));
-  return result.cwiseMax(kImpossible);
+VectorF scores_of(const std::vector<GaussianMixtureHmm>& hmms, ConstMatrixRefF frames) {
+  return log_likelihoods(hmms, frames).cwiseMax(kImpossible);
 }
 
 class HmmScorer final : public SequenceScorer {
@@ -44,10 +42,10 @@ class HmmScorer final : public SequenceScorer {
   [[nodiscard]] int num_classes() const override { return static_cast<int>(hmms_.size()); }
   [[nodiscard]] int num_fillers() const override { return static_cast<int>(fillers_.size()); }
   [[nodiscard]] VectorF scores(ConstMatrixRefF frames) const override {
-    return log_likelihoods(hmms_, frames);
+    return scores_of(hmms_, frames);
   }
   [[nodiscard]] VectorF filler_scores(ConstMatrixRefF frames) const override {
-    return log_likelihoods(fillers_, frames);
+    return scores_of(fillers_, frames);
   }
   [[nodiscard]] float garbage_score(ConstMatrixRefF frames) const override {
     return static_cast<float>(garbage_.log_likelihood(frames));

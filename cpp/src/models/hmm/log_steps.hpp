@@ -21,8 +21,16 @@ double log_sum(int begin, int end, const F& term) {
   double top = kMinusInf;
   for (int i = begin; i < end; ++i) top = std::max(top, term(i));
   if (top == kMinusInf) return kMinusInf;
+  // Added to a sum of exp(highest) or more, what lies this far below is lost in rounding.
+  constexpr double kLost = 39;
   double sum = 0;
-  for (int i = begin; i < end; ++i) sum += std::exp(term(i) - top);
+  double highest = kMinusInf;
+  for (int i = begin; i < end; ++i) {
+    const double exponent = term(i) - top;
+    if (exponent < highest - kLost) continue;
+    sum += std::exp(exponent);
+    highest = std::max(highest, exponent);
+  }
   return top + std::log(sum);
 }
 

@@ -110,10 +110,17 @@ void MarkovChain::tabulate() {
     }
   }
   if (topology_.kind != Topology::Kind::left_right || longest > 1) return;
-  by_one_ = detail::PaddedMatrix(2, n, 0);
+  by_one_ = detail::PaddedMatrix(detail::kNumByOne, n, 0);
   for (int j = 0; j < n; ++j) {
-    if (j > 0) by_one_.row(0)[j] = transition_(j - 1, j);
-    by_one_.row(1)[j] = transition_(j, j);
+    by_one_.row(detail::kStay)[j] = transition_(j, j);
+    if (j > 0) by_one_.row(detail::kGoInto)[j] = transition_(j - 1, j);
+    if (j + 1 < n) by_one_.row(detail::kGoFrom)[j] = transition_(j, j + 1);
+  }
+  for (int row = 0; row < detail::kLogGoInto; ++row) {
+    for (std::ptrdiff_t j = 0; j < by_one_.stride(); ++j) {
+      const double p = by_one_.row(row)[j];
+      by_one_.row(row + detail::kLogGoInto)[j] = p > 0 ? std::log(p) : kMinusInf;
+    }
   }
 }
 
@@ -149,7 +156,9 @@ void MarkovChain::propagate(const double* x, double* y) const {
 detail::Spread MarkovChain::propagate(const double* x, const double* b, double* y) const {
   const detail::DenseKernels& kernels = detail::dense_kernels();
   const std::ptrdiff_t count = detail::padded(num_states());
-  if (!by_one_.empty()) return kernels.step_by_one(x, by_one_.row(0), by_one_.row(1), b, count, y);
+  if (!by_one_.empty())
+    return kernels.step_by_one(x, by_one_.row(detail::kGoInto), by_one_.row(detail::kStay), b,
+                               count, y);
   if (dense()) {
     // Also what pads, so that whole registers are stored.
     kernels.propagate(x, num_states(), forward_.row(0), forward_.stride(), static_cast<int>(count),
@@ -225,6 +234,13 @@ int MarkovChain::best_previous(const double* x, int j, int best_leaver) const {
   const double in_band = score(best);
   const double jumped = x[best_leaver] + log_leave_[best_leaver] + log_land_[j];
   return jumped > in_band || (jumped == in_band && best_leaver < best) ? best_leaver : best;
+}
+
+detail::ByOneRows MarkovChain::by_one() const {
+  detail::ByOneRows rows{};
+  for (std::size_t row = 0; row < rows.size() && !by_one_.empty(); ++row)
+    rows[row] = by_one_.row(static_cast<std::ptrdiff_t>(row));
+  return rows;
 }
 
 double MarkovChain::smallest_probability() const {

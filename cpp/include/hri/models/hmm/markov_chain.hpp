@@ -6,6 +6,8 @@
 // below, whose cost is that of the structure: N^2 for ergodic, N for all others.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "hri/core/export.hpp"
@@ -22,6 +24,11 @@ struct Spread {
   double sum;
   double smallest;  ///< of the values above 0; +inf where there is none
 };
+
+/// Rows of MarkovChain::by_one(): of state j the probability to stay, of the step into it and of
+/// the step from it, 0 where there is none, and their logs.
+enum ByOne : std::uint8_t { kGoInto, kStay, kGoFrom, kLogGoInto, kLogStay, kLogGoFrom, kNumByOne };
+using ByOneRows = std::array<const double*, kNumByOne>;
 }  // namespace detail
 
 /// Immutable; const calls are safe from several threads. Invariant: start and every row of
@@ -71,6 +78,10 @@ class HRI_API MarkovChain {
   /// The smallest probability above 0 of a start, a step of the band or a jump.
   [[nodiscard]] double smallest_probability() const;
 
+  /// Of a left-right chain without skips: rows of probabilities, padded, in the order of
+  /// detail::ByOne; nullptr for others.
+  [[nodiscard]] detail::ByOneRows by_one() const;
+
   void write(ModelFile& file, const std::string& prefix) const;
   /// Throws FormatError naming the field.
   static MarkovChain read(const ModelFile& file, const std::string& prefix);
@@ -97,7 +108,7 @@ class HRI_API MarkovChain {
   int lowest_step_ = 0;
   detail::PaddedMatrix steps_;
   detail::PaddedMatrix log_steps_;
-  detail::PaddedMatrix by_one_;  // left-right without skips: steps into j from j - 1, and from j
+  detail::PaddedMatrix by_one_;  // left-right without skips: rows of detail::ByOne
 };
 
 }  // namespace hri
