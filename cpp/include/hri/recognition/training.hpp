@@ -14,7 +14,8 @@
 
 namespace hri {
 
-/// Called with (done, total) steps of a training.
+/// Called with (done, total) steps of a training, from (0, total) to (total, total), by the thread
+/// that trains.
 using TrainingProgress = std::function<void(int done, int total)>;
 
 /// The distinct labels in sorted order. Throws InvalidArgument for fewer than two, or an empty

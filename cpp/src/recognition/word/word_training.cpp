@@ -11,6 +11,7 @@
 #include "core/parallel_for.hpp"
 #include "hri/core/error.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
+#include "recognition/word/filler_memo.hpp"
 #include "recognition/word/non_words.hpp"
 #include "recognition/word/word_augmentation.hpp"
 
@@ -78,30 +79,41 @@ class WordTrainer {
 
   WordRecognizer run(const std::vector<WordSample>& samples, const std::vector<WordSample>& fillers,
                      const TrainingProgress& progress) {
-    train_fillers(fillers);
+    // Fillers, features, every fold, and the models that are kept. Samples without speech may leave
+    // fewer folds than all would make.
+    const int num_steps = (uses_fillers(fillers) ? 1 : 0) + num_folds_of(samples) + 2;
+    int step = 0;
+    const auto report = [&](int done) {
+      if (progress) progress(done, num_steps);
+    };
+    report(step);
+    if (uses_fillers(fillers)) {
+      fillers_ =
+          detail::remembered_fillers(fillers, options_, augmentation_.front_end().embedding().get(),
+                                     [&] { return train_fillers(fillers); });
+      report(++step);
+    }
     prepare(samples);
+    report(++step);
     const int num_folds = assign_folds();
     fit_vector_options(num_folds);
-    const int num_steps = num_folds + 2;
-    int step = 0;
-    const auto report = [&] {
-      if (progress) progress(++step, num_steps);
-    };
     HeldOutFolds held_out;
     for (int fold = 0; fold < num_folds; ++fold) {
-      report();
       score_fold(fold, &held_out);
+      report(++step);
     }
-    report();
     WordRecognizer result = assemble(train_without(kNoFold), std::move(held_out));
-    report();
+    report(num_steps);
     return result;
   }
 
  private:
+  [[nodiscard]] bool uses_fillers(const std::vector<WordSample>& fillers) const {
+    return !fillers.empty() && options_.model != SequenceModelKind::ptbhmm;
+  }
+
   // Words without speech are left out.
-  void train_fillers(const std::vector<WordSample>& fillers) {
-    if (fillers.empty() || options_.model == SequenceModelKind::ptbhmm) return;
+  [[nodiscard]] detail::TrainedFillers train_fillers(const std::vector<WordSample>& fillers) const {
     std::vector<std::string> words = words_of(fillers);
     std::sort(words.begin(), words.end());
     words.erase(std::unique(words.begin(), words.end()), words.end());
@@ -123,13 +135,15 @@ class WordTrainer {
       sequences.emplace_back();
       for (const StreamFrames& copy : list) sequences.back().push_back(&copy);
     }
-    fillers_ = hri::train_fillers(sequences, augmentation_.front_end().num_streams(), options_,
-                                  should_stop_);
-    if (augmentation_.front_end().embedding() == nullptr) return;
+    detail::TrainedFillers result;
+    result.models = hri::train_fillers(sequences, augmentation_.front_end().num_streams(), options_,
+                                       should_stop_);
+    if (augmentation_.front_end().embedding() == nullptr) return result;
     for (const auto& list : sequences) {
-      filler_vectors_.emplace_back();
-      for (const StreamFrames* copy : list) filler_vectors_.back().push_back(copy->back());
+      result.vectors.emplace_back();
+      for (const StreamFrames* copy : list) result.vectors.back().push_back(copy->back());
     }
+    return result;
   }
 
   // Samples without speech are left out; train_without() refuses a label that has no other.
@@ -179,6 +193,17 @@ class WordTrainer {
     for (const std::vector<float>& a : audio) {
       if (front_end.num_frames(a.size()) > 0) to->push_back({kind, front_end.frames(a)});
     }
+  }
+
+  [[nodiscard]] int num_folds_of(const std::vector<WordSample>& samples) const {
+    std::vector<int> classes;
+    std::vector<std::string> groups;
+    for (const WordSample& s : samples) {
+      classes.push_back(label_index(labels_, s.label));
+      groups.push_back(s.group);
+    }
+    const std::vector<int> folds = held_out_folds(classes, groups, kMaxFolds);
+    return folds.empty() ? 0 : 1 + *std::max_element(folds.begin(), folds.end());
   }
 
   int assign_folds() {
@@ -243,7 +268,7 @@ class WordTrainer {
       for (const StreamFrames& copy : p.copies)
         vectors[static_cast<std::size_t>(p.label)].push_back(copy.back());
     }
-    const LdaScorer scorer = LdaScorer::train(vectors, filler_vectors_, {shrinkage, 1});
+    const LdaScorer scorer = LdaScorer::train(vectors, fillers_->vectors, {shrinkage, 1});
     HeldOutVectors result;
     for (const PreparedSample& p : prepared_) {
       if (p.fold != fold) continue;
@@ -278,9 +303,9 @@ class WordTrainer {
       }
     }
     if (augmentation_.front_end().embedding() == nullptr)
-      return MultiStreamScorer::train(sequences, options_, fillers_, should_stop_);
-    const VectorTraining vectors{vector_options_, filler_vectors_};
-    return MultiStreamScorer::train(sequences, options_, fillers_, should_stop_, &vectors);
+      return MultiStreamScorer::train(sequences, options_, fillers_->models, should_stop_);
+    const VectorTraining vectors{vector_options_, fillers_->vectors};
+    return MultiStreamScorer::train(sequences, options_, fillers_->models, should_stop_, &vectors);
   }
 
   [[nodiscard]] bool has_every_class_without(int fold) const {
@@ -351,8 +376,8 @@ class WordTrainer {
   detail::NonWords non_words_;
   std::size_t source_step_;
   StopCheck should_stop_;
-  std::vector<FillerModels> fillers_;  // of every stream
-  ClassSequences filler_vectors_;
+  std::shared_ptr<const detail::TrainedFillers> fillers_ =
+      std::make_shared<const detail::TrainedFillers>();
   LdaScorerOptions vector_options_;
   std::vector<PreparedSample> prepared_;
 };

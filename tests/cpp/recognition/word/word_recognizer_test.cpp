@@ -76,6 +76,24 @@ INSTANTIATE_TEST_SUITE_P(Models, WordRecognizerOf,
                          ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm),
                          model_name);
 
+TEST(WordRecognizer, ReportsEveryStepOfTraining) {
+  const Clips all = tone_clips();  // of three speakers, so that there are three folds
+  const std::vector<float> audio = tone(700, 100, 60);
+  const std::vector<WordSample> fillers(2, {audio, kRateHz, "flat", ""});
+  for (const bool with_fillers : {false, true}) {
+    std::vector<int> steps;
+    const int total = with_fillers ? 6 : 5;  // fillers, features, folds, and what is kept
+    const auto report = [&](int done, int of) {
+      EXPECT_EQ(of, total);
+      steps.push_back(done);
+    };
+    WordRecognizer::train(all.samples, {}, report, {},
+                          with_fillers ? fillers : std::vector<WordSample>{});
+    ASSERT_EQ(steps.size(), static_cast<std::size_t>(total) + 1);
+    for (int i = 0; i <= total; ++i) EXPECT_EQ(steps[static_cast<std::size_t>(i)], i);
+  }
+}
+
 TEST(WordRecognizer, ReportsNoInputForSilence) {
   const Clips all = tone_clips();
   const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});
