@@ -5092,10 +5092,10 @@ class WordRecognizerOptions:
         largest; each copy has its own, at random; -20..100 dB
     false_reject_rate : float, default 0.02
         share of correct held-out words that the threshold may reject; 0..0.5
-    embedding_weight : float, default 10.0
-        weight of the speech embedding beside the streams of cepstra (front_end both); 0.01..1000
-    embedding_shrinkage : float, default 0.2
-        shrinkage of the embedding's linear discriminants (front_end both); 0..1
+    embedding_weight : float, default 0.0
+        front_end both: weight of the speech embedding beside the streams of cepstra; at 1, words of speakers held out are 1 a discriminant off their mean; 0: chosen on such words; 0..1000
+    embedding_shrinkage : float, default 0.0
+        front_end both: shrinkage of the embedding's linear discriminants; 0: chosen on words of speakers held out; 0..1
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -5128,8 +5128,8 @@ class WordRecognizerOptions:
         min_snr_db: float = 10.0,
         max_snr_db: float = 25.0,
         false_reject_rate: float = 0.02,
-        embedding_weight: float = 10.0,
-        embedding_shrinkage: float = 0.2,
+        embedding_weight: float = 0.0,
+        embedding_shrinkage: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -5154,14 +5154,14 @@ class WordRecognizerOptions:
     @property
     def embedding_shrinkage(self) -> float:
         """
-        shrinkage of the embedding's linear discriminants (front_end both)
+        front_end both: shrinkage of the embedding's linear discriminants; 0: chosen on words of speakers held out
         """
     @embedding_shrinkage.setter
     def embedding_shrinkage(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_weight(self) -> float:
         """
-        weight of the speech embedding beside the streams of cepstra (front_end both)
+        front_end both: weight of the speech embedding beside the streams of cepstra; at 1, words of speakers held out are 1 a discriminant off their mean; 0: chosen on such words
         """
     @embedding_weight.setter
     def embedding_weight(self, arg1: typing.Any) -> None: ...

@@ -130,6 +130,12 @@ MultiStreamScorer MultiStreamScorer::without_class(int index) const {
   return MultiStreamScorer(std::move(streams), std::move(fewer));
 }
 
+MultiStreamScorer MultiStreamScorer::with_vector_weight(double weight) const {
+  require(vectors_ != nullptr, "there are no vectors to weigh");
+  return MultiStreamScorer(streams_,
+                           std::make_shared<const LdaScorer>(vectors_->with_weight(weight)));
+}
+
 void MultiStreamScorer::write(ModelFile& file) const {
   for (std::size_t s = 0; s < streams_.size(); ++s) streams_[s]->write(file, prefix_of(s));
   if (vectors_ != nullptr) vectors_->write(file, kVectors);

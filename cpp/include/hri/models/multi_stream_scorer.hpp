@@ -55,6 +55,9 @@ class HRI_API MultiStreamScorer {
                                              int num_recordings,
                                              const StopCheck& should_stop) const;
   [[nodiscard]] MultiStreamScorer without_class(int index) const;
+  /// The same with another weight of its vectors, see LdaScorer::with_weight(). Throws
+  /// InvalidArgument where there are no vectors.
+  [[nodiscard]] MultiStreamScorer with_vector_weight(double weight) const;
 
   [[nodiscard]] const std::vector<std::shared_ptr<const SequenceScorer>>& streams() const {
     return streams_;

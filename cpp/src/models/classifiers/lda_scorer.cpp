@@ -12,6 +12,10 @@ namespace {
 
 constexpr double kMaxWeight = 1e6;
 
+void require_weight(double weight) {
+  require(weight > 0 && weight <= kMaxWeight, "weight must lie in 0..1e6");
+}
+
 MatrixF stacked(const ClassSequences& lists, std::vector<int>* classes, int first_class,
                 const MatrixF& before) {
   Eigen::Index rows = before.rows();
@@ -55,7 +59,7 @@ LdaScorer::LdaScorer(Lda lda, MatrixF means, MatrixF fillers, double weight)
 
 LdaScorer LdaScorer::train(const ClassSequences& classes, const ClassSequences& fillers,
                            const LdaScorerOptions& options) {
-  require(options.weight > 0 && options.weight <= kMaxWeight, "weight must lie in 0..1e6");
+  require_weight(options.weight);
   for (const auto& list : classes) require(!list.empty(), "a class has no vector");
   const auto num_classes = static_cast<int>(classes.size());
   std::vector<int> numbers;
@@ -122,6 +126,13 @@ LdaScorer LdaScorer::without_class(int index) const {
   result.means_.resize(means_.rows() - 1, means_.cols());
   result.means_.topRows(index) = means_.topRows(index);
   result.means_.bottomRows(after) = means_.bottomRows(after);
+  return result;
+}
+
+LdaScorer LdaScorer::with_weight(double weight) const {
+  require_weight(weight);
+  LdaScorer result = *this;
+  result.weight_ = weight;
   return result;
 }
 

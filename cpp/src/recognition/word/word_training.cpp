@@ -4,7 +4,6 @@
 // Training of WordRecognizer: features of every sample and of its augmented copies, models without
 // each fold of speakers for verifier and calibration, then the models that are kept.
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "recognition/word/filler_memo.hpp"
 #include "recognition/word/non_words.hpp"
+#include "recognition/word/vector_choice.hpp"
 #include "recognition/word/word_augmentation.hpp"
 
 namespace hri {
@@ -22,7 +22,6 @@ constexpr int kMaxFolds = 4;
 constexpr std::size_t kNonWordSources = 300;  // samples from which non-words are made, at most
 constexpr int kDefaultRateHz = 16000;
 constexpr int kNoFold = -1;
-constexpr std::array<double, 4> kShrinkages{0.8, 0.5, 0.2, 0.05};  // of few speakers first
 
 int training_rate_hz(const std::vector<WordSample>& samples, int wanted_hz) {
   if (wanted_hz != 0) return wanted_hz;
@@ -96,12 +95,16 @@ class WordTrainer {
     prepare(samples);
     report(++step);
     const int num_folds = assign_folds();
-    fit_vector_options(num_folds);
-    HeldOutFolds held_out;
-    for (int fold = 0; fold < num_folds; ++fold) {
-      score_fold(fold, &held_out);
+    const std::vector<int> folds = usable_folds(num_folds);
+    choose_lda_options(folds);
+    std::vector<MultiStreamScorer> scorers;
+    for (const int fold : folds) {
+      scorers.push_back(train_without(fold));
       report(++step);
     }
+    weigh_vectors(folds, &scorers);
+    HeldOutFolds held_out;
+    for (std::size_t i = 0; i < folds.size(); ++i) score_fold(folds[i], scorers[i], &held_out);
     WordRecognizer result = assemble(train_without(kNoFold), std::move(held_out));
     report(num_steps);
     return result;
@@ -222,65 +225,60 @@ class WordTrainer {
     return num_folds;
   }
 
-  // Words held out, scored by linear discriminants alone.
-  struct HeldOutVectors {
-    int num_right = 0;
-    double spread = 0;  // sum over words of the mean square by which a discriminant misses its mean
-    int count = 0;
-  };
-
-  // How far the covariance can be trusted depends on how many people spoke: the shrinkage is the
-  // one that is right most often on words held out, and their spread is the unit of distance.
-  void fit_vector_options(int num_folds) {
-    vector_options_ = {options_.embedding_shrinkage, options_.embedding_weight};
-    if (augmentation_.front_end().embedding() == nullptr) return;
-    std::vector<double> shrinkages{options_.embedding_shrinkage};
-    if (options_.embedding_shrinkage == 0)
-      shrinkages.assign(kShrinkages.begin(), kShrinkages.end());
+  // Those without which every label is left.
+  [[nodiscard]] std::vector<int> usable_folds(int num_folds) const {
     std::vector<int> folds;
     for (int fold = 0; fold < num_folds; ++fold) {
       if (has_every_class_without(fold)) folds.push_back(fold);
     }
-    std::vector<HeldOutVectors> found(folds.size() * shrinkages.size());
-    detail::parallel_for(found.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-      found[i] = score_vectors(folds[i / shrinkages.size()], shrinkages[i % shrinkages.size()]);
-    });
-    vector_options_.shrinkage = shrinkages.front();
-    int most = 0;
-    for (std::size_t k = 0; k < shrinkages.size(); ++k) {
-      HeldOutVectors sum;
-      for (std::size_t f = 0; f < folds.size(); ++f) {
-        const HeldOutVectors& one = found[f * shrinkages.size() + k];
-        sum.num_right += one.num_right;
-        sum.spread += one.spread;
-        sum.count += one.count;
-      }
-      if (sum.num_right <= most || sum.spread <= 0) continue;
-      most = sum.num_right;
-      vector_options_ = {shrinkages[k], options_.embedding_weight * sum.count / sum.spread};
-    }
+    return folds;
   }
 
-  [[nodiscard]] HeldOutVectors score_vectors(int fold, double shrinkage) const {
-    ClassSequences vectors(labels_.size());
+  void choose_lda_options(const std::vector<int>& folds) {
+    if (augmentation_.front_end().embedding() == nullptr) return;
+    std::vector<detail::LabelledVectors> words;
     for (const PreparedSample& p : prepared_) {
-      if (p.fold == fold) continue;
-      for (const StreamFrames& copy : p.copies)
-        vectors[static_cast<std::size_t>(p.label)].push_back(copy.back());
+      words.push_back({p.label, p.fold, {}});
+      for (const StreamFrames& copy : p.copies) words.back().vectors.push_back(&copy.back());
     }
-    const LdaScorer scorer = LdaScorer::train(vectors, fillers_->vectors, {shrinkage, 1});
-    HeldOutVectors result;
-    for (const PreparedSample& p : prepared_) {
-      if (p.fold != fold) continue;
-      for (const StreamFrames& copy : p.copies) {
-        const VectorF scores = scorer.scores(copy.back());
-        Eigen::Index best = 0;
-        scores.maxCoeff(&best);
-        result.num_right += best == p.label ? 1 : 0;
-        result.spread += -2.0 * static_cast<double>(scores[p.label]) / scorer.num_components();
-        result.count += 1;
-      }
+    vector_options_ =
+        detail::choose_lda(words, static_cast<int>(labels_.size()), folds, fillers_->vectors,
+                           options_.embedding_shrinkage, should_stop_);
+  }
+
+  // Of the vectors beside the streams, by the scorers of the folds.
+  void weigh_vectors(const std::vector<int>& folds, std::vector<MultiStreamScorer>* scorers) {
+    if (augmentation_.front_end().embedding() == nullptr) return;
+    double factor = options_.embedding_weight;
+    if (factor == 0) {
+      std::vector<std::vector<detail::HeldOutScores>> found(prepared_.size());
+      detail::parallel_for(prepared_.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
+        const PreparedSample& p = prepared_[i];
+        const auto fold = std::find(folds.begin(), folds.end(), p.fold);
+        if (fold == folds.end()) return;
+        const auto& scorer = (*scorers)[static_cast<std::size_t>(fold - folds.begin())];
+        for (const StreamFrames* copy : judged_copies(p)) {
+          found[i].push_back(
+              {scorer.stream_scores(*copy), scorer.vectors()->scores(copy->back()), p.label});
+        }
+      });
+      std::vector<detail::HeldOutScores> all;
+      for (auto& words : found) std::move(words.begin(), words.end(), std::back_inserter(all));
+      factor = detail::choose_vector_weight(all);
     }
+    vector_options_.weight *= factor;
+    for (MultiStreamScorer& scorer : *scorers)
+      scorer = scorer.with_vector_weight(vector_options_.weight);
+  }
+
+  // What is judged of a word held out. How far noise takes a word from its fillers differs between
+  // cepstra and vectors: with vectors, the noisy copies are judged too.
+  [[nodiscard]] std::vector<const StreamFrames*> judged_copies(const PreparedSample& p) const {
+    std::vector<const StreamFrames*> result{&p.copies.front()};
+    if (augmentation_.front_end().embedding() == nullptr) return result;
+    const auto num_noisy = static_cast<std::size_t>(options_.num_noisy_copies);
+    for (std::size_t i = p.copies.size() - num_noisy; i < p.copies.size(); ++i)
+      result.push_back(&p.copies[i]);
     return result;
   }
 
@@ -314,9 +312,7 @@ class WordTrainer {
                         [](const auto& list) { return list.empty(); });
   }
 
-  void score_fold(int fold, HeldOutFolds* held_out) const {
-    if (!has_every_class_without(fold)) return;  // there is nothing to calibrate on
-    const MultiStreamScorer scorer = train_without(fold);
+  void score_fold(int fold, const MultiStreamScorer& scorer, HeldOutFolds* held_out) const {
     std::vector<const PreparedSample*> left_out;
     for (const PreparedSample& p : prepared_) {
       if (p.fold == fold) left_out.push_back(&p);
@@ -330,12 +326,7 @@ class WordTrainer {
 
   void score_sample(const PreparedSample& p, const MultiStreamScorer& scorer,
                     HeldOutFolds* held_out) const {
-    score_copy(p.copies.front(), p.label, scorer, held_out);
-    // How far noise takes a word from its fillers differs between cepstra and vectors.
-    const std::size_t num_noisy =
-        scorer.vectors() == nullptr ? 0 : static_cast<std::size_t>(options_.num_noisy_copies);
-    for (std::size_t i = p.copies.size() - num_noisy; i < p.copies.size(); ++i)
-      score_copy(p.copies[i], p.label, scorer, held_out);
+    for (const StreamFrames* copy : judged_copies(p)) score_copy(*copy, p.label, scorer, held_out);
     for (const NonWord& n : p.non_words) {
       held_out->examples.push_back(
           {WordVerifier::features(scorer, n.frames, scorer.scores(n.frames)), n.kind});

@@ -46,6 +46,8 @@ class HRI_API LdaScorer {
   /// With one class more, of number `index`.
   [[nodiscard]] LdaScorer with_class(int index, const std::vector<MatrixF>& vectors) const;
   [[nodiscard]] LdaScorer without_class(int index) const;
+  /// The same with another factor on all scores. Throws InvalidArgument for one out of range.
+  [[nodiscard]] LdaScorer with_weight(double weight) const;
 
   void write(ModelFile& file, const std::string& prefix) const;
   /// Throws FormatError where the sizes do not fit.

@@ -52,7 +52,7 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   double min_snr_db = 10;
   double max_snr_db = 25;
   double false_reject_rate = 0.02;
-  double embedding_weight = 30;
+  double embedding_weight = 0;
   double embedding_shrinkage = 0;
 
   static constexpr const char* kName = "WordRecognizerOptions";
@@ -86,11 +86,12 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
       formerly("noise_high_db"));
     v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
       "share of correct held-out words that the threshold may reject");
-    v("embedding_weight", o.embedding_weight, within(0.01, 1000),
-      "weight of the speech embedding beside the streams of cepstra, where words held out are 1 a "
-      "discriminant off their mean (front_end both)");
+    v("embedding_weight", o.embedding_weight, within(0, 1000),
+      "front_end both: weight of the speech embedding beside the streams of cepstra; at 1, words "
+      "of "
+      "speakers held out are 1 a discriminant off their mean; 0: chosen on such words");
     v("embedding_shrinkage", o.embedding_shrinkage, within(0, 1),
-      "shrinkage of the embedding's linear discriminants (front_end both); 0: chosen on words of "
+      "front_end both: shrinkage of the embedding's linear discriminants; 0: chosen on words of "
       "speakers held out");
   }
   /// nullptr, or which fields do not go together.
