@@ -23,7 +23,7 @@ using ClassStreams = std::vector<std::vector<const StreamFrames*>>;
 
 /// What the vectors of sequences are trained with.
 struct VectorTraining {
-  LdaScorerOptions options;
+  VectorScoring options;
   ClassSequences fillers;  ///< vectors of words outside the vocabulary, one list a word
 };
 

@@ -58,7 +58,7 @@ LdaScorer::LdaScorer(Lda lda, MatrixF means, MatrixF fillers, double weight)
       weight_(weight) {}
 
 LdaScorer LdaScorer::train(const ClassSequences& classes, const ClassSequences& fillers,
-                           const LdaScorerOptions& options) {
+                           const VectorScoring& options) {
   require_weight(options.weight);
   for (const auto& list : classes) require(!list.empty(), "a class has no vector");
   const auto num_classes = static_cast<int>(classes.size());

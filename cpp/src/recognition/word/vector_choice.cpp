@@ -62,9 +62,9 @@ double cross_entropy(const std::vector<HeldOutScores>& words, double weight, dou
 
 }  // namespace
 
-LdaScorerOptions choose_lda(const std::vector<LabelledVectors>& words, int num_classes,
-                            const std::vector<int>& folds, const ClassSequences& fillers,
-                            double shrinkage, const StopCheck& should_stop) {
+VectorScoring choose_lda(const std::vector<LabelledVectors>& words, int num_classes,
+                         const std::vector<int>& folds, const ClassSequences& fillers,
+                         double shrinkage, const StopCheck& should_stop) {
   std::vector<double> shrinkages{shrinkage};
   if (shrinkage == 0) shrinkages.assign(kShrinkages.begin(), kShrinkages.end());
   const std::size_t num = shrinkages.size();
@@ -72,7 +72,7 @@ LdaScorerOptions choose_lda(const std::vector<LabelledVectors>& words, int num_c
   parallel_for(found.size(), should_stop, [&](std::size_t i, const StopCheck&) {
     found[i] = score_fold(words, num_classes, folds[i / num], fillers, shrinkages[i % num]);
   });
-  LdaScorerOptions result{shrinkages.front(), 1};
+  VectorScoring result{shrinkages.front(), 1};
   int most = -1;
   for (std::size_t k = 0; k < num; ++k) {
     FoldScores sum;

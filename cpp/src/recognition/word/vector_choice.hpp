@@ -20,13 +20,13 @@ struct LabelledVectors {
   std::vector<const MatrixF*> vectors;
 };
 
-/// The options under which linear discriminants alone are right most often on the folds held out:
+/// The scoring under which linear discriminants alone are right most often on the folds held out:
 /// how far the covariance can be trusted depends on how many people spoke. `shrinkage` 0: chosen.
 /// The weight of the result makes the words held out lie 1 a discriminant off their means, in the
 /// mean square. `folds`: those without which every class is left.
-LdaScorerOptions choose_lda(const std::vector<LabelledVectors>& words, int num_classes,
-                            const std::vector<int>& folds, const ClassSequences& fillers,
-                            double shrinkage, const StopCheck& should_stop);
+VectorScoring choose_lda(const std::vector<LabelledVectors>& words, int num_classes,
+                         const std::vector<int>& folds, const ClassSequences& fillers,
+                         double shrinkage, const StopCheck& should_stop);
 
 /// A word held out, as streams and vectors score it.
 struct HeldOutScores {
@@ -35,8 +35,8 @@ struct HeldOutScores {
   int label = 0;
 };
 
-/// The factor on the scores of vectors with which their sum with those of streams tells most of the
-/// label: of least cross-entropy, at the temperature that suits it best.
+/// The factor on the scores of vectors with which their sum with those of streams predicts the
+/// label best: of least cross-entropy, at the temperature that suits it best.
 double choose_vector_weight(const std::vector<HeldOutScores>& words);
 
 }  // namespace hri::detail

@@ -369,7 +369,7 @@ class WordTrainer {
   StopCheck should_stop_;
   std::shared_ptr<const detail::TrainedFillers> fillers_ =
       std::make_shared<const detail::TrainedFillers>();
-  LdaScorerOptions vector_options_;
+  VectorScoring vector_options_;
   std::vector<PreparedSample> prepared_;
 };
 
@@ -379,7 +379,7 @@ WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
                                      const WordRecognizerOptions& options,
                                      const TrainingProgress& progress, const StopCheck& should_stop,
                                      const std::vector<WordSample>& fillers,
-                                     std::shared_ptr<const SpeechEmbedding> embedding) {
+                                     const std::shared_ptr<const SpeechEmbedding>& embedding) {
   validate(options);
   WordRecognizerOptions used = options;
   used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);

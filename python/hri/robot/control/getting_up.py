@@ -4,8 +4,9 @@
 
 Hands push it up until its feet carry it. When they leave the floor before the centre of mass is over the soles, it
 falls back. The upper body leans forward by how far the capture point (over which the centre of mass comes to rest,
-Pratt et al., 2006) is behind the middle of the soles. The load on the feet does not tell: they carry everything, too,
-in the moment in which the robot falls back over its heels. Nor do ankles help: they tilt a foot that carries little.
+Pratt et al., 2006) is behind the middle of the soles. The load on the feet is no sign of that: they carry everything,
+too, in the moment in which the robot falls back over its heels. Nor do ankles help: they tilt a foot that carries
+little.
 
 A robot whose centre of mass is before its feet, as that of one who gets up from its belly, is not made to lean.
 """

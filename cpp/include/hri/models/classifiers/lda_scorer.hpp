@@ -16,7 +16,8 @@
 
 namespace hri {
 
-struct LdaScorerOptions {
+/// How vectors are scored.
+struct VectorScoring {
   double shrinkage = 0.2;  ///< of the covariance, see LdaOptions
   double weight = 1;       ///< factor on all scores
 };
@@ -28,7 +29,7 @@ class HRI_API LdaScorer {
   /// words outside the vocabulary, which shape the discriminants too. Throws InvalidArgument as
   /// Lda::train() does.
   static LdaScorer train(const ClassSequences& classes, const ClassSequences& fillers,
-                         const LdaScorerOptions& options);
+                         const VectorScoring& options);
 
   [[nodiscard]] int num_classes() const { return static_cast<int>(means_.rows()); }
   [[nodiscard]] int num_fillers() const { return static_cast<int>(fillers_.rows()); }

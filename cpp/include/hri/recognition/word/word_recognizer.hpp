@@ -134,7 +134,7 @@ class HRI_API WordRecognizer {
                               const TrainingProgress& progress = {},
                               const StopCheck& should_stop = {},
                               const std::vector<WordSample>& fillers = {},
-                              std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
+                              const std::shared_ptr<const SpeechEmbedding>& embedding = nullptr);
 
   /// This recogniser with one word more, trained on few recordings (from one on, all of one label)
   /// and on the statistics of the words it has. Their models stay as they are, to the bit, and so
