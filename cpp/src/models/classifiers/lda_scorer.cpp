@@ -37,12 +37,21 @@ MatrixF stacked(const ClassSequences& lists, std::vector<int>* classes, int firs
   return all;
 }
 
+// The vector among the discriminants, without the matrix products that Lda::transform() brings into
+// programs that only recognise.
+VectorF place_of(const Lda& lda, ConstMatrixRefF vector) {
+  require(vector.rows() == 1 && vector.cols() == lda.dim(), "the vector does not fit the model");
+  const VectorF off_mean = vector.row(0).transpose() - lda.mean();
+  VectorF place(lda.num_components());
+  for (Eigen::Index k = 0; k < place.size(); ++k) place[k] = lda.components().row(k).dot(off_mean);
+  return place;
+}
+
 MatrixF means_of(const ClassSequences& lists, const Lda& lda) {
   MatrixF means(static_cast<Eigen::Index>(lists.size()), lda.num_components());
   for (std::size_t c = 0; c < lists.size(); ++c) {
     VectorD sum = VectorD::Zero(lda.num_components());
-    for (const MatrixF& vector : lists[c])
-      sum += lda.transform(vector).row(0).transpose().cast<double>();
+    for (const MatrixF& vector : lists[c]) sum += place_of(lda, vector).cast<double>();
     means.row(static_cast<Eigen::Index>(c)) =
         (sum / static_cast<double>(lists[c].size())).cast<float>().transpose();
   }
@@ -75,10 +84,10 @@ LdaScorer LdaScorer::train(const ClassSequences& classes, const ClassSequences& 
 }
 
 VectorF LdaScorer::scores_of(const MatrixF& means, ConstMatrixRefF vector) const {
-  const MatrixF place = lda_.transform(vector);
+  const VectorF place = place_of(lda_, vector);
   VectorF result(means.rows());
   for (Eigen::Index c = 0; c < means.rows(); ++c) {
-    const double squares = static_cast<double>((means.row(c) - place.row(0)).squaredNorm());
+    const double squares = static_cast<double>((means.row(c).transpose() - place).squaredNorm());
     result[c] = static_cast<float>(-0.5 * weight_ * squares);
   }
   return result;
@@ -97,8 +106,8 @@ LdaScorer LdaScorer::adapted(const ClassSequences& classes, double prior_vectors
   double count = prior_vectors;
   for (std::size_t c = 0; c < classes.size(); ++c) {
     for (const MatrixF& vector : classes[c]) {
-      const MatrixF off = lda_.transform(vector) - means_.row(static_cast<Eigen::Index>(c));
-      sum += off.row(0).transpose().cast<double>();
+      const auto row = static_cast<Eigen::Index>(c);
+      sum += (place_of(lda_, vector) - means_.row(row).transpose()).cast<double>();
       count += 1;
     }
   }
