@@ -27,6 +27,7 @@ void bind_hand_sources(py::module_& m);
 void bind_codebook(py::module_& m);
 void bind_classifiers(py::module_& m);
 void bind_logistic_regression(py::module_& m);
+void bind_softmax_regression(py::module_& m);
 void bind_hmm(py::module_& m);
 void bind_possibilistic(py::module_& m);
 void bind_recognition(py::module_& m);
@@ -121,6 +122,7 @@ PYBIND11_MODULE(_native, m) {
   bind_codebook(m);
   bind_classifiers(m);
   bind_logistic_regression(m);
+  bind_softmax_regression(m);
   bind_hmm(m);
   bind_possibilistic(m);
   bind_recognition(m);

@@ -96,6 +96,8 @@ __all__: list[str] = [
     "SilhouetteCepstrumComputer",
     "SilhouetteCepstrumOptions",
     "SilhouetteOptions",
+    "SoftmaxRegression",
+    "SoftmaxRegressionOptions",
     "SpeakerAdapter",
     "SpeakerAdapterOptions",
     "SpeechEmbedding",
@@ -3543,6 +3545,88 @@ class LogisticRegression:
         One for each column.
         """
 
+class SoftmaxRegressionOptions:
+    """
+    Options of SoftmaxRegression.
+
+    Parameters
+    ----------
+    penalty : float, default 1.0
+        of half the squared weights, against the sum over rows; 0..1e+12, 0 excluded
+    max_iterations : int, default 200
+        iterations at most; 1..100000
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, penalty: float = 1.0, max_iterations: int = 200) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def max_iterations(self) -> int:
+        """
+        iterations at most
+        """
+    @max_iterations.setter
+    def max_iterations(self, arg1: typing.Any) -> None: ...
+    @property
+    def penalty(self) -> float:
+        """
+        of half the squared weights, against the sum over rows
+        """
+    @penalty.setter
+    def penalty(self, arg1: typing.Any) -> None: ...
+
+class SoftmaxRegression:
+    """
+    Logistic regression of many classes.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> SoftmaxRegression:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: SoftmaxRegressionOptions = ...,
+    ) -> SoftmaxRegression:
+        """
+        Trains on rows (num_rows, dim) and classes (num_rows,) of 0..num_classes - 1.
+        """
+    def decision_values(
+        self, rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Log posteriors but for a constant, shape (num_rows, num_classes).
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int:
+        """
+        Columns of the rows it takes.
+        """
+    @property
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
+
 class Topology:
     """
     Which transitions a sequence model has.
@@ -5092,10 +5176,16 @@ class WordRecognizerOptions:
         largest; each copy has its own, at random; -20..100 dB
     false_reject_rate : float, default 0.02
         share of correct held-out words that the threshold may reject; 0..0.5
+    embedding_min_snr_db : float, default 0.0
+        front_end both: in place of min_snr_db; the embedding stands more noise, and learns from it; -20..100 dB
+    embedding_max_snr_db : float, default 20.0
+        front_end both: in place of max_snr_db; -20..100 dB
     embedding_weight : float, default 0.0
-        front_end both: weight of the speech embedding beside the streams of cepstra; at 1, words of speakers held out are 1 a discriminant off their mean; 0: chosen on such words; 0..1000
-    embedding_shrinkage : float, default 0.0
-        front_end both: shrinkage of the embedding's linear discriminants; 0: chosen on words of speakers held out; 0..1
+        front_end both: factor on the log posteriors by the speech embedding, which join the scores of the cepstra; 0: chosen on words of speakers held out; 0..1000000
+    embedding_penalty : float, default 100.0
+        front_end both: of half the squared weights of the embedding's softmax regression; 0..1e+12, 0 excluded
+    embedding_shrinkage : float, default 0.8
+        front_end both: of the embedding's linear discriminants, by which words are rejected; 0..1
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -5128,8 +5218,11 @@ class WordRecognizerOptions:
         min_snr_db: float = 10.0,
         max_snr_db: float = 25.0,
         false_reject_rate: float = 0.02,
+        embedding_min_snr_db: float = 0.0,
+        embedding_max_snr_db: float = 20.0,
         embedding_weight: float = 0.0,
-        embedding_shrinkage: float = 0.0,
+        embedding_penalty: float = 100.0,
+        embedding_shrinkage: float = 0.8,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -5152,16 +5245,37 @@ class WordRecognizerOptions:
     @cepstra.setter
     def cepstra(self, arg1: typing.Any) -> None: ...
     @property
+    def embedding_max_snr_db(self) -> float:
+        """
+        front_end both: in place of max_snr_db
+        """
+    @embedding_max_snr_db.setter
+    def embedding_max_snr_db(self, arg1: typing.Any) -> None: ...
+    @property
+    def embedding_min_snr_db(self) -> float:
+        """
+        front_end both: in place of min_snr_db; the embedding stands more noise, and learns from it
+        """
+    @embedding_min_snr_db.setter
+    def embedding_min_snr_db(self, arg1: typing.Any) -> None: ...
+    @property
+    def embedding_penalty(self) -> float:
+        """
+        front_end both: of half the squared weights of the embedding's softmax regression
+        """
+    @embedding_penalty.setter
+    def embedding_penalty(self, arg1: typing.Any) -> None: ...
+    @property
     def embedding_shrinkage(self) -> float:
         """
-        front_end both: shrinkage of the embedding's linear discriminants; 0: chosen on words of speakers held out
+        front_end both: of the embedding's linear discriminants, by which words are rejected
         """
     @embedding_shrinkage.setter
     def embedding_shrinkage(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_weight(self) -> float:
         """
-        front_end both: weight of the speech embedding beside the streams of cepstra; at 1, words of speakers held out are 1 a discriminant off their mean; 0: chosen on such words
+        front_end both: factor on the log posteriors by the speech embedding, which join the scores of the cepstra; 0: chosen on words of speakers held out
         """
     @embedding_weight.setter
     def embedding_weight(self, arg1: typing.Any) -> None: ...

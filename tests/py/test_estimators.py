@@ -28,6 +28,7 @@ CLASSIFIERS = [
     models.RbfClassifier(),
     models.GaussianBayes(),
     models.LogisticRegression(),
+    models.SoftmaxRegression(),
     models.KnnClassifier(),
     models.DistanceClassifier(),
     models.PossibilityClassifier(),

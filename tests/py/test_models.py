@@ -49,6 +49,21 @@ def test_diagonal_covariance_matches_naive_bayes() -> None:
     np.testing.assert_allclose(ours, expected, rtol=1e-4, atol=1e-4)
 
 
+def test_softmax_regression_matches_scikit_learn() -> None:
+    from sklearn.linear_model import LogisticRegression
+    from sklearn.preprocessing import StandardScaler
+
+    rows, classes = blobs(4, 60, 1.5, 11)
+    test, _ = blobs(4, 20, 1.5, 12)
+    options = _native.SoftmaxRegressionOptions(penalty=20.0, max_iterations=1000)
+    ours = _native.SoftmaxRegression.train(rows, classes, 4, options).decision_values(test)
+    scaler = StandardScaler().fit(rows.astype("f8"))
+    peer = LogisticRegression(C=1 / 20, tol=1e-8, max_iter=1000).fit(scaler.transform(rows), classes)
+    expected = peer.predict_log_proba(scaler.transform(test))
+    log_posteriors = ours - np.log(np.exp(ours).sum(axis=1, keepdims=True))
+    np.testing.assert_allclose(log_posteriors, expected, atol=0.03)
+
+
 def test_full_covariance_matches_scipy() -> None:
     from scipy.stats import multivariate_normal
     from sklearn.covariance import empirical_covariance, shrunk_covariance

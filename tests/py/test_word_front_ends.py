@@ -119,14 +119,21 @@ def test_an_embedding_for_cepstra_is_a_mistake() -> None:
         )
 
 
-def test_the_command_line_trains_with_either(spoken: Path, tmp_path: Path, hri: Callable[..., CommandResult]) -> None:
+def test_the_command_line_trains_with_either(
+    spoken: Path, tmp_path: Path, hri: Callable[..., CommandResult], monkeypatch: pytest.MonkeyPatch
+) -> None:
     model = tmp_path / "words.hri"
     command = ["train", "speech", "--data", spoken, "--out", model, "--no-fillers"]
-    plain = hri(*command)
+    plain = hri(*command, "--front-end", "cepstra")
     assert plain.code == 0 and "front end: cepstra" in plain.err, plain.err
     assert "--front-end both" in plain.err
-    both = hri(*command, "--front-end", "both")
+    asked = hri(*command, "--option", "front_end=cepstra")
+    assert asked.code == 0 and "front end: cepstra" in asked.err, asked.err
+    both = hri(*command)
     assert both.code == 0 and "front end: both" in both.err, both.err
     assert package.load(model).options.front_end == "both"
+    monkeypatch.setattr("hri.recognition.word.embedding.PACKAGE", "no.such.package")
+    without = hri(*command)
+    assert without.code == 0 and "front end: cepstra" in without.err, without.err
     refused = hri("train", "gesture", "--data", spoken, "--front-end", "both")
     assert refused.code == 2 and "--front-end" in refused.err

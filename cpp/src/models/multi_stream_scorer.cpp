@@ -32,6 +32,23 @@ ClassSequences of_stream(const ClassStreams& sequences, std::size_t stream) {
   return result;
 }
 
+// Of the sequences that have one.
+std::vector<MatrixF> vectors_of(const std::vector<const StreamFrames*>& sequences,
+                                std::size_t num_streams) {
+  std::vector<MatrixF> result;
+  for (const StreamFrames* frames : sequences) {
+    if (frames->size() > num_streams) result.push_back(frames->back());
+  }
+  return result;
+}
+
+ClassSequences vectors_of(const ClassStreams& sequences, std::size_t num_streams) {
+  ClassSequences result;
+  result.reserve(sequences.size());
+  for (const auto& list : sequences) result.push_back(vectors_of(list, num_streams));
+  return result;
+}
+
 std::size_t num_streams_of(const ClassStreams& sequences) {
   for (const auto& list : sequences) {
     if (!list.empty()) return list.front()->size();
@@ -41,7 +58,7 @@ std::size_t num_streams_of(const ClassStreams& sequences) {
 
 }  // namespace
 
-MultiStreamScorer::MultiStreamScorer(Streams streams, std::shared_ptr<const LdaScorer> vectors)
+MultiStreamScorer::MultiStreamScorer(Streams streams, std::shared_ptr<const VectorScorer> vectors)
     : streams_(std::move(streams)), vectors_(std::move(vectors)) {
   require(!streams_.empty(), "a scorer needs at least one stream");
   for (const auto& stream : streams_) {
@@ -66,8 +83,8 @@ MultiStreamScorer MultiStreamScorer::train(const ClassStreams& sequences,
                                             fillers.empty() ? FillerModels{} : fillers[s]));
   }
   if (vectors == nullptr) return MultiStreamScorer(std::move(streams));
-  auto scorer = std::make_shared<const LdaScorer>(
-      LdaScorer::train(of_stream(sequences, num_streams), vectors->fillers, vectors->options));
+  auto scorer = std::make_shared<const VectorScorer>(VectorScorer::train(
+      vectors_of(sequences, num_streams), vectors->fillers, vectors->options, should_stop));
   return MultiStreamScorer(std::move(streams), std::move(scorer));
 }
 
@@ -102,8 +119,8 @@ MultiStreamScorer MultiStreamScorer::adapted(const ClassStreams& sequences,
   for (std::size_t s = 0; s < streams_.size(); ++s)
     streams.push_back(streams_[s]->adapted(of_stream(sequences, s), options));
   if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
-  auto moved = std::make_shared<const LdaScorer>(
-      vectors_->adapted(of_stream(sequences, streams_.size()), kPriorVectors));
+  auto moved = std::make_shared<const VectorScorer>(
+      vectors_->adapted(vectors_of(sequences, streams_.size()), kPriorVectors));
   return MultiStreamScorer(std::move(streams), std::move(moved));
 }
 
@@ -117,8 +134,8 @@ MultiStreamScorer MultiStreamScorer::with_class(int index,
         streams_[s]->with_class(index, of_stream(sequences, s), num_recordings, should_stop));
   }
   if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
-  auto more = std::make_shared<const LdaScorer>(
-      vectors_->with_class(index, of_stream(sequences, streams_.size())));
+  auto more = std::make_shared<const VectorScorer>(
+      vectors_->with_class(index, vectors_of(sequences, streams_.size()), should_stop));
   return MultiStreamScorer(std::move(streams), std::move(more));
 }
 
@@ -126,14 +143,14 @@ MultiStreamScorer MultiStreamScorer::without_class(int index) const {
   Streams streams;
   for (const auto& stream : streams_) streams.push_back(stream->without_class(index));
   if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
-  auto fewer = std::make_shared<const LdaScorer>(vectors_->without_class(index));
+  auto fewer = std::make_shared<const VectorScorer>(vectors_->without_class(index));
   return MultiStreamScorer(std::move(streams), std::move(fewer));
 }
 
 MultiStreamScorer MultiStreamScorer::with_vector_weight(double weight) const {
   require(vectors_ != nullptr, "there are no vectors to weigh");
   return MultiStreamScorer(streams_,
-                           std::make_shared<const LdaScorer>(vectors_->with_weight(weight)));
+                           std::make_shared<const VectorScorer>(vectors_->with_weight(weight)));
 }
 
 void MultiStreamScorer::write(ModelFile& file) const {
@@ -152,7 +169,8 @@ MultiStreamScorer MultiStreamScorer::read(const ModelFile& file,
       fail(ErrorKind::format, file.name() + ": streams differ in their filler words");
   }
   if (!file.has(std::string(kVectors) + "weight")) return MultiStreamScorer(std::move(streams));
-  auto vectors = std::make_shared<const LdaScorer>(LdaScorer::read(file, kVectors, num_classes));
+  auto vectors =
+      std::make_shared<const VectorScorer>(VectorScorer::read(file, kVectors, num_classes));
   return MultiStreamScorer(std::move(streams), std::move(vectors));
 }
 

@@ -21,7 +21,7 @@ from hri.cli.recognizers import (
 )
 from hri.evaluation.training import fillers_of
 from hri.evaluation.training import train as train_recognizer
-from hri.recognition import FillerWord, WordRecognizer
+from hri.recognition import FillerWord, WordRecognizer, embedding_weights
 
 
 @click.command()
@@ -40,8 +40,8 @@ from hri.recognition import FillerWord, WordRecognizer
 @click.option(
     "--front-end",
     type=click.Choice(["cepstra", "both"]),
-    help="Speech only: cepstra alone (the default), or both: with a pretrained speech embedding, which the extra "
-    "embedding installs. The same as --option front_end=...",
+    help="Speech only: cepstra alone, or both: with a pretrained speech embedding, which the extra embedding installs. "
+    "The default is both where the extra is. The same as --option front_end=...",
 )
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
@@ -64,7 +64,7 @@ def train(
       hri train speech --data spoken/
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
       hri train speech --data spoken/ --out digits.hri --option model=ptbhmm
-      hri train speech --data spoken/ --front-end both
+      hri train speech --data spoken/ --front-end cepstra
     """
     if mode != "speech" and (fillers or no_fillers):
         raise click.UsageError("--fillers and --no-fillers are for speech")
@@ -74,6 +74,8 @@ def train(
         if mode != "speech":
             raise click.UsageError("--front-end is for speech")
         options = (*options, f"front_end={front_end}")
+    elif mode == "speech" and _has_embedding() and not any(o.startswith("front_end=") for o in options):
+        options = (*options, "front_end=both")
     make = recognizer_factory(mode, options, seed)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
@@ -105,10 +107,19 @@ def train(
     )
 
 
+def _has_embedding() -> bool:
+    try:
+        embedding_weights()
+    except ImportError:
+        return False
+    return True
+
+
 def _front_end(name: str) -> str:
     """What a model was trained on, and what else there is."""
     if name == "both":
         return (
-            "both, cepstra and a speech embedding (extra embedding); wherever the model is used it needs the extra too"
+            "both, cepstra and a speech embedding (extra embedding); wherever the model is used it needs the extra "
+            "too, or --front-end cepstra here"
         )
     return "cepstra; --front-end both understands people better whom it has not met (extra embedding)"

@@ -31,6 +31,7 @@ from hri._native import (
     PossibilisticHmmStream,
     PossibilisticRule,
     RbfClassifierOptions,
+    SoftmaxRegressionOptions,
     StateChoice,
     StateChoiceOptions,
     Topology,
@@ -48,6 +49,7 @@ from hri.models.classifiers import (
     LogisticRegression,
     PossibilityClassifier,
     RbfClassifier,
+    SoftmaxRegression,
 )
 from hri.models.codebook import Codebook
 from hri.models.distances import bhattacharyya_gaussian, distance
@@ -96,6 +98,8 @@ __all__ = [
     "PossibilityClassifier",
     "RbfClassifier",
     "RbfClassifierOptions",
+    "SoftmaxRegression",
+    "SoftmaxRegressionOptions",
     "StateChoice",
     "StateChoiceOptions",
     "Topology",

@@ -20,6 +20,7 @@ from hri._native import (
     LinearSvmOptions,
     LogisticRegressionOptions,
     RbfClassifierOptions,
+    SoftmaxRegressionOptions,
 )
 from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
@@ -217,6 +218,17 @@ class LogisticRegression(_Probabilistic):
 
     def __sklearn_tags__(self) -> Any:
         return make_tags("classifier", requires_y=True, binary_only=True)
+
+
+class SoftmaxRegression(_Probabilistic):
+    """Logistic regression of any number of classes. Keywords are those of `SoftmaxRegressionOptions`."""
+
+    _native_class = _native.SoftmaxRegression
+    _options_class = SoftmaxRegressionOptions
+
+    @keywords_of(SoftmaxRegressionOptions)
+    def __init__(self, **params: Any) -> None:
+        super().__init__(**params)
 
 
 class KnnClassifier(Classifier):

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from hri.evaluation.rejection import equal_error_rate, false_rejects_at
 from hri.media import read_audio
 from hri.recognition import Decision, WordRecognizer
 from hri.recognition.decision import NO_INPUT, RECOGNISED
+from hri.studies.commands import FrontEndKind
 from hri.studies.noise import noise_paths
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
@@ -31,7 +33,8 @@ FALSE_ACCEPTS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5)
 NUM_NOISES = 10
 """Of each kind and recording."""
 NOISE_RATE_HZ = 16000
-TARGET = 0.10
+TARGETS = {"fsdd": 0.12, "hindi-digits": 0.08, "hindi-words": 0.08}
+TARGETS_BOTH = {"fsdd": 0.06, "hindi-digits": 0.05, "hindi-words": 0.05}
 
 Clip = tuple[NDArray[np.float32], int]
 
@@ -92,10 +95,15 @@ def _shares(words: WordRecognizer, clips: Sequence[Clip]) -> dict[str, float]:
 
 
 def _train(
-    dataset: Dataset, clips: Sequence[Clip], fold: Fold, half: Sequence[str], progress: Progress
+    dataset: Dataset,
+    clips: Sequence[Clip],
+    fold: Fold,
+    half: Sequence[str],
+    front_end: FrontEndKind,
+    progress: Progress,
 ) -> WordRecognizer:
     train = [i for i in fold.train if dataset.samples[i].label in half]
-    return WordRecognizer().fit(
+    return WordRecognizer(front_end=front_end).fit(
         [clips[i][0] for i in train],
         [dataset.samples[i].label for i in train],
         sample_rate_hz=[clips[i][1] for i in train],
@@ -105,7 +113,7 @@ def _train(
 
 
 def _measure(
-    dataset: Dataset, noise: dict[str, list[Clip]], folds: int | None, progress: Progress
+    dataset: Dataset, noise: dict[str, list[Clip]], folds: int | None, front_end: FrontEndKind, progress: Progress
 ) -> tuple[Row, dict[str, Any]]:
     clips = []
     for sample in dataset.samples:
@@ -117,7 +125,7 @@ def _measure(
     for number, half in enumerate(chosen[:folds]):
         for fold in dataset.folds_by_person(None, SEED)[:folds]:
             name = f"half {number + 1}, {fold.name}"
-            words = _train(dataset, clips, fold, half, within(progress, f"half {number + 1}"))
+            words = _train(dataset, clips, fold, half, front_end, within(progress, f"half {number + 1}"))
             turn = _test(words, dataset, clips, fold, half)
             found = {
                 "eer": equal_error_rate(turn.known, turn.unknown),
@@ -146,36 +154,49 @@ def _run(
     data: Sequence[str] = tuple(WORD_FOLDERS),
     takes: int | None = None,
     folds: int | None = None,
+    front_end: FrontEndKind = "cepstra",
+    targets: Mapping[str, float] = TARGETS,
 ) -> dict[str, Any]:
     noise = noises(noise_paths(data_dir))
     rows, details = [], {}
     for name in data:
-        row, details[name] = _measure(load_words(data_dir, name, takes), noise, folds, within(progress, name))
+        row, details[name] = _measure(load_words(data_dir, name, takes), noise, folds, front_end, within(progress, name))
         rows.append({"data": name, **row})
     lines = {name: {"x": list(FALSE_ACCEPTS), "y": found.pop("curve")} for name, found in details.items()}
     return {
         "seed": SEED,
-        "options": WordRecognizer().options.as_dict(),
+        "options": WordRecognizer(front_end=front_end).options.as_dict(),
         "rows": rows,
         "details": details,
         "curves": {"x": "false accepts", "y": "false rejects", "lines": lines},
-        "passed": all(row["eer_mean"] < TARGET and row["noise_no_input_mean"] == 1 for row in rows),
+        "passed": all(row["eer_mean"] <= targets[row["data"]] and row["noise_no_input_mean"] == 1 for row in rows),
     }
 
 
-STUDIES = (
-    Study(
-        "unknown-words",
-        "words of unseen speakers with half the vocabulary never trained: equal error rate of rejection, shares at the "
-        "default threshold, and what becomes of noise; three random halves, one speaker held out",
+def _study(name: str, how: str, run: Callable[..., dict[str, Any]], targets: Mapping[str, float]) -> Study:
+    wanted = ", ".join(f"{100 * value:.0f} % {data}" for data, value in targets.items())
+    return Study(
+        name,
+        f"words of unseen speakers{how} with half the vocabulary never trained: equal error rate of rejection, shares "
+        "at the default threshold, and what becomes of noise; three random halves, one speaker held out",
         ("fsdd/recordings", "hindi_words/digits", "hindi_words/words", "noise"),
-        f"equal error rate < {100 * TARGET:.0f} %; no_input on all stationary noise",
-        _run,
+        f"equal error rate <= {wanted}; no_input on all stationary noise",
+        run,
         Layout(measure="eer"),
         {"data": tuple(WORD_FOLDERS)},
         thins=True,
         sources=WORD_SOURCES,
         folds=True,
         quick={"data": ("hindi-words",)},
+    )
+
+
+STUDIES = (
+    _study("unknown-words", "", _run, TARGETS),
+    _study(
+        "unknown-words-both",
+        ", by cepstra and a pretrained speech embedding (extra embedding),",
+        partial(_run, front_end="both", targets=TARGETS_BOTH),
+        TARGETS_BOTH,
     ),
 )

@@ -16,6 +16,7 @@
 #include "hri/models/classifiers/linear_svm.hpp"
 #include "hri/models/classifiers/logistic_regression.hpp"
 #include "hri/models/classifiers/rbf_classifier.hpp"
+#include "hri/models/classifiers/softmax_regression.hpp"
 #include "hri/models/codebook/codebook.hpp"
 #include "hri/models/hmm/few_samples.hpp"
 #include "hri/models/hmm/gaussian_mixture.hpp"
@@ -42,8 +43,8 @@ using All = testing::Types<
     FourierDescriptorOptions, HandFeatureOptions, HandPairOptions, WaveletDescriptorOptions,
     HandTrackOptions, SilhouetteCepstrumOptions, ChainCodeOptions, OrientationHistogramOptions,
     CepstraOptions, FilterBankOptions, CodebookOptions, LdaOptions, DistanceClassifierOptions,
-    GaussianBayesOptions, LogisticRegressionOptions, KnnOptions, LinearSvmOptions,
-    RbfClassifierOptions, MapAdaptationOptions, Topology, PossibilisticRule,
+    GaussianBayesOptions, LogisticRegressionOptions, SoftmaxRegressionOptions, KnnOptions,
+    LinearSvmOptions, RbfClassifierOptions, MapAdaptationOptions, Topology, PossibilisticRule,
     PossibilisticHmmOptions, HmmStreamOptions, FewSampleOptions, GaussianMixtureHmmOptions,
     GaussianMixtureOptions, DiscreteHmmOptions, StateChoiceOptions, SequenceModelOptions,
     AdaptationOptions, SpeakerAdapterOptions, SpeechEmbeddingOptions, WordRecognizerOptions,

@@ -2,20 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Streams of features that vote: one SequenceScorer a stream, whose log scores add up, and where
-// there is one an LdaScorer of a vector for the whole sequence.
+// there is one a VectorScorer of a vector for the whole sequence.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "hri/core/export.hpp"
-#include "hri/models/classifiers/lda_scorer.hpp"
 #include "hri/models/sequence_scorer.hpp"
+#include "hri/models/vector_scorer.hpp"
 
 namespace hri {
 
 /// The frames of one sequence, one matrix a stream; behind them a row for the whole sequence, where
-/// there is an LdaScorer.
+/// there is a VectorScorer. Training sequences that share their vector with another one need none.
 using StreamFrames = std::vector<MatrixF>;
 
 /// Training sequences of every class; pointers, since folds share them.
@@ -32,16 +32,17 @@ class HRI_API MultiStreamScorer {
  public:
   /// Throws InvalidArgument for no stream, and for streams that differ in kind, classes or fillers.
   explicit MultiStreamScorer(std::vector<std::shared_ptr<const SequenceScorer>> streams,
-                             std::shared_ptr<const LdaScorer> vectors = nullptr);
+                             std::shared_ptr<const VectorScorer> vectors = nullptr);
 
   /// Trains every stream, as train_sequence_scorer() does; `fillers` holds the models of each
-  /// stream, or nothing. With `vectors`, the last matrix of every sequence is its vector.
+  /// stream, or nothing. With `vectors`, there is one matrix more than streams wherever
+  /// a sequence has a vector, first of all in the first one.
   static MultiStreamScorer train(const ClassStreams& sequences, const SequenceModelOptions& options,
                                  const std::vector<FillerModels>& fillers,
                                  const StopCheck& should_stop,
                                  const VectorTraining* vectors = nullptr);
 
-  /// The sums over streams of what SequenceScorer gives, and LdaScorer.
+  /// The sums over streams of what SequenceScorer gives, and VectorScorer.
   [[nodiscard]] VectorF scores(const StreamFrames& frames) const;
   /// Those of streams alone.
   [[nodiscard]] VectorF stream_scores(const StreamFrames& frames) const;
@@ -55,7 +56,7 @@ class HRI_API MultiStreamScorer {
                                              int num_recordings,
                                              const StopCheck& should_stop) const;
   [[nodiscard]] MultiStreamScorer without_class(int index) const;
-  /// The same with another weight of its vectors, see LdaScorer::with_weight(). Throws
+  /// The same with another weight of its vectors, see VectorScorer::with_weight(). Throws
   /// InvalidArgument where there are no vectors.
   [[nodiscard]] MultiStreamScorer with_vector_weight(double weight) const;
 
@@ -63,7 +64,7 @@ class HRI_API MultiStreamScorer {
     return streams_;
   }
   /// nullptr: there are no vectors.
-  [[nodiscard]] const std::shared_ptr<const LdaScorer>& vectors() const { return vectors_; }
+  [[nodiscard]] const std::shared_ptr<const VectorScorer>& vectors() const { return vectors_; }
   [[nodiscard]] SequenceModelKind kind() const { return streams_.front()->kind(); }
   [[nodiscard]] int num_classes() const { return streams_.front()->num_classes(); }
   [[nodiscard]] int num_fillers() const { return streams_.front()->num_fillers(); }
@@ -75,7 +76,7 @@ class HRI_API MultiStreamScorer {
 
  private:
   std::vector<std::shared_ptr<const SequenceScorer>> streams_;
-  std::shared_ptr<const LdaScorer> vectors_;
+  std::shared_ptr<const VectorScorer> vectors_;
 };
 
 /// Trains the fillers of every stream, as train_fillers() does.

@@ -41,7 +41,7 @@ void check(const WordSample& sample, const std::string& name, double frame_ms) {
 WordAugmentation::WordAugmentation(const WordRecognizerOptions& options,
                                    const std::shared_ptr<const SpeechEmbedding>& embedding)
     : options_(validated(options)) {
-  // The embedding has no filters to warp: all copies share the first front end's.
+  // The embedding has no filters to warp: warped copies have none of their own.
   WordRecognizerOptions cepstra_only = options;
   cepstra_only.front_end = FrontEndKind::cepstra;
   for (const double factor : warp_factors(options)) {
@@ -64,14 +64,15 @@ std::vector<StreamFrames> WordAugmentation::copies(Span<const float> word,
   result.reserve(front_ends_.size() + static_cast<std::size_t>(options_.num_noisy_copies));
   const SpeechEmbedding* embedding = front_end().embedding().get();
   result.push_back(front_end().frames(word));
-  for (std::size_t warp = 1; warp < front_ends_.size(); ++warp) {
+  for (std::size_t warp = 1; warp < front_ends_.size(); ++warp)
     result.push_back(front_ends_[warp].frames(word));
-    if (embedding != nullptr) result.back().push_back(result.front().back());
-  }
+  const double least_snr_db =
+      embedding == nullptr ? options_.min_snr_db : options_.embedding_min_snr_db;
+  const double largest_snr_db =
+      embedding == nullptr ? options_.max_snr_db : options_.embedding_max_snr_db;
   Random random(options_.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
   for (int copy = 0; copy < options_.num_noisy_copies; ++copy) {
-    const double snr_db =
-        options_.min_snr_db + random.uniform() * (options_.max_snr_db - options_.min_snr_db);
+    const double snr_db = least_snr_db + random.uniform() * (largest_snr_db - least_snr_db);
     const std::vector<float> noisy = with_noise(word, snr_db, &random);
     const std::size_t warp = (index + static_cast<std::size_t>(copy)) % front_ends_.size();
     result.push_back(front_ends_[warp].frames(noisy));

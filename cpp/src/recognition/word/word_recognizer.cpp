@@ -10,7 +10,10 @@
 namespace hri {
 
 const char* WordRecognizerOptions::conflict() const {
-  return min_snr_db <= max_snr_db ? nullptr : "min_snr_db must not exceed max_snr_db";
+  if (min_snr_db > max_snr_db) return "min_snr_db must not exceed max_snr_db";
+  if (embedding_min_snr_db > embedding_max_snr_db)
+    return "embedding_min_snr_db must not exceed embedding_max_snr_db";
+  return nullptr;
 }
 
 WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,

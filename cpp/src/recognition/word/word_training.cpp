@@ -96,7 +96,6 @@ class WordTrainer {
     report(++step);
     const int num_folds = assign_folds();
     const std::vector<int> folds = usable_folds(num_folds);
-    choose_lda_options(folds);
     std::vector<MultiStreamScorer> scorers;
     for (const int fold : folds) {
       scorers.push_back(train_without(fold));
@@ -142,9 +141,12 @@ class WordTrainer {
     result.models = hri::train_fillers(sequences, augmentation_.front_end().num_streams(), options_,
                                        should_stop_);
     if (augmentation_.front_end().embedding() == nullptr) return result;
+    const auto num_streams = static_cast<std::size_t>(augmentation_.front_end().num_streams());
     for (const auto& list : sequences) {
       result.vectors.emplace_back();
-      for (const StreamFrames* copy : list) result.vectors.back().push_back(copy->back());
+      for (const StreamFrames* copy : list) {
+        if (copy->size() > num_streams) result.vectors.back().push_back(copy->back());
+      }
     }
     return result;
   }
@@ -234,23 +236,11 @@ class WordTrainer {
     return folds;
   }
 
-  void choose_lda_options(const std::vector<int>& folds) {
-    if (augmentation_.front_end().embedding() == nullptr) return;
-    std::vector<detail::LabelledVectors> words;
-    for (const PreparedSample& p : prepared_) {
-      words.push_back({p.label, p.fold, {}});
-      for (const StreamFrames& copy : p.copies) words.back().vectors.push_back(&copy.back());
-    }
-    vector_options_ =
-        detail::choose_lda(words, static_cast<int>(labels_.size()), folds, fillers_->vectors,
-                           options_.embedding_shrinkage, should_stop_);
-  }
-
   // Of the vectors beside the streams, by the scorers of the folds.
   void weigh_vectors(const std::vector<int>& folds, std::vector<MultiStreamScorer>* scorers) {
     if (augmentation_.front_end().embedding() == nullptr) return;
-    double factor = options_.embedding_weight;
-    if (factor == 0) {
+    vector_weight_ = options_.embedding_weight;
+    if (vector_weight_ == 0) {
       std::vector<std::vector<detail::HeldOutScores>> found(prepared_.size());
       detail::parallel_for(prepared_.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
         const PreparedSample& p = prepared_[i];
@@ -264,11 +254,9 @@ class WordTrainer {
       });
       std::vector<detail::HeldOutScores> all;
       for (auto& words : found) std::move(words.begin(), words.end(), std::back_inserter(all));
-      factor = detail::choose_vector_weight(all);
+      vector_weight_ = detail::choose_vector_weight(all);
     }
-    vector_options_.weight *= factor;
-    for (MultiStreamScorer& scorer : *scorers)
-      scorer = scorer.with_vector_weight(vector_options_.weight);
+    for (MultiStreamScorer& scorer : *scorers) scorer = scorer.with_vector_weight(vector_weight_);
   }
 
   // What is judged of a word held out. How far noise takes a word from its fillers differs between
@@ -302,8 +290,10 @@ class WordTrainer {
     }
     if (augmentation_.front_end().embedding() == nullptr)
       return MultiStreamScorer::train(sequences, options_, fillers_->models, should_stop_);
-    const VectorTraining vectors{vector_options_, fillers_->vectors};
-    return MultiStreamScorer::train(sequences, options_, fillers_->models, should_stop_, &vectors);
+    const VectorTraining vectors{{options_.embedding_penalty, options_.embedding_shrinkage},
+                                 fillers_->vectors};
+    return MultiStreamScorer::train(sequences, options_, fillers_->models, should_stop_, &vectors)
+        .with_vector_weight(vector_weight_);
   }
 
   [[nodiscard]] bool has_every_class_without(int fold) const {
@@ -369,7 +359,7 @@ class WordTrainer {
   StopCheck should_stop_;
   std::shared_ptr<const detail::TrainedFillers> fillers_ =
       std::make_shared<const detail::TrainedFillers>();
-  VectorScoring vector_options_;
+  double vector_weight_ = 1;
   std::vector<PreparedSample> prepared_;
 };
 

@@ -55,11 +55,11 @@ double rival_score(const VectorF& scores, std::size_t best, int left_out) {
   return sum / static_cast<double>(count);
 }
 
-// Of squared distances, whose negative multiples the scores are. Noise draws all vectors towards
-// one another; their ratio stays about the same, where their difference does not.
-double log_distance_ratio(double score, double other_score) {
-  if (other_score >= 0) return score >= 0 ? 0 : -std::log(kLeastDistance);
-  return std::log(std::clamp(score / other_score, kLeastDistance, 1 / kLeastDistance));
+// Of squared distances. Noise draws all vectors towards one another; their ratio stays about the
+// same, where their difference does not.
+double log_ratio(double distance, double other) {
+  if (!(other > 0)) return distance > 0 ? -std::log(kLeastDistance) : 0;
+  return std::log(std::clamp(distance / other, kLeastDistance, 1 / kLeastDistance));
 }
 
 // "states", "length" and "pace", over the best path of every stream.
@@ -141,12 +141,12 @@ VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFram
                                const VectorF& scores, int left_out) {
   std::vector<double> result;
   const auto num_frames = static_cast<double>(frames.front().rows());
-  const LdaScorer* vectors = scorer.vectors().get();
-  VectorF of_vector;
+  const VectorScorer* vectors = scorer.vectors().get();
   VectorF of_streams = scores;
+  VectorF nearness;  // minus the squared distances: what lies nearest scores best
   if (vectors != nullptr) {
-    of_vector = vectors->scores(frames.back());
-    of_streams -= of_vector;
+    of_streams -= vectors->scores(frames.back());
+    nearness = -vectors->squared_distances(frames.back());
   }
   const std::size_t best = best_word(scores, left_out);
   const auto at = static_cast<Eigen::Index>(best);
@@ -155,14 +155,15 @@ VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFram
   result.push_back((top - rival_score(of_streams, best, left_out)) / num_frames);
   if (scorer.streams().front()->has_paths())
     add_path_features(scorer, frames, best, left_out, &result);
-  const double near = vectors != nullptr ? static_cast<double>(of_vector[at]) : 0.0;
+  const double distance = vectors != nullptr ? -static_cast<double>(nearness[at]) : 0.0;
   if (vectors != nullptr)
-    result.push_back(log_distance_ratio(near, rival_score(of_vector, best, left_out)));
+    result.push_back(log_ratio(distance, -rival_score(nearness, best, left_out)));
   if (scorer.num_fillers() > 0) {
     result.push_back((top - best_fillers(scorer.filler_scores(frames))) / num_frames);
-    if (vectors != nullptr)
-      result.push_back(
-          log_distance_ratio(near, best_fillers(vectors->filler_scores(frames.back()))));
+    if (vectors != nullptr) {
+      const VectorF of_fillers = -vectors->filler_squared_distances(frames.back());
+      result.push_back(log_ratio(distance, -best_fillers(of_fillers)));
+    }
   }
   return Eigen::Map<const VectorD>(result.data(), static_cast<Eigen::Index>(result.size()));
 }

@@ -65,6 +65,8 @@ TEST_P(EmbeddingRecognizer, TheEmbeddingVotes) {
   const WordRecognizer recognizer = trained(both(GetParam()));
   WordRecognizerOptions alone = both(GetParam());
   alone.front_end = FrontEndKind::cepstra;
+  alone.min_snr_db = alone.embedding_min_snr_db;
+  alone.max_snr_db = alone.embedding_max_snr_db;
   const Fillers others = fillers();
   const WordRecognizer cepstra =
       WordRecognizer::train(tone_clips().samples, alone, {}, {}, others.samples);
@@ -146,8 +148,8 @@ TEST(EmbeddingWords, AdaptsItsMeansToASpeaker) {
   adapter.update();
   const std::vector<float> clip = tone(1100, 800, 9);
   const MatrixF vector = recognizer.front_end().process(clip, kRateHz).streams.back();
-  EXPECT_GT(adapter.recognizer().scorer().vectors()->scores(vector)[1],
-            recognizer.scorer().vectors()->scores(vector)[1]);
+  EXPECT_LT(adapter.recognizer().scorer().vectors()->squared_distances(vector)[1],
+            recognizer.scorer().vectors()->squared_distances(vector)[1]);
   EXPECT_EQ(adapter.recognise(clip, kRateHz).nbest.front().label, "rise");
 }
 
@@ -161,12 +163,13 @@ TEST(EmbeddingWords, IsTheSameFromAnyNumberOfThreads) {
   EXPECT_EQ(files.front(), files.back());
 }
 
-TEST(LdaScorer, RefusesVectorsThatDoNotFit) {
+TEST(VectorScorer, RefusesVectorsThatDoNotFit) {
   const MatrixF row = MatrixF::Ones(1, 3);
-  EXPECT_THROW((void)LdaScorer::train({{row}, {}}, {}, {}), InvalidArgument);
-  EXPECT_THROW((void)LdaScorer::train({{row}, {MatrixF::Ones(1, 4)}}, {}, {}), InvalidArgument);
-  EXPECT_THROW((void)LdaScorer::train({{row}, {MatrixF::Ones(2, 3)}}, {}, {}), InvalidArgument);
-  EXPECT_THROW((void)LdaScorer::train({{row}, {-row}}, {}, {0.1, 0}), InvalidArgument);
+  EXPECT_THROW((void)VectorScorer::train({{row}, {}}, {}, {}), InvalidArgument);
+  EXPECT_THROW((void)VectorScorer::train({}, {}, {}), InvalidArgument);
+  EXPECT_THROW((void)VectorScorer::train({{row}, {MatrixF::Ones(1, 4)}}, {}, {}), InvalidArgument);
+  EXPECT_THROW((void)VectorScorer::train({{row}, {MatrixF::Ones(2, 3)}}, {}, {}), InvalidArgument);
+  EXPECT_THROW((void)VectorScorer::train({{row}, {-row}}, {}, {0, 0.5}), InvalidArgument);
 }
 
 }  // namespace

@@ -52,8 +52,11 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   double min_snr_db = 10;
   double max_snr_db = 25;
   double false_reject_rate = 0.02;
+  double embedding_min_snr_db = 0;
+  double embedding_max_snr_db = 20;
   double embedding_weight = 0;
-  double embedding_shrinkage = 0;
+  double embedding_penalty = 100;
+  double embedding_shrinkage = 0.8;
 
   static constexpr const char* kName = "WordRecognizerOptions";
   template <class Self, class Visitor>
@@ -86,13 +89,17 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
       formerly("noise_high_db"));
     v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
       "share of correct held-out words that the threshold may reject");
-    v("embedding_weight", o.embedding_weight, within(0, 1000),
-      "front_end both: weight of the speech embedding beside the streams of cepstra; at 1, words "
-      "of "
-      "speakers held out are 1 a discriminant off their mean; 0: chosen on such words");
+    v("embedding_min_snr_db", o.embedding_min_snr_db, within(-20, 100),
+      "front_end both: in place of min_snr_db; the embedding stands more noise, and learns from it");
+    v("embedding_max_snr_db", o.embedding_max_snr_db, within(-20, 100),
+      "front_end both: in place of max_snr_db");
+    v("embedding_weight", o.embedding_weight, within(0, 1000000),
+      "front_end both: factor on the log posteriors by the speech embedding, which join the scores "
+      "of the cepstra; 0: chosen on words of speakers held out");
+    v("embedding_penalty", o.embedding_penalty, above(0, 1e12),
+      "front_end both: of half the squared weights of the embedding's softmax regression");
     v("embedding_shrinkage", o.embedding_shrinkage, within(0, 1),
-      "front_end both: shrinkage of the embedding's linear discriminants; 0: chosen on words of "
-      "speakers held out");
+      "front_end both: of the embedding's linear discriminants, by which words are rejected");
   }
   /// nullptr, or which fields do not go together.
   [[nodiscard]] const char* conflict() const;
