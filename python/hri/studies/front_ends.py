@@ -36,10 +36,15 @@ def shrinkage(samples: Samples, sample_rate_hz: int) -> tuple[Samples, int]:
 
 HFCC_E = {"cepstra": {"filter_bank": "hfcc", "erb_factor": 2.0}}
 
+PLAIN = "plain"
 FRONT_ENDS: dict[str, FrontEndChoice] = {
-    "plain": FrontEndChoice(),
+    PLAIN: FrontEndChoice(),
     "hfcc-e": FrontEndChoice(HFCC_E),
     "shrinkage": FrontEndChoice(prepare=shrinkage),
     "hfcc-e and shrinkage": FrontEndChoice(HFCC_E, shrinkage),
 }
 """By name; "plain" is the recogniser with its defaults."""
+
+EMBEDDING = "both"
+CHOICES = {**FRONT_ENDS, EMBEDDING: FrontEndChoice({"front_end": "both"})}
+"""With cepstra and a pretrained speech embedding, which is an extra."""

@@ -15,7 +15,7 @@ from hri.evaluation import EvaluationResult, evaluate_conditions
 from hri.evaluation.conditions import Condition
 from hri.recognition import WordRecognizer
 from hri.recognition.decision import NO_INPUT
-from hri.studies.front_ends import FRONT_ENDS
+from hri.studies.front_ends import CHOICES
 from hri.studies.registry import Progress, within
 from hri.studies.tables import Row, statistics
 from hri.studies.word_features import load_words
@@ -52,7 +52,7 @@ def sweep(
     dataset = load_words(data_dir, name, takes)
     found = {}
     for variant in front_ends:
-        choice = FRONT_ENDS[variant]
+        choice = CHOICES[variant]
         for trained, added in trainings.items():
             results = evaluate_conditions(
                 dataset,

@@ -160,7 +160,9 @@ def _run(
     noise = noises(noise_paths(data_dir))
     rows, details = [], {}
     for name in data:
-        row, details[name] = _measure(load_words(data_dir, name, takes), noise, folds, front_end, within(progress, name))
+        row, details[name] = _measure(
+            load_words(data_dir, name, takes), noise, folds, front_end, within(progress, name)
+        )
         rows.append({"data": name, **row})
     lines = {name: {"x": list(FALSE_ACCEPTS), "y": found.pop("curve")} for name, found in details.items()}
     return {
