@@ -5186,6 +5186,10 @@ class WordRecognizerOptions:
         front_end both: of half the squared weights of the embedding's softmax regression; 0..1e+12, 0 excluded
     embedding_shrinkage : float, default 0.8
         front_end both: of the embedding's linear discriminants, by which words are rejected; 0..1
+    embedding_false_accept_rate : float, default 0.1
+        front_end both: share of other words that the threshold may accept, if it can be met; 0..1
+    embedding_max_false_reject_rate : float, default 0.2
+        front_end both: share of correct held-out words, noisy ones included, that the threshold may reject to that end; 0..0.5
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -5223,6 +5227,8 @@ class WordRecognizerOptions:
         embedding_weight: float = 0.0,
         embedding_penalty: float = 100.0,
         embedding_shrinkage: float = 0.8,
+        embedding_false_accept_rate: float = 0.1,
+        embedding_max_false_reject_rate: float = 0.2,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -5244,6 +5250,20 @@ class WordRecognizerOptions:
         """
     @cepstra.setter
     def cepstra(self, arg1: typing.Any) -> None: ...
+    @property
+    def embedding_false_accept_rate(self) -> float:
+        """
+        front_end both: share of other words that the threshold may accept, if it can be met
+        """
+    @embedding_false_accept_rate.setter
+    def embedding_false_accept_rate(self, arg1: typing.Any) -> None: ...
+    @property
+    def embedding_max_false_reject_rate(self) -> float:
+        """
+        front_end both: share of correct held-out words, noisy ones included, that the threshold may reject to that end
+        """
+    @embedding_max_false_reject_rate.setter
+    def embedding_max_false_reject_rate(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_max_snr_db(self) -> float:
         """

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "hri/core/error.hpp"
 
@@ -68,11 +69,30 @@ float class_threshold(std::vector<float> right, std::vector<float> wrong, std::s
   return std::max(threshold, Calibration::kMinClassThreshold);
 }
 
+// The score at which so large a share of sorted ones lies below.
+float quantile(const std::vector<float>& sorted, double share) {
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
+  return sorted[std::min(rank, sorted.size() - 1)];
+}
+
+// Of all classes, from the scores of right decisions, sorted, and of other words.
+float threshold_of(const std::vector<float>& right, const RejectionRates& rates,
+                   std::vector<float> others) {
+  const float least = quantile(right, rates.false_reject);
+  if (others.empty() || rates.false_accept >= 1) return least;
+  const float most = std::max(least, quantile(right, rates.max_false_reject));
+  std::sort(others.begin(), others.end());
+  return std::clamp(quantile(others, 1 - rates.false_accept), least, most);
+}
+
 }  // namespace
 
-Calibration Calibration::fit(const std::vector<HeldOut>& held_out, double false_reject_rate) {
-  require(false_reject_rate >= 0 && false_reject_rate <= 0.5,
+Calibration Calibration::fit(const std::vector<HeldOut>& held_out, const RejectionRates& rates,
+                             std::vector<float> others) {
+  require(rates.false_reject >= 0 && rates.false_reject <= 0.5,
           "false_reject_rate must lie in 0..0.5");
+  require(rates.max_false_reject <= 0.5, "max_false_reject_rate must lie in 0..0.5");
+  require(rates.false_accept >= 0 && rates.false_accept <= 1, "false_accept_rate must lie in 0..1");
   Calibration result;
   std::vector<float> right;
   for (const HeldOut& h : held_out) {
@@ -81,8 +101,7 @@ Calibration Calibration::fit(const std::vector<HeldOut>& held_out, double false_
   if (right.empty()) return result;
   result.scale_ = best_scale(held_out);
   std::sort(right.begin(), right.end());
-  const auto rank = static_cast<std::size_t>(false_reject_rate * static_cast<double>(right.size()));
-  result.threshold_ = static_cast<double>(right[std::min(rank, right.size() - 1)]);
+  result.threshold_ = static_cast<double>(threshold_of(right, rates, std::move(others)));
 
   const auto num_classes = static_cast<std::size_t>(held_out.front().scores.size());
   std::vector<std::vector<float>> right_of(num_classes);

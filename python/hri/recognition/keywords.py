@@ -92,6 +92,8 @@ class WordRecognizerKeywords(TypedDict, total=False):
     embedding_weight: float
     embedding_penalty: float
     embedding_shrinkage: float
+    embedding_false_accept_rate: float
+    embedding_max_false_reject_rate: float
 
 
 class SilhouetteKeywords(TypedDict, total=False):

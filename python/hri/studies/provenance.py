@@ -15,6 +15,7 @@ import hashlib
 import re
 import subprocess
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +37,8 @@ def source_root() -> Path | None:
 
 def rooms_of(study: Study) -> tuple[str, ...]:
     """The rooms that `study` depends on, its own file among them."""
-    own = study.run.__module__.removeprefix("hri.").replace(".", "/")
+    run = study.run.func if isinstance(study.run, partial) else study.run
+    own = run.__module__.removeprefix("hri.").replace(".", "/")
     return (*study.sources, f"python/{own}.py")
 
 

@@ -35,13 +35,13 @@ std::vector<HeldOut> held_out(double sharpness, int count) {
 
 TEST(Calibration, FindsHowMuchTooSureScoresAre) {
   for (const double sharpness : {0.2, 1.0, 20.0}) {
-    const Calibration c = Calibration::fit(held_out(sharpness, 3000), 0.02);
+    const Calibration c = Calibration::fit(held_out(sharpness, 3000), RejectionRates{});
     EXPECT_NEAR(c.scale() * sharpness, 1.0, 0.15) << sharpness;
   }
 }
 
 TEST(Calibration, NeverRecognisesWhatIsNoNumber) {
-  const Calibration c = Calibration::fit(held_out(1.0, 3000), 0.02);
+  const Calibration c = Calibration::fit(held_out(1.0, 3000), RejectionRates{});
   const float nan = std::nanf("");
   const float infinity = std::numeric_limits<float>::infinity();
   const auto decide = [&c](float a, float b, float score) {
@@ -62,7 +62,7 @@ TEST(Calibration, NeverRecognisesWhatIsNoNumber) {
 
 TEST(Calibration, RefusesScalesThatNoTrainingGives) {
   ModelFile file;
-  Calibration::fit(held_out(1.0, 300), 0.02).write(file);
+  Calibration::fit(held_out(1.0, 300), RejectionRates{}).write(file);
   for (const char* scale : {"0", "-1", "1e7", "1e308", "nan"}) {
     file.set_text("calibration.scale", scale);
     EXPECT_PRED_FORMAT2(::testing::IsSubstring, "field 'calibration.scale'",
@@ -73,7 +73,7 @@ TEST(Calibration, RefusesScalesThatNoTrainingGives) {
 TEST(Calibration, RejectsTheShareOfRightAnswersItWasAllowed) {
   const auto samples = held_out(1.0, 3000);
   for (const double rate : {0.0, 0.1, 0.3}) {
-    const Calibration c = Calibration::fit(samples, rate);
+    const Calibration c = Calibration::fit(samples, {rate});
     int right = 0;
     int rejected = 0;
     for (const HeldOut& s : samples) {
@@ -86,7 +86,7 @@ TEST(Calibration, RejectsTheShareOfRightAnswersItWasAllowed) {
     }
     EXPECT_NEAR(static_cast<double>(rejected) / right, rate, 0.01);
   }
-  EXPECT_THROW(Calibration::fit(samples, 0.9), InvalidArgument);
+  EXPECT_THROW(Calibration::fit(samples, {0.9}), InvalidArgument);
 }
 
 // Of `count` samples of class 0 and as many of class 1, all decided with margin `right`, but
@@ -104,10 +104,30 @@ std::vector<HeldOut> with_false_alarms(int count, int num_wrong, float right, fl
   return result;
 }
 
+TEST(Calibration, RejectsMoreWhereOtherWordsWouldPass) {
+  const std::vector<HeldOut> samples = held_out(1.0, 1000);
+  const auto threshold = [&](const RejectionRates& rates, std::vector<float> others) {
+    return Calibration::fit(samples, rates, std::move(others)).threshold();
+  };
+  const double least = threshold({0.02, 0.02, 1}, {});
+  const double most = threshold({0.2, 0.2, 1}, {});
+  ASSERT_LT(least, most);
+  const std::vector<float> far(10, static_cast<float>(least - 1));
+  const std::vector<float> near(10, static_cast<float>(most + 1));
+  const auto between = static_cast<float>(0.5 * (least + most));
+  std::vector<float> mixed = far;
+  mixed.insert(mixed.end(), 10, between);
+  EXPECT_EQ(threshold({0.02, 0.2, 0.1}, far), least);
+  EXPECT_EQ(threshold({0.02, 0.2, 0.1}, near), most);
+  EXPECT_EQ(threshold({0.02, 0.2, 0.1}, mixed), static_cast<double>(between));
+  EXPECT_EQ(threshold({0.02, 0.2, 0.6}, mixed), least);
+  EXPECT_EQ(threshold({0.02, 0.2, 1}, near), least);
+}
+
 TEST(Calibration, PutsEachClassAboveItsFalseAlarms) {
   // Class 0 has 5 % of false alarms, all less sure than right decisions; class 1 has none.
   const std::vector<HeldOut> samples = with_false_alarms(1000, 50, 4, 2);
-  const Calibration c = Calibration::fit(samples, 0.02);
+  const Calibration c = Calibration::fit(samples, RejectionRates{});
   const std::vector<std::string> labels{"stop", "go"};
   int false_alarms = 0;
   int hits = 0;
@@ -125,7 +145,7 @@ TEST(Calibration, PutsEachClassAboveItsFalseAlarms) {
 }
 
 TEST(Calibration, MissesFewOfAClassEvenIfItsFalseAlarmsAreSurer) {
-  const Calibration c = Calibration::fit(with_false_alarms(1000, 50, 3, 6), 0.02);
+  const Calibration c = Calibration::fit(with_false_alarms(1000, 50, 3, 6), RejectionRates{});
   VectorF right(2);
   right << 3, 0;
   const Decision d = c.decide(right, 1, {"stop", "go"});
@@ -134,7 +154,7 @@ TEST(Calibration, MissesFewOfAClassEvenIfItsFalseAlarmsAreSurer) {
 }
 
 TEST(Calibration, KeepsClassThresholdsWithTheirClasses) {
-  const Calibration two = Calibration::fit(with_false_alarms(1000, 50, 4, 2), 0.02);
+  const Calibration two = Calibration::fit(with_false_alarms(1000, 50, 4, 2), RejectionRates{});
   const float stop = two.class_thresholds()[0];
   const Calibration three = two.with_class(1);
   EXPECT_EQ(three.class_thresholds()[0], stop);
@@ -148,7 +168,7 @@ TEST(Calibration, KeepsClassThresholdsWithTheirClasses) {
 TEST(Calibration, ReadsClassThresholdsBackAndDoesWithout) {
   ModelFile file;
   file.set_text_list("labels", {"go", "stop"});
-  const Calibration saved = Calibration::fit(with_false_alarms(1000, 50, 4, 2), 0.02);
+  const Calibration saved = Calibration::fit(with_false_alarms(1000, 50, 4, 2), RejectionRates{});
   saved.write(file);
   EXPECT_EQ(Calibration::read(file).class_thresholds(), saved.class_thresholds());
 
@@ -174,7 +194,7 @@ TEST(Calibration, DecidesWithAnNBestListThatFallsAndSumsToOne) {
   EXPECT_EQ(d.nbest[2].label, "a");
   EXPECT_NEAR(d.nbest[0].probability + d.nbest[1].probability + d.nbest[2].probability, 1, 1e-6);
   EXPECT_EQ(d.confidence, d.nbest[0].probability);
-  const Calibration untrained = Calibration::fit({}, 0.02);
+  const Calibration untrained = Calibration::fit({}, RejectionRates{});
   EXPECT_EQ(untrained.scale(), 1.0);
   EXPECT_EQ(untrained.decide(scores, -1e20F, {"a", "b", "c"}).status, DecisionStatus::recognised);
 }

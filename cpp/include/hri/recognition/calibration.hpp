@@ -25,6 +25,13 @@ struct HeldOut {
   float score = 0;
 };
 
+/// How often right decisions may be rejected, and other words accepted.
+struct RejectionRates {
+  double false_reject = 0.02;      ///< of right decisions: so many in any case
+  double max_false_reject = 0.02;  ///< and so many where others are accepted too often
+  double false_accept = 1;         ///< of other words
+};
+
 class HRI_API Calibration {
  public:
   /// Share of held-out samples of other classes that may be misrecognised as a class at or above
@@ -37,11 +44,14 @@ class HRI_API Calibration {
   Calibration() = default;
 
   /// Fits the scale to the least negative log-likelihood of `held_out`, and the threshold to the
-  /// quantile `false_reject_rate` (0..1) of the score of its correct decisions. A class threshold
-  /// is the least confidence at which the class keeps to kMaxFalseAlarmRate, or the largest that
-  /// keeps to kMaxMissRate where both cannot be met, but at least kMinClassThreshold. Falls back to
-  /// scale 1 and no thresholds where `held_out` is empty or never right.
-  static Calibration fit(const std::vector<HeldOut>& held_out, double false_reject_rate);
+  /// quantile rates.false_reject (0..0.5) of the score of its correct decisions, or as far beyond,
+  /// up to rates.max_false_reject, as it takes to accept no more than rates.false_accept of
+  /// `others`, scores of words outside the vocabulary. A class threshold is the least confidence at
+  /// which the class keeps to kMaxFalseAlarmRate, or the largest that keeps to kMaxMissRate where
+  /// both cannot be met, but at least kMinClassThreshold. Falls back to scale 1 and no thresholds
+  /// where `held_out` is empty or never right.
+  static Calibration fit(const std::vector<HeldOut>& held_out, const RejectionRates& rates,
+                         std::vector<float> others = {});
 
   /// softmax(scale * scores), computed in float.
   [[nodiscard]] VectorF posterior(const VectorF& scores) const;

@@ -57,11 +57,13 @@ struct HeldOutFolds {
   std::vector<HeldOut> decisions;
   std::vector<VectorD> features;  // of each decision
   std::vector<VerifierExample> examples;
+  std::vector<VectorD> others;  // features of words held out as if they were not in the vocabulary
 
   void append(HeldOutFolds more) {
     std::move(more.decisions.begin(), more.decisions.end(), std::back_inserter(decisions));
     std::move(more.features.begin(), more.features.end(), std::back_inserter(features));
     std::move(more.examples.begin(), more.examples.end(), std::back_inserter(examples));
+    std::move(more.others.begin(), more.others.end(), std::back_inserter(others));
   }
 };
 
@@ -334,8 +336,8 @@ class WordTrainer {
     held_out->features.push_back(features);
     if (best == label) held_out->examples.push_back({features, Kind::word});
     if (scores.size() > 2) {
-      held_out->examples.push_back(
-          {WordVerifier::features(scorer, frames, scores, label), Kind::other_word});
+      held_out->others.push_back(WordVerifier::features(scorer, frames, scores, label));
+      held_out->examples.push_back({held_out->others.back(), Kind::other_word});
     }
   }
 
@@ -344,8 +346,16 @@ class WordTrainer {
         WordVerifier::fit(held_out.examples, WordVerifier::num_filler_features(scorer));
     for (std::size_t i = 0; i < held_out.decisions.size(); ++i)
       held_out.decisions[i].score = verifier.verification_score(held_out.features[i]);
-    const Calibration calibration =
-        Calibration::fit(held_out.decisions, options_.false_reject_rate);
+    RejectionRates rates;
+    rates.false_reject = options_.false_reject_rate;
+    std::vector<float> others;
+    if (augmentation_.front_end().embedding() != nullptr) {
+      rates.max_false_reject = options_.embedding_max_false_reject_rate;
+      rates.false_accept = options_.embedding_false_accept_rate;
+      for (const VectorD& features : held_out.others)
+        others.push_back(verifier.verification_score(features));
+    }
+    const Calibration calibration = Calibration::fit(held_out.decisions, rates, std::move(others));
     return {options_,          labels_,
             std::move(scorer), std::move(verifier),
             calibration,       augmentation_.front_end().embedding()};

@@ -57,6 +57,8 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   double embedding_weight = 0;
   double embedding_penalty = 100;
   double embedding_shrinkage = 0.8;
+  double embedding_false_accept_rate = 0.1;
+  double embedding_max_false_reject_rate = 0.2;
 
   static constexpr const char* kName = "WordRecognizerOptions";
   template <class Self, class Visitor>
@@ -90,7 +92,8 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
     v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
       "share of correct held-out words that the threshold may reject");
     v("embedding_min_snr_db", o.embedding_min_snr_db, within(-20, 100),
-      "front_end both: in place of min_snr_db; the embedding stands more noise, and learns from it");
+      "front_end both: in place of min_snr_db; the embedding stands more noise, and learns from "
+      "it");
     v("embedding_max_snr_db", o.embedding_max_snr_db, within(-20, 100),
       "front_end both: in place of max_snr_db");
     v("embedding_weight", o.embedding_weight, within(0, 1000000),
@@ -100,6 +103,12 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
       "front_end both: of half the squared weights of the embedding's softmax regression");
     v("embedding_shrinkage", o.embedding_shrinkage, within(0, 1),
       "front_end both: of the embedding's linear discriminants, by which words are rejected");
+    v("embedding_false_accept_rate", o.embedding_false_accept_rate, within(0, 1),
+      "front_end both: share of other words that the threshold may accept, if it can be met");
+    v("embedding_max_false_reject_rate", o.embedding_max_false_reject_rate, within(0, 0.5),
+      "front_end both: share of correct held-out words, noisy ones included, that the threshold "
+      "may "
+      "reject to that end");
   }
   /// nullptr, or which fields do not go together.
   [[nodiscard]] const char* conflict() const;
