@@ -44,7 +44,7 @@ class HRI_API SoftmaxRegression {
   /// log P(c | row) but for a constant, for a row of dim() values; shape (num_classes,).
   [[nodiscard]] VectorF scores(Span<const float> row) const;
 
-  /// With one class more, of number `index`: its weights alone are fitted, to tell `rows` from
+  /// With one class more, of number `index`: its weights alone are fitted, to part `rows` from
   /// `others`, of which each stands for so many rows of another class, as all of `rows` together
   /// stand for as many. Throws InvalidArgument for rows of another size or not finite.
   [[nodiscard]] SoftmaxRegression with_class(int index, ConstMatrixRefF rows,
