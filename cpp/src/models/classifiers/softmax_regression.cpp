@@ -143,6 +143,7 @@ SoftmaxRegression SoftmaxRegression::with_class(int index, ConstMatrixRefF rows,
                                                 const SoftmaxRegressionOptions& options,
                                                 const StopCheck& should_stop) const {
   validate(options);
+  require(index >= 0 && index <= num_classes(), "the index of the class is out of range");
   require(rows.rows() > 0, "a class has no row");
   require(rows_per_other > 0, "rows_per_other must be positive");
   validate_finite(rows, "rows");
@@ -170,6 +171,7 @@ SoftmaxRegression SoftmaxRegression::with_class(int index, ConstMatrixRefF rows,
 }
 
 SoftmaxRegression SoftmaxRegression::without_class(int index) const {
+  require(index >= 0 && index < num_classes(), "the index of the class is out of range");
   SoftmaxRegression result = *this;
   const Eigen::Index after = weights_.rows() - index - 1;
   result.weights_.resize(weights_.rows() - 1, weights_.cols());

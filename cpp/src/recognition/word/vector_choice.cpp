@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recognition/word/vector_choice.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -14,6 +15,7 @@ constexpr std::array<double, 9> kShares{1, 0.5, 2, 0.2, 5, 0.1, 10, 0.05, 20};
 constexpr double kLeastTemperature = 1.0 / 16;
 constexpr double kTemperatureStep = 1.4;
 constexpr int kNumTemperatures = 24;
+constexpr double kMaxWeight = 1e6;  // that a scorer takes, where vectors hardly differ
 
 double spread(const VectorD& scores) {
   return std::sqrt((scores.array() - scores.mean()).square().mean());
@@ -51,7 +53,7 @@ double choose_vector_weight(const std::vector<HeldOutScores>& words) {
       const double entropy = cross_entropy(words, stream_weight, temperature);
       if (entropy >= least) continue;
       least = entropy;
-      result = 1 / stream_weight;
+      result = std::min(1 / stream_weight, kMaxWeight);
     }
   }
   return result;

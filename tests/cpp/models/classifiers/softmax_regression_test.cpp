@@ -154,6 +154,8 @@ TEST(SoftmaxRegression, RefusesBadInput) {
   EXPECT_THROW((void)model.scores(short_row), InvalidArgument);
   EXPECT_THROW(model.with_class(0, MatrixF(0, 3), points.rows, 1, {}), InvalidArgument);
   EXPECT_THROW(model.with_class(0, bad, points.rows, 1, {}), InvalidArgument);
+  EXPECT_THROW(model.with_class(3, points.rows, points.rows, 1, {}), InvalidArgument);
+  EXPECT_THROW(model.without_class(2), InvalidArgument);
   EXPECT_THROW(SoftmaxRegression::train(points.rows, points.classes, 2, {}, [] { return true; }),
                Interrupted);
 }
