@@ -27,6 +27,7 @@ void bind_hand_sources(py::module_& m);
 void bind_codebook(py::module_& m);
 void bind_classifiers(py::module_& m);
 void bind_logistic_regression(py::module_& m);
+void bind_sequence_network(py::module_& m);
 void bind_softmax_regression(py::module_& m);
 void bind_hmm(py::module_& m);
 void bind_possibilistic(py::module_& m);
@@ -122,6 +123,7 @@ PYBIND11_MODULE(_native, m) {
   bind_codebook(m);
   bind_classifiers(m);
   bind_logistic_regression(m);
+  bind_sequence_network(m);
   bind_softmax_regression(m);
   bind_hmm(m);
   bind_possibilistic(m);

@@ -92,6 +92,8 @@ __all__: list[str] = [
     "RbfClassifier",
     "RbfClassifierOptions",
     "SequenceModelOptions",
+    "SequenceNetwork",
+    "SequenceNetworkOptions",
     "ShrinkageOptions",
     "SilhouetteCepstrumComputer",
     "SilhouetteCepstrumOptions",
@@ -3545,6 +3547,163 @@ class LogisticRegression:
         One for each column.
         """
 
+class SequenceNetworkOptions:
+    """
+    Options of SequenceNetwork.
+
+    Parameters
+    ----------
+    num_channels : int, default 96
+        of every block; a multiple of 8; 8..1024
+    num_blocks : int, default 3
+        residual blocks, of two convolutions each; 1..16
+    num_epochs : int, default 60
+        how often training goes through all examples; 1..10000
+    batch_size : int, default 64
+        examples of one step of training; 2..4096
+    learning_rate : float, default 0.004
+        largest step of AdamW; it rises over a fifth of the training and falls to none; 0..1, 0 excluded
+    weight_decay : float, default 0.01
+        share of the weights that each step takes off; 0..1
+    dropout : float, default 0.1
+        share of the values behind each convolution that training leaves out; twice that, at most 0.9, before the softmax; 0..0.9
+    label_smoothing : float, default 0.1
+        share of the probability asked for that is spread over all classes; 0..0.9
+    seed : int, default 1
+        of everything random in training; 0..2^64 - 1
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        num_channels: int = 96,
+        num_blocks: int = 3,
+        num_epochs: int = 60,
+        batch_size: int = 64,
+        learning_rate: float = 0.004,
+        weight_decay: float = 0.01,
+        dropout: float = 0.1,
+        label_smoothing: float = 0.1,
+        seed: int = 1,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def batch_size(self) -> int:
+        """
+        examples of one step of training
+        """
+    @batch_size.setter
+    def batch_size(self, arg1: typing.Any) -> None: ...
+    @property
+    def dropout(self) -> float:
+        """
+        share of the values behind each convolution that training leaves out; twice that, at most 0.9, before the softmax
+        """
+    @dropout.setter
+    def dropout(self, arg1: typing.Any) -> None: ...
+    @property
+    def label_smoothing(self) -> float:
+        """
+        share of the probability asked for that is spread over all classes
+        """
+    @label_smoothing.setter
+    def label_smoothing(self, arg1: typing.Any) -> None: ...
+    @property
+    def learning_rate(self) -> float:
+        """
+        largest step of AdamW; it rises over a fifth of the training and falls to none
+        """
+    @learning_rate.setter
+    def learning_rate(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_blocks(self) -> int:
+        """
+        residual blocks, of two convolutions each
+        """
+    @num_blocks.setter
+    def num_blocks(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_channels(self) -> int:
+        """
+        of every block; a multiple of 8
+        """
+    @num_channels.setter
+    def num_channels(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_epochs(self) -> int:
+        """
+        how often training goes through all examples
+        """
+    @num_epochs.setter
+    def num_epochs(self, arg1: typing.Any) -> None: ...
+    @property
+    def seed(self) -> int:
+        """
+        of everything random in training
+        """
+    @seed.setter
+    def seed(self, arg1: typing.Any) -> None: ...
+    @property
+    def weight_decay(self) -> float:
+        """
+        share of the weights that each step takes off
+        """
+    @weight_decay.setter
+    def weight_decay(self, arg1: typing.Any) -> None: ...
+
+class SequenceNetwork:
+    """
+    Time-channel separable convolutions and softmax.
+    """
+    @staticmethod
+    def read(file: ModelFile, prefix: str) -> SequenceNetwork:
+        """
+        Reads what `write` added; raises FormatError naming the field that does not fit.
+        """
+    @staticmethod
+    def train(
+        sequences: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        classes: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+        num_classes: typing.SupportsInt | typing.SupportsIndex,
+        options: SequenceNetworkOptions = ...,
+    ) -> SequenceNetwork:
+        """
+        Trains on sequences (num_frames, dim) and classes (num_sequences,) of 0..num_classes - 1.
+        """
+    def log_posteriors(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Log posterior of every class, shape (num_classes,).
+        """
+    def write(self, file: ModelFile, prefix: str) -> None:
+        """
+        Adds the model to a ModelFile.
+        """
+    @property
+    def dim(self) -> int:
+        """
+        Columns of the frames it takes.
+        """
+    @property
+    def num_classes(self) -> int:
+        """
+        Number of classes.
+        """
+
 class SoftmaxRegressionOptions:
     """
     Options of SoftmaxRegression.
@@ -5190,6 +5349,12 @@ class WordRecognizerOptions:
         front_end both: share of other words that the threshold may accept, if it can be met; 0..1
     embedding_max_false_reject_rate : float, default 0.2
         front_end both: share of correct held-out words, noisy ones included, that the threshold may reject to that end; 0..0.5
+    use_network : bool, default False
+        a small network of log mel energies, trained on the same words, votes too: for many speakers
+    network : SequenceNetworkOptions or dict
+        how that network is made and trained; its random numbers follow `seed`, too
+    network_weight : float, default 0.0
+        factor on the network's log posteriors, which join the other scores; 0: chosen on words of speakers held out; 0..1000000
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -5229,6 +5394,9 @@ class WordRecognizerOptions:
         embedding_shrinkage: float = 0.8,
         embedding_false_accept_rate: float = 0.1,
         embedding_max_false_reject_rate: float = 0.2,
+        use_network: bool = False,
+        network: SequenceNetworkOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        network_weight: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -5356,6 +5524,20 @@ class WordRecognizerOptions:
     @model.setter
     def model(self, arg1: typing.Any) -> None: ...
     @property
+    def network(self) -> SequenceNetworkOptions:
+        """
+        how that network is made and trained; its random numbers follow `seed`, too
+        """
+    @network.setter
+    def network(self, arg1: typing.Any) -> None: ...
+    @property
+    def network_weight(self) -> float:
+        """
+        factor on the network's log posteriors, which join the other scores; 0: chosen on words of speakers held out
+        """
+    @network_weight.setter
+    def network_weight(self, arg1: typing.Any) -> None: ...
+    @property
     def noise_floor_db(self) -> float:
         """
         level of the noise added under a trimmed word, below its peak, under which quiet rooms and digital silence are the same
@@ -5411,6 +5593,13 @@ class WordRecognizerOptions:
         """
     @trim.setter
     def trim(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_network(self) -> bool:
+        """
+        a small network of log mel energies, trained on the same words, votes too: for many speakers
+        """
+    @use_network.setter
+    def use_network(self, arg1: typing.Any) -> None: ...
     @property
     def vtlp_step(self) -> float:
         """

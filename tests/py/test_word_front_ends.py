@@ -137,3 +137,22 @@ def test_the_command_line_trains_with_either(
     assert without.code == 0 and "front end: cepstra" in without.err, without.err
     refused = hri("train", "gesture", "--data", spoken, "--front-end", "both")
     assert refused.code == 2 and "--front-end" in refused.err
+
+
+def test_the_command_line_trains_a_network_when_asked(
+    spoken: Path, tmp_path: Path, hri: Callable[..., CommandResult], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = tmp_path / "words.hri"
+    command = ["train", "speech", "--data", spoken, "--out", model, "--no-fillers", "--front-end", "cepstra"]
+    command += ["--option", "network.num_epochs=2", "--option", "network.num_channels=8"]
+    trained = hri(*command, "--network")
+    assert trained.code == 0, trained.err
+    assert package.load(model).options.use_network
+    assert hri("recognise", "--speech", spoken / "1_low_0.wav", "--speech-model", model).code == 0
+    plain = hri(*command)
+    assert plain.code == 0 and "--network" not in plain.err, plain.err
+    assert not package.load(model).options.use_network
+    monkeypatch.setattr("hri.cli.train.MANY_PERSONS", 3)
+    assert "--network" in hri(*command).err
+    refused = hri("train", "gesture", "--data", spoken, "--network")
+    assert refused.code == 2 and "--network" in refused.err

@@ -11,6 +11,8 @@ namespace hri {
 namespace {
 
 constexpr const char* kVectors = "vectors.";
+constexpr const char* kNetwork = "network.";
+constexpr double kMaxWeight = 1e6;
 constexpr double kPriorVectors = 10;  // imagined words that hold adaptation of the vectors back
 
 using Streams = std::vector<std::shared_ptr<const SequenceScorer>>;
@@ -32,20 +34,19 @@ ClassSequences of_stream(const ClassStreams& sequences, std::size_t stream) {
   return result;
 }
 
-// Of the sequences that have one.
-std::vector<MatrixF> vectors_of(const std::vector<const StreamFrames*>& sequences,
-                                std::size_t num_streams) {
+// Matrix `place` of the sequences that have one.
+std::vector<MatrixF> present(const std::vector<const StreamFrames*>& sequences, std::size_t place) {
   std::vector<MatrixF> result;
   for (const StreamFrames* frames : sequences) {
-    if (frames->size() > num_streams) result.push_back(frames->back());
+    if (frames->size() > place) result.push_back((*frames)[place]);
   }
   return result;
 }
 
-ClassSequences vectors_of(const ClassStreams& sequences, std::size_t num_streams) {
+ClassSequences present(const ClassStreams& sequences, std::size_t place) {
   ClassSequences result;
   result.reserve(sequences.size());
-  for (const auto& list : sequences) result.push_back(vectors_of(list, num_streams));
+  for (const auto& list : sequences) result.push_back(present(list, place));
   return result;
 }
 
@@ -58,8 +59,9 @@ std::size_t num_streams_of(const ClassStreams& sequences) {
 
 }  // namespace
 
-MultiStreamScorer::MultiStreamScorer(Streams streams, std::shared_ptr<const VectorScorer> vectors)
-    : streams_(std::move(streams)), vectors_(std::move(vectors)) {
+MultiStreamScorer::MultiStreamScorer(Streams streams, std::shared_ptr<const VectorScorer> vectors,
+                                     std::shared_ptr<const WeightedNetwork> network)
+    : streams_(std::move(streams)), vectors_(std::move(vectors)), network_(std::move(network)) {
   require(!streams_.empty(), "a scorer needs at least one stream");
   for (const auto& stream : streams_) {
     require(stream->kind() == kind() && stream->num_classes() == num_classes(),
@@ -68,30 +70,60 @@ MultiStreamScorer::MultiStreamScorer(Streams streams, std::shared_ptr<const Vect
   }
   require(vectors_ == nullptr || vectors_->num_classes() == num_classes(),
           "streams and vectors differ in their classes");
+  require(network_ == nullptr || network_->network.num_classes() == num_classes(),
+          "streams and the network differ in their classes");
+  require(network_ == nullptr || (network_->weight >= 0 && network_->weight <= kMaxWeight),
+          "the weight of a network must lie in 0..1e6");
 }
 
 MultiStreamScorer MultiStreamScorer::train(const ClassStreams& sequences,
                                            const SequenceModelOptions& options,
                                            const std::vector<FillerModels>& fillers,
                                            const StopCheck& should_stop,
-                                           const VectorTraining* vectors) {
-  const std::size_t num_streams = num_streams_of(sequences) - (vectors == nullptr ? 0 : 1);
+                                           const VectorTraining* vectors,
+                                           const NetworkTraining* network) {
+  const std::size_t num_streams =
+      num_streams_of(sequences) - (vectors == nullptr ? 0 : 1) - (network == nullptr ? 0 : 1);
   require(fillers.empty() || fillers.size() == num_streams, "fillers needs one list a stream");
   Streams streams;
   for (std::size_t s = 0; s < num_streams; ++s) {
     streams.push_back(train_sequence_scorer(of_stream(sequences, s), options, should_stop,
                                             fillers.empty() ? FillerModels{} : fillers[s]));
   }
-  if (vectors == nullptr) return MultiStreamScorer(std::move(streams));
-  auto scorer = std::make_shared<const VectorScorer>(VectorScorer::train(
-      vectors_of(sequences, num_streams), vectors->fillers, vectors->options, should_stop));
-  return MultiStreamScorer(std::move(streams), std::move(scorer));
+  std::shared_ptr<const VectorScorer> of_vectors;
+  if (vectors != nullptr) {
+    of_vectors = std::make_shared<const VectorScorer>(VectorScorer::train(
+        present(sequences, num_streams), vectors->fillers, vectors->options, should_stop));
+  }
+  std::shared_ptr<const WeightedNetwork> trained;
+  if (network != nullptr) {
+    trained = std::make_shared<const WeightedNetwork>(WeightedNetwork{SequenceNetwork::train(
+        network->examples, network->classes, static_cast<int>(sequences.size()), network->options,
+        {}, should_stop)});
+  }
+  return MultiStreamScorer(std::move(streams), std::move(of_vectors), std::move(trained));
 }
 
 VectorF MultiStreamScorer::scores(const StreamFrames& frames) const {
   VectorF sum = stream_scores(frames);
-  if (vectors_ != nullptr) sum += vectors_->scores(frames.back());
+  if (vectors_ != nullptr) sum += vector_scores(frames);
+  if (network_ != nullptr) sum += network_scores(frames);
   return sum;
+}
+
+const MatrixF& MultiStreamScorer::vector_of(const StreamFrames& frames) const {
+  require(vectors_ != nullptr && frames.size() > streams_.size(), "the sequence has no vector");
+  return frames[streams_.size()];
+}
+
+VectorF MultiStreamScorer::vector_scores(const StreamFrames& frames) const {
+  return vectors_->scores(vector_of(frames));
+}
+
+VectorF MultiStreamScorer::network_scores(const StreamFrames& frames) const {
+  const std::size_t place = streams_.size() + (vectors_ == nullptr ? 0 : 1);
+  require(network_ != nullptr && frames.size() > place, "the sequence has nothing for the network");
+  return static_cast<float>(network_->weight) * network_->network.scores(frames[place]);
 }
 
 VectorF MultiStreamScorer::stream_scores(const StreamFrames& frames) const {
@@ -118,10 +150,12 @@ MultiStreamScorer MultiStreamScorer::adapted(const ClassStreams& sequences,
   Streams streams;
   for (std::size_t s = 0; s < streams_.size(); ++s)
     streams.push_back(streams_[s]->adapted(of_stream(sequences, s), options));
-  if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
-  auto moved = std::make_shared<const VectorScorer>(
-      vectors_->adapted(vectors_of(sequences, streams_.size()), kPriorVectors));
-  return MultiStreamScorer(std::move(streams), std::move(moved));
+  std::shared_ptr<const VectorScorer> moved;
+  if (vectors_ != nullptr) {
+    moved = std::make_shared<const VectorScorer>(
+        vectors_->adapted(present(sequences, streams_.size()), kPriorVectors));
+  }
+  return MultiStreamScorer(std::move(streams), std::move(moved), network_);
 }
 
 MultiStreamScorer MultiStreamScorer::with_class(int index,
@@ -133,29 +167,54 @@ MultiStreamScorer MultiStreamScorer::with_class(int index,
     streams.push_back(
         streams_[s]->with_class(index, of_stream(sequences, s), num_recordings, should_stop));
   }
-  if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
-  auto more = std::make_shared<const VectorScorer>(
-      vectors_->with_class(index, vectors_of(sequences, streams_.size()), should_stop));
-  return MultiStreamScorer(std::move(streams), std::move(more));
+  std::size_t place = streams_.size();
+  std::shared_ptr<const VectorScorer> vectors;
+  if (vectors_ != nullptr) {
+    vectors = std::make_shared<const VectorScorer>(
+        vectors_->with_class(index, present(sequences, place++), should_stop));
+  }
+  std::shared_ptr<const WeightedNetwork> network;
+  if (network_ != nullptr) {
+    network = std::make_shared<const WeightedNetwork>(
+        WeightedNetwork{network_->network.with_class(index, present(sequences, place), should_stop),
+                        network_->weight});
+  }
+  return MultiStreamScorer(std::move(streams), std::move(vectors), std::move(network));
 }
 
 MultiStreamScorer MultiStreamScorer::without_class(int index) const {
   Streams streams;
   for (const auto& stream : streams_) streams.push_back(stream->without_class(index));
-  if (vectors_ == nullptr) return MultiStreamScorer(std::move(streams));
-  auto fewer = std::make_shared<const VectorScorer>(vectors_->without_class(index));
-  return MultiStreamScorer(std::move(streams), std::move(fewer));
+  std::shared_ptr<const VectorScorer> vectors;
+  if (vectors_ != nullptr)
+    vectors = std::make_shared<const VectorScorer>(vectors_->without_class(index));
+  std::shared_ptr<const WeightedNetwork> network;
+  if (network_ != nullptr) {
+    network = std::make_shared<const WeightedNetwork>(
+        WeightedNetwork{network_->network.without_class(index), network_->weight});
+  }
+  return MultiStreamScorer(std::move(streams), std::move(vectors), std::move(network));
 }
 
 MultiStreamScorer MultiStreamScorer::with_vector_weight(double weight) const {
   require(vectors_ != nullptr, "there are no vectors to weigh");
-  return MultiStreamScorer(streams_,
-                           std::make_shared<const VectorScorer>(vectors_->with_weight(weight)));
+  return MultiStreamScorer(
+      streams_, std::make_shared<const VectorScorer>(vectors_->with_weight(weight)), network_);
+}
+
+MultiStreamScorer MultiStreamScorer::with_network_weight(double weight) const {
+  require(network_ != nullptr, "there is no network to weigh");
+  return MultiStreamScorer(
+      streams_, vectors_,
+      std::make_shared<const WeightedNetwork>(WeightedNetwork{network_->network, weight}));
 }
 
 void MultiStreamScorer::write(ModelFile& file) const {
   for (std::size_t s = 0; s < streams_.size(); ++s) streams_[s]->write(file, prefix_of(s));
   if (vectors_ != nullptr) vectors_->write(file, kVectors);
+  if (network_ == nullptr) return;
+  network_->network.write(file, kNetwork);
+  file.set_number(std::string(kNetwork) + "weight", network_->weight);
 }
 
 MultiStreamScorer MultiStreamScorer::read(const ModelFile& file,
@@ -168,10 +227,20 @@ MultiStreamScorer MultiStreamScorer::read(const ModelFile& file,
     if (streams.back()->num_fillers() != streams.front()->num_fillers())
       fail(ErrorKind::format, file.name() + ": streams differ in their filler words");
   }
-  if (!file.has(std::string(kVectors) + "weight")) return MultiStreamScorer(std::move(streams));
-  auto vectors =
-      std::make_shared<const VectorScorer>(VectorScorer::read(file, kVectors, num_classes));
-  return MultiStreamScorer(std::move(streams), std::move(vectors));
+  std::shared_ptr<const VectorScorer> vectors;
+  if (file.has(std::string(kVectors) + "weight"))
+    vectors = std::make_shared<const VectorScorer>(VectorScorer::read(file, kVectors, num_classes));
+  std::shared_ptr<const WeightedNetwork> network;
+  const std::string weight = std::string(kNetwork) + "weight";
+  if (file.has(weight)) {
+    WeightedNetwork read{SequenceNetwork::read(file, kNetwork), file.number(weight)};
+    if (!(read.weight >= 0 && read.weight <= kMaxWeight))
+      fail(ErrorKind::format, file.name() + ": field '" + weight + "' is out of range");
+    if (read.network.num_classes() != num_classes)
+      fail(ErrorKind::format, file.name() + ": the network differs in its classes");
+    network = std::make_shared<const WeightedNetwork>(std::move(read));
+  }
+  return MultiStreamScorer(std::move(streams), std::move(vectors), std::move(network));
 }
 
 std::vector<FillerModels> train_fillers(const ClassStreams& sequences, int num_streams,

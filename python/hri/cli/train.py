@@ -23,6 +23,9 @@ from hri.evaluation.training import fillers_of
 from hri.evaluation.training import train as train_recognizer
 from hri.recognition import FillerWord, WordRecognizer, embedding_weights
 
+MANY_PERSONS = 10
+"""From which on a network learns what persons have in common."""
+
 
 @click.command()
 @mode_argument
@@ -43,6 +46,12 @@ from hri.recognition import FillerWord, WordRecognizer, embedding_weights
     help="Speech only: cepstra alone, or both: with a pretrained speech embedding, which the extra embedding installs. "
     "The default is both where the extra is. The same as --option front_end=...",
 )
+@click.option(
+    "--network/--no-network",
+    default=None,
+    help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes and pays from "
+    "about ten speakers on. The same as --option use_network=true",
+)
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train(
@@ -54,6 +63,7 @@ def train(
     fillers: str | None,
     no_fillers: bool,
     front_end: str | None,
+    network: bool | None,
     seed: int,
     json_path: str | None,
 ) -> None:
@@ -65,6 +75,7 @@ def train(
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
       hri train speech --data spoken/ --out digits.hri --option model=ptbhmm
       hri train speech --data spoken/ --front-end cepstra
+      hri train speech --data spoken/ --network
     """
     if mode != "speech" and (fillers or no_fillers):
         raise click.UsageError("--fillers and --no-fillers are for speech")
@@ -76,6 +87,10 @@ def train(
         options = (*options, f"front_end={front_end}")
     elif mode == "speech" and _has_embedding() and not any(o.startswith("front_end=") for o in options):
         options = (*options, "front_end=both")
+    if network is not None:
+        if mode != "speech":
+            raise click.UsageError("--network is for speech")
+        options = (*options, f"use_network={str(network).lower()}")
     make = recognizer_factory(mode, options, seed)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
@@ -91,6 +106,8 @@ def train(
     note(f"{len(dataset)} recordings{persons}, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
     if isinstance(recognizer, WordRecognizer):
         note(f"front end: {_front_end(recognizer.options.front_end)}")
+        if network is None and len(dataset.persons) >= MANY_PERSONS and not recognizer.options.use_network:
+            note(f"with {len(dataset.persons)} persons, --network understands new ones better; training takes minutes")
     if len(dataset.persons) < 2:
         note("confidences are calibrated best with two persons or more")
     write_json(

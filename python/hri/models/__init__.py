@@ -31,6 +31,7 @@ from hri._native import (
     PossibilisticHmmStream,
     PossibilisticRule,
     RbfClassifierOptions,
+    SequenceNetworkOptions,
     SoftmaxRegressionOptions,
     StateChoice,
     StateChoiceOptions,
@@ -54,6 +55,7 @@ from hri.models.classifiers import (
 from hri.models.codebook import Codebook
 from hri.models.distances import bhattacharyya_gaussian, distance
 from hri.models.hmm import GMMHMM, CategoricalHMM, GaussianHMM
+from hri.models.network import SequenceNetwork
 from hri.models.possibility import PTBHMM, necessity_of, possibilities, possibility_of
 from hri.models.projections import LDA, PCA
 
@@ -98,6 +100,8 @@ __all__ = [
     "PossibilityClassifier",
     "RbfClassifier",
     "RbfClassifierOptions",
+    "SequenceNetwork",
+    "SequenceNetworkOptions",
     "SoftmaxRegression",
     "SoftmaxRegressionOptions",
     "StateChoice",

@@ -65,6 +65,20 @@ class ActivityKeywords(TypedDict, total=False):
     padding_ms: float
 
 
+class SequenceNetworkKeywords(TypedDict, total=False):
+    """Fields of `SequenceNetworkOptions`."""
+
+    num_channels: int
+    num_blocks: int
+    num_epochs: int
+    batch_size: int
+    learning_rate: float
+    weight_decay: float
+    dropout: float
+    label_smoothing: float
+    seed: int
+
+
 class WordRecognizerKeywords(TypedDict, total=False):
     """Fields of `WordRecognizerOptions`."""
 
@@ -94,6 +108,9 @@ class WordRecognizerKeywords(TypedDict, total=False):
     embedding_shrinkage: float
     embedding_false_accept_rate: float
     embedding_max_false_reject_rate: float
+    use_network: bool
+    network: _native.SequenceNetworkOptions | SequenceNetworkKeywords
+    network_weight: float
 
 
 class SilhouetteKeywords(TypedDict, total=False):

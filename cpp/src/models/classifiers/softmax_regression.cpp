@@ -127,6 +127,18 @@ SoftmaxRegression SoftmaxRegression::train(ConstMatrixRefF rows, Span<const int>
   return result;
 }
 
+SoftmaxRegression SoftmaxRegression::of(ConstMatrixRefF weights, const VectorF& bias) {
+  require(weights.size() > 0 && bias.size() == weights.rows(), "the bias does not fit the weights");
+  validate_finite(weights, "weights");
+  validate_finite(bias.transpose(), "bias");
+  SoftmaxRegression result;
+  result.mean_ = VectorF::Zero(weights.cols());
+  result.scale_ = VectorF::Ones(weights.cols());
+  result.weights_ = weights;
+  result.bias_ = bias;
+  return result;
+}
+
 VectorF SoftmaxRegression::scores(Span<const float> row) const {
   require(static_cast<Eigen::Index>(row.size()) == weights_.cols(),
           "the row does not fit the model");

@@ -39,9 +39,9 @@ std::vector<StreamFrames> augmented(const std::vector<WordSample>& samples,
   for (std::size_t i = 0; i < samples.size(); ++i) {
     poll(should_stop);
     const std::string name = sample_name(samples[i], "samples", i);
-    const std::vector<float> word = augmentation.trim(samples[i], name);
+    const TrimmedWord word = augmentation.trim(samples[i], name);
     // Of three recordings none may be dropped silently.
-    if (word.empty()) fail(ErrorKind::invalid_argument, name + ": audio has no speech in it");
+    if (!word.has_speech()) fail(ErrorKind::invalid_argument, name + ": audio has no speech in it");
     for (StreamFrames& copy : augmentation.copies(word, i)) result.push_back(std::move(copy));
   }
   return result;

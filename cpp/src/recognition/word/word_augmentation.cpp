@@ -40,32 +40,30 @@ void check(const WordSample& sample, const std::string& name, double frame_ms) {
 
 WordAugmentation::WordAugmentation(const WordRecognizerOptions& options,
                                    const std::shared_ptr<const SpeechEmbedding>& embedding)
-    : options_(validated(options)) {
-  // The embedding has no filters to warp: warped copies have none of their own.
+    : options_(validated(options)), front_end_(options, 1, embedding) {
+  // The embedding has no filters to warp, and the network's training warps by itself: warped copies
+  // have neither of their own.
   WordRecognizerOptions cepstra_only = options;
   cepstra_only.front_end = FrontEndKind::cepstra;
-  for (const double factor : warp_factors(options)) {
-    if (front_ends_.empty()) {
-      front_ends_.emplace_back(options, factor, embedding);
-    } else {
-      front_ends_.emplace_back(cepstra_only, factor);
-    }
-  }
+  cepstra_only.use_network = false;
+  for (const double factor : warp_factors(options)) cepstra_.emplace_back(cepstra_only, factor);
+  if (const WordSpectrogram* spectrogram = front_end().spectrogram().get())
+    spectrograms_ = std::make_shared<const SpectrogramAugmentation>(*spectrogram, options.seed);
 }
 
-std::vector<float> WordAugmentation::trim(const WordSample& sample, const std::string& name) const {
+TrimmedWord WordAugmentation::trim(const WordSample& sample, const std::string& name) const {
   check(sample, name, std::max(options_.activity.frame_ms, options_.cepstra.frame_length_ms));
-  return front_end().trim(sample.samples, sample.sample_rate_hz).samples;
+  return front_end().trim(sample.samples, sample.sample_rate_hz);
 }
 
-std::vector<StreamFrames> WordAugmentation::copies(Span<const float> word,
+std::vector<StreamFrames> WordAugmentation::copies(const TrimmedWord& word,
                                                    std::size_t index) const {
   std::vector<StreamFrames> result;
-  result.reserve(front_ends_.size() + static_cast<std::size_t>(options_.num_noisy_copies));
+  result.reserve(cepstra_.size() + static_cast<std::size_t>(options_.num_noisy_copies));
   const SpeechEmbedding* embedding = front_end().embedding().get();
   result.push_back(front_end().frames(word));
-  for (std::size_t warp = 1; warp < front_ends_.size(); ++warp)
-    result.push_back(front_ends_[warp].frames(word));
+  for (std::size_t warp = 1; warp < cepstra_.size(); ++warp)
+    result.push_back(cepstra_[warp].frames(word));
   const double least_snr_db =
       embedding == nullptr ? options_.min_snr_db : options_.embedding_min_snr_db;
   const double largest_snr_db =
@@ -73,13 +71,16 @@ std::vector<StreamFrames> WordAugmentation::copies(Span<const float> word,
   Random random(options_.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
   for (int copy = 0; copy < options_.num_noisy_copies; ++copy) {
     const double snr_db = least_snr_db + random.uniform() * (largest_snr_db - least_snr_db);
-    const std::vector<float> noisy = with_noise(word, snr_db, &random);
-    const std::size_t warp = (index + static_cast<std::size_t>(copy)) % front_ends_.size();
-    result.push_back(front_ends_[warp].frames(noisy));
-    if (embedding != nullptr && warp > 0) {
+    TrimmedWord noisy;
+    noisy.samples = with_noise(word.samples, snr_db, &random);
+    const std::size_t warp = (index + static_cast<std::size_t>(copy)) % cepstra_.size();
+    result.push_back(cepstra_[warp].frames(noisy));
+    if (embedding != nullptr) {
       result.back().emplace_back(
-          embedding->vector_of(noisy, front_end().sample_rate_hz()).transpose());
+          embedding->vector_of(noisy.samples, front_end().sample_rate_hz()).transpose());
     }
+    if (spectrograms_ != nullptr)
+      result.back().push_back(spectrograms_->noisy_input(word.window, snr_db, &random));
   }
   return result;
 }

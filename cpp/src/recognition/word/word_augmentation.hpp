@@ -5,11 +5,13 @@
 // length perturbation (a warped frequency axis) and added noise.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "hri/recognition/word/word_front_end.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
+#include "recognition/word/spectrogram_augmentation.hpp"
 
 namespace hri::detail {
 
@@ -20,19 +22,24 @@ class WordAugmentation {
                             const std::shared_ptr<const SpeechEmbedding>& embedding = nullptr);
 
   /// The front end without warp.
-  [[nodiscard]] const WordFrontEnd& front_end() const { return front_ends_.front(); }
+  [[nodiscard]] const WordFrontEnd& front_end() const { return front_end_; }
 
   /// The trimmed word of a recording; empty without speech. Throws InvalidArgument for audio that
   /// is not finite or too short, naming the sample or, if it has no name, `name`.
-  [[nodiscard]] std::vector<float> trim(const WordSample& sample, const std::string& name) const;
+  [[nodiscard]] TrimmedWord trim(const WordSample& sample, const std::string& name) const;
 
   /// The frames of the word as it is, at every warp and of every noisy copy. The noise depends on
   /// the seed of the models and on `index` alone.
-  [[nodiscard]] std::vector<StreamFrames> copies(Span<const float> word, std::size_t index) const;
+  [[nodiscard]] std::vector<StreamFrames> copies(const TrimmedWord& word, std::size_t index) const;
+
+  /// nullptr: there is no network.
+  [[nodiscard]] const SpectrogramAugmentation* spectrograms() const { return spectrograms_.get(); }
 
  private:
   WordRecognizerOptions options_;
-  std::vector<WordFrontEnd> front_ends_;  // one a warp
+  WordFrontEnd front_end_;
+  std::vector<WordFrontEnd> cepstra_;  // at every warp, the first of 1
+  std::shared_ptr<const SpectrogramAugmentation> spectrograms_;
 };
 
 /// What errors call recording `index` of the argument `list`: its own name, or "list[index]".

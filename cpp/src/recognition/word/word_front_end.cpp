@@ -48,6 +48,7 @@ WordFrontEnd::WordFrontEnd(const WordRecognizerOptions& options, double warp_fac
   CepstraOptions cepstra = options.cepstra;
   cepstra.warp *= warp_factor;
   streams_.emplace_back(cepstra);
+  if (options.use_network) spectrogram_ = std::make_shared<const WordSpectrogram>(sample_rate_hz_);
   if (!options.level_stream) return;
   cepstra.normalisation = Normalisation::level;
   streams_.emplace_back(cepstra);
@@ -56,7 +57,7 @@ WordFrontEnd::WordFrontEnd(const WordRecognizerOptions& options, double warp_fac
 WordFeatures WordFrontEnd::process(Span<const float> audio, int sample_rate_hz) const {
   TrimmedWord word = trim(audio, sample_rate_hz);
   WordFeatures features;
-  if (word.has_speech()) features.streams = frames(word.samples);
+  if (word.has_speech()) features.streams = frames(word);
   features.notes = std::move(word.notes);
   return features;
 }
@@ -80,15 +81,26 @@ TrimmedWord WordFrontEnd::trim(Span<const float> audio, int sample_rate_hz) cons
   } else {
     word.samples.assign(audio.begin(), audio.end());
   }
+  // End points in noise come closer to the middle of the word; what lies around it is read, too.
+  if (spectrogram_ != nullptr)
+    word.window = spectrogram_->window(audio, (speech.first + speech.last) / 2);
   return word;
 }
 
-StreamFrames WordFrontEnd::frames(Span<const float> word) const {
+TrimmedWord WordFrontEnd::untrimmed(std::vector<float> audio) const {
+  TrimmedWord word;
+  if (spectrogram_ != nullptr) word.window = spectrogram_->window(audio, audio.size() / 2);
+  word.samples = std::move(audio);
+  return word;
+}
+
+StreamFrames WordFrontEnd::frames(const TrimmedWord& word) const {
   StreamFrames result;
   result.reserve(streams_.size());
-  for (const CepstraComputer& stream : streams_) result.push_back(stream.compute(word));
+  for (const CepstraComputer& stream : streams_) result.push_back(stream.compute(word.samples));
   if (embedding_ != nullptr)
-    result.emplace_back(embedding_->vector_of(word, sample_rate_hz_).transpose());
+    result.emplace_back(embedding_->vector_of(word.samples, sample_rate_hz_).transpose());
+  if (spectrogram_ != nullptr) result.push_back(WordSpectrogram::input(word.window));
   return result;
 }
 

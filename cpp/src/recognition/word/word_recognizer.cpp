@@ -33,6 +33,8 @@ WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
           "the scorer and the front end differ in their streams");
   require((scorer_.vectors() != nullptr) == (front_end_.embedding() != nullptr),
           "the scorer and the front end differ in their embedding");
+  require((scorer_.network() != nullptr) == options_.use_network,
+          "the scorer and the options differ in their network");
 }
 
 WordRecognizer WordRecognizer::with_scorer(MultiStreamScorer scorer) const {

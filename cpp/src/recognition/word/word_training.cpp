@@ -12,7 +12,7 @@
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "recognition/word/filler_memo.hpp"
 #include "recognition/word/non_words.hpp"
-#include "recognition/word/vector_choice.hpp"
+#include "recognition/word/weight_choice.hpp"
 #include "recognition/word/word_augmentation.hpp"
 
 namespace hri {
@@ -49,6 +49,7 @@ struct PreparedSample {
   int fold = 0;
   std::string group;
   std::vector<StreamFrames> copies;  // the sample itself first
+  MatrixF window;                    // for the network's training, where there is one
   std::vector<NonWord> non_words;
 };
 
@@ -103,7 +104,7 @@ class WordTrainer {
       scorers.push_back(train_without(fold));
       report(++step);
     }
-    weigh_vectors(folds, &scorers);
+    weigh(folds, &scorers);
     HeldOutFolds held_out;
     for (std::size_t i = 0; i < folds.size(); ++i) score_fold(folds[i], scorers[i], &held_out);
     WordRecognizer result = assemble(train_without(kNoFold), std::move(held_out));
@@ -123,10 +124,10 @@ class WordTrainer {
     words.erase(std::unique(words.begin(), words.end()), words.end());
     std::vector<std::vector<StreamFrames>> of_samples(fillers.size());
     detail::parallel_for(fillers.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-      const std::vector<float> word =
+      const TrimmedWord word =
           augmentation_.trim(fillers[i], detail::sample_name(fillers[i], "fillers", i));
       // Augmented as the vocabulary is, so that neither of the two fits noise or a voice better.
-      if (!word.empty()) of_samples[i] = augmentation_.copies(word, i);
+      if (word.has_speech()) of_samples[i] = augmentation_.copies(word, i);
     });
     std::vector<std::vector<StreamFrames>> copies(words.size());
     for (std::size_t i = 0; i < fillers.size(); ++i) {
@@ -147,7 +148,7 @@ class WordTrainer {
     for (const auto& list : sequences) {
       result.vectors.emplace_back();
       for (const StreamFrames* copy : list) {
-        if (copy->size() > num_streams) result.vectors.back().push_back(copy->back());
+        if (copy->size() > num_streams) result.vectors.back().push_back((*copy)[num_streams]);
       }
     }
     return result;
@@ -158,11 +159,14 @@ class WordTrainer {
     std::vector<std::vector<float>> words(samples.size());
     std::vector<PreparedSample> made(samples.size());
     detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-      words[i] = augmentation_.trim(samples[i], detail::sample_name(samples[i], "samples", i));
-      if (words[i].empty()) return;
+      TrimmedWord word =
+          augmentation_.trim(samples[i], detail::sample_name(samples[i], "samples", i));
+      if (!word.has_speech()) return;
       made[i].label = label_index(labels_, samples[i].label);
       made[i].group = samples[i].group;
-      made[i].copies = augmentation_.copies(words[i], i);
+      made[i].copies = augmentation_.copies(word, i);
+      made[i].window = std::move(word.window);
+      words[i] = std::move(word.samples);
     });
     add_non_words(samples, words, &made);
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -198,7 +202,8 @@ class WordTrainer {
                      std::vector<NonWord>* to) const {
     const WordFrontEnd& front_end = augmentation_.front_end();
     for (const std::vector<float>& a : audio) {
-      if (front_end.num_frames(a.size()) > 0) to->push_back({kind, front_end.frames(a)});
+      if (front_end.num_frames(a.size()) > 0)
+        to->push_back({kind, front_end.frames(front_end.untrimmed(a))});
     }
   }
 
@@ -238,34 +243,62 @@ class WordTrainer {
     return folds;
   }
 
-  // Of the vectors beside the streams, by the scorers of the folds.
-  void weigh_vectors(const std::vector<int>& folds, std::vector<MultiStreamScorer>* scorers) {
-    if (augmentation_.front_end().embedding() == nullptr) return;
-    vector_weight_ = options_.embedding_weight;
-    if (vector_weight_ == 0) {
-      std::vector<std::vector<detail::HeldOutScores>> found(prepared_.size());
-      detail::parallel_for(prepared_.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-        const PreparedSample& p = prepared_[i];
-        const auto fold = std::find(folds.begin(), folds.end(), p.fold);
-        if (fold == folds.end()) return;
-        const auto& scorer = (*scorers)[static_cast<std::size_t>(fold - folds.begin())];
-        for (const StreamFrames* copy : judged_copies(p)) {
-          found[i].push_back(
-              {scorer.stream_scores(*copy), scorer.vectors()->scores(copy->back()), p.label});
-        }
-      });
-      std::vector<detail::HeldOutScores> all;
-      for (auto& words : found) std::move(words.begin(), words.end(), std::back_inserter(all));
-      vector_weight_ = detail::choose_vector_weight(all);
+  [[nodiscard]] bool has_vectors() const {
+    return augmentation_.front_end().embedding() != nullptr;
+  }
+  [[nodiscard]] bool has_network() const { return augmentation_.spectrograms() != nullptr; }
+
+  // Of vectors beside the streams, then of the network beside both, by the scorers of the folds.
+  void weigh(const std::vector<int>& folds, std::vector<MultiStreamScorer>* scorers) {
+    if (has_vectors()) {
+      vector_weight_ = options_.embedding_weight;
+      if (vector_weight_ == 0) {
+        vector_weight_ = detail::choose_weight(
+            held_out_scores(folds, *scorers, [](const auto& scorer, const StreamFrames& frames) {
+              return std::pair(scorer.stream_scores(frames), scorer.vector_scores(frames));
+            }));
+      }
+      for (MultiStreamScorer& scorer : *scorers) scorer = scorer.with_vector_weight(vector_weight_);
     }
-    for (MultiStreamScorer& scorer : *scorers) scorer = scorer.with_vector_weight(vector_weight_);
+    if (!has_network()) return;
+    network_weight_ = options_.network_weight;
+    if (network_weight_ == 0) {
+      network_weight_ = detail::choose_weight(
+          held_out_scores(folds, *scorers, [](const auto& scorer, const StreamFrames& frames) {
+            const VectorF network = scorer.network_scores(frames);
+            return std::pair(VectorF(scorer.scores(frames) - network), network);
+          }));
+    }
+    for (MultiStreamScorer& scorer : *scorers) scorer = scorer.with_network_weight(network_weight_);
+  }
+
+  // Of every word held out that is judged, what two(scorer without it, its frames) gives.
+  template <class Two>
+  [[nodiscard]] std::vector<detail::HeldOutScores> held_out_scores(
+      const std::vector<int>& folds, const std::vector<MultiStreamScorer>& scorers,
+      const Two& two) const {
+    std::vector<std::vector<detail::HeldOutScores>> found(prepared_.size());
+    detail::parallel_for(prepared_.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
+      const PreparedSample& p = prepared_[i];
+      const auto fold = std::find(folds.begin(), folds.end(), p.fold);
+      if (fold == folds.end()) return;
+      const auto& scorer = scorers[static_cast<std::size_t>(fold - folds.begin())];
+      for (const StreamFrames* copy : judged_copies(p)) {
+        auto [first, second] = two(scorer, *copy);
+        found[i].push_back({std::move(first), std::move(second), p.label});
+      }
+    });
+    std::vector<detail::HeldOutScores> all;
+    for (auto& words : found) std::move(words.begin(), words.end(), std::back_inserter(all));
+    return all;
   }
 
   // What is judged of a word held out. How far noise takes a word from its fillers differs between
-  // cepstra and vectors: with vectors, the noisy copies are judged too.
+  // cepstra and vectors, and how far it takes words to one another between these and the network:
+  // with either, the noisy copies are judged too.
   [[nodiscard]] std::vector<const StreamFrames*> judged_copies(const PreparedSample& p) const {
     std::vector<const StreamFrames*> result{&p.copies.front()};
-    if (augmentation_.front_end().embedding() == nullptr) return result;
+    if (!has_vectors() && !has_network()) return result;
     const auto num_noisy = static_cast<std::size_t>(options_.num_noisy_copies);
     for (std::size_t i = p.copies.size() - num_noisy; i < p.copies.size(); ++i)
       result.push_back(&p.copies[i]);
@@ -290,12 +323,33 @@ class WordTrainer {
              "label '" + labels_[c] + "': no sample with speech in it");
       }
     }
-    if (augmentation_.front_end().embedding() == nullptr)
-      return MultiStreamScorer::train(sequences, options_, fillers_->models, should_stop_);
     const VectorTraining vectors{{options_.embedding_penalty, options_.embedding_shrinkage},
                                  fillers_->vectors};
-    return MultiStreamScorer::train(sequences, options_, fillers_->models, should_stop_, &vectors)
-        .with_vector_weight(vector_weight_);
+    const NetworkTraining network = network_without(fold);
+    MultiStreamScorer scorer = MultiStreamScorer::train(
+        sequences, options_, fillers_->models, should_stop_, has_vectors() ? &vectors : nullptr,
+        has_network() ? &network : nullptr);
+    if (has_vectors()) scorer = scorer.with_vector_weight(vector_weight_);
+    if (has_network()) scorer = scorer.with_network_weight(network_weight_);
+    return scorer;
+  }
+
+  [[nodiscard]] NetworkTraining network_without(int fold) const {
+    NetworkTraining result;
+    result.options = options_.network;
+    result.options.seed += options_.seed;
+    // Networks that only judge how far networks are to be trusted take half the time.
+    if (fold != kNoFold) result.options.num_epochs = (result.options.num_epochs + 1) / 2;
+    std::vector<const MatrixF*> windows;
+    for (const PreparedSample& p : prepared_) {
+      if (p.fold == fold) continue;
+      result.classes.push_back(p.label);
+      windows.push_back(&p.window);
+    }
+    result.examples = [this, windows](std::size_t i, Random* random, MatrixF* input) {
+      augmentation_.spectrograms()->make_example(*windows[i], random, input);
+    };
+    return result;
   }
 
   [[nodiscard]] bool has_every_class_without(int fold) const {
@@ -349,7 +403,7 @@ class WordTrainer {
     RejectionRates rates;
     rates.false_reject = options_.false_reject_rate;
     std::vector<float> others;
-    if (augmentation_.front_end().embedding() != nullptr) {
+    if (has_vectors()) {
       rates.max_false_reject = options_.embedding_max_false_reject_rate;
       rates.false_accept = options_.embedding_false_accept_rate;
       for (const VectorD& features : held_out.others)
@@ -370,6 +424,7 @@ class WordTrainer {
   std::shared_ptr<const detail::TrainedFillers> fillers_ =
       std::make_shared<const detail::TrainedFillers>();
   double vector_weight_ = 1;
+  double network_weight_ = 1;
   std::vector<PreparedSample> prepared_;
 };
 

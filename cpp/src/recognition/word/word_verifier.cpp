@@ -130,6 +130,7 @@ std::vector<std::string> WordVerifier::feature_names(const MultiStreamScorer& sc
   }
   const bool vectors = scorer.vectors() != nullptr;
   if (vectors) names.emplace_back("vector_rivals");
+  if (scorer.network() != nullptr) names.emplace_back("network_rivals");
   if (scorer.num_fillers() > 0) {
     names.emplace_back("fillers");
     if (vectors) names.emplace_back("vector_fillers");
@@ -145,8 +146,13 @@ VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFram
   VectorF of_streams = scores;
   VectorF nearness;  // minus the squared distances: what lies nearest scores best
   if (vectors != nullptr) {
-    of_streams -= vectors->scores(frames.back());
-    nearness = -vectors->squared_distances(frames.back());
+    of_streams -= scorer.vector_scores(frames);
+    nearness = -vectors->squared_distances(scorer.vector_of(frames));
+  }
+  VectorF of_network;
+  if (scorer.network() != nullptr) {
+    of_network = scorer.network_scores(frames);
+    of_streams -= of_network;
   }
   const std::size_t best = best_word(scores, left_out);
   const auto at = static_cast<Eigen::Index>(best);
@@ -158,10 +164,13 @@ VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFram
   const double distance = vectors != nullptr ? -static_cast<double>(nearness[at]) : 0.0;
   if (vectors != nullptr)
     result.push_back(log_ratio(distance, -rival_score(nearness, best, left_out)));
+  if (scorer.network() != nullptr) {
+    result.push_back(static_cast<double>(of_network[at]) - rival_score(of_network, best, left_out));
+  }
   if (scorer.num_fillers() > 0) {
     result.push_back((top - best_fillers(scorer.filler_scores(frames))) / num_frames);
     if (vectors != nullptr) {
-      const VectorF of_fillers = -vectors->filler_squared_distances(frames.back());
+      const VectorF of_fillers = -vectors->filler_squared_distances(scorer.vector_of(frames));
       result.push_back(log_ratio(distance, -best_fillers(of_fillers)));
     }
   }
@@ -170,7 +179,7 @@ VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFram
 
 int WordVerifier::num_filler_features(const MultiStreamScorer& scorer) {
   if (scorer.num_fillers() == 0) return 0;
-  return scorer.vectors() != nullptr ? 2 : 1;
+  return 1 + (scorer.vectors() != nullptr ? 1 : 0) + (scorer.network() != nullptr ? 1 : 0);
 }
 
 WordVerifier WordVerifier::fit(const std::vector<VerifierExample>& examples,

@@ -38,6 +38,10 @@ class HRI_API SoftmaxRegression {
                                  const SoftmaxRegressionOptions& options,
                                  const StopCheck& should_stop = {});
 
+  /// Of rows as they are, by weights of shape (num_classes, dim). Throws InvalidArgument for sizes
+  /// that do not fit and values that are not finite.
+  static SoftmaxRegression of(ConstMatrixRefF weights, const VectorF& bias);
+
   [[nodiscard]] int num_classes() const { return static_cast<int>(weights_.rows()); }
   [[nodiscard]] int dim() const { return static_cast<int>(weights_.cols()); }
 

@@ -14,6 +14,7 @@
 #include "hri/features/speech/cepstra.hpp"
 #include "hri/models/multi_stream_scorer.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
+#include "hri/recognition/word/word_spectrogram.hpp"
 #include "hri/signal/activity.hpp"
 
 namespace hri {
@@ -23,6 +24,7 @@ struct WordRecognizerOptions;
 /// A word trimmed out of a recording, at the rate of the front end.
 struct TrimmedWord {
   std::vector<float> samples;      ///< empty without speech
+  MatrixF window;                  ///< WordSpectrogram::window() around it, where that is read
   std::vector<std::string> notes;  ///< what was converted or assumed on the way
 
   [[nodiscard]] bool has_speech() const { return !samples.empty(); }
@@ -53,14 +55,21 @@ class HRI_API WordFrontEnd {
   /// finite, for audio shorter than one frame and for a sample rate out of range.
   [[nodiscard]] TrimmedWord trim(Span<const float> audio, int sample_rate_hz) const;
 
-  /// The cepstra of every stream of a trimmed word, and behind them its embedding, one row.
-  [[nodiscard]] StreamFrames frames(Span<const float> word) const;
+  /// The cepstra of every stream of a trimmed word, and behind them, where they are used, its
+  /// embedding, one row, and WordSpectrogram::input().
+  [[nodiscard]] StreamFrames frames(const TrimmedWord& word) const;
+  /// `audio` as it is, as if it were trimmed.
+  [[nodiscard]] TrimmedWord untrimmed(std::vector<float> audio) const;
   /// How many frames a word of so many samples has.
   [[nodiscard]] int num_frames(std::size_t num_samples) const;
 
   /// nullptr: there is none.
   [[nodiscard]] const std::shared_ptr<const SpeechEmbedding>& embedding() const {
     return embedding_;
+  }
+  /// nullptr: none is read.
+  [[nodiscard]] const std::shared_ptr<const WordSpectrogram>& spectrogram() const {
+    return spectrogram_;
   }
   [[nodiscard]] int sample_rate_hz() const { return sample_rate_hz_; }
   /// Of cepstra.
@@ -74,6 +83,7 @@ class HRI_API WordFrontEnd {
   double noise_floor_db_;
   std::vector<CepstraComputer> streams_;
   std::shared_ptr<const SpeechEmbedding> embedding_;
+  std::shared_ptr<const WordSpectrogram> spectrogram_;
 };
 
 }  // namespace hri

@@ -59,6 +59,9 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   double embedding_shrinkage = 0.8;
   double embedding_false_accept_rate = 0.1;
   double embedding_max_false_reject_rate = 0.2;
+  bool use_network = false;
+  SequenceNetworkOptions network;
+  double network_weight = 0;
 
   static constexpr const char* kName = "WordRecognizerOptions";
   template <class Self, class Visitor>
@@ -109,6 +112,14 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
       "front_end both: share of correct held-out words, noisy ones included, that the threshold "
       "may "
       "reject to that end");
+    v("use_network", o.use_network, any_value,
+      "a small network of log mel energies, trained on the same words, votes too: for many "
+      "speakers");
+    v("network", o.network, any_value,
+      "how that network is made and trained; its random numbers follow `seed`, too");
+    v("network_weight", o.network_weight, within(0, 1000000),
+      "factor on the network's log posteriors, which join the other scores; 0: chosen on words of "
+      "speakers held out");
   }
   /// nullptr, or which fields do not go together.
   [[nodiscard]] const char* conflict() const;

@@ -38,8 +38,9 @@ class HRI_API WordVerifier {
   WordVerifier() = default;
 
   /// The features, in their order: "ratio", "rivals"; of hidden Markov models also "states",
-  /// "length" and "pace"; of vectors "vector_rivals"; where there are filler words, "fillers"
-  /// and of vectors "vector_fillers". Those of vectors are logs of ratios of squared distances.
+  /// "length" and "pace"; of vectors "vector_rivals"; of a network "network_rivals"; where there
+  /// are filler words, "fillers" and of vectors "vector_fillers". Those of vectors are logs of
+  /// ratios of squared distances.
   static std::vector<std::string> feature_names(const MultiStreamScorer& scorer);
 
   /// Features of the best word by `scores`, as if there were no class `left_out` (-1: none).
@@ -47,11 +48,12 @@ class HRI_API WordVerifier {
                           const VectorF& scores, int left_out = -1);
 
   /// Trains on held-out examples: words against other words, and words against sounds, both kinds
-  /// of equal weight. With fillers their features alone decide against other words: few words
-  /// are left out in training, and what separates those holds for others less well. Without
+  /// of equal weight. With fillers their features, and that of a network, alone decide against
+  /// other words: few words are left out in training, and what separates those holds for others
+  /// less well. Without
   /// examples of a kind that regression stays untrained.
   static WordVerifier fit(const std::vector<VerifierExample>& examples, int num_filler_features);
-  /// How many of the last features compare with fillers.
+  /// How many of the last features compare with fillers, that of a network included; 0: no fillers.
   static int num_filler_features(const MultiStreamScorer& scorer);
 
   /// Log odds that a word of the vocabulary was said, and neither another word nor a mere sound.
