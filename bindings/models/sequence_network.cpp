@@ -26,6 +26,7 @@ void bind_sequence_network(py::module_& m) {
       [](const std::vector<FloatArray>& sequences, const py::array& classes, int num_classes,
          const Options& o) {
         std::vector<hri::MatrixF> frames;
+        frames.reserve(sequences.size());
         for (const FloatArray& sequence : sequences)
           frames.emplace_back(as_matrix(sequence, "sequences"));
         const std::vector<int> labels = as_integers(classes, "classes");

@@ -141,6 +141,19 @@ TEST(SoftmaxRegression, LoadsWhatItSavedToTheBit) {
   EXPECT_THROW(SoftmaxRegression::read(file, "x."), FormatError);
 }
 
+TEST(SoftmaxRegression, IsMadeOfWeights) {
+  MatrixF weights(2, 3);
+  weights << 1, 2, 3, -1, 0, 1;
+  VectorF bias(2);
+  bias << 0.5F, -0.5F;
+  const VectorF row = VectorF::Ones(3);
+  const SoftmaxRegression model = SoftmaxRegression::of(weights, bias);
+  EXPECT_EQ(model.scores({row.data(), 3}), weights * row + bias);
+  EXPECT_THROW(SoftmaxRegression::of(weights, row), InvalidArgument);
+  weights(1, 1) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(SoftmaxRegression::of(weights, bias), InvalidArgument);
+}
+
 TEST(SoftmaxRegression, RefusesBadInput) {
   const Points points = clouds(2, 9);
   EXPECT_THROW(SoftmaxRegression::train(points.rows, points.classes, 3, {}), InvalidArgument);
