@@ -68,6 +68,9 @@ void words(Bytes& bytes) {
   options.num_mixtures = std::min(options.num_mixtures, 4);
   options.garbage_mixtures = std::min(options.garbage_mixtures, 4);
   options.num_noisy_copies = std::min(options.num_noisy_copies, 1);
+  options.network.num_channels = std::min(options.network.num_channels, 16);
+  options.network.num_blocks = std::min(options.network.num_blocks, 2);
+  options.network.num_epochs = std::min(options.network.num_epochs, 2);
   std::vector<std::vector<float>> sounds(4);
   std::vector<hri::WordSample> clips;
   for (std::size_t i = 0; i < sounds.size(); ++i) {

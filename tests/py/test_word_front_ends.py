@@ -150,9 +150,14 @@ def test_the_command_line_trains_a_network_when_asked(
     assert package.load(model).options.use_network
     assert hri("recognise", "--speech", spoken / "1_low_0.wav", "--speech-model", model).code == 0
     plain = hri(*command)
-    assert plain.code == 0 and "--network" not in plain.err, plain.err
+    assert plain.code == 0 and "network" not in plain.err, plain.err
     assert not package.load(model).options.use_network
     monkeypatch.setattr("hri.cli.train.MANY_PERSONS", 3)
-    assert "--network" in hri(*command).err
+    many = hri(*command)
+    assert many.code == 0 and "--no-network" in many.err, many.err
+    assert package.load(model).options.use_network
+    for fast in (["--no-network"], ["--option", "use_network=false"]):
+        assert hri(*command, *fast).code == 0
+        assert not package.load(model).options.use_network
     refused = hri("train", "gesture", "--data", spoken, "--network")
     assert refused.code == 2 and "--network" in refused.err

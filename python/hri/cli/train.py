@@ -49,8 +49,8 @@ MANY_PERSONS = 10
 @click.option(
     "--network/--no-network",
     default=None,
-    help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes and pays from "
-    "about ten speakers on. The same as --option use_network=true",
+    help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes; the default is "
+    "to do so from ten speakers on. The same as --option use_network=true or false",
 )
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
@@ -75,7 +75,7 @@ def train(
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
       hri train speech --data spoken/ --out digits.hri --option model=ptbhmm
       hri train speech --data spoken/ --front-end cepstra
-      hri train speech --data spoken/ --network
+      hri train speech --data spoken/ --no-network
     """
     if mode != "speech" and (fillers or no_fillers):
         raise click.UsageError("--fillers and --no-fillers are for speech")
@@ -87,15 +87,18 @@ def train(
         options = (*options, f"front_end={front_end}")
     elif mode == "speech" and _has_embedding() and not any(o.startswith("front_end=") for o in options):
         options = (*options, "front_end=both")
+    if network is not None and mode != "speech":
+        raise click.UsageError("--network is for speech")
+    dataset = load_dataset(data, mode, pattern)
+    asked = network is not None or any(o.startswith("use_network=") for o in options)
+    if mode == "speech" and not asked:
+        network = len(dataset.persons) >= MANY_PERSONS
     if network is not None:
-        if mode != "speech":
-            raise click.UsageError("--network is for speech")
         options = (*options, f"use_network={str(network).lower()}")
     make = recognizer_factory(mode, options, seed)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
         others = fillers_of(load_dataset(fillers, mode, None))
-    dataset = load_dataset(data, mode, pattern)
     path = default_model(mode) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
@@ -106,8 +109,8 @@ def train(
     note(f"{len(dataset)} recordings{persons}, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
     if isinstance(recognizer, WordRecognizer):
         note(f"front end: {_front_end(recognizer.options.front_end)}")
-        if network is None and len(dataset.persons) >= MANY_PERSONS and not recognizer.options.use_network:
-            note(f"with {len(dataset.persons)} persons, --network understands new ones better; training takes minutes")
+        if recognizer.options.use_network:
+            note("a network of the same words votes too; --no-network trains in a fraction of the time")
     if len(dataset.persons) < 2:
         note("confidences are calibrated best with two persons or more")
     write_json(

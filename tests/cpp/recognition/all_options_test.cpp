@@ -43,13 +43,14 @@ using All = testing::Types<
     FourierDescriptorOptions, HandFeatureOptions, HandPairOptions, WaveletDescriptorOptions,
     HandTrackOptions, SilhouetteCepstrumOptions, ChainCodeOptions, OrientationHistogramOptions,
     CepstraOptions, FilterBankOptions, CodebookOptions, LdaOptions, DistanceClassifierOptions,
-    GaussianBayesOptions, LogisticRegressionOptions, SoftmaxRegressionOptions, KnnOptions,
-    LinearSvmOptions, RbfClassifierOptions, MapAdaptationOptions, Topology, PossibilisticRule,
-    PossibilisticHmmOptions, HmmStreamOptions, FewSampleOptions, GaussianMixtureHmmOptions,
-    GaussianMixtureOptions, DiscreteHmmOptions, StateChoiceOptions, SequenceModelOptions,
-    AdaptationOptions, SpeakerAdapterOptions, SpeechEmbeddingOptions, WordRecognizerOptions,
-    GestureRecognizerOptions, SilhouetteOptions, HandColourOptions, MaskSmoothingOptions,
-    HandFinderOptions, GestureSegmenterOptions, GestureStreamOptions>;
+    GaussianBayesOptions, LogisticRegressionOptions, SoftmaxRegressionOptions,
+    SequenceNetworkOptions, KnnOptions, LinearSvmOptions, RbfClassifierOptions,
+    MapAdaptationOptions, Topology, PossibilisticRule, PossibilisticHmmOptions, HmmStreamOptions,
+    FewSampleOptions, GaussianMixtureHmmOptions, GaussianMixtureOptions, DiscreteHmmOptions,
+    StateChoiceOptions, SequenceModelOptions, AdaptationOptions, SpeakerAdapterOptions,
+    SpeechEmbeddingOptions, WordRecognizerOptions, GestureRecognizerOptions, SilhouetteOptions,
+    HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
+    GestureStreamOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {
