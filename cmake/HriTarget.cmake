@@ -38,6 +38,10 @@ function(hri_target_settings target optimisation)
     endif()
     if(HRI_INFERENCE_ONLY)
       target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections)
+      if(NOT HRI_EXCEPTIONS)
+        # Tables by which nothing unwinds the stack, an eighth of a program.
+        target_compile_options(${target} PRIVATE -fno-unwind-tables -fno-asynchronous-unwind-tables)
+      endif()
     endif()
     # No -ffast-math, and no fused multiply-adds, which round once where others round twice: NaN checks depend on IEEE
     # arithmetic, and every processor gives the same bits.
