@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A small convolutional network that tells sequences of frames apart, trained by the C++ library."""
+"""A small convolutional network that classifies sequences of frames, trained by the C++ library."""
 
 from __future__ import annotations
 

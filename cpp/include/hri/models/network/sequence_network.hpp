@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A small convolutional network that tells sequences of frames apart, trained here: residual blocks
+// A small convolutional network that classifies sequences of frames, trained here: residual blocks
 // of time-channel separable convolutions (Majumdar and Ginsburg, "MatchboxNet", Interspeech 2020),
 // mean and maximum over time, softmax.
 #pragma once
