@@ -24,7 +24,7 @@ from hri.evaluation.training import train as train_recognizer
 from hri.recognition import FillerWord, WordRecognizer, embedding_weights
 
 MANY_PERSONS = 10
-"""From which on a network learns what persons have in common."""
+"""From which on a network is trained unless asked otherwise: it was measured with twenty, and fewer are untested."""
 
 
 @click.command()
