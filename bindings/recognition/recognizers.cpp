@@ -7,6 +7,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
+
 #include "core/arrays.hpp"
 #include "core/options.hpp"
 #include "core/paths.hpp"
@@ -120,6 +122,26 @@ hri::WordRecognizer train_words(
                                     others, embedding);
 }
 
+void bind_held_out_report(py::module_& m) {
+  py::class_<hri::ConfusedPair>(m, "ConfusedPair", "Two classes that are taken for one another.")
+      .def_readonly("first", &hri::ConfusedPair::first, "A class number.")
+      .def_readonly("second", &hri::ConfusedPair::second, "A larger one.")
+      .def_readonly("rate", &hri::ConfusedPair::rate,
+                    "Share of the samples decided for either that are the other.");
+  py::class_<hri::HeldOutReport>(
+      m, "HeldOutReport", "What training saw on people held out; hri.HeldOutReport wraps it.")
+      .def_property_readonly(
+          "confusion",
+          [](const hri::HeldOutReport& self) { return hri_bind::to_array(self.confusion); },
+          "Counts, by true and by best class.")
+      .def_readonly("false_reject_rate", &hri::HeldOutReport::false_reject_rate,
+                    "Share of right decisions below the threshold.")
+      .def_readonly("false_accept_rate", &hri::HeldOutReport::false_accept_rate,
+                    "Share of words treated as unknown that are above it.")
+      .def("confused_pairs", &hri::HeldOutReport::confused_pairs,
+           "List of ConfusedPair in falling order of their rate.");
+}
+
 void bind_words(py::module_& m) {
   hri_bind::bind_options<hri::SequenceModelOptions>(m, "The models trained on one front end.");
 
@@ -185,6 +207,13 @@ void bind_words(py::module_& m) {
           "threshold",
           [](const hri::WordRecognizer& self) { return self.calibration().threshold(); },
           "Score from which a word is recognised.")
+      .def_property_readonly(
+          "held_out",
+          [](const hri::WordRecognizer& self) -> std::optional<hri::HeldOutReport> {
+            if (self.held_out().empty()) return std::nullopt;
+            return self.held_out();
+          },
+          "HeldOutReport, or None.")
       .def_property_readonly("options", &hri::WordRecognizer::options,
                              "As passed, with defaults filled in.");
 }
@@ -296,6 +325,7 @@ void bind_gestures(py::module_& m) {
 
 void bind_recognition(py::module_& m) {
   bind_decision(m);
+  bind_held_out_report(m);
   bind_words(m);
   bind_gestures(m);
 }

@@ -23,6 +23,7 @@ __all__: list[str] = [
     "Codebook",
     "CodebookOptions",
     "CodebookReport",
+    "ConfusedPair",
     "Decision",
     "DiscreteHmm",
     "DiscreteHmmOptions",
@@ -61,6 +62,7 @@ __all__: list[str] = [
     "HandPairTracker",
     "HandTrackComputer",
     "HandTrackOptions",
+    "HeldOutReport",
     "Interrupted",
     "InvalidArgument",
     "IoError",
@@ -5194,6 +5196,50 @@ class UtteranceDecision:
         Its end, in seconds.
         """
 
+class ConfusedPair:
+    """
+    Two classes that are taken for one another.
+    """
+    @property
+    def first(self) -> int:
+        """
+        A class number.
+        """
+    @property
+    def rate(self) -> float:
+        """
+        Share of the samples decided for either that are the other.
+        """
+    @property
+    def second(self) -> int:
+        """
+        A larger one.
+        """
+
+class HeldOutReport:
+    """
+    What training saw on people held out; hri.HeldOutReport wraps it.
+    """
+    def confused_pairs(self) -> list[ConfusedPair]:
+        """
+        List of ConfusedPair in falling order of their rate.
+        """
+    @property
+    def confusion(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Counts, by true and by best class.
+        """
+    @property
+    def false_accept_rate(self) -> float:
+        """
+        Share of words treated as unknown that are above it.
+        """
+    @property
+    def false_reject_rate(self) -> float:
+        """
+        Share of right decisions below the threshold.
+        """
+
 class SequenceModelOptions:
     """
     The models trained on one front end.
@@ -5205,7 +5251,7 @@ class SequenceModelOptions:
     num_states : int, default 8
         left-right states a class; 1..64
     num_mixtures : int, default 1
-        Gaussians a state (hmm); 1..64
+        Gaussians a state (hmm); 0: of words one for every two speakers, 1 to 4; else 1; 1..64, or 0
     num_codewords : int, default 128
         size of the codebook (ptbhmm); 2..4096
     garbage_mixtures : int, default 16
@@ -5272,7 +5318,7 @@ class SequenceModelOptions:
     @property
     def num_mixtures(self) -> int:
         """
-        Gaussians a state (hmm)
+        Gaussians a state (hmm); 0: of words one for every two speakers, 1 to 4; else 1
         """
     @num_mixtures.setter
     def num_mixtures(self, arg1: typing.Any) -> None: ...
@@ -5301,8 +5347,8 @@ class WordRecognizerOptions:
         kind of the models
     num_states : int, default 8
         left-right states a class; 1..64
-    num_mixtures : int, default 1
-        Gaussians a state (hmm); 1..64
+    num_mixtures : int, default 0
+        Gaussians a state (hmm); 0: of words one for every two speakers, 1 to 4; else 1; 1..64, or 0
     num_codewords : int, default 128
         size of the codebook (ptbhmm); 2..4096
     garbage_mixtures : int, default 16
@@ -5329,16 +5375,12 @@ class WordRecognizerOptions:
         step of the warp factor between these copies; 0..0.2
     num_noisy_copies : int, default 2
         noise augmentation: training copies of every word with noise added, warped in turn; 0..10
-    min_snr_db : float, default 10.0
+    min_snr_db : float, default 0.0
         least signal-to-noise ratio of the noisy copies; -20..100 dB
-    max_snr_db : float, default 25.0
+    max_snr_db : float, default 20.0
         largest; each copy has its own, at random; -20..100 dB
-    false_reject_rate : float, default 0.02
-        share of correct held-out words that the threshold may reject; 0..0.5
-    embedding_min_snr_db : float, default 0.0
-        front_end both: in place of min_snr_db; the embedding stands more noise, and learns from it; -20..100 dB
-    embedding_max_snr_db : float, default 20.0
-        front_end both: in place of max_snr_db; -20..100 dB
+    false_reject_rate : float, default 0.05
+        share of correct held-out words, noisy ones included, that the threshold may reject; 0..0.5
     embedding_weight : float, default 0.0
         front_end both: factor on the log posteriors by the speech embedding, which join the scores of the cepstra; 0: chosen on words of speakers held out; 0..1000000
     embedding_penalty : float, default 100.0
@@ -5348,7 +5390,7 @@ class WordRecognizerOptions:
     embedding_false_accept_rate : float, default 0.1
         front_end both: share of other words that the threshold may accept, if it can be met; 0..1
     embedding_max_false_reject_rate : float, default 0.2
-        front_end both: share of correct held-out words, noisy ones included, that the threshold may reject to that end; 0..0.5
+        front_end both: share of correct held-out words that the threshold may reject to that end; 0..0.5
     use_network : bool, default False
         a small network of log mel energies, trained on the same words, votes too: for many speakers
     network : SequenceNetworkOptions or dict
@@ -5370,7 +5412,7 @@ class WordRecognizerOptions:
         *,
         model: typing.Literal["hmm", "ptbhmm"] = "hmm",
         num_states: int = 8,
-        num_mixtures: int = 1,
+        num_mixtures: int = 0,
         num_codewords: int = 128,
         garbage_mixtures: int = 16,
         max_iterations: int = 12,
@@ -5384,11 +5426,9 @@ class WordRecognizerOptions:
         num_vtlp_factors: int = 3,
         vtlp_step: float = 0.08,
         num_noisy_copies: int = 2,
-        min_snr_db: float = 10.0,
-        max_snr_db: float = 25.0,
-        false_reject_rate: float = 0.02,
-        embedding_min_snr_db: float = 0.0,
-        embedding_max_snr_db: float = 20.0,
+        min_snr_db: float = 0.0,
+        max_snr_db: float = 20.0,
+        false_reject_rate: float = 0.05,
         embedding_weight: float = 0.0,
         embedding_penalty: float = 100.0,
         embedding_shrinkage: float = 0.8,
@@ -5428,24 +5468,10 @@ class WordRecognizerOptions:
     @property
     def embedding_max_false_reject_rate(self) -> float:
         """
-        front_end both: share of correct held-out words, noisy ones included, that the threshold may reject to that end
+        front_end both: share of correct held-out words that the threshold may reject to that end
         """
     @embedding_max_false_reject_rate.setter
     def embedding_max_false_reject_rate(self, arg1: typing.Any) -> None: ...
-    @property
-    def embedding_max_snr_db(self) -> float:
-        """
-        front_end both: in place of max_snr_db
-        """
-    @embedding_max_snr_db.setter
-    def embedding_max_snr_db(self, arg1: typing.Any) -> None: ...
-    @property
-    def embedding_min_snr_db(self) -> float:
-        """
-        front_end both: in place of min_snr_db; the embedding stands more noise, and learns from it
-        """
-    @embedding_min_snr_db.setter
-    def embedding_min_snr_db(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_penalty(self) -> float:
         """
@@ -5470,7 +5496,7 @@ class WordRecognizerOptions:
     @property
     def false_reject_rate(self) -> float:
         """
-        share of correct held-out words that the threshold may reject
+        share of correct held-out words, noisy ones included, that the threshold may reject
         """
     @false_reject_rate.setter
     def false_reject_rate(self, arg1: typing.Any) -> None: ...
@@ -5554,7 +5580,7 @@ class WordRecognizerOptions:
     @property
     def num_mixtures(self) -> int:
         """
-        Gaussians a state (hmm)
+        Gaussians a state (hmm); 0: of words one for every two speakers, 1 to 4; else 1
         """
     @num_mixtures.setter
     def num_mixtures(self, arg1: typing.Any) -> None: ...
@@ -5653,6 +5679,11 @@ class WordRecognizer:
         sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
     ) -> WordRecognizer: ...
     def without_word(self, label: str) -> WordRecognizer: ...
+    @property
+    def held_out(self) -> HeldOutReport | None:
+        """
+        HeldOutReport, or None.
+        """
     @property
     def labels(self) -> list[str]: ...
     @property

@@ -6,11 +6,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import hri
 from hri.cli.main import main
 from hri.core.errors import InvalidArgument
+from hri.recognition import ConfusedPair, HeldOutReport
 
 
 def test_train_makes_a_recogniser_of_the_kind_of_the_folder(spoken: Path) -> None:
@@ -21,6 +23,31 @@ def test_train_makes_a_recogniser_of_the_kind_of_the_folder(spoken: Path) -> Non
     audio = hri.read_audio(spoken / "1_low_0.wav")
     assert recognizer.recognise(audio.samples, audio.sample_rate_hz).nbest[0].label == "1"
     assert ("reading", 18, 18) in seen and seen[-1][0] == "training" and seen[-1][1] == seen[-1][2]
+
+
+def test_train_says_what_it_measured_on_people_held_out(
+    spoken: Path, tmp_path: Path, few_fillers: None, capsys
+) -> None:
+    path = tmp_path / "words.hri"
+    assert main(["train", "speech", "--data", str(spoken), "--out", str(path), "--front-end", "cepstra"]) == 0
+    words = hri.WordRecognizer.load(path)
+    found = words.held_out
+    assert found is not None and found.labels == ("1", "2") and found.confusion.shape == (2, 2)
+    assert found.num_samples == 18 and found.accuracy == np.trace(found.confusion) / 18
+    said = capsys.readouterr().err
+    assert f"of 18 recordings of people held out in training, {100 * found.accuracy:.1f} % are right" in said
+    assert main(["info", str(path)]) == 0
+    assert f"held_out accuracy\t{found.accuracy}" in capsys.readouterr().out
+    words.add_word("3", [hri.read_audio(spoken / "1_low_0.wav")])
+    assert words.held_out is None
+
+
+def test_pairs_that_are_confused_are_named() -> None:
+    report = HeldOutReport(("go", "no", "up"), np.eye(3, dtype=np.int64), 0.02, 0.1, (ConfusedPair("go", "no", 0.25),))
+    rates, pair = report.lines()
+    assert "2.0 % of these are rejected as unknown, and 10.0 % of words" in rates
+    assert pair.startswith("'go' and 'no' are hard to distinguish (25.0 % taken for one another)")
+    assert report.to_dict()["confused_pairs"] == [{"first": "go", "second": "no", "rate": 0.25}]
 
 
 def test_train_keeps_the_options_it_is_given(signed: Path) -> None:

@@ -99,7 +99,7 @@ MultiStreamScorer MultiStreamScorer::train(const ClassStreams& sequences,
   if (network != nullptr) {
     trained = std::make_shared<const WeightedNetwork>(WeightedNetwork{SequenceNetwork::train(
         network->examples, network->classes, static_cast<int>(sequences.size()), network->options,
-        {}, should_stop)});
+        network->progress, should_stop)});
   }
   return MultiStreamScorer(std::move(streams), std::move(of_vectors), std::move(trained));
 }

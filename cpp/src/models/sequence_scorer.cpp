@@ -40,7 +40,9 @@ std::shared_ptr<const SequenceScorer> train_sequence_scorer(const ClassSequences
 FillerModels train_fillers(const ClassSequences& sequences, const SequenceModelOptions& options,
                            const StopCheck& should_stop) {
   validate(options);
-  return detail::train_hmms(sequences, options, should_stop);
+  SequenceModelOptions of_fillers = options;
+  of_fillers.num_mixtures = 1;  // they stand for words in general, by few recordings each
+  return detail::train_hmms(sequences, of_fillers, should_stop);
 }
 
 std::shared_ptr<const SequenceScorer> read_sequence_scorer(const ModelFile& file,

@@ -15,7 +15,7 @@ from hri import __version__, vision
 from hri.cli.output import json_option, say, write_json
 from hri.cli.recognizers import CLASSES, default_model
 from hri.media import natural_key
-from hri.recognition import load
+from hri.recognition import WordRecognizer, load
 
 EXTRAS = {
     "audio": ("soundfile",),
@@ -63,7 +63,10 @@ def _has_vision() -> bool:
 def _model(path: str) -> dict[str, Any]:
     recognizer = load(path)
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
-    return {"mode": recognizer.mode, "labels": labels, "options": recognizer.options.as_dict()}
+    found = {"mode": recognizer.mode, "labels": labels}
+    if isinstance(recognizer, WordRecognizer) and recognizer.held_out is not None:
+        found["held_out"] = recognizer.held_out.to_dict()
+    return {**found, "options": recognizer.options.as_dict()}
 
 
 def _lines(found: dict[str, Any]) -> list[str]:
@@ -75,6 +78,10 @@ def _lines(found: dict[str, Any]) -> list[str]:
         elif key == "extras":
             hints = {name: "yes" if there else f"no: pip install libhri[{name}]" for name, there in entry.items()}
             lines += [f"extra {name}\t{hint}" for name, hint in hints.items()]
+        elif key == "held_out":
+            pairs = entry["confused_pairs"]
+            lines += [f"{key} {name}\t{_text(value)}" for name, value in entry.items() if value is not pairs]
+            lines += [f"{key} confused\t{pair['first']} {pair['second']} {pair['rate']}" for pair in pairs]
         elif isinstance(entry, dict):
             lines += [f"{key} {name}\t{_text(value)}" for name, value in entry.items()]
         else:

@@ -111,6 +111,9 @@ def train(
         note(f"front end: {_front_end(recognizer.options.front_end)}")
         if recognizer.options.use_network:
             note("a network of the same words votes too; --no-network trains in a fraction of the time")
+    report = recognizer.held_out if isinstance(recognizer, WordRecognizer) else None
+    for line in report.lines() if report is not None else []:
+        note(line)
     if len(dataset.persons) < 2:
         note("confidences are calibrated best with two persons or more")
     write_json(
@@ -123,6 +126,7 @@ def train(
             "persons": dataset.persons,
             "synthetic": dataset.synthetic,
             "options": recognizer.options.as_dict(),
+            "held_out": None if report is None else report.to_dict(),
         },
     )
 

@@ -22,6 +22,7 @@ from hri.core.lazy import loader
 from hri.recognition.decision import Decision, NBest
 from hri.recognition.files import load
 from hri.recognition.gesture import GestureRecognizer
+from hri.recognition.held_out_report import ConfusedPair, HeldOutReport
 from hri.recognition.word import (
     FillerWord,
     SpeakerAdapter,
@@ -40,6 +41,7 @@ else:
 
 __all__ = [
     "LEARNED_STILL_CHANGE",
+    "ConfusedPair",
     "Decision",
     "FillerWord",
     "GestureEvent",
@@ -51,6 +53,7 @@ __all__ = [
     "GestureSpotter",
     "GestureStream",
     "GestureStreamOptions",
+    "HeldOutReport",
     "NBest",
     "SequenceModelOptions",
     "SpeakerAdapter",

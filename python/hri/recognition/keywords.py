@@ -101,8 +101,6 @@ class WordRecognizerKeywords(TypedDict, total=False):
     min_snr_db: float
     max_snr_db: float
     false_reject_rate: float
-    embedding_min_snr_db: float
-    embedding_max_snr_db: float
     embedding_weight: float
     embedding_penalty: float
     embedding_shrinkage: float

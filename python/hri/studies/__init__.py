@@ -8,6 +8,7 @@ from hri.studies import (
     adaptation,
     classifiers,
     commands,
+    commands_curve,
     cpp_parity,
     denoise,
     distance,
@@ -34,6 +35,7 @@ from hri.studies import (
     wavelets,
     webcam,
     webcam_live,
+    word_trimming,
 )
 from hri.studies.pictures import draw
 from hri.studies.registry import Layout, Study, find_data, run_study
@@ -42,11 +44,13 @@ _MODULES = (
     speech,
     speech_embedding,
     commands,
+    commands_curve,
     noise,
     distance,
     tempo,
     synthetic_speakers,
     endpoints,
+    word_trimming,
     false_alarms,
     classifiers,
     training_size,

@@ -42,6 +42,11 @@ TARGETS = {
 """With a network and without one."""
 
 
+def conditions(data_dir: Path) -> dict[str, Condition | None]:
+    """Quiet, and white noise at 10 dB."""
+    return {QUIET: None, NOISY: AddNoise([noise_paths(data_dir)["white"]], [NOISE_DB])}
+
+
 def measures(result: EvaluationResult) -> Row:
     """Accuracy, rejected or not; the shares of clips that were recognised, and rightly so."""
     row: Row = statistics({fold.name: fold.accuracy for fold in result.folds})
@@ -61,7 +66,7 @@ def _run(
     folds: int | None = None,
 ) -> dict[str, Any]:
     dataset = first_takes(Dataset.load(data_dir / FOLDER, "speech"), takes)
-    tests: dict[str, Condition | None] = {QUIET: None, NOISY: AddNoise([noise_paths(data_dir)["white"]], [NOISE_DB])}
+    tests = conditions(data_dir)
     rows = []
     for name in front_end or kinds:
         results = evaluate_conditions(

@@ -35,6 +35,7 @@ struct NetworkTraining {
   SequenceNetworkOptions options;
   std::vector<int> classes;  ///< of every example
   SequenceNetwork::Examples examples;
+  SequenceNetwork::Progress progress = {};
 };
 
 /// A network that votes.

@@ -40,7 +40,8 @@ struct SequenceModelOptions {
   static void visit(Self& o, Visitor&& v) {
     v("model", o.model, any_value, "kind of the models");
     v("num_states", o.num_states, within(1, 64), "left-right states a class");
-    v("num_mixtures", o.num_mixtures, within(1, 64), "Gaussians a state (hmm)");
+    v("num_mixtures", o.num_mixtures, within(1, 64).or_zero(),
+      "Gaussians a state (hmm); 0: of words one for every two speakers, 1 to 4; else 1");
     v("num_codewords", o.num_codewords, within(2, 4096), "size of the codebook (ptbhmm)");
     v("garbage_mixtures", o.garbage_mixtures, within(1, 256),
       "Gaussians of the garbage model that rejection compares with (hmm)");

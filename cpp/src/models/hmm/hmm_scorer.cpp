@@ -139,7 +139,7 @@ std::vector<GaussianMixtureHmm> read_hmms(const ModelFile& file, const std::stri
 GaussianMixtureHmmOptions hmm_options(const SequenceModelOptions& options, const StopCheck& stop) {
   GaussianMixtureHmmOptions of_hmm;
   of_hmm.topology = left_right(options.num_states);
-  of_hmm.num_mixtures = options.num_mixtures;
+  of_hmm.num_mixtures = std::max(1, options.num_mixtures);
   of_hmm.max_iterations = options.max_iterations;
   of_hmm.seed = options.seed;
   of_hmm.should_stop = stop;

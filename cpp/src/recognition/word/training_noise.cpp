@@ -6,23 +6,26 @@
 
 namespace hri::detail {
 
-std::vector<float> with_noise(Span<const float> word, double snr_db, Random* random) {
+double mean_power(Span<const float> audio) {
+  double sum = 0;
+  for (const float x : audio) sum += static_cast<double>(x) * x;
+  return audio.empty() ? 0 : sum / static_cast<double>(audio.size());
+}
+
+std::vector<float> with_noise(Span<const float> audio, double power, Random* random) {
   const double pole = 0.97 * random->uniform();
-  std::vector<double> noise(word.size());
+  std::vector<double> noise(audio.size());
   double state = 0;
-  double noise_power = 0;
-  double power = 0;
-  for (std::size_t n = 0; n < noise.size(); ++n) {
+  double sum = 0;
+  for (double& x : noise) {
     state = pole * state + random->normal();
-    noise[n] = state;
-    noise_power += state * state;
-    power += static_cast<double>(word[n]) * word[n];
+    x = state;
+    sum += state * state;
   }
-  const double gain =
-      noise_power > 0 ? std::sqrt(power / noise_power * std::pow(10.0, -snr_db / 10.0)) : 0.0;
-  std::vector<float> result(word.size());
+  const double gain = sum > 0 ? std::sqrt(power * static_cast<double>(noise.size()) / sum) : 0.0;
+  std::vector<float> result(audio.size());
   for (std::size_t n = 0; n < noise.size(); ++n)
-    result[n] = word[n] + static_cast<float>(gain * noise[n]);
+    result[n] = audio[n] + static_cast<float>(gain * noise[n]);
   return result;
 }
 

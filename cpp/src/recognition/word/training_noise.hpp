@@ -11,8 +11,11 @@
 
 namespace hri::detail {
 
-/// `word` with random noise whose power is `snr_db` below its own: white noise through a one-pole
-/// low-pass of random corner, from flat to a rumble.
-std::vector<float> with_noise(Span<const float> word, double snr_db, Random* random);
+/// Of no sample: 0.
+double mean_power(Span<const float> audio);
+
+/// `audio` with random noise of mean power `power`: white noise through a one-pole low-pass of
+/// random corner, from flat to a rumble.
+std::vector<float> with_noise(Span<const float> audio, double power, Random* random);
 
 }  // namespace hri::detail

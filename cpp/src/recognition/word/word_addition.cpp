@@ -39,7 +39,7 @@ std::vector<StreamFrames> augmented(const std::vector<WordSample>& samples,
   for (std::size_t i = 0; i < samples.size(); ++i) {
     poll(should_stop);
     const std::string name = sample_name(samples[i], "samples", i);
-    const TrimmedWord word = augmentation.trim(samples[i], name);
+    const detail::TrainingWord word = augmentation.read(samples[i], name);
     // Of three recordings none may be dropped silently.
     if (!word.has_speech()) fail(ErrorKind::invalid_argument, name + ": audio has no speech in it");
     for (StreamFrames& copy : augmentation.copies(word, i)) result.push_back(std::move(copy));

@@ -3,10 +3,13 @@
 #include "recognition/word/word_augmentation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 #include "hri/core/random.hpp"
+#include "hri/signal/resample.hpp"
 #include "recognition/word/training_noise.hpp"
 
 namespace hri::detail {
@@ -36,6 +39,11 @@ void check(const WordSample& sample, const std::string& name, double frame_ms) {
   }
 }
 
+// Of noise this far below the word.
+double noise_power(const TrainingWord& word, double snr_db) {
+  return mean_power(word.word.samples) * std::pow(10.0, -snr_db / 10);
+}
+
 }  // namespace
 
 WordAugmentation::WordAugmentation(const WordRecognizerOptions& options,
@@ -51,36 +59,55 @@ WordAugmentation::WordAugmentation(const WordRecognizerOptions& options,
     spectrograms_ = std::make_shared<const SpectrogramAugmentation>(*spectrogram, options.seed);
 }
 
-TrimmedWord WordAugmentation::trim(const WordSample& sample, const std::string& name) const {
+TrainingWord WordAugmentation::read(const WordSample& sample, const std::string& name) const {
   check(sample, name, std::max(options_.activity.frame_ms, options_.cepstra.frame_length_ms));
-  return front_end().trim(sample.samples, sample.sample_rate_hz);
+  TrainingWord result;
+  result.word = front_end().trim(sample.samples, sample.sample_rate_hz);
+  if (!result.has_speech()) return result;
+  if (sample.sample_rate_hz == front_end().sample_rate_hz()) {
+    result.clip.assign(sample.samples.begin(), sample.samples.end());
+  } else {
+    result.clip = resample(sample.samples, sample.sample_rate_hz, front_end().sample_rate_hz());
+  }
+  return result;
 }
 
-std::vector<StreamFrames> WordAugmentation::copies(const TrimmedWord& word,
+std::vector<float> WordAugmentation::noisy_word(const TrainingWord& word, double snr_db,
+                                                Random* random) const {
+  const double power = noise_power(word, snr_db);
+  const std::vector<float> clip = with_noise(word.clip, power, random);
+  TrimmedWord trimmed = front_end().trim(clip, front_end().sample_rate_hz());
+  // Where noise hides the word, what it is trimmed to otherwise.
+  return trimmed.has_speech() ? std::move(trimmed.samples)
+                              : with_noise(word.word.samples, power, random);
+}
+
+std::vector<StreamFrames> WordAugmentation::copies(const TrainingWord& word,
                                                    std::size_t index) const {
   std::vector<StreamFrames> result;
   result.reserve(cepstra_.size() + static_cast<std::size_t>(options_.num_noisy_copies));
   const SpeechEmbedding* embedding = front_end().embedding().get();
-  result.push_back(front_end().frames(word));
+  result.push_back(front_end().frames(word.word));
   for (std::size_t warp = 1; warp < cepstra_.size(); ++warp)
-    result.push_back(cepstra_[warp].frames(word));
-  const double least_snr_db =
-      embedding == nullptr ? options_.min_snr_db : options_.embedding_min_snr_db;
-  const double largest_snr_db =
-      embedding == nullptr ? options_.max_snr_db : options_.embedding_max_snr_db;
+    result.push_back(cepstra_[warp].frames(word.word));
   Random random(options_.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
+  Random of_embedding(options_.seed + (index + 1) * 0xD6E8FEB86659FD93ULL);
   for (int copy = 0; copy < options_.num_noisy_copies; ++copy) {
-    const double snr_db = least_snr_db + random.uniform() * (largest_snr_db - least_snr_db);
+    const double snr_db =
+        options_.min_snr_db + random.uniform() * (options_.max_snr_db - options_.min_snr_db);
     TrimmedWord noisy;
-    noisy.samples = with_noise(word.samples, snr_db, &random);
+    noisy.samples = noisy_word(word, snr_db, &random);
     const std::size_t warp = (index + static_cast<std::size_t>(copy)) % cepstra_.size();
     result.push_back(cepstra_[warp].frames(noisy));
     if (embedding != nullptr) {
+      // Its parts are shares of the word's length: the whole word, noise or not.
+      const std::vector<float> whole =
+          with_noise(word.word.samples, noise_power(word, snr_db), &of_embedding);
       result.back().emplace_back(
-          embedding->vector_of(noisy.samples, front_end().sample_rate_hz()).transpose());
+          embedding->vector_of(whole, front_end().sample_rate_hz()).transpose());
     }
     if (spectrograms_ != nullptr)
-      result.back().push_back(spectrograms_->noisy_input(word.window, snr_db, &random));
+      result.back().push_back(spectrograms_->noisy_input(word.word.window, snr_db, &random));
   }
   return result;
 }

@@ -9,11 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "hri/core/random.hpp"
 #include "hri/recognition/word/word_front_end.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "recognition/word/spectrogram_augmentation.hpp"
 
 namespace hri::detail {
+
+/// A recording of a word, at the rate of the front end.
+struct TrainingWord {
+  std::vector<float> clip;  ///< as recorded
+  TrimmedWord word;
+
+  [[nodiscard]] bool has_speech() const { return word.has_speech(); }
+};
 
 class WordAugmentation {
  public:
@@ -24,18 +33,23 @@ class WordAugmentation {
   /// The front end without warp.
   [[nodiscard]] const WordFrontEnd& front_end() const { return front_end_; }
 
-  /// The trimmed word of a recording; empty without speech. Throws InvalidArgument for audio that
+  /// A recording and the word in it; empty without speech. Throws InvalidArgument for audio that
   /// is not finite or too short, naming the sample or, if it has no name, `name`.
-  [[nodiscard]] TrimmedWord trim(const WordSample& sample, const std::string& name) const;
+  [[nodiscard]] TrainingWord read(const WordSample& sample, const std::string& name) const;
 
-  /// The frames of the word as it is, at every warp and of every noisy copy. The noise depends on
-  /// the seed of the models and on `index` alone.
-  [[nodiscard]] std::vector<StreamFrames> copies(const TrimmedWord& word, std::size_t index) const;
+  /// The frames of the word as it is, at every warp and of every noisy copy, which is trimmed after
+  /// the noise is added: end points in noise are others. The noise depends on the seed of the
+  /// models and on `index` alone.
+  [[nodiscard]] std::vector<StreamFrames> copies(const TrainingWord& word, std::size_t index) const;
 
   /// nullptr: there is no network.
   [[nodiscard]] const SpectrogramAugmentation* spectrograms() const { return spectrograms_.get(); }
 
  private:
+  // The word of a recording with noise this far below the word.
+  [[nodiscard]] std::vector<float> noisy_word(const TrainingWord& word, double snr_db,
+                                              Random* random) const;
+
   WordRecognizerOptions options_;
   WordFrontEnd front_end_;
   std::vector<WordFrontEnd> cepstra_;  // at every warp, the first of 1

@@ -42,6 +42,7 @@ ModelFile WordRecognizer::to_model_file() const {
   }
   verifier_.write(file, scorer_);
   calibration_.write(file);
+  held_out_.write(file);
   scorer_.write(file);
   return file;
 }
@@ -74,9 +75,10 @@ WordRecognizer WordRecognizer::read(const ModelFile& file,
                               static_cast<int>(labels.size()), front_end.num_features());
   WordVerifier verifier = WordVerifier::read(file, scorer);
   const Calibration calibration = Calibration::read(file);
+  HeldOutReport held_out = HeldOutReport::read(file, static_cast<int>(labels.size()));
   file.require_all_read();
-  return {options,     std::move(labels),   std::move(scorer), std::move(verifier),
-          calibration, std::move(embedding)};
+  return {options,     std::move(labels),    std::move(scorer),  std::move(verifier),
+          calibration, std::move(embedding), std::move(held_out)};
 }
 
 }  // namespace hri

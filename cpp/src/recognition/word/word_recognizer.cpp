@@ -11,21 +11,21 @@ namespace hri {
 
 const char* WordRecognizerOptions::conflict() const {
   if (min_snr_db > max_snr_db) return "min_snr_db must not exceed max_snr_db";
-  if (embedding_min_snr_db > embedding_max_snr_db)
-    return "embedding_min_snr_db must not exceed embedding_max_snr_db";
   return nullptr;
 }
 
 WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
                                std::vector<std::string> labels, MultiStreamScorer scorer,
                                WordVerifier verifier, const Calibration& calibration,
-                               std::shared_ptr<const SpeechEmbedding> embedding)
+                               std::shared_ptr<const SpeechEmbedding> embedding,
+                               HeldOutReport held_out)
     : options_(validated(options)),
       labels_(std::move(labels)),
       front_end_(options, 1, std::move(embedding)),
       scorer_(std::move(scorer)),
       verifier_(std::move(verifier)),
-      calibration_(calibration) {
+      calibration_(calibration),
+      held_out_(std::move(held_out)) {
   require(labels_ == sorted_labels(labels_), "labels are not sorted");
   require(static_cast<std::size_t>(scorer_.num_classes()) == labels_.size(),
           "labels and the scorer's classes differ in number");
@@ -35,10 +35,13 @@ WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
           "the scorer and the front end differ in their embedding");
   require((scorer_.network() != nullptr) == options_.use_network,
           "the scorer and the options differ in their network");
+  require(held_out_.empty() || held_out_.confusion.rows() == scorer_.num_classes(),
+          "the report on words held out and the labels differ in number");
 }
 
 WordRecognizer WordRecognizer::with_scorer(MultiStreamScorer scorer) const {
-  return {options_, labels_, std::move(scorer), verifier_, calibration_, front_end_.embedding()};
+  return {options_, labels_, std::move(scorer), verifier_, calibration_, front_end_.embedding(),
+          held_out_};
 }
 
 Decision WordRecognizer::recognise(Span<const float> audio, int sample_rate_hz) const {

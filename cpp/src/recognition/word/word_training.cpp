@@ -4,13 +4,15 @@
 // Training of WordRecognizer: features of every sample and of its augmented copies, models without
 // each fold of speakers for verifier and calibration, then the models that are kept.
 #include <algorithm>
-#include <iterator>
+#include <functional>
+#include <set>
 #include <utility>
 
 #include "core/parallel_for.hpp"
 #include "hri/core/error.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "recognition/word/filler_memo.hpp"
+#include "recognition/word/held_out_words.hpp"
 #include "recognition/word/non_words.hpp"
 #include "recognition/word/weight_choice.hpp"
 #include "recognition/word/word_augmentation.hpp"
@@ -22,12 +24,22 @@ constexpr int kMaxFolds = 4;
 constexpr std::size_t kNonWordSources = 300;  // samples from which non-words are made, at most
 constexpr int kDefaultRateHz = 16000;
 constexpr int kNoFold = -1;
+constexpr int kSpeakersPerMixture = 2;
+constexpr int kMaxMixtures = 4;
 
 int training_rate_hz(const std::vector<WordSample>& samples, int wanted_hz) {
   if (wanted_hz != 0) return wanted_hz;
   int rate = kDefaultRateHz;
   for (const WordSample& s : samples) rate = std::min(rate, s.sample_rate_hz);
   return rate;
+}
+
+// Few voices are one Gaussian; many are several (study commands-curve).
+int training_mixtures(const std::vector<WordSample>& samples, int wanted) {
+  if (wanted != 0) return wanted;
+  std::set<std::string> speakers;
+  for (const WordSample& s : samples) speakers.insert(s.group);
+  return std::clamp(static_cast<int>(speakers.size()) / kSpeakersPerMixture, 1, kMaxMixtures);
 }
 
 std::vector<std::string> words_of(const std::vector<WordSample>& samples) {
@@ -53,21 +65,6 @@ struct PreparedSample {
   std::vector<NonWord> non_words;
 };
 
-// Decisions on held-out folds, and what the verifier learns from them.
-struct HeldOutFolds {
-  std::vector<HeldOut> decisions;
-  std::vector<VectorD> features;  // of each decision
-  std::vector<VerifierExample> examples;
-  std::vector<VectorD> others;  // features of words held out as if they were not in the vocabulary
-
-  void append(HeldOutFolds more) {
-    std::move(more.decisions.begin(), more.decisions.end(), std::back_inserter(decisions));
-    std::move(more.features.begin(), more.features.end(), std::back_inserter(features));
-    std::move(more.examples.begin(), more.examples.end(), std::back_inserter(examples));
-    std::move(more.others.begin(), more.others.end(), std::back_inserter(others));
-  }
-};
-
 class WordTrainer {
  public:
   WordTrainer(const std::vector<WordSample>& samples, const WordRecognizerOptions& options,
@@ -81,34 +78,36 @@ class WordTrainer {
 
   WordRecognizer run(const std::vector<WordSample>& samples, const std::vector<WordSample>& fillers,
                      const TrainingProgress& progress) {
-    // Fillers, features, every fold, and the models that are kept. Samples without speech may leave
-    // fewer folds than all would make.
-    const int num_steps = (uses_fillers(fillers) ? 1 : 0) + num_folds_of(samples) + 2;
+    // Fillers, features, every fold, and the models that are kept, and of each of these the epochs
+    // of its network. Samples without speech may leave fewer folds than all would make.
+    const int num_folds_of_all = num_folds_of(samples);
+    const int num_steps = (uses_fillers(fillers) ? 1 : 0) + num_folds_of_all + 2 +
+                          num_folds_of_all * num_epochs(0) + num_epochs(kNoFold);
     int step = 0;
-    const auto report = [&](int done) {
-      if (progress) progress(done, num_steps);
+    step_done_ = [&] {
+      if (progress) progress(++step, num_steps);
     };
-    report(step);
+    if (progress) progress(step, num_steps);
     if (uses_fillers(fillers)) {
       fillers_ =
           detail::remembered_fillers(fillers, options_, augmentation_.front_end().embedding().get(),
                                      [&] { return train_fillers(fillers); });
-      report(++step);
+      step_done_();
     }
     prepare(samples);
-    report(++step);
+    step_done_();
     const int num_folds = assign_folds();
     const std::vector<int> folds = usable_folds(num_folds);
     std::vector<MultiStreamScorer> scorers;
     for (const int fold : folds) {
       scorers.push_back(train_without(fold));
-      report(++step);
+      step_done_();
     }
     weigh(folds, &scorers);
-    HeldOutFolds held_out;
+    detail::HeldOutWords held_out;
     for (std::size_t i = 0; i < folds.size(); ++i) score_fold(folds[i], scorers[i], &held_out);
     WordRecognizer result = assemble(train_without(kNoFold), std::move(held_out));
-    report(num_steps);
+    if (progress) progress(num_steps, num_steps);
     return result;
   }
 
@@ -124,8 +123,8 @@ class WordTrainer {
     words.erase(std::unique(words.begin(), words.end()), words.end());
     std::vector<std::vector<StreamFrames>> of_samples(fillers.size());
     detail::parallel_for(fillers.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-      const TrimmedWord word =
-          augmentation_.trim(fillers[i], detail::sample_name(fillers[i], "fillers", i));
+      const detail::TrainingWord word =
+          augmentation_.read(fillers[i], detail::sample_name(fillers[i], "fillers", i));
       // Augmented as the vocabulary is, so that neither of the two fits noise or a voice better.
       if (word.has_speech()) of_samples[i] = augmentation_.copies(word, i);
     });
@@ -159,14 +158,14 @@ class WordTrainer {
     std::vector<std::vector<float>> words(samples.size());
     std::vector<PreparedSample> made(samples.size());
     detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-      TrimmedWord word =
-          augmentation_.trim(samples[i], detail::sample_name(samples[i], "samples", i));
+      detail::TrainingWord word =
+          augmentation_.read(samples[i], detail::sample_name(samples[i], "samples", i));
       if (!word.has_speech()) return;
       made[i].label = label_index(labels_, samples[i].label);
       made[i].group = samples[i].group;
       made[i].copies = augmentation_.copies(word, i);
-      made[i].window = std::move(word.window);
-      words[i] = std::move(word.samples);
+      made[i].window = std::move(word.word.window);
+      words[i] = std::move(word.word.samples);
     });
     add_non_words(samples, words, &made);
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -293,12 +292,10 @@ class WordTrainer {
     return all;
   }
 
-  // What is judged of a word held out. How far noise takes a word from its fillers differs between
-  // cepstra and vectors, and how far it takes words to one another between these and the network:
-  // with either, the noisy copies are judged too.
+  // What is judged of a word held out: itself, and its noisy copies, which noise takes away from
+  // its models and its fillers.
   [[nodiscard]] std::vector<const StreamFrames*> judged_copies(const PreparedSample& p) const {
     std::vector<const StreamFrames*> result{&p.copies.front()};
-    if (!has_vectors() && !has_network()) return result;
     const auto num_noisy = static_cast<std::size_t>(options_.num_noisy_copies);
     for (std::size_t i = p.copies.size() - num_noisy; i < p.copies.size(); ++i)
       result.push_back(&p.copies[i]);
@@ -334,12 +331,20 @@ class WordTrainer {
     return scorer;
   }
 
+  // Of the network without a fold. Those that only judge how far networks are to be trusted take
+  // half the time.
+  [[nodiscard]] int num_epochs(int fold) const {
+    if (!has_network()) return 0;
+    const int all = options_.network.num_epochs;
+    return fold == kNoFold ? all : (all + 1) / 2;
+  }
+
   [[nodiscard]] NetworkTraining network_without(int fold) const {
     NetworkTraining result;
     result.options = options_.network;
     result.options.seed += options_.seed;
-    // Networks that only judge how far networks are to be trusted take half the time.
-    if (fold != kNoFold) result.options.num_epochs = (result.options.num_epochs + 1) / 2;
+    result.options.num_epochs = num_epochs(fold);
+    result.progress = [this](int) { step_done_(); };
     std::vector<const MatrixF*> windows;
     for (const PreparedSample& p : prepared_) {
       if (p.fold == fold) continue;
@@ -358,61 +363,35 @@ class WordTrainer {
                         [](const auto& list) { return list.empty(); });
   }
 
-  void score_fold(int fold, const MultiStreamScorer& scorer, HeldOutFolds* held_out) const {
+  void score_fold(int fold, const MultiStreamScorer& scorer, detail::HeldOutWords* held_out) const {
     std::vector<const PreparedSample*> left_out;
     for (const PreparedSample& p : prepared_) {
       if (p.fold == fold) left_out.push_back(&p);
     }
-    std::vector<HeldOutFolds> found(left_out.size());
+    std::vector<detail::HeldOutWords> found(left_out.size());
     detail::parallel_for(left_out.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
       score_sample(*left_out[i], scorer, &found[i]);
     });
-    for (HeldOutFolds& one : found) held_out->append(std::move(one));
+    for (detail::HeldOutWords& one : found) held_out->append(std::move(one));
   }
 
   void score_sample(const PreparedSample& p, const MultiStreamScorer& scorer,
-                    HeldOutFolds* held_out) const {
-    for (const StreamFrames* copy : judged_copies(p)) score_copy(*copy, p.label, scorer, held_out);
-    for (const NonWord& n : p.non_words) {
-      held_out->examples.push_back(
-          {WordVerifier::features(scorer, n.frames, scorer.scores(n.frames)), n.kind});
-    }
+                    detail::HeldOutWords* held_out) const {
+    for (const StreamFrames* copy : judged_copies(p))
+      held_out->add_word(*copy, p.label, copy == &p.copies.front(), scorer);
+    for (const NonWord& n : p.non_words) held_out->add_non_word(n.frames, n.kind, scorer);
   }
 
-  static void score_copy(const StreamFrames& frames, int label, const MultiStreamScorer& scorer,
-                         HeldOutFolds* held_out) {
-    using Kind = VerifierExample::Kind;
-    const VectorF scores = scorer.scores(frames);
-    Eigen::Index best = 0;
-    scores.maxCoeff(&best);
-    const VectorD features = WordVerifier::features(scorer, frames, scores);
-    held_out->decisions.push_back({scores, label, 0});
-    held_out->features.push_back(features);
-    if (best == label) held_out->examples.push_back({features, Kind::word});
-    if (scores.size() > 2) {
-      held_out->others.push_back(WordVerifier::features(scorer, frames, scores, label));
-      held_out->examples.push_back({held_out->others.back(), Kind::other_word});
-    }
-  }
-
-  [[nodiscard]] WordRecognizer assemble(MultiStreamScorer scorer, HeldOutFolds held_out) const {
-    WordVerifier verifier =
-        WordVerifier::fit(held_out.examples, WordVerifier::num_filler_features(scorer));
-    for (std::size_t i = 0; i < held_out.decisions.size(); ++i)
-      held_out.decisions[i].score = verifier.verification_score(held_out.features[i]);
-    RejectionRates rates;
-    rates.false_reject = options_.false_reject_rate;
-    std::vector<float> others;
-    if (has_vectors()) {
-      rates.max_false_reject = options_.embedding_max_false_reject_rate;
-      rates.false_accept = options_.embedding_false_accept_rate;
-      for (const VectorD& features : held_out.others)
-        others.push_back(verifier.verification_score(features));
-    }
-    const Calibration calibration = Calibration::fit(held_out.decisions, rates, std::move(others));
-    return {options_,          labels_,
-            std::move(scorer), std::move(verifier),
-            calibration,       augmentation_.front_end().embedding()};
+  [[nodiscard]] WordRecognizer assemble(MultiStreamScorer scorer,
+                                        detail::HeldOutWords held_out) const {
+    detail::Judgement judgement = held_out.judge(options_, scorer);
+    return {options_,
+            labels_,
+            std::move(scorer),
+            std::move(judgement.verifier),
+            judgement.calibration,
+            augmentation_.front_end().embedding(),
+            std::move(judgement.report)};
   }
 
   WordRecognizerOptions options_;
@@ -421,6 +400,7 @@ class WordTrainer {
   detail::NonWords non_words_;
   std::size_t source_step_;
   StopCheck should_stop_;
+  std::function<void()> step_done_;
   std::shared_ptr<const detail::TrainedFillers> fillers_ =
       std::make_shared<const detail::TrainedFillers>();
   double vector_weight_ = 1;
@@ -438,6 +418,7 @@ WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
   validate(options);
   WordRecognizerOptions used = options;
   used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);
+  used.num_mixtures = training_mixtures(samples, options.num_mixtures);
   return WordTrainer(samples, used, embedding, should_stop).run(samples, fillers, progress);
 }
 

@@ -20,6 +20,7 @@ from hri.io import ModelFile
 from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
+from hri.recognition.held_out_report import HeldOutReport
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
 from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.loading import load_native
@@ -61,6 +62,8 @@ class WordRecognizer(Recognizer):
     threshold : float
         ``Decision.score`` from which a word is recognised: what training found to reject the share
         ``false_reject_rate`` of right words.
+    held_out : HeldOutReport or None
+        What training saw on people held out.
 
     Examples
     --------
@@ -278,6 +281,12 @@ class WordRecognizer(Recognizer):
     def threshold(self) -> float:
         """Score from which a word is recognised."""
         return float(self._trained.threshold)
+
+    @property
+    def held_out(self) -> HeldOutReport | None:
+        """What training saw on people held out; None where none could be, and after a word was added or removed."""
+        found = self._trained.held_out
+        return None if found is None else HeldOutReport.from_native(found, tuple(str(c) for c in self.classes_))
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, embedding: SpeechEmbedding | None = None) -> WordRecognizer:

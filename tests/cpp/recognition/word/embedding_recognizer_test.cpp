@@ -65,8 +65,6 @@ TEST_P(EmbeddingRecognizer, TheEmbeddingVotes) {
   const WordRecognizer recognizer = trained(both(GetParam()));
   WordRecognizerOptions alone = both(GetParam());
   alone.front_end = FrontEndKind::cepstra;
-  alone.min_snr_db = alone.embedding_min_snr_db;
-  alone.max_snr_db = alone.embedding_max_snr_db;
   const Fillers others = fillers();
   const WordRecognizer cepstra =
       WordRecognizer::train(tone_clips().samples, alone, {}, {}, others.samples);

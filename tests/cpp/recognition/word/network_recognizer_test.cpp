@@ -75,6 +75,20 @@ TEST_P(NetworkRecognizer, LoadsWhatItSavedToTheBit) {
 INSTANTIATE_TEST_SUITE_P(, NetworkRecognizer,
                          ::testing::Values(FrontEndKind::cepstra, FrontEndKind::both));
 
+TEST(NetworkWords, EveryEpochIsAStepOfTraining) {
+  std::vector<int> steps;
+  int total = 0;
+  const auto report = [&](int done, int of) {
+    steps.push_back(done);
+    total = of;
+  };
+  WordRecognizer::train(tone_clips().samples, with_network(), report);
+  // Features, three folds of half the epochs, and what is kept.
+  EXPECT_EQ(total, 1 + 3 * (1 + 10) + 1 + 20);
+  ASSERT_EQ(steps.size(), static_cast<std::size_t>(total) + 1);
+  for (int i = 0; i <= total; ++i) EXPECT_EQ(steps[static_cast<std::size_t>(i)], i);
+}
+
 TEST(NetworkWords, WordsAreAddedAndRemoved) {
   const WordRecognizer recognizer = trained();
   const std::vector<float> flat = tone(700, 0, 90);

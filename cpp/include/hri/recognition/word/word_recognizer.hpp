@@ -20,6 +20,7 @@
 #include "hri/models/sequence_scorer.hpp"
 #include "hri/recognition/calibration.hpp"
 #include "hri/recognition/decision.hpp"
+#include "hri/recognition/held_out_report.hpp"
 #include "hri/recognition/training.hpp"
 #include "hri/recognition/word/word_front_end.hpp"
 #include "hri/recognition/word/word_verifier.hpp"
@@ -36,6 +37,7 @@ constexpr auto enum_names(FrontEndKind) { return std::array{"cepstra", "both"}; 
 /// The fields of SequenceModelOptions are those of the models trained on each stream.
 struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   WordRecognizerOptions() {
+    num_mixtures = 0;
     cepstra.sample_rate_hz = 0;
     activity.padding_ms = 60;
   }
@@ -49,11 +51,9 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   int num_vtlp_factors = 3;
   double vtlp_step = 0.08;
   int num_noisy_copies = 2;
-  double min_snr_db = 10;
-  double max_snr_db = 25;
-  double false_reject_rate = 0.02;
-  double embedding_min_snr_db = 0;
-  double embedding_max_snr_db = 20;
+  double min_snr_db = 0;
+  double max_snr_db = 20;
+  double false_reject_rate = 0.05;
   double embedding_weight = 0;
   double embedding_penalty = 100;
   double embedding_shrinkage = 0.8;
@@ -93,12 +93,7 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
     v("max_snr_db", o.max_snr_db, within(-20, 100), "largest; each copy has its own, at random",
       formerly("noise_high_db"));
     v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
-      "share of correct held-out words that the threshold may reject");
-    v("embedding_min_snr_db", o.embedding_min_snr_db, within(-20, 100),
-      "front_end both: in place of min_snr_db; the embedding stands more noise, and learns from "
-      "it");
-    v("embedding_max_snr_db", o.embedding_max_snr_db, within(-20, 100),
-      "front_end both: in place of max_snr_db");
+      "share of correct held-out words, noisy ones included, that the threshold may reject");
     v("embedding_weight", o.embedding_weight, within(0, 1000000),
       "front_end both: factor on the log posteriors by the speech embedding, which join the scores "
       "of the cepstra; 0: chosen on words of speakers held out");
@@ -109,9 +104,7 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
     v("embedding_false_accept_rate", o.embedding_false_accept_rate, within(0, 1),
       "front_end both: share of other words that the threshold may accept, if it can be met");
     v("embedding_max_false_reject_rate", o.embedding_max_false_reject_rate, within(0, 0.5),
-      "front_end both: share of correct held-out words, noisy ones included, that the threshold "
-      "may "
-      "reject to that end");
+      "front_end both: share of correct held-out words that the threshold may reject to that end");
     v("use_network", o.use_network, any_value,
       "a small network of log mel energies, trained on the same words, votes too: for many "
       "speakers");
@@ -149,7 +142,8 @@ class HRI_API WordRecognizer {
   /// scorer, for options out of range, and as WordFrontEnd does for the embedding.
   WordRecognizer(const WordRecognizerOptions& options, std::vector<std::string> labels,
                  MultiStreamScorer scorer, WordVerifier verifier, const Calibration& calibration,
-                 std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
+                 std::shared_ptr<const SpeechEmbedding> embedding = nullptr,
+                 HeldOutReport held_out = {});
 
   /// Trains one model a label. `fillers` are words outside the vocabulary, of any speakers: their
   /// models serve rejection alone (kind hmm; ptbhmm leaves them aside). Throws InvalidArgument for
@@ -165,8 +159,9 @@ class HRI_API WordRecognizer {
 
   /// This recogniser with one word more, trained on few recordings (from one on, all of one label)
   /// and on the statistics of the words it has. Their models stay as they are, to the bit, and so
-  /// does the calibration. Throws InvalidArgument for no recording, one without speech (names it),
-  /// labels that differ or that the recogniser has already; Interrupted.
+  /// does the calibration; held_out(), which knows nothing of the new word, is left out. Throws
+  /// InvalidArgument for no recording, one without speech (names it), labels that differ or that
+  /// the recogniser has already; Interrupted.
   [[nodiscard]] WordRecognizer with_word(const std::vector<WordSample>& samples,
                                          const StopCheck& should_stop = {}) const;
   /// The same without a word. Throws InvalidArgument for a label that it does not have, or where
@@ -207,6 +202,9 @@ class HRI_API WordRecognizer {
   [[nodiscard]] const MultiStreamScorer& scorer() const { return scorer_; }
   [[nodiscard]] const WordVerifier& verifier() const { return verifier_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  /// On words of people held out in training, as recorded; empty where none could be held out, and
+  /// after a word was added or removed.
+  [[nodiscard]] const HeldOutReport& held_out() const { return held_out_; }
 
  private:
   static WordRecognizer read(const ModelFile& file,
@@ -218,6 +216,7 @@ class HRI_API WordRecognizer {
   MultiStreamScorer scorer_;
   WordVerifier verifier_;
   Calibration calibration_;
+  HeldOutReport held_out_;
 };
 
 }  // namespace hri

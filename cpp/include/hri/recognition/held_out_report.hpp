@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What training saw on people held out: how often a recogniser is right, what its threshold rejects
+// and accepts, and which of its classes it confuses.
+#pragma once
+
+#include <vector>
+
+#include "hri/core/export.hpp"
+#include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
+
+namespace hri {
+
+/// Two classes that are taken for one another.
+struct ConfusedPair {
+  int first = 0;  ///< class numbers, first < second
+  int second = 0;
+  double rate = 0;  ///< share of the samples decided for either of the two that are the other
+};
+
+struct HRI_API HeldOutReport {
+  /// Pairs below are not named by confused_pairs().
+  static constexpr double kMinConfusionRate = 0.1;
+  static constexpr int kMinConfusions = 2;
+
+  /// [true class][best class]: how many samples, whether rejected or not. Empty where nothing could
+  /// be held out.
+  MatrixF confusion;
+  double false_reject_rate = 0;  ///< share of right decisions below the threshold
+  double false_accept_rate = 0;  ///< share of words treated as unknown that are above it
+
+  [[nodiscard]] bool empty() const { return confusion.size() == 0; }
+  [[nodiscard]] int num_samples() const { return static_cast<int>(confusion.sum()); }
+  /// Share of samples whose best class is the true one; 0 if empty.
+  [[nodiscard]] double accuracy() const;
+  /// In falling order of their rate.
+  [[nodiscard]] std::vector<ConfusedPair> confused_pairs() const;
+
+  /// Writes nothing if empty.
+  void write(ModelFile& file) const;
+  /// Throws FormatError for what no training writes; empty where the file has none.
+  static HeldOutReport read(const ModelFile& file, int num_classes);
+};
+
+}  // namespace hri

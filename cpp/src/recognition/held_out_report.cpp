@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/held_out_report.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "hri/core/error.hpp"
+
+namespace hri {
+namespace {
+
+constexpr const char* kConfusion = "held_out.confusion";
+constexpr const char* kFalseRejects = "held_out.false_reject_rate";
+constexpr const char* kFalseAccepts = "held_out.false_accept_rate";
+constexpr float kMaxCount = 1e7F;
+
+double rate_in(const ModelFile& file, const char* field) {
+  const double value = file.number(field);
+  if (value >= 0 && value <= 1) return value;
+  fail(ErrorKind::format,
+       file.name() + ": field '" + field + "' must lie in 0..1, got " + file.text(field));
+}
+
+}  // namespace
+
+double HeldOutReport::accuracy() const {
+  const double total = static_cast<double>(confusion.sum());
+  return total > 0 ? static_cast<double>(confusion.trace()) / total : 0;
+}
+
+std::vector<ConfusedPair> HeldOutReport::confused_pairs() const {
+  std::vector<ConfusedPair> pairs;
+  for (Eigen::Index a = 0; a < confusion.rows(); ++a) {
+    for (Eigen::Index b = a + 1; b < confusion.cols(); ++b) {
+      const float wrong = confusion(a, b) + confusion(b, a);
+      if (wrong < static_cast<float>(kMinConfusions)) continue;
+      const float all = wrong + confusion(a, a) + confusion(b, b);
+      const double rate = static_cast<double>(wrong) / static_cast<double>(all);
+      if (rate >= kMinConfusionRate)
+        pairs.push_back({static_cast<int>(a), static_cast<int>(b), rate});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const auto& a, const auto& b) { return a.rate > b.rate; });
+  return pairs;
+}
+
+void HeldOutReport::write(ModelFile& file) const {
+  if (empty()) return;
+  file.set_matrix(kConfusion, ConstMatrixRefF(confusion));
+  file.set_number(kFalseRejects, false_reject_rate);
+  file.set_number(kFalseAccepts, false_accept_rate);
+}
+
+HeldOutReport HeldOutReport::read(const ModelFile& file, int num_classes) {
+  HeldOutReport report;
+  if (!file.has(kConfusion)) return report;
+  report.confusion = file.matrix_f(kConfusion);
+  const bool fits = report.confusion.rows() == num_classes &&
+                    report.confusion.cols() == num_classes &&
+                    (report.confusion.array() >= 0).all() &&
+                    (report.confusion.array() <= kMaxCount).all() && report.confusion.sum() > 0;
+  if (!fits) {
+    fail(ErrorKind::format, file.name() + ": field '" + kConfusion + "' must be " +
+                                std::to_string(num_classes) + " x " + std::to_string(num_classes) +
+                                " counts");
+  }
+  report.false_reject_rate = rate_in(file, kFalseRejects);
+  report.false_accept_rate = rate_in(file, kFalseAccepts);
+  return report;
+}
+
+}  // namespace hri

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "recognition/word/held_out_words.hpp"
+
+#include <iterator>
+#include <utility>
+
+namespace hri::detail {
+namespace {
+
+template <class T>
+void move_behind(std::vector<T>* list, std::vector<T>* more) {
+  std::move(more->begin(), more->end(), std::back_inserter(*list));
+}
+
+double share(int count, int of) { return of > 0 ? static_cast<double>(count) / of : 0.0; }
+
+Eigen::Index argmax(const VectorF& scores) {
+  Eigen::Index best = 0;
+  scores.maxCoeff(&best);
+  return best;
+}
+
+}  // namespace
+
+void HeldOutWords::add_word(const StreamFrames& frames, int label, bool as_recorded,
+                            const MultiStreamScorer& scorer) {
+  using Kind = VerifierExample::Kind;
+  const VectorF scores = scorer.scores(frames);
+  const VectorD features = WordVerifier::features(scorer, frames, scores);
+  decisions_.push_back({scores, label, 0});
+  features_.push_back(features);
+  as_recorded_.push_back(as_recorded);
+  if (argmax(scores) == label) examples_.push_back({features, Kind::word});
+  // Of two words neither can be left out.
+  if (scores.size() <= 2) return;
+  as_unknown_.push_back(WordVerifier::features(scorer, frames, scores, label));
+  examples_.push_back({as_unknown_.back(), Kind::other_word});
+}
+
+void HeldOutWords::add_non_word(const StreamFrames& frames, VerifierExample::Kind kind,
+                                const MultiStreamScorer& scorer) {
+  examples_.push_back({WordVerifier::features(scorer, frames, scorer.scores(frames)), kind});
+}
+
+void HeldOutWords::append(HeldOutWords more) {
+  move_behind(&decisions_, &more.decisions_);
+  move_behind(&features_, &more.features_);
+  as_recorded_.insert(as_recorded_.end(), more.as_recorded_.begin(), more.as_recorded_.end());
+  move_behind(&as_unknown_, &more.as_unknown_);
+  move_behind(&examples_, &more.examples_);
+}
+
+Judgement HeldOutWords::judge(const WordRecognizerOptions& options,
+                              const MultiStreamScorer& scorer) {
+  Judgement result;
+  result.verifier = WordVerifier::fit(examples_, WordVerifier::num_filler_features(scorer));
+  for (std::size_t i = 0; i < decisions_.size(); ++i)
+    decisions_[i].score = result.verifier.verification_score(features_[i]);
+  std::vector<float> others;
+  others.reserve(as_unknown_.size());
+  for (const VectorD& features : as_unknown_)
+    others.push_back(result.verifier.verification_score(features));
+  RejectionRates rates;
+  rates.false_reject = options.false_reject_rate;
+  if (options.front_end == FrontEndKind::both) {
+    rates.max_false_reject = options.embedding_max_false_reject_rate;
+    rates.false_accept = options.embedding_false_accept_rate;
+  } else {
+    rates.max_false_reject = options.false_reject_rate;
+  }
+  result.calibration = Calibration::fit(decisions_, rates, others);
+  result.report = report(others, result.calibration);
+  return result;
+}
+
+// Of words as they were recorded, whatever the calibration learned from besides.
+HeldOutReport HeldOutWords::report(const std::vector<float>& others,
+                                   const Calibration& calibration) const {
+  HeldOutReport result;
+  const auto threshold = static_cast<float>(calibration.threshold());
+  int num_right = 0;
+  int num_rejected = 0;
+  int num_others = 0;
+  int num_accepted = 0;
+  for (std::size_t i = 0; i < decisions_.size(); ++i) {
+    if (!as_recorded_[i]) continue;
+    const HeldOut& decision = decisions_[i];
+    if (result.empty())
+      result.confusion = MatrixF::Zero(decision.scores.size(), decision.scores.size());
+    const Eigen::Index best = argmax(decision.scores);
+    result.confusion(decision.truth, best) += 1;
+    if (best == decision.truth) {
+      ++num_right;
+      if (decision.score < threshold) ++num_rejected;
+    }
+    if (i >= others.size()) continue;
+    ++num_others;
+    if (others[i] >= threshold) ++num_accepted;
+  }
+  result.false_reject_rate = share(num_rejected, num_right);
+  result.false_accept_rate = share(num_accepted, num_others);
+  return result;
+}
+
+}  // namespace hri::detail
