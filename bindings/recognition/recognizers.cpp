@@ -130,6 +130,7 @@ void bind_held_out_report(py::module_& m) {
                     "Share of the samples decided for either that are the other.");
   py::class_<hri::HeldOutReport>(
       m, "HeldOutReport", "What training saw on people held out; hri.HeldOutReport wraps it.")
+      .def_readonly("labels", &hri::HeldOutReport::labels, "Of the classes in training.")
       .def_property_readonly(
           "confusion",
           [](const hri::HeldOutReport& self) { return hri_bind::to_array(self.confusion); },

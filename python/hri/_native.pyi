@@ -5239,6 +5239,11 @@ class HeldOutReport:
         """
         Share of right decisions below the threshold.
         """
+    @property
+    def labels(self) -> list[str]:
+        """
+        Of the classes in training.
+        """
 
 class SequenceModelOptions:
     """

@@ -39,7 +39,7 @@ def test_train_says_what_it_measured_on_people_held_out(
     assert main(["info", str(path)]) == 0
     assert f"held_out accuracy\t{found.accuracy}" in capsys.readouterr().out
     words.add_word("3", [hri.read_audio(spoken / "1_low_0.wav")])
-    assert words.held_out is None
+    assert words.held_out is not None and words.held_out.labels == ("1", "2")
 
 
 def test_pairs_that_are_confused_are_named() -> None:

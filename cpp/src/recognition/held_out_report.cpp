@@ -10,6 +10,7 @@
 namespace hri {
 namespace {
 
+constexpr const char* kLabels = "held_out.labels";
 constexpr const char* kConfusion = "held_out.confusion";
 constexpr const char* kFalseRejects = "held_out.false_reject_rate";
 constexpr const char* kFalseAccepts = "held_out.false_accept_rate";
@@ -46,25 +47,41 @@ std::vector<ConfusedPair> HeldOutReport::confused_pairs() const {
   return pairs;
 }
 
+HeldOutReport HeldOutReport::without(const std::string& label) const {
+  const auto found = std::find(labels.begin(), labels.end(), label);
+  if (found == labels.end()) return *this;
+  HeldOutReport result = *this;
+  const Eigen::Index at = found - labels.begin();
+  const Eigen::Index behind = confusion.rows() - at - 1;
+  result.labels.erase(result.labels.begin() + at);
+  result.confusion.resize(at + behind, at + behind);
+  result.confusion << confusion.topLeftCorner(at, at), confusion.topRightCorner(at, behind),
+      confusion.bottomLeftCorner(behind, at), confusion.bottomRightCorner(behind, behind);
+  if (result.confusion.sum() > 0) return result;
+  return {};
+}
+
 void HeldOutReport::write(ModelFile& file) const {
   if (empty()) return;
+  file.set_text_list(kLabels, labels);
   file.set_matrix(kConfusion, ConstMatrixRefF(confusion));
   file.set_number(kFalseRejects, false_reject_rate);
   file.set_number(kFalseAccepts, false_accept_rate);
 }
 
-HeldOutReport HeldOutReport::read(const ModelFile& file, int num_classes) {
+HeldOutReport HeldOutReport::read(const ModelFile& file) {
   HeldOutReport report;
   if (!file.has(kConfusion)) return report;
+  report.labels = file.text_list(kLabels);
   report.confusion = file.matrix_f(kConfusion);
+  const auto num_classes = static_cast<Eigen::Index>(report.labels.size());
   const bool fits = report.confusion.rows() == num_classes &&
                     report.confusion.cols() == num_classes &&
                     (report.confusion.array() >= 0).all() &&
                     (report.confusion.array() <= kMaxCount).all() && report.confusion.sum() > 0;
   if (!fits) {
-    fail(ErrorKind::format, file.name() + ": field '" + kConfusion + "' must be " +
-                                std::to_string(num_classes) + " x " + std::to_string(num_classes) +
-                                " counts");
+    fail(ErrorKind::format, file.name() + ": field '" + kConfusion + "' must be counts, one row " +
+                                "and one column for each of '" + kLabels + "'");
   }
   report.false_reject_rate = rate_in(file, kFalseRejects);
   report.false_accept_rate = rate_in(file, kFalseAccepts);

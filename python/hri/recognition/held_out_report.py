@@ -37,7 +37,7 @@ class HeldOutReport:
     Attributes
     ----------
     labels : tuple of str
-        Sorted.
+        Sorted, as they were in training: without words added since.
     confusion : ndarray of int, shape (num_labels, num_labels)
         How many recordings of the label of the row were most like that of the column, whether rejected or not.
     false_reject_rate : float
@@ -56,8 +56,9 @@ class HeldOutReport:
     confused_pairs: tuple[ConfusedPair, ...]
 
     @classmethod
-    def from_native(cls, native: _native.HeldOutReport, labels: tuple[str, ...]) -> HeldOutReport:
+    def from_native(cls, native: _native.HeldOutReport) -> HeldOutReport:
         """Wrap what C++ counted."""
+        labels = tuple(native.labels)
         return cls(
             labels,
             np.asarray(native.confusion).astype(np.int64),

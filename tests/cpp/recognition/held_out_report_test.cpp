@@ -15,6 +15,7 @@ using testing_data::tone_clips;
 
 HeldOutReport three_classes() {
   HeldOutReport report;
+  report.labels = {"go", "no", "up"};
   report.confusion.resize(3, 3);
   report.confusion << 8, 2, 0,  //
       1, 9, 0,                  //
@@ -49,16 +50,24 @@ TEST(HeldOutReport, NamesPairsThatAreConfusedOftenAndMoreThanOnce) {
   EXPECT_TRUE(once.confused_pairs().empty());
 }
 
+TEST(HeldOutReport, LeavesOutALabel) {
+  const HeldOutReport report = three_classes().without("no");
+  EXPECT_EQ(report.labels, (std::vector<std::string>{"go", "up"}));
+  MatrixF left(2, 2);
+  left << 8, 0, 1, 19;
+  EXPECT_EQ(report.confusion, left);
+  EXPECT_EQ(three_classes().without("left").confusion, three_classes().confusion);
+}
+
 TEST(HeldOutReport, ReadsWhatItWroteAndNothingElse) {
   ModelFile file;
   HeldOutReport().write(file);
-  EXPECT_TRUE(HeldOutReport::read(file, 3).empty());
+  EXPECT_TRUE(HeldOutReport::read(file).empty());
   three_classes().write(file);
-  const HeldOutReport again = HeldOutReport::read(file, 3);
+  const HeldOutReport again = HeldOutReport::read(file);
   EXPECT_EQ(again.confusion, three_classes().confusion);
   EXPECT_EQ(again.false_reject_rate, 0.25);
   EXPECT_EQ(again.false_accept_rate, 0.5);
-  EXPECT_THROW(HeldOutReport::read(file, 4), FormatError);
   const auto damaged = [&](const auto& damage) {
     HeldOutReport report = three_classes();
     damage(&report);
@@ -66,14 +75,15 @@ TEST(HeldOutReport, ReadsWhatItWroteAndNothingElse) {
     report.write(bad);
     return bad;
   };
-  EXPECT_THROW(HeldOutReport::read(damaged([](HeldOutReport* r) { r->confusion(0, 0) = -1; }), 3),
+  EXPECT_THROW(HeldOutReport::read(damaged([](HeldOutReport* r) { r->confusion(0, 0) = -1; })),
                FormatError);
-  EXPECT_THROW(
-      HeldOutReport::read(damaged([](HeldOutReport* r) { r->confusion(0, 0) = 1e30F; }), 3),
-      FormatError);
-  EXPECT_THROW(HeldOutReport::read(damaged([](HeldOutReport* r) { r->confusion.setZero(); }), 3),
+  EXPECT_THROW(HeldOutReport::read(damaged([](HeldOutReport* r) { r->confusion(0, 0) = 1e9F; })),
                FormatError);
-  EXPECT_THROW(HeldOutReport::read(damaged([](HeldOutReport* r) { r->false_accept_rate = 2; }), 3),
+  EXPECT_THROW(HeldOutReport::read(damaged([](HeldOutReport* r) { r->labels.pop_back(); })),
+               FormatError);
+  EXPECT_THROW(HeldOutReport::read(damaged([](HeldOutReport* r) { r->confusion.setZero(); })),
+               FormatError);
+  EXPECT_THROW(HeldOutReport::read(damaged([](HeldOutReport* r) { r->false_accept_rate = 2; })),
                FormatError);
 }
 
@@ -88,8 +98,10 @@ TEST(HeldOutReport, CountsEveryRecordingOnceThatTrainingHeldOut) {
       ModelFile::parse(recognizer.to_model_file().serialise(), "x"));
   EXPECT_EQ(loaded.held_out().confusion, report.confusion);
   const std::vector<float> audio = testing_data::tone(700, 100, 60);
-  EXPECT_TRUE(
-      recognizer.with_word({{audio, testing_data::kRateHz, "flat", ""}}).held_out().empty());
+  const WordRecognizer more = recognizer.with_word({{audio, testing_data::kRateHz, "flat", ""}});
+  EXPECT_EQ(more.held_out().labels, report.labels);
+  EXPECT_EQ(more.without_word("fall").held_out().num_samples(),
+            static_cast<int>(report.confusion(1, 1)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 // and accepts, and which of its classes it confuses.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "hri/core/export.hpp"
@@ -25,6 +26,7 @@ struct HRI_API HeldOutReport {
   static constexpr double kMinConfusionRate = 0.1;
   static constexpr int kMinConfusions = 2;
 
+  std::vector<std::string> labels;  ///< of the classes, as they were in training
   /// [true class][best class]: how many samples, whether rejected or not. Empty where nothing could
   /// be held out.
   MatrixF confusion;
@@ -38,10 +40,13 @@ struct HRI_API HeldOutReport {
   /// In falling order of their rate.
   [[nodiscard]] std::vector<ConfusedPair> confused_pairs() const;
 
+  /// Without the counts of a label, if it has any; the rates stay.
+  [[nodiscard]] HeldOutReport without(const std::string& label) const;
+
   /// Writes nothing if empty.
   void write(ModelFile& file) const;
   /// Throws FormatError for what no training writes; empty where the file has none.
-  static HeldOutReport read(const ModelFile& file, int num_classes);
+  static HeldOutReport read(const ModelFile& file);
 };
 
 }  // namespace hri

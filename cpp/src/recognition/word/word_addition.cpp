@@ -68,7 +68,8 @@ WordRecognizer WordRecognizer::with_word(const std::vector<WordSample>& samples,
           std::move(scorer),
           verifier_,
           calibration_.with_class(index),
-          front_end_.embedding()};
+          front_end_.embedding(),
+          held_out_};
 }
 
 WordRecognizer WordRecognizer::without_word(const std::string& label) const {
@@ -84,7 +85,8 @@ WordRecognizer WordRecognizer::without_word(const std::string& label) const {
           scorer_.without_class(index),
           verifier_,
           calibration_.without_class(index),
-          front_end_.embedding()};
+          front_end_.embedding(),
+          held_out_.without(label)};
 }
 
 }  // namespace hri

@@ -75,7 +75,7 @@ WordRecognizer WordRecognizer::read(const ModelFile& file,
                               static_cast<int>(labels.size()), front_end.num_features());
   WordVerifier verifier = WordVerifier::read(file, scorer);
   const Calibration calibration = Calibration::read(file);
-  HeldOutReport held_out = HeldOutReport::read(file, static_cast<int>(labels.size()));
+  HeldOutReport held_out = HeldOutReport::read(file);
   file.require_all_read();
   return {options,     std::move(labels),    std::move(scorer),  std::move(verifier),
           calibration, std::move(embedding), std::move(held_out)};

@@ -35,8 +35,6 @@ WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
           "the scorer and the front end differ in their embedding");
   require((scorer_.network() != nullptr) == options_.use_network,
           "the scorer and the options differ in their network");
-  require(held_out_.empty() || held_out_.confusion.rows() == scorer_.num_classes(),
-          "the report on words held out and the labels differ in number");
 }
 
 WordRecognizer WordRecognizer::with_scorer(MultiStreamScorer scorer) const {

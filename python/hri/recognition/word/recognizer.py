@@ -284,9 +284,9 @@ class WordRecognizer(Recognizer):
 
     @property
     def held_out(self) -> HeldOutReport | None:
-        """What training saw on people held out; None where none could be, and after a word was added or removed."""
+        """What training saw on people held out, of the words it had then; None where none could be held out."""
         found = self._trained.held_out
-        return None if found is None else HeldOutReport.from_native(found, tuple(str(c) for c in self.classes_))
+        return None if found is None else HeldOutReport.from_native(found)
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, embedding: SpeechEmbedding | None = None) -> WordRecognizer:

@@ -159,9 +159,9 @@ class HRI_API WordRecognizer {
 
   /// This recogniser with one word more, trained on few recordings (from one on, all of one label)
   /// and on the statistics of the words it has. Their models stay as they are, to the bit, and so
-  /// does the calibration; held_out(), which knows nothing of the new word, is left out. Throws
-  /// InvalidArgument for no recording, one without speech (names it), labels that differ or that
-  /// the recogniser has already; Interrupted.
+  /// does the calibration; held_out() knows nothing of the new word. Throws InvalidArgument for no
+  /// recording, one without speech (names it), labels that differ or that the recogniser has
+  /// already; Interrupted.
   [[nodiscard]] WordRecognizer with_word(const std::vector<WordSample>& samples,
                                          const StopCheck& should_stop = {}) const;
   /// The same without a word. Throws InvalidArgument for a label that it does not have, or where
@@ -202,8 +202,8 @@ class HRI_API WordRecognizer {
   [[nodiscard]] const MultiStreamScorer& scorer() const { return scorer_; }
   [[nodiscard]] const WordVerifier& verifier() const { return verifier_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
-  /// On words of people held out in training, as recorded; empty where none could be held out, and
-  /// after a word was added or removed.
+  /// On words of people held out in training, as recorded; empty where none could be held out.
+  /// Words added since are not in it.
   [[nodiscard]] const HeldOutReport& held_out() const { return held_out_; }
 
  private:
