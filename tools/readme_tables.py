@@ -28,9 +28,9 @@ class Line:
 
 ACCURACY = (
     Line("English digits (FSDD), each of 4 speakers held out", "fsdd", {"listening": "alone"}),
-    Line("the same with a pretrained speech embedding (extra `embedding`)", "fsdd-both", {"listening": "alone"}),
+    Line("Hindi digits, the same, with a pretrained speech embedding", "hindi-digits-both", {"listening": "alone"}),
     Line(
-        "40 commands, groups of 4 of 24 speakers held out, embedding and network",
+        "40 commands, 4 of 24 speakers held out, embedding and network",
         "commands-network",
         {"test": "quiet"},
     ),

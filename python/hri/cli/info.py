@@ -63,7 +63,7 @@ def _has_vision() -> bool:
 def _model(path: str) -> dict[str, Any]:
     recognizer = load(path)
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
-    found = {"mode": recognizer.mode, "labels": labels}
+    found: dict[str, Any] = {"mode": recognizer.mode, "labels": labels}
     if isinstance(recognizer, WordRecognizer) and recognizer.held_out is not None:
         found["held_out"] = recognizer.held_out.to_dict()
     return {**found, "options": recognizer.options.as_dict()}

@@ -100,6 +100,7 @@ STUDIES = (
         thins=True,
         sources=WORD_SOURCES,
         folds=True,
+        quick={"front_end": ("cepstra",)},
     ),
     Study(
         "commands-network",
