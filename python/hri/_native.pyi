@@ -5198,7 +5198,7 @@ class UtteranceDecision:
 
 class ConfusedPair:
     """
-    Two classes that are taken for one another.
+    Two classes that are confused with one another.
     """
     @property
     def first(self) -> int:

@@ -15,7 +15,7 @@ from hri import _native
 
 @dataclass(frozen=True)
 class ConfusedPair:
-    """Two labels that are taken for one another.
+    """Two labels that are confused with one another.
 
     Attributes
     ----------

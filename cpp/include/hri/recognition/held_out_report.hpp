@@ -14,7 +14,7 @@
 
 namespace hri {
 
-/// Two classes that are taken for one another.
+/// Two classes that are confused with one another.
 struct ConfusedPair {
   int first = 0;  ///< class numbers, first < second
   int second = 0;
