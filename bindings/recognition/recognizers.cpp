@@ -123,7 +123,8 @@ hri::WordRecognizer train_words(
 }
 
 void bind_held_out_report(py::module_& m) {
-  py::class_<hri::ConfusedPair>(m, "ConfusedPair", "Two classes that are confused with one another.")
+  py::class_<hri::ConfusedPair>(m, "ConfusedPair",
+                                "Two classes that are confused with one another.")
       .def_readonly("first", &hri::ConfusedPair::first, "A class number.")
       .def_readonly("second", &hri::ConfusedPair::second, "A larger one.")
       .def_readonly("rate", &hri::ConfusedPair::rate,
