@@ -102,8 +102,8 @@ check_minimum() {
   "$venv/bin/pip" install --quiet --disable-pip-version-check "cmake==3.22.*" "pybind11==2.12.*" "numpy==1.24.*" \
     "scikit-build-core==0.11.*" pathspec
   PATH=$venv/bin:$PATH "$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation --no-deps . \
-    -C build-dir=build/minimum/build -C cmake.define.HRI_BUILD_VISION=OFF \
-    -C cmake.build-type=Debug -C cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0
+    --config-settings build-dir=build/minimum/build --config-settings cmake.define.HRI_BUILD_VISION=OFF \
+    --config-settings cmake.build-type=Debug --config-settings cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0
   (cd "$venv" && bin/python - <<'PYTHON')
 import numpy as np
 import hri

@@ -11,7 +11,7 @@ tar --exclude=./.venv --exclude=./build --exclude=./hri_demo --exclude=./.git -c
 python=$PWD/.venv/bin/python
 # What is packed and how it installs does not depend on how fast it is.
 "$python" -m pip wheel --quiet --disable-pip-version-check --no-build-isolation --no-deps \
-  -C cmake.build-type=Debug -C cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 --wheel-dir "$work/wheels" "$work/source"
+  --config-settings cmake.build-type=Debug --config-settings cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 --wheel-dir "$work/wheels" "$work/source"
 "$python" -m venv "$work/venv"
 "$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check "$work"/wheels/libhri-*.whl
 
