@@ -189,8 +189,9 @@ def test_a_robot_that_takes_no_commands_is_stopped_and_found_again():
         assert sent[0]["larm_joint_1"] == pytest.approx(0.9, abs=0.01)
 
 
+# Under nohup SIGHUP is ignored, and a program that is started there ignores it, too.
 QUEUE_UNDER_SIGNALS = """
-import sys, time
+import signal, sys, time
 from hri.robot import Trajectory, open_robot, stopped_by_signals
 from hri.robot.simulation.kinematic_backend import KinematicRobot
 
@@ -199,6 +200,7 @@ def slow(robot, positions):
     time.sleep(0.002)
     command(robot, positions)
 KinematicRobot._command = slow
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 nod = Trajectory(["head_joint_2"], 0.5, [[0.0], [0.4], [0.0]])
 with open_robot({backend!r}) as robot, stopped_by_signals(robot) as signals:
     print("moving", flush=True)
