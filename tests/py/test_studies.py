@@ -56,6 +56,11 @@ def test_statistics_are_over_persons() -> None:
     assert found["per_fold"] == {"ann": 0.5, "bob": 0.7, "cem": 0.9}
 
 
+def test_a_single_fold_has_no_spread() -> None:
+    for per_fold, shown in (({"ann": 0.5}, "50.0"), ({"ann": 0.5, "bob": 0.5}, "50.0 ± 0.0")):
+        assert tables.show(tables.statistics(per_fold), Layout()) == shown
+
+
 def test_a_table_spreads_one_axis_over_its_columns() -> None:
     assert tables.table(RESULT, Layout(columns="snr_db")) == [
         ["features", "snr_db 10", "snr_db 20"],

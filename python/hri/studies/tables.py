@@ -52,13 +52,14 @@ def measures_of(rows: Sequence[Row]) -> list[str]:
 
 
 def show(row: Row, layout: Layout, measure: str = "", shown: Pivot | None = None) -> str:
-    """A measurement as "84.0 ± 9.2"; "" where the row has none."""
+    """A measurement as "84.0 ± 9.2", of a single fold as "84.0"; "" where the row has none."""
     name, digits = measure or layout.measure, 1 if shown is None else shown.digits
     mean = row.get(f"{name}_mean")
     if mean is None:
         return ""
     scale = 100.0 if layout.percent else 1.0
-    std = row.get(f"{name}_std") if shown is None or shown.spread else None
+    one_fold = len(row.get("per_fold", ())) == 1
+    std = row.get(f"{name}_std") if not one_fold and (shown is None or shown.spread) else None
     text = f"{scale * mean:.{digits}f}"
     return text if std is None else f"{text} ± {scale * std:.{digits}f}"
 
