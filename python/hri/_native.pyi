@@ -5386,6 +5386,8 @@ class WordRecognizerOptions:
         largest; each copy has its own, at random; -20..100 dB
     false_reject_rate : float, default 0.05
         share of correct held-out words, noisy ones included, that the threshold may reject; 0..0.5
+    num_embedding_copies : int, default 4
+        front_end both: training copies of every word for the embedding alone, with noise added and faster or slower by up to 15 %; 0..20
     embedding_weight : float, default 0.0
         front_end both: factor on the log posteriors by the speech embedding, which join the scores of the cepstra; 0: chosen on words of speakers held out; 0..1000000
     embedding_penalty : float, default 100.0
@@ -5434,6 +5436,7 @@ class WordRecognizerOptions:
         min_snr_db: float = 0.0,
         max_snr_db: float = 20.0,
         false_reject_rate: float = 0.05,
+        num_embedding_copies: int = 4,
         embedding_weight: float = 0.0,
         embedding_penalty: float = 100.0,
         embedding_shrinkage: float = 0.8,
@@ -5582,6 +5585,13 @@ class WordRecognizerOptions:
         """
     @num_codewords.setter
     def num_codewords(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_embedding_copies(self) -> int:
+        """
+        front_end both: training copies of every word for the embedding alone, with noise added and faster or slower by up to 15 %
+        """
+    @num_embedding_copies.setter
+    def num_embedding_copies(self, arg1: typing.Any) -> None: ...
     @property
     def num_mixtures(self) -> int:
         """

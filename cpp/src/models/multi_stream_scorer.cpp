@@ -19,26 +19,12 @@ using Streams = std::vector<std::shared_ptr<const SequenceScorer>>;
 
 std::string prefix_of(std::size_t stream) { return "stream." + std::to_string(stream) + "."; }
 
-std::vector<MatrixF> of_stream(const std::vector<const StreamFrames*>& sequences,
-                               std::size_t stream) {
-  std::vector<MatrixF> result;
-  result.reserve(sequences.size());
-  for (const StreamFrames* frames : sequences) result.push_back((*frames)[stream]);
-  return result;
-}
-
-ClassSequences of_stream(const ClassStreams& sequences, std::size_t stream) {
-  ClassSequences result;
-  result.reserve(sequences.size());
-  for (const auto& list : sequences) result.push_back(of_stream(list, stream));
-  return result;
-}
-
 // Matrix `place` of the sequences that have one.
 std::vector<MatrixF> present(const std::vector<const StreamFrames*>& sequences, std::size_t place) {
   std::vector<MatrixF> result;
+  result.reserve(sequences.size());
   for (const StreamFrames* frames : sequences) {
-    if (frames->size() > place) result.push_back((*frames)[place]);
+    if (frames->size() > place && (*frames)[place].rows() > 0) result.push_back((*frames)[place]);
   }
   return result;
 }
@@ -87,7 +73,7 @@ MultiStreamScorer MultiStreamScorer::train(const ClassStreams& sequences,
   require(fillers.empty() || fillers.size() == num_streams, "fillers needs one list a stream");
   Streams streams;
   for (std::size_t s = 0; s < num_streams; ++s) {
-    streams.push_back(train_sequence_scorer(of_stream(sequences, s), options, should_stop,
+    streams.push_back(train_sequence_scorer(present(sequences, s), options, should_stop,
                                             fillers.empty() ? FillerModels{} : fillers[s]));
   }
   std::shared_ptr<const VectorScorer> of_vectors;
@@ -149,7 +135,7 @@ MultiStreamScorer MultiStreamScorer::adapted(const ClassStreams& sequences,
                                              const AdaptationOptions& options) const {
   Streams streams;
   for (std::size_t s = 0; s < streams_.size(); ++s)
-    streams.push_back(streams_[s]->adapted(of_stream(sequences, s), options));
+    streams.push_back(streams_[s]->adapted(present(sequences, s), options));
   std::shared_ptr<const VectorScorer> moved;
   if (vectors_ != nullptr) {
     moved = std::make_shared<const VectorScorer>(
@@ -165,7 +151,7 @@ MultiStreamScorer MultiStreamScorer::with_class(int index,
   Streams streams;
   for (std::size_t s = 0; s < streams_.size(); ++s) {
     streams.push_back(
-        streams_[s]->with_class(index, of_stream(sequences, s), num_recordings, should_stop));
+        streams_[s]->with_class(index, present(sequences, s), num_recordings, should_stop));
   }
   std::size_t place = streams_.size();
   std::shared_ptr<const VectorScorer> vectors;
@@ -250,7 +236,7 @@ std::vector<FillerModels> train_fillers(const ClassStreams& sequences, int num_s
   result.reserve(static_cast<std::size_t>(num_streams));
   for (int s = 0; s < num_streams; ++s) {
     result.push_back(
-        train_fillers(of_stream(sequences, static_cast<std::size_t>(s)), options, should_stop));
+        train_fillers(present(sequences, static_cast<std::size_t>(s)), options, should_stop));
   }
   return result;
 }

@@ -101,6 +101,7 @@ class WordRecognizerKeywords(TypedDict, total=False):
     min_snr_db: float
     max_snr_db: float
     false_reject_rate: float
+    num_embedding_copies: int
     embedding_weight: float
     embedding_penalty: float
     embedding_shrinkage: float

@@ -17,8 +17,9 @@
 namespace hri {
 
 /// The frames of one sequence, one matrix a stream; behind them a row for the whole sequence, where
-/// there is a VectorScorer, and what the network reads, where there is one. Training sequences that
-/// share those with another one need none of them.
+/// there is a VectorScorer, and what the network reads, where there is one. Training sequences
+/// may lack any of these, which is empty then or, at the end, not there; the first of a class has
+/// all.
 using StreamFrames = std::vector<MatrixF>;
 
 /// Training sequences of every class; pointers, since folds share them.

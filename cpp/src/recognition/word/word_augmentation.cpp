@@ -3,6 +3,7 @@
 #include "recognition/word/word_augmentation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -39,6 +40,15 @@ void check(const WordSample& sample, const std::string& name, double frame_ms) {
   }
 }
 
+// Speeds of the copies for the embedding, in twentieths.
+constexpr std::array<int, 7> kSpeeds{20, 18, 22, 17, 23, 19, 21};
+
+std::vector<float> at_speed(const std::vector<float>& audio, int twentieths) {
+  constexpr int kUnitHz = 1000;
+  if (twentieths == 20) return audio;
+  return resample(audio, twentieths * kUnitHz, 20 * kUnitHz);
+}
+
 // Of noise this far below the word.
 double noise_power(const TrainingWord& word, double snr_db) {
   return mean_power(word.word.samples) * std::pow(10.0, -snr_db / 10);
@@ -72,40 +82,55 @@ TrainingWord WordAugmentation::read(const WordSample& sample, const std::string&
   return result;
 }
 
-std::vector<float> WordAugmentation::noisy_word(const TrainingWord& word, double snr_db,
-                                                Random* random) const {
-  const double power = noise_power(word, snr_db);
-  const std::vector<float> clip = with_noise(word.clip, power, random);
-  TrimmedWord trimmed = front_end().trim(clip, front_end().sample_rate_hz());
-  // Where noise hides the word, what it is trimmed to otherwise.
-  return trimmed.has_speech() ? std::move(trimmed.samples)
-                              : with_noise(word.word.samples, power, random);
+double WordAugmentation::random_snr_db(Random* random) const {
+  return options_.min_snr_db + random->uniform() * (options_.max_snr_db - options_.min_snr_db);
+}
+
+TrimmedWord WordAugmentation::noisy(const std::vector<float>& clip, const TrimmedWord& word,
+                                    double power, Random* random) const {
+  TrimmedWord result =
+      front_end().trim(with_noise(clip, power, random), front_end().sample_rate_hz());
+  if (result.has_speech()) return result;
+  result.samples = with_noise(word.samples, power, random);
+  if (!word.wide.empty()) result.wide = with_noise(word.wide, power, random);
+  return result;
+}
+
+MatrixF WordAugmentation::vector_of(const TrimmedWord& word) const {
+  return front_end().embedding()->vector_of(word.wide, front_end().sample_rate_hz()).transpose();
+}
+
+void WordAugmentation::append_embedding_copies(const TrainingWord& word, std::size_t index,
+                                               std::vector<StreamFrames>* to) const {
+  const auto num_copies = static_cast<std::size_t>(options_.num_embedding_copies);
+  Random random(options_.seed + (index + 1) * 0xD6E8FEB86659FD93ULL);
+  for (std::size_t copy = 0; copy < num_copies; ++copy) {
+    const int speed = kSpeeds[(index * num_copies + copy) % kSpeeds.size()];
+    const double power = noise_power(word, random_snr_db(&random));
+    const std::vector<float> clip = at_speed(word.clip, speed);
+    TrimmedWord said;
+    said.samples = at_speed(word.word.samples, speed);
+    said.wide = at_speed(word.word.wide, speed);
+    to->emplace_back(static_cast<std::size_t>(front_end().num_streams()));
+    to->back().push_back(vector_of(noisy(clip, said, power, &random)));
+  }
 }
 
 std::vector<StreamFrames> WordAugmentation::copies(const TrainingWord& word,
                                                    std::size_t index) const {
   std::vector<StreamFrames> result;
-  result.reserve(cepstra_.size() + static_cast<std::size_t>(options_.num_noisy_copies));
-  const SpeechEmbedding* embedding = front_end().embedding().get();
+  const bool embedded = front_end().embedding() != nullptr;
   result.push_back(front_end().frames(word.word));
   for (std::size_t warp = 1; warp < cepstra_.size(); ++warp)
     result.push_back(cepstra_[warp].frames(word.word));
+  if (embedded) append_embedding_copies(word, index, &result);
   Random random(options_.seed + (index + 1) * 0x9E3779B97F4A7C15ULL);
-  Random of_embedding(options_.seed + (index + 1) * 0xD6E8FEB86659FD93ULL);
   for (int copy = 0; copy < options_.num_noisy_copies; ++copy) {
-    const double snr_db =
-        options_.min_snr_db + random.uniform() * (options_.max_snr_db - options_.min_snr_db);
-    TrimmedWord noisy;
-    noisy.samples = noisy_word(word, snr_db, &random);
+    const double snr_db = random_snr_db(&random);
+    const TrimmedWord in_noise = noisy(word.clip, word.word, noise_power(word, snr_db), &random);
     const std::size_t warp = (index + static_cast<std::size_t>(copy)) % cepstra_.size();
-    result.push_back(cepstra_[warp].frames(noisy));
-    if (embedding != nullptr) {
-      // Its parts are shares of the word's length: the whole word, noise or not.
-      const std::vector<float> whole =
-          with_noise(word.word.samples, noise_power(word, snr_db), &of_embedding);
-      result.back().emplace_back(
-          embedding->vector_of(whole, front_end().sample_rate_hz()).transpose());
-    }
+    result.push_back(cepstra_[warp].frames(in_noise));
+    if (embedded) result.back().push_back(vector_of(in_noise));
     if (spectrograms_ != nullptr)
       result.back().push_back(spectrograms_->noisy_input(word.word.window, snr_db, &random));
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The training frames of a recording: its own and those of its augmented copies, by vocal-tract-
-// length perturbation (a warped frequency axis) and added noise.
+// length perturbation (a warped frequency axis), added noise and, for the embedding, other speeds.
 #pragma once
 
 #include <memory>
@@ -37,18 +37,24 @@ class WordAugmentation {
   /// is not finite or too short, naming the sample or, if it has no name, `name`.
   [[nodiscard]] TrainingWord read(const WordSample& sample, const std::string& name) const;
 
-  /// The frames of the word as it is, at every warp and of every noisy copy, which is trimmed after
-  /// the noise is added: end points in noise are others. The noise depends on the seed of the
-  /// models and on `index` alone.
+  /// The frames of the word as it is, at every warp, of every copy for the embedding alone, whose
+  /// streams are empty, and of every noisy copy. All that have noise are trimmed after it is added:
+  /// end points in noise are others. The noise depends on the seed of the models and on `index`
+  /// alone.
   [[nodiscard]] std::vector<StreamFrames> copies(const TrainingWord& word, std::size_t index) const;
 
   /// nullptr: there is no network.
   [[nodiscard]] const SpectrogramAugmentation* spectrograms() const { return spectrograms_.get(); }
 
  private:
-  // The word of a recording with noise this far below the word.
-  [[nodiscard]] std::vector<float> noisy_word(const TrainingWord& word, double snr_db,
-                                              Random* random) const;
+  // Signal-to-noise ratio of the next copy.
+  [[nodiscard]] double random_snr_db(Random* random) const;
+  // The word in `clip` with noise of this power added; where noise hides it, `word` with noise.
+  [[nodiscard]] TrimmedWord noisy(const std::vector<float>& clip, const TrimmedWord& word,
+                                  double power, Random* random) const;
+  [[nodiscard]] MatrixF vector_of(const TrimmedWord& word) const;
+  void append_embedding_copies(const TrainingWord& word, std::size_t index,
+                               std::vector<StreamFrames>* to) const;
 
   WordRecognizerOptions options_;
   WordFrontEnd front_end_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/recognition/word/word_front_end.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "hri/core/error.hpp"
@@ -81,6 +82,12 @@ TrimmedWord WordFrontEnd::trim(Span<const float> audio, int sample_rate_hz) cons
   } else {
     word.samples.assign(audio.begin(), audio.end());
   }
+  if (embedding_ != nullptr) {
+    const std::size_t padding = trim_ ? embedding_padding() : audio.size();
+    const std::size_t first = speech.first - std::min(padding, speech.first);
+    const std::size_t last = speech.last + std::min(padding, audio.size() - speech.last);
+    word.wide.assign(audio.begin() + first, audio.begin() + last);
+  }
   // End points in noise come closer to the middle of the word; what lies around it is read, too.
   if (spectrogram_ != nullptr)
     word.window = spectrogram_->window(audio, (speech.first + speech.last) / 2);
@@ -90,6 +97,12 @@ TrimmedWord WordFrontEnd::trim(Span<const float> audio, int sample_rate_hz) cons
 TrimmedWord WordFrontEnd::untrimmed(std::vector<float> audio) const {
   TrimmedWord word;
   if (spectrogram_ != nullptr) word.window = spectrogram_->window(audio, audio.size() / 2);
+  if (embedding_ != nullptr) {
+    const auto padding = static_cast<std::size_t>(activity_.padding_ms * sample_rate_hz_ / 1000);
+    const std::size_t beyond = embedding_padding() - std::min(padding, embedding_padding());
+    word.wide.assign(audio.size() + 2 * beyond, 0.0F);
+    std::copy(audio.begin(), audio.end(), word.wide.begin() + static_cast<std::ptrdiff_t>(beyond));
+  }
   word.samples = std::move(audio);
   return word;
 }
@@ -99,9 +112,15 @@ StreamFrames WordFrontEnd::frames(const TrimmedWord& word) const {
   result.reserve(streams_.size());
   for (const CepstraComputer& stream : streams_) result.push_back(stream.compute(word.samples));
   if (embedding_ != nullptr)
-    result.emplace_back(embedding_->vector_of(word.samples, sample_rate_hz_).transpose());
+    result.emplace_back(embedding_->vector_of(word.wide, sample_rate_hz_).transpose());
   if (spectrogram_ != nullptr) result.push_back(WordSpectrogram::input(word.window));
   return result;
+}
+
+// In samples, around the word.
+std::size_t WordFrontEnd::embedding_padding() const {
+  return static_cast<std::size_t>(embedding_->options().activity.padding_ms * sample_rate_hz_ /
+                                  1000);
 }
 
 int WordFrontEnd::num_frames(std::size_t num_samples) const {

@@ -108,6 +108,38 @@ void expect_error(const Action& action, const std::string& what) {
   }
 }
 
+TEST(EmbeddingWords, CopiesForTheEmbeddingLeaveTheCepstraAsTheyAre) {
+  WordRecognizerOptions options = both();
+  options.num_embedding_copies = 0;
+  const WordRecognizer without = trained(options);
+  options.num_embedding_copies = 3;
+  const WordRecognizer with = trained(options);
+  const std::vector<float> clip = tone(560, 800, 77);
+  const StreamFrames frames = with.front_end().process(clip, kRateHz).streams;
+  EXPECT_EQ(with.scorer().stream_scores(frames), without.scorer().stream_scores(frames));
+  EXPECT_NE(with.scorer().vectors()->scores(frames.back()),
+            without.scorer().vectors()->scores(frames.back()));
+}
+
+TEST(EmbeddingWords, TheEmbeddingReadsTheWordWithItsOwnPadding) {
+  const std::vector<float> clip = tone(560, 800, 77);
+  SpeechEmbeddingOptions options;
+  options.activity.padding_ms = 0;
+  const auto tight = std::make_shared<const SpeechEmbedding>(small_embedding(options));
+  options.activity.padding_ms = 40;
+  const auto wide = std::make_shared<const SpeechEmbedding>(small_embedding(options));
+  WordRecognizerOptions words = both();
+  words.cepstra.sample_rate_hz = kRateHz;
+  const TrimmedWord one = WordFrontEnd(words, 1, tight).trim(clip, kRateHz);
+  const TrimmedWord other = WordFrontEnd(words, 1, wide).trim(clip, kRateHz);
+  EXPECT_EQ(one.samples, other.samples);
+  EXPECT_EQ(other.wide.size(), one.wide.size() + 2 * 40 * kRateHz / 1000);
+  words.trim = false;
+  EXPECT_EQ(WordFrontEnd(words, 1, tight).trim(clip, kRateHz).wide, clip);
+  words.front_end = FrontEndKind::cepstra;
+  EXPECT_TRUE(WordFrontEnd(words).trim(clip, kRateHz).wide.empty());
+}
+
 TEST(EmbeddingWords, RefusesOtherWeightsAndNone) {
   const std::vector<std::uint8_t> bytes = trained().to_model_file().serialise();
   const ModelFile file = ModelFile::parse({bytes.data(), bytes.size()}, "words.hri");

@@ -24,6 +24,7 @@ struct WordRecognizerOptions;
 /// A word trimmed out of a recording, at the rate of the front end.
 struct TrimmedWord {
   std::vector<float> samples;      ///< empty without speech
+  std::vector<float> wide;         ///< what the embedding reads, where there is one
   MatrixF window;                  ///< WordSpectrogram::window() around it, where that is read
   std::vector<std::string> notes;  ///< what was converted or assumed on the way
 
@@ -52,13 +53,14 @@ class HRI_API WordFrontEnd {
 
   /// Finds the word in `audio` and trims to it; other sample rates are resampled, which a note
   /// says, as one does of several utterances. Throws InvalidArgument for a sample that is not
-  /// finite, for audio shorter than one frame and for a sample rate out of range.
+  /// finite, for audio shorter than one frame and for a sample rate out of range. The embedding
+  /// reads the word as recorded, with padding of its own: SpeechEmbeddingOptions::activity.
   [[nodiscard]] TrimmedWord trim(Span<const float> audio, int sample_rate_hz) const;
 
   /// The cepstra of every stream of a trimmed word, and behind them, where they are used, its
   /// embedding, one row, and WordSpectrogram::input().
   [[nodiscard]] StreamFrames frames(const TrimmedWord& word) const;
-  /// `audio` as it is, as if it were trimmed.
+  /// `audio` as it is, as if it were trimmed, in the middle of silence.
   [[nodiscard]] TrimmedWord untrimmed(std::vector<float> audio) const;
   /// How many frames a word of so many samples has.
   [[nodiscard]] int num_frames(std::size_t num_samples) const;
@@ -77,6 +79,8 @@ class HRI_API WordFrontEnd {
   [[nodiscard]] int num_features() const { return streams_.front().num_features(); }
 
  private:
+  [[nodiscard]] std::size_t embedding_padding() const;
+
   int sample_rate_hz_;
   ActivityOptions activity_;
   bool trim_;

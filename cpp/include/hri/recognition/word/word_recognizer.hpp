@@ -54,6 +54,7 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   double min_snr_db = 0;
   double max_snr_db = 20;
   double false_reject_rate = 0.05;
+  int num_embedding_copies = 4;
   double embedding_weight = 0;
   double embedding_penalty = 100;
   double embedding_shrinkage = 0.8;
@@ -94,6 +95,9 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
       formerly("noise_high_db"));
     v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
       "share of correct held-out words, noisy ones included, that the threshold may reject");
+    v("num_embedding_copies", o.num_embedding_copies, within(0, 20),
+      "front_end both: training copies of every word for the embedding alone, with noise added and "
+      "faster or slower by up to 15 %");
     v("embedding_weight", o.embedding_weight, within(0, 1000000),
       "front_end both: factor on the log posteriors by the speech embedding, which join the scores "
       "of the cepstra; 0: chosen on words of speakers held out");
