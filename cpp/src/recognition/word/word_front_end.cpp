@@ -77,29 +77,29 @@ TrimmedWord WordFrontEnd::trim(Span<const float> audio, int sample_rate_hz) cons
   const SpeechBounds speech = find_speech(audio, sample_rate_hz_, unpadded);
   if (!speech.found) return word;
   if (speech.num_utterances > 1) word.notes.push_back(utterances_note(speech.num_utterances));
-  if (trim_) {
-    word.samples = detail::trim_to_word(audio, speech, sample_rate_hz_, activity_, noise_floor_db_);
-  } else {
-    word.samples.assign(audio.begin(), audio.end());
-  }
-  if (embedding_ != nullptr) {
-    const std::size_t padding = trim_ ? embedding_padding() : audio.size();
-    const std::size_t first = speech.first - std::min(padding, speech.first);
-    const std::size_t last = speech.last + std::min(padding, audio.size() - speech.last);
-    word.wide.assign(audio.begin() + first, audio.begin() + last);
-  }
+  word.samples = cut(audio, speech, activity_.padding_ms);
+  if (embedding_ != nullptr)
+    word.wide = cut(audio, speech, embedding_->options().activity.padding_ms);
   // End points in noise come closer to the middle of the word; what lies around it is read, too.
   if (spectrogram_ != nullptr)
     word.window = spectrogram_->window(audio, (speech.first + speech.last) / 2);
   return word;
 }
 
+std::vector<float> WordFrontEnd::cut(Span<const float> audio, const SpeechBounds& speech,
+                                     double padding_ms) const {
+  if (!trim_) return {audio.begin(), audio.end()};
+  ActivityOptions activity = activity_;
+  activity.padding_ms = padding_ms;
+  return detail::trim_to_word(audio, speech, sample_rate_hz_, activity, noise_floor_db_);
+}
+
 TrimmedWord WordFrontEnd::untrimmed(std::vector<float> audio) const {
   TrimmedWord word;
   if (spectrogram_ != nullptr) word.window = spectrogram_->window(audio, audio.size() / 2);
   if (embedding_ != nullptr) {
-    const auto padding = static_cast<std::size_t>(activity_.padding_ms * sample_rate_hz_ / 1000);
-    const std::size_t beyond = embedding_padding() - std::min(padding, embedding_padding());
+    const double beyond_ms = embedding_->options().activity.padding_ms - activity_.padding_ms;
+    const auto beyond = static_cast<std::size_t>(std::max(0.0, beyond_ms) * sample_rate_hz_ / 1000);
     word.wide.assign(audio.size() + 2 * beyond, 0.0F);
     std::copy(audio.begin(), audio.end(), word.wide.begin() + static_cast<std::ptrdiff_t>(beyond));
   }
@@ -115,12 +115,6 @@ StreamFrames WordFrontEnd::frames(const TrimmedWord& word) const {
     result.emplace_back(embedding_->vector_of(word.wide, sample_rate_hz_).transpose());
   if (spectrogram_ != nullptr) result.push_back(WordSpectrogram::input(word.window));
   return result;
-}
-
-// In samples, around the word.
-std::size_t WordFrontEnd::embedding_padding() const {
-  return static_cast<std::size_t>(embedding_->options().activity.padding_ms * sample_rate_hz_ /
-                                  1000);
 }
 
 int WordFrontEnd::num_frames(std::size_t num_samples) const {

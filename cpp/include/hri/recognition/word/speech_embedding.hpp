@@ -49,7 +49,7 @@ struct SpeechEmbeddingOptions {
  private:
   static ActivityOptions default_activity() {
     ActivityOptions activity;
-    activity.padding_ms = 150;
+    activity.padding_ms = 100;
     return activity;
   }
 };

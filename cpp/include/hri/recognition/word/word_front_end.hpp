@@ -54,7 +54,7 @@ class HRI_API WordFrontEnd {
   /// Finds the word in `audio` and trims to it; other sample rates are resampled, which a note
   /// says, as one does of several utterances. Throws InvalidArgument for a sample that is not
   /// finite, for audio shorter than one frame and for a sample rate out of range. The embedding
-  /// reads the word as recorded, with padding of its own: SpeechEmbeddingOptions::activity.
+  /// reads the word with padding of its own: that of SpeechEmbeddingOptions::activity.
   [[nodiscard]] TrimmedWord trim(Span<const float> audio, int sample_rate_hz) const;
 
   /// The cepstra of every stream of a trimmed word, and behind them, where they are used, its
@@ -79,7 +79,8 @@ class HRI_API WordFrontEnd {
   [[nodiscard]] int num_features() const { return streams_.front().num_features(); }
 
  private:
-  [[nodiscard]] std::size_t embedding_padding() const;
+  [[nodiscard]] std::vector<float> cut(Span<const float> audio, const SpeechBounds& speech,
+                                       double padding_ms) const;
 
   int sample_rate_hz_;
   ActivityOptions activity_;
