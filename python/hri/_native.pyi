@@ -2184,7 +2184,7 @@ class SilhouetteOptions:
 
     Parameters
     ----------
-    method : {'chroma_otsu', 'hsv', 'grey_otsu'}, default 'chroma_otsu'
+    method : {'chroma_otsu', 'hsv_narrow', 'hsv_wide', 'grey_otsu'}, default 'chroma_otsu'
         how a hand differs from what is behind it
     max_side_px : int, default 320
         larger pictures are scaled down to this first; 32..4096 px
@@ -2217,7 +2217,7 @@ class SilhouetteOptions:
     def __init__(
         self,
         *,
-        method: typing.Literal["chroma_otsu", "hsv", "grey_otsu"] = "chroma_otsu",
+        method: typing.Literal["chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu"] = "chroma_otsu",
         max_side_px: int = 320,
         blur_px: int = 5,
         min_contrast: float = 1.5,
@@ -2263,7 +2263,7 @@ class SilhouetteOptions:
     @max_side_px.setter
     def max_side_px(self, arg1: typing.Any) -> None: ...
     @property
-    def method(self) -> typing.Literal["chroma_otsu", "hsv", "grey_otsu"]:
+    def method(self) -> typing.Literal["chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu"]:
         """
         how a hand differs from what is behind it
         """

@@ -238,3 +238,29 @@ def test_silhouette_takes_any_layout_of_bytes_and_nothing_else() -> None:
         extractor.extract(np.zeros((0, 0, 3), "u1"))
     with pytest.raises(InvalidArgument, match="blur_px"):
         SilhouetteExtractor(SilhouetteOptions(blur_px=4))
+
+
+SKIN_BOUNDS = {  # hue in degrees, saturation and value 0..1: hsv_narrow, hsv_wide
+    (20, 0.40, 0.80): (True, True),
+    (48, 0.30, 0.80): (True, True),
+    (54, 0.30, 0.80): (False, True),
+    (20, 0.61, 0.80): (False, True),
+    (20, 0.22, 0.80): (False, True),
+    (20, 0.40, 0.12): (False, True),  # value 31 of 255
+    (20, 0.18, 0.80): (False, False),
+    (20, 0.97, 0.80): (False, False),
+    (190, 0.40, 0.80): (False, True),
+    (206, 0.40, 0.80): (False, False),
+}
+
+
+@pytest.mark.parametrize("colour", SKIN_BOUNDS)
+def test_fixed_bounds_of_skin_are_those_of_the_thesis(colour: tuple[float, float, float]) -> None:
+    hue, saturation, value = colour
+    patch = cv2.cvtColor(np.array([[[hue / 2, 255 * saturation, 255 * value]]], "u1"), cv2.COLOR_HSV2BGR)[0, 0]
+    frame = np.full((200, 200, 3), (150, 150, 150), np.uint8)
+    frame[60:140, 70:130] = patch
+    for method, expected in zip(("hsv_narrow", "hsv_wide"), SKIN_BOUNDS[colour], strict=True):
+        found = SilhouetteExtractor(SilhouetteOptions(method=method, remove_face=False)).extract(frame).mask
+        centre = found[90:110, 90:110]  # the blur mixes colours at the edge
+        assert centre.all() == centre.any() == expected, method

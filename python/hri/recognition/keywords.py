@@ -114,7 +114,7 @@ class WordRecognizerKeywords(TypedDict, total=False):
 class SilhouetteKeywords(TypedDict, total=False):
     """Fields of `SilhouetteOptions`."""
 
-    method: Literal["chroma_otsu", "hsv", "grey_otsu"]
+    method: Literal["chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu"]
     max_side_px: int
     blur_px: int
     min_contrast: float
