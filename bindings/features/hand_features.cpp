@@ -31,7 +31,7 @@ void bind_hand_features(py::module_& m) {
         return to_array(out);
       },
       py::arg("image"), py::arg("options") = hri::OrientationHistogramOptions{},
-      "Block-normalised histograms, float32.");
+      "Histograms, float32; of several cells normalised by blocks, of one by its length.");
 
   hri_bind::bind_options<hri::SilhouetteCepstrumOptions>(m, "DWT + MFCC of a silhouette.");
   py::class_<hri::SilhouetteCepstrumComputer>(m, "SilhouetteCepstrumComputer",

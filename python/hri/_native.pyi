@@ -6829,7 +6829,7 @@ def orientation_histogram(
     image: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], options: OrientationHistogramOptions = ...
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Block-normalised histograms, float32.
+    Histograms, float32; of several cells normalised by blocks, of one by its length.
     """
 
 def parse_wav(data: bytes, name: str = "bytes") -> Wav: ...

@@ -31,7 +31,7 @@ def picture(rows: int, columns: int, seed: int = 0) -> np.ndarray:
 
 
 def normalised(block: np.ndarray) -> np.ndarray:
-    block = np.minimum(block / np.sqrt((block**2).sum() + 0.1**2), 0.2)
+    block = np.minimum(scaled_to_unit(block), 0.2)
     return block / np.sqrt((block**2).sum() + 1e-3) if block.any() else block
 
 
@@ -40,6 +40,10 @@ def reference(image: np.ndarray, num_cells: int, num_bins: int) -> np.ndarray:
     image = image.astype("f8")
     gx, gy = np.zeros(image.shape), np.zeros(image.shape)
     gx[1:-1, 1:-1] = image[1:-1, 2:] - image[1:-1, :-2]
+def scaled_to_unit(block: np.ndarray) -> np.ndarray:
+    return block / np.sqrt((block**2).sum() + 0.1**2)
+
+
     gy[1:-1, 1:-1] = image[2:, 1:-1] - image[:-2, 1:-1]
     magnitude, angle = np.hypot(gx, gy), np.arctan2(gy, gx) % np.pi
 
@@ -54,7 +58,7 @@ def reference(image: np.ndarray, num_cells: int, num_bins: int) -> np.ndarray:
     bins = shares(angle / np.pi * num_bins - 0.5, num_bins, wraps=True) * magnitude[..., None]
     cells = np.einsum("yi,xj,yxb->ijb", along(image.shape[0]), along(image.shape[1]), bins)
     if num_cells == 1:
-        return normalised(cells.ravel())
+        return scaled_to_unit(cells.ravel())
     places = [(i, j) for i in range(num_cells - 1) for j in range(num_cells - 1)]
     return np.concatenate([normalised(cells[i : i + 2, j : j + 2].ravel()) for i, j in places])
 
