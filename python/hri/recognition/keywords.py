@@ -172,7 +172,10 @@ class SilhouetteCepstrumKeywords(TypedDict, total=False):
     wavelet: str
     num_levels: int
     mask_px: int
+    signal: Literal["contour", "picture"]
     num_points: int
+    num_frames: int
+    average_frames: bool
     num_filters: int
     num_cepstra: int
 
