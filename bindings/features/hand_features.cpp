@@ -31,11 +31,14 @@ void bind_hand_features(py::module_& m) {
         return to_array(out);
       },
       py::arg("image"), py::arg("options") = hri::OrientationHistogramOptions{},
-      "Block-normalised histograms, float32.");
+      "Histograms, float32; of several cells normalised by blocks, of one by its length.");
 
-  hri_bind::bind_options<hri::SilhouetteCepstrumOptions>(m, "DWT + MFCC of a silhouette.");
+  hri_bind::bind_options<hri::SilhouetteCepstrumOptions>(
+      m, "DWT + MFCC of a silhouette: contour or picture.");
   py::class_<hri::SilhouetteCepstrumComputer>(m, "SilhouetteCepstrumComputer",
-                                              "Cepstrum of a silhouette's contour.")
+                                              "Cepstra of a silhouette.")
+      .def_property_readonly("num_features", &hri::SilhouetteCepstrumComputer::num_features,
+                             "Values of compute().")
       .def(py::init<const hri::SilhouetteCepstrumOptions&>(),
            py::arg("options") = hri::SilhouetteCepstrumOptions{})
       .def(
@@ -51,6 +54,19 @@ void bind_hand_features(py::module_& m) {
           },
           py::arg("mask"), "Distance from the centroid along the contour, scaled by its mean.")
       .def(
+          "picture_signal",
+          [](const hri::SilhouetteCepstrumComputer& self, const ByteArray& mask) {
+            const auto shape = as_image(mask, 1, "mask");
+            std::vector<float> signal;
+            {
+              const py::gil_scoped_release release;
+              signal = self.picture_signal(shape);
+            }
+            return to_array(signal);
+          },
+          py::arg("mask"),
+          "Pixels of the DWT's approximation, column by column, divided by its gain of 2 a level.")
+      .def(
           "compute",
           [](const hri::SilhouetteCepstrumComputer& self, const ByteArray& mask) {
             const auto shape = as_image(mask, 1, "mask");
@@ -61,7 +77,7 @@ void bind_hand_features(py::module_& m) {
             }
             return to_array(out);
           },
-          py::arg("mask"), "c0, c1, ..., float32.");
+          py::arg("mask"), "c0, c1, ..., averaged over the frames or frame by frame, float32.");
 
   hri_bind::bind_options<hri::HandFeatureOptions>(m,
                                                   "The concatenated features of one hand picture.");

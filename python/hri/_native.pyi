@@ -1879,7 +1879,7 @@ class OrientationHistogramOptions:
 
 class SilhouetteCepstrumOptions:
     """
-    DWT + MFCC of a silhouette.
+    DWT + MFCC of a silhouette: contour or picture.
 
     Parameters
     ----------
@@ -1888,9 +1888,15 @@ class SilhouetteCepstrumOptions:
     num_levels : int, default 3
         levels of the DWT; 0: none; 0..4
     mask_px : int, default 256
-        side of the square that the mask is scaled to before the DWT; 64..1024 px
+        side of the square that the mask is scaled to before the DWT; 32..1024 px
+    signal : {'contour', 'picture'}, default 'contour'
+        what signal is made of the approximation
     num_points : int, default 256
         samples along the contour; 64..4096
+    num_frames : int, default 3
+        frames that the signal is blocked into; the thesis has 11; 1..32
+    average_frames : bool, default True
+        the cepstra of the frames are averaged; else they stand side by side
     num_filters : int, default 20
         filters over their spectrum; 2..64
     num_cepstra : int, default 13
@@ -1911,7 +1917,10 @@ class SilhouetteCepstrumOptions:
         wavelet: str = "db2",
         num_levels: int = 3,
         mask_px: int = 256,
+        signal: typing.Literal["contour", "picture"] = "contour",
         num_points: int = 256,
+        num_frames: int = 3,
+        average_frames: bool = True,
         num_filters: int = 20,
         num_cepstra: int = 13,
     ) -> None: ...
@@ -1921,6 +1930,13 @@ class SilhouetteCepstrumOptions:
         """
         All fields as plain values, those of nested structs as dicts.
         """
+    @property
+    def average_frames(self) -> bool:
+        """
+        the cepstra of the frames are averaged; else they stand side by side
+        """
+    @average_frames.setter
+    def average_frames(self, arg1: typing.Any) -> None: ...
     @property
     def mask_px(self) -> int:
         """
@@ -1943,6 +1959,13 @@ class SilhouetteCepstrumOptions:
     @num_filters.setter
     def num_filters(self, arg1: typing.Any) -> None: ...
     @property
+    def num_frames(self) -> int:
+        """
+        frames that the signal is blocked into; the thesis has 11
+        """
+    @num_frames.setter
+    def num_frames(self, arg1: typing.Any) -> None: ...
+    @property
     def num_levels(self) -> int:
         """
         levels of the DWT; 0: none
@@ -1957,6 +1980,13 @@ class SilhouetteCepstrumOptions:
     @num_points.setter
     def num_points(self, arg1: typing.Any) -> None: ...
     @property
+    def signal(self) -> typing.Literal["contour", "picture"]:
+        """
+        what signal is made of the approximation
+        """
+    @signal.setter
+    def signal(self, arg1: typing.Any) -> None: ...
+    @property
     def wavelet(self) -> str:
         """
         wavelet of the transform
@@ -1966,20 +1996,31 @@ class SilhouetteCepstrumOptions:
 
 class SilhouetteCepstrumComputer:
     """
-    Cepstrum of a silhouette's contour.
+    Cepstra of a silhouette.
     """
     def __init__(self, options: SilhouetteCepstrumOptions = ...) -> None: ...
     def compute(
         self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]:
         """
-        c0, c1, ..., float32.
+        c0, c1, ..., averaged over the frames or frame by frame, float32.
         """
     def contour_signal(
         self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]:
         """
         Distance from the centroid along the contour, scaled by its mean.
+        """
+    def picture_signal(
+        self, mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Pixels of the DWT's approximation, column by column, divided by its gain of 2 a level.
+        """
+    @property
+    def num_features(self) -> int:
+        """
+        Values of compute().
         """
 
 class HandFeatureOptions:
@@ -2184,7 +2225,7 @@ class SilhouetteOptions:
 
     Parameters
     ----------
-    method : {'chroma_otsu', 'hsv', 'grey_otsu'}, default 'chroma_otsu'
+    method : {'chroma_otsu', 'hsv_narrow', 'hsv_wide', 'grey_otsu'}, default 'chroma_otsu'
         how a hand differs from what is behind it
     max_side_px : int, default 320
         larger pictures are scaled down to this first; 32..4096 px
@@ -2217,7 +2258,7 @@ class SilhouetteOptions:
     def __init__(
         self,
         *,
-        method: typing.Literal["chroma_otsu", "hsv", "grey_otsu"] = "chroma_otsu",
+        method: typing.Literal["chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu"] = "chroma_otsu",
         max_side_px: int = 320,
         blur_px: int = 5,
         min_contrast: float = 1.5,
@@ -2263,7 +2304,7 @@ class SilhouetteOptions:
     @max_side_px.setter
     def max_side_px(self, arg1: typing.Any) -> None: ...
     @property
-    def method(self) -> typing.Literal["chroma_otsu", "hsv", "grey_otsu"]:
+    def method(self) -> typing.Literal["chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu"]:
         """
         how a hand differs from what is behind it
         """
@@ -6839,7 +6880,7 @@ def orientation_histogram(
     image: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], options: OrientationHistogramOptions = ...
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Block-normalised histograms, float32.
+    Histograms, float32; of several cells normalised by blocks, of one by its length.
     """
 
 def parse_wav(data: bytes, name: str = "bytes") -> Wav: ...

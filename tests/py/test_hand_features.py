@@ -4,11 +4,15 @@
 
 from __future__ import annotations
 
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 
 import cv2
+import librosa
 import numpy as np
 import pytest
+import pywt
+from scipy.fft import dct
 
 from hri.core.errors import InvalidArgument
 from hri.features import (
@@ -19,6 +23,7 @@ from hri.features import (
     SilhouetteCepstrumOptions,
     orientation_histogram,
 )
+from hri.features.hand import hand_features
 from hri.synthetic.drawing.signer import make_signer
 from hri.synthetic.signer import draw_still
 from hri.vision import SilhouetteExtractor, SilhouetteOptions
@@ -31,8 +36,12 @@ def picture(rows: int, columns: int, seed: int = 0) -> np.ndarray:
 
 
 def normalised(block: np.ndarray) -> np.ndarray:
-    block = np.minimum(block / np.sqrt((block**2).sum() + 0.1**2), 0.2)
+    block = np.minimum(scaled_to_unit(block), 0.2)
     return block / np.sqrt((block**2).sum() + 1e-3) if block.any() else block
+
+
+def scaled_to_unit(block: np.ndarray) -> np.ndarray:
+    return block / np.sqrt((block**2).sum() + 0.1**2)
 
 
 def reference(image: np.ndarray, num_cells: int, num_bins: int) -> np.ndarray:
@@ -54,7 +63,7 @@ def reference(image: np.ndarray, num_cells: int, num_bins: int) -> np.ndarray:
     bins = shares(angle / np.pi * num_bins - 0.5, num_bins, wraps=True) * magnitude[..., None]
     cells = np.einsum("yi,xj,yxb->ijb", along(image.shape[0]), along(image.shape[1]), bins)
     if num_cells == 1:
-        return normalised(cells.ravel())
+        return scaled_to_unit(cells.ravel())
     places = [(i, j) for i in range(num_cells - 1) for j in range(num_cells - 1)]
     return np.concatenate([normalised(cells[i : i + 2, j : j + 2].ravel()) for i, j in places])
 
@@ -152,6 +161,90 @@ def test_contour_of_a_disc_is_flat_and_of_a_square_has_four_corners() -> None:
     assert signal.max() / signal.min() == pytest.approx(np.sqrt(2), rel=0.1)
 
 
+def framed(signal: np.ndarray, num_frames: int, num_filters: int, num_cepstra: int) -> np.ndarray:
+    """Thesis equations 3.26 to 3.33 in double: frames that overlap by half, at 16 kHz, none longer than a second."""
+    shift = len(signal) // (num_frames + 1)
+    size = 2 ** int(np.ceil(np.log2(2 * shift)))
+    frames = np.stack([signal[shift * i : shift * (i + 2)] for i in range(num_frames)]) * np.hamming(2 * shift)
+    power = np.abs(np.fft.rfft(frames, size)) ** 2
+    rate_hz = max(16000, 2 * shift)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of short frames some filters hold no frequency
+        bank = librosa.filters.mel(sr=rate_hz, n_fft=size, n_mels=num_filters, htk=True, norm=None)
+    return dct(np.log(np.maximum(power @ bank.T, 1e-10)), norm="ortho")[:, : num_cepstra + 1]
+
+
+@pytest.mark.parametrize(("wavelet", "num_levels"), [("haar", 0), ("haar", 1), ("haar", 3), ("db2", 3), ("sym8", 2)])
+@pytest.mark.parametrize("num_frames", [1, 11, 14])
+def test_cepstra_of_a_picture_equal_the_formulae(wavelet: str, num_levels: int, num_frames: int) -> None:
+    mask = SilhouetteExtractor().extract(draw_still(make_signer(0), "3")).mask
+    fields = {"signal": "picture", "mask_px": 128, "num_frames": num_frames, "num_filters": 26, "num_cepstra": 11}
+    square = SilhouetteCepstrumComputer(SilhouetteCepstrumOptions(num_levels=0, mask_px=128)).picture_signal(mask)
+    approximation = square.reshape(128, 128).T.astype("f8")
+    assert 0.2 < approximation.mean() < 0.8 and approximation.max() == 1
+    for _ in range(num_levels):
+        approximation = pywt.dwt2(approximation, wavelet, mode="zero")[0] / 2
+    chosen = SilhouetteCepstrumOptions(wavelet=wavelet, num_levels=num_levels, average_frames=False, **fields)
+    computer = SilhouetteCepstrumComputer(chosen)
+    np.testing.assert_allclose(computer.picture_signal(mask), approximation.T.ravel(), atol=1e-6)
+    ours, theirs = computer.compute(mask), framed(approximation.T.ravel(), num_frames, 26, 11)
+    assert ours.dtype == np.float32 and ours.shape == (computer.num_features,) == (num_frames * 12,)
+    # Single precision, then a logarithm.
+    np.testing.assert_allclose(ours.reshape(num_frames, 12), theirs, atol=2e-2)
+    averaged = SilhouetteCepstrumOptions(wavelet=wavelet, num_levels=num_levels, average_frames=True, **fields)
+    mean = SilhouetteCepstrumComputer(averaged).compute(mask)
+    np.testing.assert_allclose(mean, ours.reshape(num_frames, 12).mean(axis=0), atol=1e-3)
+
+
+def test_picture_signal_is_the_cropped_mask_column_by_column() -> None:
+    mask = np.zeros((300, 400), "u1")
+    mask[100:228, 50:178] = 255  # a square, which gets 8 % of its side around it
+    mask[110:228, 120:178] = 0
+    signal = SilhouetteCepstrumComputer(SilhouetteCepstrumOptions(num_levels=0)).picture_signal(mask)
+    found = signal.reshape(256, 256).T
+    edge = 1.16 * 128 / 256  # pixels of the mask per pixel of the crop
+    rows, columns = ((np.arange(256) + 0.5) * edge - 0.08 * 128 + first for first in (100, 50))
+    expected = mask[np.floor(rows).astype(int)][:, np.floor(columns).astype(int)] / 255
+    inside = cv2.erode((expected > 0).astype("u1"), np.ones((5, 5)))
+    outside = cv2.dilate((expected > 0).astype("u1"), np.ones((5, 5)))
+    np.testing.assert_allclose(found[inside > 0], 1, atol=1e-6)
+    np.testing.assert_allclose(found[outside == 0], 0, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"signal": "picture", "mask_px": 64, "num_levels": 4, "num_frames": 32}, "mask_px after num_levels is too s"),
+        ({"signal": "picture", "mask_px": 1024, "num_levels": 0}, "mask_px after num_levels is too large"),
+        ({"num_points": 64, "num_frames": 20}, "num_points is too few"),
+        ({"num_frames": 33}, "num_frames must lie in 1..32"),
+        ({"num_cepstra": 20}, "num_cepstra must be less than num_filters"),
+    ],
+)
+def test_frames_that_do_not_fit_a_silhouette_are_refused(fields: dict, message: str) -> None:
+    with pytest.raises(InvalidArgument, match=message):
+        SilhouetteCepstrumComputer(SilhouetteCepstrumOptions(**fields))
+    with pytest.raises(ValueError, match="'contour', 'picture'"):
+        SilhouetteCepstrumOptions(signal="outline")
+
+
+def test_orientation_of_the_whole_frame_is_that_of_its_60_by_40_pixels() -> None:
+    grey = (255 * picture(480, 640, seed=3)).astype("u1")
+    small = grey.reshape(40, 12, 640).mean(axis=1)
+    weights = np.zeros((640, 60))
+    for x in range(60):  # a pixel of the small picture is 10 2/3 of the large one's wide
+        left, right = x * 32 / 3, (x + 1) * 32 / 3
+        cover = np.minimum(np.arange(640) + 1, right) - np.maximum(np.arange(640), left)
+        weights[:, x] = np.maximum(cover, 0) / (32 / 3)
+    small = np.rint(small @ weights) / 255
+    mask = np.zeros_like(grey)
+    mask[200:210, 300:330] = 255  # where the hand is does not matter
+    for num_bins in (9, 18, 27, 36):
+        (ours,) = hand_features([grey], [mask], "frame-orientation", num_bins=num_bins)
+        np.testing.assert_allclose(ours, reference(small, 1, num_bins), atol=5e-3)
+        assert np.linalg.norm(ours) == pytest.approx(1, abs=1e-2)
+
+
 def test_feature_takes_any_layout_of_bytes_and_nothing_else() -> None:
     computer = HandFeatureComputer()
     grey, mask = (255 * picture(200, 200)).astype("u1"), disc()
@@ -238,3 +331,29 @@ def test_silhouette_takes_any_layout_of_bytes_and_nothing_else() -> None:
         extractor.extract(np.zeros((0, 0, 3), "u1"))
     with pytest.raises(InvalidArgument, match="blur_px"):
         SilhouetteExtractor(SilhouetteOptions(blur_px=4))
+
+
+SKIN_BOUNDS = {  # hue in degrees, saturation and value 0..1: hsv_narrow, hsv_wide
+    (20, 0.40, 0.80): (True, True),
+    (48, 0.30, 0.80): (True, True),
+    (54, 0.30, 0.80): (False, True),
+    (20, 0.61, 0.80): (False, True),
+    (20, 0.22, 0.80): (False, True),
+    (20, 0.40, 0.12): (False, True),  # value 31 of 255
+    (20, 0.18, 0.80): (False, False),
+    (20, 0.97, 0.80): (False, False),
+    (190, 0.40, 0.80): (False, True),
+    (206, 0.40, 0.80): (False, False),
+}
+
+
+@pytest.mark.parametrize("colour", SKIN_BOUNDS)
+def test_fixed_bounds_of_skin_are_those_of_the_thesis(colour: tuple[float, float, float]) -> None:
+    hue, saturation, value = colour
+    patch = cv2.cvtColor(np.array([[[hue / 2, 255 * saturation, 255 * value]]], "u1"), cv2.COLOR_HSV2BGR)[0, 0]
+    frame = np.full((200, 200, 3), (150, 150, 150), np.uint8)
+    frame[60:140, 70:130] = patch
+    for method, expected in zip(("hsv_narrow", "hsv_wide"), SKIN_BOUNDS[colour], strict=True):
+        found = SilhouetteExtractor(SilhouetteOptions(method=method, remove_face=False)).extract(frame).mask
+        centre = found[90:110, 90:110]  # the blur mixes colours at the edge
+        assert centre.all() == centre.any() == expected, method

@@ -197,7 +197,7 @@ def test_a_known_background_is_left_out(hri, tmp_path: Path) -> None:
 
     write_video(tmp_path / "board.mp4", frames, 12)
     write_image(tmp_path / "room.png", place)
-    for arguments in (["--background", "clip"], ["--background", str(tmp_path / "room.png"), "--method", "hsv"]):
+    for arguments in (["--background", "clip"], ["--background", str(tmp_path / "room.png"), "--method", "hsv_wide"]):
         ran = hri("hands", tmp_path / "board.mp4", *arguments, "-o", tmp_path / "seen.json")
         assert ran.code == 0, ran.err
         seen = json.loads((tmp_path / "seen.json").read_text())["frames"]
@@ -210,7 +210,7 @@ def test_a_known_background_is_left_out(hri, tmp_path: Path) -> None:
     [
         (["--kind", "fourier", "--source", "landmarks"], 2, "--kind"),
         (["--fps", "10"], 2, "--fps"),
-        (["--method", "hsv", "--source", "landmarks"], 2, "--method"),
+        (["--method", "hsv_wide", "--source", "landmarks"], 2, "--method"),
         (["--background", "missing.png"], 3, "missing.png"),
         (["--option", "delta_order=1"], 3, "delta_order"),
         (["--option", "delta_orders=9"], 3, "delta_orders"),

@@ -239,6 +239,12 @@ def test_every_kind_has_names_for_its_columns() -> None:
     masks = [hand(0, "1"), np.zeros((400, 400), "u1"), hand(0, "3")]
     options = {
         "orientation": [{}, {"num_cells": 3, "num_bins": 9}],
+        "frame-orientation": [{}, {"num_bins": 36}],
+        "dwt-mfcc": [
+            {},
+            {"signal": "picture", "num_frames": 11, "average_frames": False, "num_cepstra": 11},
+            {"num_levels": 0, "average_frames": False},
+        ],
         "wavelet": [{}, {"num_scales": 2, "num_frequencies": 7}],
         "fourier": [{}, {"use_phase": True, "num_harmonics": 3}],
         "chain-code": [{}, {"num_parts": 4, "use_turns": True}],

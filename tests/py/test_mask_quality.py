@@ -93,9 +93,9 @@ def test_the_study_compares_quality_with_joints(tmp_path: Path, monkeypatch: pyt
                 frame[:170, 190:] = frame[170:, :] = (120, 140, 180)
         write_video(tmp_path / webcam.FOLDER / label / "t1.m4v", clip, 12.0)
     study = hri.studies.get_study("mask-quality")
-    result = hri.studies.run_study(study, tmp_path, lambda *_: None, {"way": ("learned", "hsv")})
+    result = hri.studies.run_study(study, tmp_path, lambda *_: None, {"way": ("learned", "hsv_wide")})
     learned, hsv, every = result["rows"]
-    assert [row["way"] for row in result["rows"]] == ["learned", "hsv", "all"]
+    assert [row["way"] for row in result["rows"]] == ["learned", "hsv_wide", "all"]
     assert learned["counts"]["masks"] == 10 and learned["shared_mean"] > 0.5 and learned["quality_mean"] > 0.8
     assert (
         hsv["shared_mean"] < learned["shared_mean"]

@@ -13,6 +13,7 @@ import pytest
 
 from hri import studies
 from hri.core.errors import InvalidArgument
+from hri.features.hand import hand_column_names
 from hri.studies import sign_features
 from hri.studies.sign_shapes import CLASSIFIERS, scaled
 from hri.synthetic.signer import make_gesture_corpus
@@ -30,30 +31,42 @@ def run(name: str, data_dir: Path, **only: list[str]) -> dict:
 
 
 def test_every_classifier_tells_drawn_signs_of_unseen_persons_apart(data_dir: Path) -> None:
-    chosen = ["orientation 18", "dwt+mfcc", "wavelet moments", "fourier (phase)"]
+    chosen = ["orientation 18 (60x40)", "haar+mfcc", "mfcc (outline)", "wavelet moments", "fourier (phase)"]
     result = run("sign-features", data_dir, features=chosen)
     assert result["num_without_hand"] == 0
     found = {(row["features"], row["classifier"]): row for row in result["rows"]}
     assert set(found) == {(features, classifier) for features in chosen for classifier in CLASSIFIERS}
     assert all(len(row["per_fold"]) == 5 for row in result["rows"])
     assert min(found["wavelet moments", c]["accuracy_mean"] for c in ("euclidean", "1-nn", "svm")) >= 0.9
-    again = run("sign-features", data_dir, features=["dwt+mfcc"], classifier=["svm"])
-    assert again["rows"] == [found["dwt+mfcc", "svm"]]
+    again = run("sign-features", data_dir, features=["haar+mfcc"], classifier=["svm"])
+    assert again["rows"] == [found["haar+mfcc", "svm"]]
 
 
 def test_coefficients_and_levels_are_measured_step_by_step(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sign_features, "NUM_CEPSTRA", (2, 12))
+    monkeypatch.setattr(sign_features, "COEFFICIENTS", (12, 14))
     result = run("sign-coefficients", data_dir, features=["mfcc", "haar+mfcc"], classifier=["3-nn"])
-    assert [(row["features"], row["coefficients"]) for row in result["rows"]] == [
-        ("mfcc", 2),
-        ("mfcc", 12),
-        ("haar+mfcc", 2),
-        ("haar+mfcc", 12),
+    found = {(row["signal"], row["features"], row["coefficients"]): row["per_fold"] for row in result["rows"]}
+    assert list(found) == [
+        (signal, features, count)
+        for signal in ("picture", "outline")
+        for features in ("mfcc", "haar+mfcc")
+        for count in (12, 14)
     ]
-    levels = run("sign-wavelets", data_dir, wavelet=["haar", "sym8"], classifier=["svm"])["rows"]
-    none = [row["per_fold"] for row in levels if row["level"] == 0]
-    assert len(none) == 2 and none[0] == none[1], "without a wavelet it does not matter which"
-    assert {row["level"] for row in levels} == {0, 1, 2, 3, 4}
+    levels = run("sign-wavelets", data_dir, wavelet=["haar", "sym8"], classifier=["3-nn"])["rows"]
+    for signal in ("picture", "outline"):
+        count = sign_features.NUM_COEFFICIENTS[signal]
+        of = {(row["wavelet"], row["level"]): row["per_fold"] for row in levels if row["signal"] == signal}
+        assert [level for name, level in of if name == "haar"] == [0, 1, 2, 3, 4]
+        assert of["haar", 0] == of["sym8", 0] == found[signal, "mfcc", count], (
+            "without a wavelet it does not matter which"
+        )
+        assert of["haar", 3] == found[signal, "haar+mfcc", count]
+
+
+def test_cepstra_are_framed_as_the_thesis_has_it() -> None:
+    for name, per_frame, frames in (("mfcc", 12, 11), ("haar+mfcc", 12, 11), ("db2+mfcc (outline)", 14, 1)):
+        kind, options = sign_features.FEATURES[name]
+        assert len(hand_column_names(kind, **options)) == per_frame * frames, name
 
 
 def test_distances_are_drawn(hri, data_dir: Path, tmp_path: Path) -> None:

@@ -96,7 +96,7 @@ def test_one_hand_is_what_is_found_without_the_other() -> None:
         np.testing.assert_array_equal(hand.mask, expected.mask)
     with pytest.raises(InvalidArgument, match="max_hands is 3"):
         find_hands(clip, 3)
-    asked = _native_vision.SilhouetteOptions(method="hsv")
+    asked = _native_vision.SilhouetteOptions(method="hsv_wide")
     assert all(h.mask.any() for hands in find_hands(clip, 2, asked).values() for h in hands)
 
 

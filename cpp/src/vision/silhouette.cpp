@@ -95,20 +95,36 @@ bool holds_background(const GreyImage& channel, int threshold) {
   return corners >= 3 || (corners == 2 && upper == 2);
 }
 
-// Thesis section 5.1.1: hue 0..50 degrees, saturation 0.23..0.68 of the scale.
-void split_by_hsv(const detail::ColourImage& bgr, GreyImage* mask) {
+// Fixed bounds of the thesis, in OpenCV's units: hue 0..180, saturation and value 0..255.
+struct HsvBounds {
+  double hue_high, saturation_low, saturation_high, value_low;
+};
+
+// 5.1.1: 0 <= H <= 50 degrees, 0.25 <= S <= 0.57, V >= 40.
+constexpr HsvBounds kNarrowBounds{25, 64, 145, 40};
+// 4.6.2: not skin is H > 0.55 or S <= 0.20 or S > 0.95.
+constexpr HsvBounds kWideBounds{99, 52, 242, 0};
+
+// nullptr for a method without fixed bounds.
+const HsvBounds* bounds_of(SilhouetteMethod method) {
+  if (method == SilhouetteMethod::hsv_narrow) return &kNarrowBounds;
+  return method == SilhouetteMethod::hsv_wide ? &kWideBounds : nullptr;
+}
+
+void split_by_hsv(const detail::ColourImage& bgr, const HsvBounds& bounds, GreyImage* mask) {
   detail::resize(mask, bgr.width_px, bgr.height_px);
   cv::Mat hsv;
   cv::cvtColor(detail::as_mat(bgr.view()), hsv, cv::COLOR_BGR2HSV);
   cv::Mat out(mask->height_px, mask->width_px, CV_8U, mask->pixels.data());
-  cv::inRange(hsv, cv::Scalar(0, 0.23 * 255, 40), cv::Scalar(25, 0.68 * 255, 255), out);
+  cv::inRange(hsv, cv::Scalar(0, bounds.saturation_low, bounds.value_low),
+              cv::Scalar(bounds.hue_high, bounds.saturation_high, 255), out);
 }
 
 // Sets what may be a hand.
 Split split(const detail::ColourImage& bgr, SilhouetteMethod method, GreyImage* channel,
             GreyImage* mask) {
-  if (method == SilhouetteMethod::hsv) {
-    split_by_hsv(bgr, mask);
+  if (const HsvBounds* bounds = bounds_of(method)) {
+    split_by_hsv(bgr, *bounds, mask);
     return {0, 255, 1};
   }
   if (method == SilhouetteMethod::grey_otsu) {
@@ -129,7 +145,7 @@ Split split(const detail::ColourImage& bgr, SilhouetteMethod method, GreyImage* 
 // Splits another picture where one was split.
 void split_as(const detail::ColourImage& bgr, SilhouetteMethod method, int threshold,
               GreyImage* channel, GreyImage* mask) {
-  if (method == SilhouetteMethod::hsv) return split_by_hsv(bgr, mask);
+  if (const HsvBounds* bounds = bounds_of(method)) return split_by_hsv(bgr, *bounds, mask);
   const bool by_grey = method == SilhouetteMethod::grey_otsu;
   by_grey ? detail::to_grey(bgr, channel) : detail::to_redness(bgr, channel);
   detail::set_where(*channel, threshold, !by_grey, mask);
@@ -286,7 +302,7 @@ void SilhouetteExtractor::extract(ImageView bgr, HandObservation* out) const {
   }
   w.finder.keep(w.candidates.front(), &out->mask);
   if (options_.max_hands > 1 && w.candidates.size() > 1) w.finder.fill(w.candidates[1], &out->mask);
-  if (options_.method == SilhouetteMethod::hsv) detail::to_redness(w.smooth, &w.channel);
+  if (bounds_of(options_.method) != nullptr) detail::to_redness(w.smooth, &w.channel);
   const std::uint8_t* const values = w.channel.pixels.data();
   out->quality =
       detail::mask_quality(out->mask, options_.max_hands, [&](std::size_t i) { return values[i]; });

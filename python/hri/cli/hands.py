@@ -19,7 +19,7 @@ from hri.vision.film import film_hands
 from hri.vision.hands import background_of
 from hri.vision.report import SOURCES, HandReport, inspect_hands
 
-METHODS = ("chroma_otsu", "hsv", "grey_otsu")
+METHODS = ("chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu")
 
 
 @click.command()
@@ -107,7 +107,7 @@ def hands(
       hri hands pictures/ --fps 15 --kind fourier --video seen.webm
       hri hands swipe.mp4 --source landmarks -o joints.json
       hri hands clap.mp4 --max-hands 2 --video seen.mp4
-      hri hands swipe.mp4 --method hsv --background empty_room.jpg --video seen.mp4
+      hri hands swipe.mp4 --method hsv_wide --background empty_room.jpg --video seen.mp4
     """
     if (kind is not None or options) and source != "silhouettes":
         raise click.UsageError("--kind and --option are for silhouettes: landmarks have but one kind of features")

@@ -26,13 +26,28 @@ from hri._native import (
     SilhouetteCepstrumOptions,
     WaveletDescriptorComputer,
     WaveletDescriptorOptions,
+    orientation_histogram,
 )
 from hri.core.errors import InvalidArgument
+from hri.core.optional import import_opencv
 from hri.features.shapes import hu_features
 
-Kind = Literal["hand", "orientation", "dwt-mfcc", "wavelet", "fourier", "chain-code", "moments", "track"]
+Kind = Literal[
+    "hand",
+    "orientation",
+    "frame-orientation",
+    "dwt-mfcc",
+    "wavelet",
+    "fourier",
+    "chain-code",
+    "moments",
+    "track",
+]
 Picture = NDArray[np.uint8]
 Compute = Callable[[Picture, Picture], Any]
+
+FRAME_SIZE = (60, 40)
+"""Width and height to which section 4.6.4 of the thesis scales whole pictures."""
 
 
 def hand_features(
@@ -46,7 +61,8 @@ def hand_features(
         Grey pictures, and 255 where the hand is; a still is a sequence of one.
     kind : str
         One of `HAND_KINDS`: ``hand``, the concatenated features of `GestureRecognizer`; ``orientation`` histograms of
-        the grey picture; ``dwt-mfcc``, the silhouette cepstrum; ``wavelet``, moment-invariant wavelet descriptors;
+        the grey picture around the hand; ``frame-orientation``, of the whole grey picture, scaled to 60 x 40 (needs
+        OpenCV); ``dwt-mfcc``, the cepstra of the silhouette; ``wavelet``, moment-invariant wavelet descriptors;
         ``fourier`` descriptors; ``chain-code`` histograms; ``moments``, Hu's; ``track``, place, size, axis and speed.
     **options
         Fields of the kind's options: `HandFeatureOptions`, `OrientationHistogramOptions`,
@@ -137,6 +153,20 @@ def _orientation_names(options: Any) -> list[str]:
     return [f"block{b}_{cell}_bin{i}" for b in blocks for cell in range(4) for i in range(options.num_bins)]
 
 
+def _frame_orientation(options: Any) -> Compute:
+    cv2 = import_opencv("to scale pictures")
+    return lambda grey, mask: orientation_histogram(
+        cv2.resize(grey, FRAME_SIZE, interpolation=cv2.INTER_AREA) / np.float32(255), options
+    )
+
+
+def _cepstrum_names(options: Any) -> list[str]:
+    names = [f"c{i}" for i in range(options.num_cepstra + 1)]
+    if options.average_frames:
+        return names
+    return [f"frame{frame}_{name}" for frame in range(options.num_frames) for name in names]
+
+
 def _wavelet_names(options: Any) -> list[str]:
     pairs = [(m, n) for m in range(options.num_scales) for n in range(2 ** (m + 1) + 1)]
     return [f"b{b}_m{m}_n{n}" for b in range(options.num_frequencies) for m, n in pairs]
@@ -164,11 +194,8 @@ HAND_KINDS: dict[str, _Kind] = {
         lambda options: [f"f{i}" for i in range(HandFeatureComputer(options).num_features)],
     ),
     "orientation": _Kind(_orientation_options, _orientation, _orientation_names),
-    "dwt-mfcc": _Kind(
-        SilhouetteCepstrumOptions,
-        _of_mask(SilhouetteCepstrumComputer),
-        lambda options: [f"c{i}" for i in range(options.num_cepstra + 1)],
-    ),
+    "frame-orientation": _Kind(_orientation_options, _frame_orientation, _orientation_names),
+    "dwt-mfcc": _Kind(SilhouetteCepstrumOptions, _of_mask(SilhouetteCepstrumComputer), _cepstrum_names),
     "wavelet": _Kind(WaveletDescriptorOptions, _of_mask(WaveletDescriptorComputer), _wavelet_names),
     "fourier": _Kind(FourierDescriptorOptions, _of_mask(FourierDescriptorComputer), _fourier_names),
     "chain-code": _Kind(ChainCodeOptions, _of_mask(ChainCodeComputer), _chain_code_names),

@@ -115,7 +115,7 @@ class WordRecognizerKeywords(TypedDict, total=False):
 class SilhouetteKeywords(TypedDict, total=False):
     """Fields of `SilhouetteOptions`."""
 
-    method: Literal["chroma_otsu", "hsv", "grey_otsu"]
+    method: Literal["chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu"]
     max_side_px: int
     blur_px: int
     min_contrast: float
@@ -173,7 +173,10 @@ class SilhouetteCepstrumKeywords(TypedDict, total=False):
     wavelet: str
     num_levels: int
     mask_px: int
+    signal: Literal["contour", "picture"]
     num_points: int
+    num_frames: int
+    average_frames: bool
     num_filters: int
     num_cepstra: int
 

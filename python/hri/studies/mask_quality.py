@@ -18,7 +18,7 @@ from hri.studies.registry import Layout, Progress, Study
 from hri.studies.webcam import FOLDER, PATTERN
 from hri.vision.landmarks import find_landmarks
 
-WAYS = ("learned", "chroma_otsu", "hsv", "grey_otsu")
+WAYS = ("learned", "chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu")
 ALL = "all"
 TARGET = 0.85
 GOOD, BAD = 0.5, 0.3

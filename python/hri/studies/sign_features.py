@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -16,21 +17,38 @@ from hri.studies.tables import Row
 
 NUM_FILTERS = 26
 """Room for 20 cepstra and more."""
+SIGNALS: dict[str, dict[str, Any]] = {
+    "picture": {"signal": "picture", "num_frames": 11, "average_frames": False},
+    "outline": {"signal": "contour", "num_frames": 3, "average_frames": True},
+}
+"""What cepstra are taken of: the picture, column by column, in the thesis's 11 frames side by side, or the distance of
+the outline from its middle, averaged over 3 frames."""
+NUM_COEFFICIENTS = {"picture": 12, "outline": 14}
+"""Of a frame, c0 included; 12 are the thesis's (text at figures 3.5 and 3.6)."""
+NUM_BINS = (9, 18, 27, 36)
 
 Feature = tuple[str, dict[str, Any]]
 """A kind of `hand_features` and its options."""
 
 
-def _cepstrum(wavelet: str, num_levels: int, num_cepstra: int = 13) -> Feature:
-    fields = {"num_levels": num_levels, "num_cepstra": num_cepstra, "num_filters": NUM_FILTERS}
-    return "dwt-mfcc", fields | ({"wavelet": wavelet} if num_levels else {})
+def _cepstra(signal: str, wavelet: str, num_levels: int = 3, num_coefficients: int = 0) -> Feature:
+    """Without DWT if the wavelet is "" or there is no level; of the signal's own number of coefficients if 0."""
+    transform = {"wavelet": wavelet, "num_levels": num_levels} if wavelet and num_levels else {"num_levels": 0}
+    num_cepstra = (num_coefficients or NUM_COEFFICIENTS[signal]) - 1
+    return "dwt-mfcc", SIGNALS[signal] | transform | {"num_cepstra": num_cepstra, "num_filters": NUM_FILTERS}
 
 
 FEATURES: dict[str, Feature] = {
-    **{f"orientation {bins}": ("orientation", {"num_bins": bins}) for bins in (9, 18, 27, 36)},
+    **{f"orientation {bins}": ("orientation", {"num_bins": bins}) for bins in NUM_BINS},
+    **{f"orientation {bins} (60x40)": ("frame-orientation", {"num_bins": bins}) for bins in NUM_BINS},
     "orientation 8x8x9": ("orientation", {"num_cells": 8, "num_bins": 9}),
-    "mfcc": _cepstrum("", 0),
-    "dwt+mfcc": _cepstrum("db2", 3),
+    "mfcc": _cepstra("picture", ""),
+    "mfcc (32 px)": ("dwt-mfcc", _cepstra("picture", "")[1] | {"mask_px": 32}),
+    "haar+mfcc": _cepstra("picture", "haar"),
+    "db2+mfcc": _cepstra("picture", "db2"),
+    "mfcc (outline)": _cepstra("outline", ""),
+    "haar+mfcc (outline)": _cepstra("outline", "haar"),
+    "db2+mfcc (outline)": _cepstra("outline", "db2"),
     "wavelet moments": ("wavelet", {}),
     "wavelet moments (outline)": ("wavelet", {"source": "contour"}),
     "fourier": ("fourier", {}),
@@ -40,13 +58,25 @@ FEATURES: dict[str, Feature] = {
     "hu moments": ("moments", {}),
     "joined": ("hand", {}),
 }
-"""By name, as the study compares them; "joined" is what `GestureRecognizer` uses."""
+"""By name, as the study compares them; "joined" is what `GestureRecognizer` uses. 32 pixels a side remain of 256 after
+three levels of "haar"."""
 
-NUM_CEPSTRA = (6, 8, 10, 12, 13, 14, 15, 17, 20, 24)
+COEFFICIENTS = (6, 8, 10, 12, 13, 14, 15, 17, 20, 24)
+TRANSFORMS = {"mfcc": "", "haar+mfcc": "haar", "db2+mfcc": "db2"}
 COEFFICIENT_CLASSIFIERS = ("3-nn", "svm")
 WAVELETS = ("haar", "db2", "db4", "sym8")
 LEVELS = (0, 1, 2, 3, 4)
-DISTANCE_FEATURES = ("mfcc", "dwt+mfcc", "orientation 18", "wavelet moments", "fourier (phase)", "joined")
+DISTANCE_FEATURES = (
+    "mfcc",
+    "haar+mfcc",
+    "db2+mfcc",
+    "mfcc (outline)",
+    "db2+mfcc (outline)",
+    "orientation 18",
+    "wavelet moments",
+    "fourier (phase)",
+    "joined",
+)
 PLACES = ((0, 1), (1, 9))
 """Of figures 3.14-3.15 and 3.12-3.13: features 1 and 2, and 2 and 10."""
 
@@ -71,17 +101,16 @@ def _run_coefficients(
     data_dir: Path,
     progress: Progress,
     *,
-    features: Sequence[str] = ("mfcc", "haar+mfcc", "db2+mfcc"),
+    signal: Sequence[str] = tuple(SIGNALS),
+    features: Sequence[str] = tuple(TRANSFORMS),
     classifier: Sequence[str] = COEFFICIENT_CLASSIFIERS,
 ) -> dict[str, Any]:
     signs = read_signs(data_dir, progress)
     rows: list[Row] = []
-    for name in features:
-        wavelet = name.partition("+")[0]
-        for count in NUM_CEPSTRA:
-            vectors = signs.vectors(*_cepstrum(wavelet, 0 if name == "mfcc" else 3, count))
-            found = accuracies(signs, vectors, classifier, progress, f"{name}, {count} coefficients")
-            rows += [{"features": name, "coefficients": count, **row} for row in found]
+    for of, name, count in product(signal, features, COEFFICIENTS):
+        vectors = signs.vectors(*_cepstra(of, TRANSFORMS[name], num_coefficients=count))
+        found = accuracies(signs, vectors, classifier, progress, f"{name} of the {of}, {count} coefficients")
+        rows += [{"signal": of, "features": name, "coefficients": count, **row} for row in found]
     return {"rows": rows, "num_without_hand": signs.num_without_hand, "passed": None}
 
 
@@ -89,16 +118,16 @@ def _run_wavelets(
     data_dir: Path,
     progress: Progress,
     *,
+    signal: Sequence[str] = tuple(SIGNALS),
     wavelet: Sequence[str] = WAVELETS,
     classifier: Sequence[str] = COEFFICIENT_CLASSIFIERS,
 ) -> dict[str, Any]:
     signs = read_signs(data_dir, progress)
     rows: list[Row] = []
-    for name in wavelet:
-        for level in LEVELS:
-            vectors = signs.vectors(*_cepstrum(name, level))
-            found = accuracies(signs, vectors, classifier, progress, f"{name}, level {level}")
-            rows += [{"wavelet": name, "level": level, **row} for row in found]
+    for of, name, level in product(signal, wavelet, LEVELS):
+        vectors = signs.vectors(*_cepstra(of, name, level))
+        found = accuracies(signs, vectors, classifier, progress, f"{name} of the {of}, level {level}")
+        rows += [{"signal": of, "wavelet": name, "level": level, **row} for row in found]
     return {"rows": rows, "num_without_hand": signs.num_without_hand, "passed": None}
 
 
@@ -180,18 +209,18 @@ STUDIES = (
         layout=Layout(columns="classifier"),
         axes={"features": tuple(FEATURES), "classifier": tuple(CLASSIFIERS)},
         sources=_SOURCES,
-        quick={"features": ("dwt+mfcc",), "classifier": ("svm",)},
+        quick={"features": ("haar+mfcc",), "classifier": ("svm",)},
     ),
     Study(
         "sign-coefficients",
-        "the number of cepstra of a silhouette with and without DWT (figures 3.21, 3.22), as sign-features",
+        "the number of coefficients of a silhouette with and without DWT (figures 3.21, 3.22), as sign-features",
         _DATA,
         _TARGET,
         _run_coefficients,
         layout=Layout(columns="coefficients", x="coefficients", panel="classifier"),
-        axes={"features": ("mfcc", "haar+mfcc", "db2+mfcc"), "classifier": tuple(CLASSIFIERS)},
+        axes={"signal": tuple(SIGNALS), "features": tuple(TRANSFORMS), "classifier": tuple(CLASSIFIERS)},
         sources=_SOURCES,
-        quick={"features": ("db2+mfcc",), "classifier": ("svm",)},
+        quick={"signal": ("picture",), "features": ("haar+mfcc",), "classifier": ("svm",)},
     ),
     Study(
         "sign-wavelets",
@@ -200,9 +229,9 @@ STUDIES = (
         _TARGET,
         _run_wavelets,
         layout=Layout(columns="level", x="level", panel="classifier"),
-        axes={"wavelet": WAVELETS, "classifier": tuple(CLASSIFIERS)},
+        axes={"signal": tuple(SIGNALS), "wavelet": WAVELETS, "classifier": tuple(CLASSIFIERS)},
         sources=_SOURCES,
-        quick={"wavelet": ("db2",), "classifier": ("svm",)},
+        quick={"signal": ("picture",), "wavelet": ("haar",), "classifier": ("svm",)},
     ),
     Study(
         "sign-distances",
@@ -213,6 +242,6 @@ STUDIES = (
         layout=Layout(panel="features", measure="ratio", percent=False),
         axes={"features": tuple(FEATURES)},
         sources=_SOURCES,
-        quick={"features": ("dwt+mfcc",)},
+        quick={"features": ("haar+mfcc",)},
     ),
 )

@@ -138,8 +138,10 @@ TEST(Silhouette, EveryMethodWorksWhereItMay) {
   const GreyImage truth = hand(4);
   const Picture lit = photograph([&](int x, int y) { return hand_on_wall(truth, x, y); });
   SilhouetteOptions options;
-  options.method = SilhouetteMethod::hsv;
-  EXPECT_GT(overlap(SilhouetteExtractor(options).extract(lit.view()).mask, truth), 0.85);
+  for (const auto method : {SilhouetteMethod::hsv_narrow, SilhouetteMethod::hsv_wide}) {
+    options.method = method;
+    EXPECT_GT(overlap(SilhouetteExtractor(options).extract(lit.view()).mask, truth), 0.85);
+  }
   options.method = SilhouetteMethod::grey_otsu;
   const Picture dark = photograph([&](int x, int y) {
     return truth.view().at(x, y) != 0 ? Colour{40, 40, 40} : Colour{220, 220, 220};
@@ -172,7 +174,7 @@ TEST(SilhouetteExtractor, LeavesOutWhatTheBackgroundHasAlready) {
   const Picture place = photograph([&](int x, int y) { return board(x, y) ? kSkin : kWall; });
   const Picture picture = photograph(
       [&](int x, int y) { return board(x, y) ? kSkin : hand_on_wall(mask, x, y); }, 1, 3);
-  for (const auto method : {SilhouetteMethod::chroma_otsu, SilhouetteMethod::hsv}) {
+  for (const auto method : {SilhouetteMethod::chroma_otsu, SilhouetteMethod::hsv_wide}) {
     SilhouetteOptions options;
     options.method = method;
     options.remove_face = false;

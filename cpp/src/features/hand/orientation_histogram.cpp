@@ -117,13 +117,18 @@ void add_row(const Workspace& w, std::size_t count, Share row, int num_cells, in
   }
 }
 
-void normalise_block(float* block, int size) {
+void scale_to_unit(float* block, int size) {
   float squares = 0;
   for (int i = 0; i < size; ++i) squares += block[i] * block[i];
   const float scale = 1.0F / std::sqrt(squares + kFlat * kFlat);
-  squares = 0;
+  for (int i = 0; i < size; ++i) block[i] *= scale;
+}
+
+void normalise_block(float* block, int size) {
+  scale_to_unit(block, size);
+  float squares = 0;
   for (int i = 0; i < size; ++i) {
-    block[i] = std::min(block[i] * scale, kClip);
+    block[i] = std::min(block[i], kClip);
     squares += block[i] * block[i];
   }
   if (!(squares > 0)) return;
@@ -174,7 +179,8 @@ void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOpti
   const float* cells = w.cells.data() + cell_row + bins;
   if (n == 1) {
     std::copy(cells, cells + bins, out.begin());
-    normalise_block(out.data(), bins);
+    // Not clipped: of few bins all would be the same.
+    scale_to_unit(out.data(), bins);
     return;
   }
   float* block = out.data();

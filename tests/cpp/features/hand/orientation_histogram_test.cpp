@@ -110,6 +110,19 @@ TEST(OrientationHistogram, ClipsAndScalesItsBlocks) {
     EXPECT_NEAR(h.segment(36 * block, 36).norm(), 1, 0.01) << block;
 }
 
+// Edges of two directions, one ten times as strong: clipping at 0.2 would make them nearly equal.
+TEST(OrientationHistogram, DoesNotClipASingleCell) {
+  MatrixF image = MatrixF::Zero(40, 40);
+  image.rightCols(20).setConstant(10);
+  image.bottomRows(20).array() += 1;
+  for (const int num_bins : {9, 18, 36}) {
+    const VectorF h = histogram(image, grid(1, num_bins));
+    EXPECT_NEAR(h.norm(), 1, 1e-3) << num_bins;
+    EXPECT_GT(h.maxCoeff(), 0.6F) << num_bins;
+    EXPECT_LT(h[num_bins / 2], 0.3F * h.maxCoeff()) << num_bins;
+  }
+}
+
 TEST(OrientationHistogram, KeepsPlacesApart) {
   MatrixF left = MatrixF::Zero(32, 32);
   left.block(8, 4, 16, 6).setOnes();

@@ -16,11 +16,13 @@ namespace hri {
 enum class SilhouetteMethod : std::uint8_t {
   chroma_otsu,  ///< Otsu's threshold on Cr - Cb: skin is redder than what is behind it, in any
                 ///< light that has colour
-  hsv,        ///< the thesis's fixed bounds of hue and saturation; fails in coloured or poor light
-  grey_otsu,  ///< Otsu's threshold on grey, for a dark hand before a plain bright background
+  hsv_narrow,   ///< fixed bounds of thesis section 5.1.1: hue 0..50 degrees, saturation
+                ///< 0.25..0.57, value 40..255; they fail in coloured or poor light
+  hsv_wide,     ///< those of section 4.6.2: hue 0..198 degrees, saturation above 0.2, to 0.95
+  grey_otsu,    ///< Otsu's threshold on grey, for a dark hand before a plain bright background
 };
 constexpr auto enum_names(SilhouetteMethod) {
-  return std::array{"chroma_otsu", "hsv", "grey_otsu"};
+  return std::array{"chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu"};
 }
 
 struct HRI_API SilhouetteOptions {

@@ -30,10 +30,10 @@ HRI_API int orientation_histogram_size(const OrientationHistogramOptions& option
 
 /// Histograms of `image` (any size of at least num_cells a side, values in -1e6..1e6): central
 /// differences, angle modulo 180 degrees, magnitude shared out linearly among neighbouring bins and
-/// cells, blocks scaled to length 1, clipped at 0.2 and scaled again. A flat image gives zeros, and
-/// blocks whose gradients come to far less than 0.1 together fade towards them.
-/// Throws InvalidArgument for sizes that do not fit, and for a value that is not finite or too
-/// large (names row and column).
+/// cells, blocks scaled to length 1, clipped at 0.2 and scaled again; a single cell (thesis eq.
+/// 4.29-4.32) is scaled to length 1 only. A flat image gives zeros, and blocks whose gradients come
+/// to far less than 0.1 together fade towards them. Throws InvalidArgument for sizes that do not
+/// fit, and for a value that is not finite or too large (names row and column).
 HRI_API void orientation_histogram(ConstMatrixRefF image,
                                    const OrientationHistogramOptions& options, Span<float> out);
 
