@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "hri/core/error.hpp"
 #include "hri/features/hand/hand_pair.hpp"
@@ -41,9 +42,25 @@ HandFinder::HandFinder(const HandFinderOptions& options, ImageView background)
                 background_.data() + static_cast<std::size_t>(y) * length);
 }
 
+HandFinder::HandFinder(const HandFinderOptions& options, std::shared_ptr<const FaceFinder> faces,
+                       const PersonOptions& person)
+    : HandFinder(options) {
+  require(faces != nullptr, "a finder of faces must be given");
+  faces_ = std::move(faces);
+  person_ = validated(person);
+}
+
 std::vector<HandObservation> HandFinder::find(Span<const ImageView> clip, int max_hands,
                                               const FrameProgress& progress) const {
   require_pictures(clip);
+  if (faces_) {
+    PersonOptions person = person_;
+    person.max_hands = max_hands;
+    if (auto of_person = PersonHands(person).find(clip, *faces_, progress)) {
+      if (options_.smooth) smooth_masks(options_.smoothing, &*of_person);
+      return std::move(*of_person);
+    }
+  }
   std::optional<HandColours> colours;
   const bool learns = options_.learning == ColourLearning::automatic && background_.empty();
   if (learns && clip.size() >= static_cast<std::size_t>(options_.min_frames)) {

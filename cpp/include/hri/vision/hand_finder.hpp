@@ -12,6 +12,7 @@
 #include "hri/core/export.hpp"
 #include "hri/features/hand/hand_finder_options.hpp"
 #include "hri/features/hand/hand_source.hpp"
+#include "hri/vision/person_hands.hpp"
 
 namespace hri {
 
@@ -24,6 +25,13 @@ class HRI_API HandFinder : public HandSource {
   /// With a picture of the place without a person, by the same camera: every picture is segmented
   /// by itself, and what looks like skin in it or in the background, but not in both, is the hand.
   HandFinder(const HandFinderOptions& options, ImageView background);
+
+  /// With a finder of faces: in clips in which a face is seen, hands are found as that person's
+  /// (PersonHands), in others as without it. Streams do not look for faces. `person.max_hands` is
+  /// ignored: find() looks for one hand, find_pair() for both. Throws InvalidArgument without a
+  /// finder.
+  HandFinder(const HandFinderOptions& options, std::shared_ptr<const FaceFinder> faces,
+             const PersonOptions& person = {});
 
   [[nodiscard]] const HandFinderOptions& options() const { return options_; }
 
@@ -52,6 +60,8 @@ class HRI_API HandFinder : public HandSource {
                                                   const FrameProgress& progress) const;
 
   HandFinderOptions options_;
+  std::shared_ptr<const FaceFinder> faces_;  // empty without one
+  PersonOptions person_;
   std::vector<std::uint8_t> background_;  // empty without one
   int background_width_px_ = 0;
   int background_height_px_ = 0;
