@@ -43,8 +43,7 @@ void bind_vision_people(py::module_& m) {
           },
           py::arg("bgr"),
           "The Face on which most windows agree, or None. bgr: uint8, shape (height, width, 3).");
-  py::class_<hri::PersonHands>(m, "PersonHands",
-                               "Finds the hands of a person whose face is seen.")
+  py::class_<hri::PersonHands>(m, "PersonHands", "Finds the hands of a person whose face is seen.")
       .def(py::init<const hri::PersonOptions&>(), py::arg("options") = hri::PersonOptions{})
       .def(
           "extract",
@@ -54,5 +53,6 @@ void bind_vision_people(py::module_& m) {
             return self.extract(picture, face);
           },
           py::arg("bgr"), py::arg("face"),
-          "The HandObservation of the person with this face. bgr: uint8, shape (height, width, 3).");
+          "The HandObservation of the person with this face. bgr: uint8, shape (height, width, "
+          "3).");
 }

@@ -19,11 +19,12 @@ namespace hri {
 namespace {
 
 // Lengths are in sides of the face, from its centre.
-constexpr double kMargin = 0.4;  // of the room that is looked at, around what hands reach
+constexpr double kMargin = 0.4;      // of the room that is looked at, around what hands reach
 constexpr double kSurePixels = 0.8;  // share of the face's pixels that are skin, not eyes or hair
-constexpr double kDarkest = 0.3, kBrightest = 2.2;  // skin, against the face's median
-constexpr float kLimit = 4, kNoSkin = -3;           // of logarithms of ratios
-constexpr double kHandArea = 0.6, kLargeHand = 1.0;
+constexpr double kDarkest = 0.3, kBrightest = 2.2;   // skin, against the face's median
+constexpr float kLimit = 4, kNoSkin = -3;            // of logarithms of ratios
+constexpr double kHandArea = 0.6, kLargeHand = 1.0;  // in areas of the face
+constexpr double kFall = 0.6;  // power by which larger regions are less likely
 constexpr int kCentreBins = 256;
 
 struct Place {
@@ -101,7 +102,9 @@ int learn(const Surroundings& around, Workspace* w) {
   if (w->face.empty()) return 0;
   const int cr = median(values[1]);
   const int cb = median(values[2]);
-  const auto apart = [&](const std::uint8_t* p) { return std::abs(p[1] - cr) + std::abs(p[2] - cb); };
+  const auto apart = [&](const std::uint8_t* p) {
+    return std::abs(p[1] - cr) + std::abs(p[2] - cb);
+  };
   const auto last = static_cast<std::ptrdiff_t>(kSurePixels * static_cast<double>(w->face.size()));
   std::nth_element(w->face.begin(), w->face.begin() + last, w->face.end(),
                    [&](const std::uint8_t* p, const std::uint8_t* q) {
@@ -142,11 +145,11 @@ void score(const Surroundings& around, int brightness, double min_log_ratio, Wor
 
 struct Candidate {
   Region region;
-  double score;
+  double score = 0;  // how likely it is a hand: by its colours, and its size in areas of the face
+  double distance = 0;  // from the face
 };
 
-// How likely a region is a hand: by its colours, and by its size, in areas of the face.
-double likelihood(const Region& region, const Surroundings& around, double reach, Workspace* w) {
+Candidate rate(const Region& region, const Surroundings& around, Workspace* w) {
   std::fill(w->one.pixels.begin(), w->one.pixels.end(), std::uint8_t{0});
   w->finder.fill(region, &w->one);
   double sum = 0, sum_x = 0, sum_y = 0;
@@ -161,10 +164,9 @@ double likelihood(const Region& region, const Surroundings& around, double reach
   }
   const double mean_x = (sum_x / region.area - around.centre_x) / around.side;
   const double mean_y = (sum_y / region.area - around.centre_y) / around.side;
-  if (std::hypot(mean_x, mean_y) > reach) return 0;
   const double area = region.area / (around.side * around.side);
-  return sum / region.area * std::min(area, kHandArea) *
-         std::min(1.0, std::pow(kLargeHand / area, kHandArea));
+  const double size = std::min(area, kHandArea) * std::min(1.0, std::pow(kLargeHand / area, kFall));
+  return {region, sum / region.area * size, std::hypot(mean_x, mean_y)};
 }
 
 // Leaves the most likely regions in `best`, and gives them, the most likely first.
@@ -176,11 +178,16 @@ std::vector<Region> choose(const PersonOptions& options, const Surroundings& aro
   for (const Region& region : w->finder.find(w->cleaned)) {
     if (region.area < options.min_area * face_area || region.area > options.max_area * face_area)
       continue;
-    const double likely = likelihood(region, around, options.reach, w);
-    if (likely > 0) candidates.push_back({region, likely});
+    const Candidate rated = rate(region, around, w);
+    if (rated.score > 0 && rated.distance <= options.reach) candidates.push_back(rated);
   }
+  const auto hangs = [&](const Candidate& c) {
+    return options.max_hands == 1 && c.distance > options.signing_reach;
+  };
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& p, const Candidate& q) { return p.score > q.score; });
+                   [&](const Candidate& p, const Candidate& q) {
+                     return hangs(p) != hangs(q) ? hangs(q) : p.score > q.score;
+                   });
   if (candidates.size() > static_cast<std::size_t>(options.max_hands))
     candidates.resize(static_cast<std::size_t>(options.max_hands));
   w->best = GreyImage(w->cleaned.width_px, w->cleaned.height_px);

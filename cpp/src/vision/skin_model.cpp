@@ -7,7 +7,7 @@
 namespace hri::detail {
 namespace {
 
-constexpr double kSpread = 1.0;   // of the smoothing, in bins
+constexpr double kSpread = 1.0;  // of the smoothing, in bins
 constexpr double kFloor = 1e-5;  // share of a bin that holds nothing
 
 }  // namespace

@@ -14,7 +14,11 @@ CASCADE = "haarcascade_frontalface_alt2.xml"
 VARIABLE = "HRI_FACE_CASCADE"
 Faces = Literal["auto", "never"]
 
-_FOLDERS = ("/usr/share/opencv4/haarcascades", "/usr/share/opencv/haarcascades", "/usr/local/share/opencv4/haarcascades")
+_FOLDERS = (
+    "/usr/share/opencv4/haarcascades",
+    "/usr/share/opencv/haarcascades",
+    "/usr/local/share/opencv4/haarcascades",
+)
 
 
 def find_cascade() -> str | None:

@@ -178,9 +178,7 @@ def inspect_hands(
         options.setdefault("frames_per_second", clip.fps)
     names = hand_column_names(kind, **options)
     hands = {}
-    sides = find_hands(
-        clip.frames, max_hands, silhouette, progress, smooth=smooth, background=background, faces=faces
-    )
+    sides = find_hands(clip.frames, max_hands, silhouette, progress, smooth=smooth, background=background, faces=faces)
     for side, found in sides.items():
         rows = iter(hand_features([s.grey for s in found], [s.mask for s in found], kind, **options))
         hands[side] = [_outlined(shape, rows) for shape in found]

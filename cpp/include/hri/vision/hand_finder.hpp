@@ -44,7 +44,7 @@ class HRI_API HandFinder : public HandSource {
 
   /// Both hands: that of the left side of the picture, then that of the right one, as they were
   /// when both were first seen; labels go with the hands when these touch or cross
-  /// (HandPairTracker). A face in view may be mistaken for a hand.
+  /// (HandPairTracker). Without a finder of faces, a face in view may be mistaken for a hand.
   [[nodiscard]] std::array<std::vector<HandObservation>, 2> find_pair(
       Span<const ImageView> clip, const FrameProgress& progress = {}) const;
 
@@ -57,7 +57,8 @@ class HRI_API HandFinder : public HandSource {
 
  private:
   [[nodiscard]] std::vector<HandObservation> find(Span<const ImageView> clip, int max_hands,
-                                                  const FrameProgress& progress) const;
+                                                  const FrameProgress& progress,
+                                                  bool* by_person) const;
 
   HandFinderOptions options_;
   std::shared_ptr<const FaceFinder> faces_;  // empty without one

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The hands of a person in a room, whose face is seen. The face shows the colours of the person's
-// skin and how large a hand is; the room within reach shows which of these colours are also those of
-// walls and furniture. A pixel is skin by the ratio of two histograms of Cr and Cb (Jones and Rehg
-// 2002), that of the face and that of the room.
+// skin and how large a hand is; the room within reach shows which of these colours are also those
+// of walls and furniture. A pixel is skin by the ratio of two histograms of Cr and Cb (Jones and
+// Rehg 2002), that of the face and that of the room.
 #pragma once
 
 #include <array>
@@ -21,7 +21,8 @@ namespace hri {
 
 struct HRI_API PersonOptions {
   int face_side_px = 32;
-  double reach = 3.2;
+  double reach = 4.2;
+  double signing_reach = 3.2;
   double min_area = 0.06;
   double max_area = 2.2;
   double min_log_ratio = 0;
@@ -36,6 +37,8 @@ struct HRI_API PersonOptions {
       "pictures with larger faces are scaled down to this first");
     v("reach", o.reach, within(0.5, 10),
       "distance of a hand's centre from that of the face, at most, in sides of the face");
+    v("signing_reach", o.signing_reach, within(0.5, 10),
+      "where one hand is looked for, one farther away hangs: it is chosen where there is no other");
     v("min_area", o.min_area, within(0, 100), "smallest area of a hand, in areas of the face");
     v("max_area", o.max_area, within(0, 100), "largest");
     v("min_log_ratio", o.min_log_ratio, within(-4, 4),
@@ -57,9 +60,9 @@ class HRI_API PersonHands {
   /// Throws InvalidArgument naming the field that is out of range.
   explicit PersonHands(const PersonOptions& options = {});
 
-  /// The hands of the person with this face; the observation has the size of the scaled picture. Its
-  /// quality is that of the mask in its own surroundings (the hand's rectangle, grown by half its
-  /// sides), as hands are small in pictures of rooms; of two hands, the lower one. Throws
+  /// The hands of the person with this face; the observation has the size of the scaled picture.
+  /// Its quality is that of the mask in its own surroundings (the hand's rectangle, grown by half
+  /// its sides), as hands are small in pictures of rooms; of two hands, the lower one. Throws
   /// InvalidArgument for a picture that has not three channels and at least one pixel, and for a
   /// face without a size or whose centre lies outside it.
   [[nodiscard]] HandObservation extract(ImageView bgr, const Face& face) const;
