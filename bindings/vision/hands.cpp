@@ -48,15 +48,16 @@ void bind_vision_hands(py::module_& m) {
       .def_property_readonly("renewed", &hri::HandStream::renewed,
                              "Hands are found in another way since the last picture.");
   py::class_<hri::HandFinder>(m, "HandFinder", "Finds hands in clips and streams.")
-      .def(py::init(
-               [](const hri::HandFinderOptions& options, const std::optional<ByteArray>& background,
-                  const std::shared_ptr<hri::FaceFinder>& faces, const hri::PersonOptions& person) {
-                 hri::require(!background || !faces, "either background or faces may be given");
-                 if (faces) return hri::HandFinder(options, faces, person);
-                 return background ? hri::HandFinder(
-                                         options, hri_bind::as_image(*background, 3, "background"))
-                                   : hri::HandFinder(options);
-               }),
+      .def(py::init([](const hri::HandFinderOptions& options,
+                       const std::optional<ByteArray>& background,
+                       const std::optional<std::shared_ptr<hri::FaceFinder>>& faces,
+                       const hri::PersonOptions& person) {
+             hri::require(!background || !faces, "either background or faces may be given");
+             if (faces) return hri::HandFinder(options, *faces, person);
+             return background
+                        ? hri::HandFinder(options, hri_bind::as_image(*background, 3, "background"))
+                        : hri::HandFinder(options);
+           }),
            py::arg("options") = hri::HandFinderOptions{}, py::arg("background") = py::none(),
            py::arg("faces") = py::none(), py::arg("person") = hri::PersonOptions{},
            "background: uint8, shape (height, width, 3), the place without a person. faces: where "

@@ -342,7 +342,7 @@ class HandFinder:
         self,
         options: hri._native.HandFinderOptions = ...,
         background: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8] | None = None,
-        faces: FaceFinder = None,
+        faces: FaceFinder | None = None,
         person: PersonOptions = ...,
     ) -> None:
         """
