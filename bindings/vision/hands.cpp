@@ -6,11 +6,13 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/arrays.hpp"
+#include "hri/core/error.hpp"
 #include "hri/vision/hand_finder.hpp"
 #include "vision/clips.hpp"
 
@@ -47,13 +49,19 @@ void bind_vision_hands(py::module_& m) {
                              "Hands are found in another way since the last picture.");
   py::class_<hri::HandFinder>(m, "HandFinder", "Finds hands in clips and streams.")
       .def(py::init([](const hri::HandFinderOptions& options,
-                       const std::optional<ByteArray>& background) {
+                       const std::optional<ByteArray>& background,
+                       const std::optional<std::shared_ptr<hri::FaceFinder>>& faces,
+                       const hri::PersonOptions& person) {
+             hri::require(!background || !faces, "either background or faces may be given");
+             if (faces) return hri::HandFinder(options, *faces, person);
              return background
                         ? hri::HandFinder(options, hri_bind::as_image(*background, 3, "background"))
                         : hri::HandFinder(options);
            }),
            py::arg("options") = hri::HandFinderOptions{}, py::arg("background") = py::none(),
-           "background: uint8, shape (height, width, 3), the place without a person.")
+           py::arg("faces") = py::none(), py::arg("person") = hri::PersonOptions{},
+           "background: uint8, shape (height, width, 3), the place without a person. faces: where "
+           "one is seen, hands are found as that person's.")
       .def(
           "find",
           [](const hri::HandFinder& self, const std::vector<ByteArray>& clip,

@@ -11,20 +11,35 @@ namespace py = pybind11;
 void bind_vision(py::module_& m);
 void bind_vision_hands(py::module_& m);
 void bind_vision_gestures(py::module_& m);
+void bind_vision_people(py::module_& m);
+
+namespace {
+
+// Never released: exception classes live as long as the process.
+PyObject* error_class(const char* name) {
+  return py::object(py::module_::import("hri._native").attr(name)).release().ptr();
+}
+
+}  // namespace
 
 PYBIND11_MODULE(_native_vision, m) {
   m.doc() = "libhri's vision part: silhouettes of hands in colour pictures.";
-  // Never released: exception classes live as long as the process.
-  static PyObject* const invalid_argument =
-      py::object(py::module_::import("hri._native").attr("InvalidArgument")).release().ptr();
+  static PyObject* const invalid_argument = error_class("InvalidArgument");
+  static PyObject* const format_error = error_class("FormatError");
+  static PyObject* const io_error = error_class("IoError");
   py::register_exception_translator([](std::exception_ptr p) {
     try {
       if (p) std::rethrow_exception(p);
     } catch (const hri::InvalidArgument& e) {
       PyErr_SetString(invalid_argument, e.what());
+    } catch (const hri::FormatError& e) {
+      PyErr_SetString(format_error, e.what());
+    } catch (const hri::IoError& e) {
+      PyErr_SetString(io_error, e.what());
     }
   });
   bind_vision(m);
+  bind_vision_people(m);
   bind_vision_hands(m);
   bind_vision_gestures(m);
 }

@@ -15,9 +15,13 @@ from hri._native import MaskSmoothingOptions
 from hri._native import SilhouetteOptions
 import numpy
 import numpy.typing
+import os
 import typing
 
 __all__: list[str] = [
+    "Face",
+    "FaceFinder",
+    "FaceFinderOptions",
     "GestureEvent",
     "GestureSpotter",
     "GestureStream",
@@ -29,6 +33,8 @@ __all__: list[str] = [
     "HandObservation",
     "HandStream",
     "MaskSmoothingOptions",
+    "PersonHands",
+    "PersonOptions",
     "SilhouetteExtractor",
     "SilhouetteOptions",
     "background_of",
@@ -76,6 +82,239 @@ class HandColours:
         How well the pixels on both sides of the outline separate, 0..1.
         """
 
+class FaceFinderOptions:
+    """
+    How faces are found.
+
+    Parameters
+    ----------
+    max_side_px : int, default 640
+        larger pictures are scaled down to this first; 32..4096 px
+    min_side : float, default 0.03
+        side of the smallest face, as a share of the picture's longer side; 0..1
+    scale_step : float, default 1.1
+        ratio of one size that is tried to the next; 1.01..2
+    min_neighbours : int, default 2
+        windows that must agree on a face, a pixel or a size apart; 1..100
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[hri._native.OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self, *, max_side_px: int = 640, min_side: float = 0.03, scale_step: float = 1.1, min_neighbours: int = 2
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def max_side_px(self) -> int:
+        """
+        larger pictures are scaled down to this first
+        """
+    @max_side_px.setter
+    def max_side_px(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_neighbours(self) -> int:
+        """
+        windows that must agree on a face, a pixel or a size apart
+        """
+    @min_neighbours.setter
+    def min_neighbours(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_side(self) -> float:
+        """
+        side of the smallest face, as a share of the picture's longer side
+        """
+    @min_side.setter
+    def min_side(self, arg1: typing.Any) -> None: ...
+    @property
+    def scale_step(self) -> float:
+        """
+        ratio of one size that is tried to the next
+        """
+    @scale_step.setter
+    def scale_step(self, arg1: typing.Any) -> None: ...
+
+class PersonOptions:
+    """
+    How the hands of a person whose face is seen are found.
+
+    Parameters
+    ----------
+    face_side_px : int, default 32
+        pictures with larger faces are scaled down to this first; 8..512 px
+    reach : float, default 4.2
+        distance of a hand's centre from that of the face, at most, in sides of the face; 0.5..10
+    signing_reach : float, default 3.2
+        where one hand is looked for, one farther away hangs: it is chosen where there is no other; 0.5..10
+    min_area : float, default 0.06
+        smallest area of a hand, in areas of the face; 0..100
+    max_area : float, default 2.2
+        largest; 0..100
+    min_log_ratio : float, default 0.0
+        from which logarithm of the ratio of the histograms of skin and room on a pixel is skin; -4..4
+    num_rounds : int, default 1
+        rounds of adding the colours of the hand that was found to those of the face; 0..10
+    face_interval : int, default 5
+        the face is looked for in one frame of so many; 1..1000
+    max_hands : int, default 1
+        regions that masks hold, the most likely; HandPairTracker decides which is which; 1..2
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[hri._native.OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        face_side_px: int = 32,
+        reach: float = 4.2,
+        signing_reach: float = 3.2,
+        min_area: float = 0.06,
+        max_area: float = 2.2,
+        min_log_ratio: float = 0.0,
+        num_rounds: int = 1,
+        face_interval: int = 5,
+        max_hands: int = 1,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def face_interval(self) -> int:
+        """
+        the face is looked for in one frame of so many
+        """
+    @face_interval.setter
+    def face_interval(self, arg1: typing.Any) -> None: ...
+    @property
+    def face_side_px(self) -> int:
+        """
+        pictures with larger faces are scaled down to this first
+        """
+    @face_side_px.setter
+    def face_side_px(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_area(self) -> float:
+        """
+        largest
+        """
+    @max_area.setter
+    def max_area(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_hands(self) -> int:
+        """
+        regions that masks hold, the most likely; HandPairTracker decides which is which
+        """
+    @max_hands.setter
+    def max_hands(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_area(self) -> float:
+        """
+        smallest area of a hand, in areas of the face
+        """
+    @min_area.setter
+    def min_area(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_log_ratio(self) -> float:
+        """
+        from which logarithm of the ratio of the histograms of skin and room on a pixel is skin
+        """
+    @min_log_ratio.setter
+    def min_log_ratio(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_rounds(self) -> int:
+        """
+        rounds of adding the colours of the hand that was found to those of the face
+        """
+    @num_rounds.setter
+    def num_rounds(self, arg1: typing.Any) -> None: ...
+    @property
+    def reach(self) -> float:
+        """
+        distance of a hand's centre from that of the face, at most, in sides of the face
+        """
+    @reach.setter
+    def reach(self, arg1: typing.Any) -> None: ...
+    @property
+    def signing_reach(self) -> float:
+        """
+        where one hand is looked for, one farther away hangs: it is chosen where there is no other
+        """
+    @signing_reach.setter
+    def signing_reach(self, arg1: typing.Any) -> None: ...
+
+class Face:
+    """
+    The square around a face.
+    """
+    def __init__(
+        self,
+        left_px: typing.SupportsFloat | typing.SupportsIndex,
+        top_px: typing.SupportsFloat | typing.SupportsIndex,
+        side_px: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None:
+        """
+        In pixels of the picture.
+        """
+    @property
+    def left_px(self) -> float:
+        """
+        Column of its left side.
+        """
+    @property
+    def side_px(self) -> float:
+        """
+        Width and height.
+        """
+    @property
+    def top_px(self) -> float:
+        """
+        Row of its upper side.
+        """
+
+class FaceFinder:
+    """
+    Finds the face in pictures.
+    """
+    def __init__(self, cascade: str | bytes | os.PathLike[str], options: FaceFinderOptions = ...) -> None:
+        """
+        cascade: path of a cascade of classifiers, as OpenCV writes them.
+        """
+    def find(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> Face | None:
+        """
+        The Face on which most windows agree, or None. bgr: uint8, shape (height, width, 3).
+        """
+
+class PersonHands:
+    """
+    Finds the hands of a person whose face is seen.
+    """
+    def __init__(self, options: PersonOptions = ...) -> None: ...
+    def extract(
+        self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], face: Face
+    ) -> hri._native.HandObservation:
+        """
+        The HandObservation of the person with this face. bgr: uint8, shape (height, width, 3).
+        """
+
 class HandStream:
     """
     The hand in one stream of pictures.
@@ -103,9 +342,11 @@ class HandFinder:
         self,
         options: hri._native.HandFinderOptions = ...,
         background: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8] | None = None,
+        faces: FaceFinder | None = None,
+        person: PersonOptions = ...,
     ) -> None:
         """
-        background: uint8, shape (height, width, 3), the place without a person.
+        background: uint8, shape (height, width, 3), the place without a person. faces: where one is seen, hands are found as that person's.
         """
     def find(
         self,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "hri/core/error.hpp"
 #include "hri/features/hand/hand_pair.hpp"
@@ -41,9 +42,28 @@ HandFinder::HandFinder(const HandFinderOptions& options, ImageView background)
                 background_.data() + static_cast<std::size_t>(y) * length);
 }
 
+HandFinder::HandFinder(const HandFinderOptions& options, std::shared_ptr<const FaceFinder> faces,
+                       const PersonOptions& person)
+    : HandFinder(options) {
+  require(faces != nullptr, "a finder of faces must be given");
+  faces_ = std::move(faces);
+  person_ = validated(person);
+}
+
 std::vector<HandObservation> HandFinder::find(Span<const ImageView> clip, int max_hands,
-                                              const FrameProgress& progress) const {
+                                              const FrameProgress& progress,
+                                              bool* by_person) const {
   require_pictures(clip);
+  *by_person = false;
+  if (faces_) {
+    PersonOptions person = person_;
+    person.max_hands = max_hands;
+    if (auto of_person = PersonHands(person).find(clip, *faces_, progress)) {
+      if (options_.smooth) smooth_masks(options_.smoothing, &*of_person);
+      *by_person = true;
+      return std::move(*of_person);
+    }
+  }
   std::optional<HandColours> colours;
   const bool learns = options_.learning == ColourLearning::automatic && background_.empty();
   if (learns && clip.size() >= static_cast<std::size_t>(options_.min_frames)) {
@@ -74,14 +94,19 @@ std::vector<HandObservation> HandFinder::find(Span<const ImageView> clip, int ma
 
 std::vector<HandObservation> HandFinder::find(Span<const ImageView> clip,
                                               const FrameProgress& progress) const {
-  return find(clip, 1, progress);
+  bool by_person = false;
+  return find(clip, 1, progress, &by_person);
 }
 
 std::array<std::vector<HandObservation>, 2> HandFinder::find_pair(
     Span<const ImageView> clip, const FrameProgress& progress) const {
   std::array<std::vector<HandObservation>, 2> sides;
-  HandPairTracker tracker({});
-  for (HandObservation& both : find(clip, 2, progress)) {
+  bool by_person = false;
+  std::vector<HandObservation> found = find(clip, 2, progress, &by_person);
+  HandPairOptions options;
+  if (by_person) options.min_area = 0;  // the face said how large hands are
+  HandPairTracker tracker(options);
+  for (HandObservation& both : found) {
     const std::array<PairedHand, 2>& hands = tracker.push(both.mask.view());
     for (std::size_t side = 0; side < 2; ++side) {
       const double quality = hands[side].seen ? both.quality : 0;

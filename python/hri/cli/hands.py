@@ -54,13 +54,19 @@ METHODS = ("chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu")
     "--method",
     type=click.Choice(METHODS),
     help="Find the hand in every picture by itself: Otsu's threshold on chroma or grey, or fixed HSV bounds.  "
-    "[default: by colours learned from the clip]",
+    "[default: by the face of a person, or by colours learned from the clip]",
 )
 @click.option(
     "--background",
     metavar="FILE",
     help="A picture of the place without a person; what looks like skin there as well is no hand.  'clip': what most "
     "frames of the clip show.",
+)
+@click.option(
+    "--faces",
+    metavar="FILE",
+    help="A cascade of classifiers that finds faces: where one is seen, hands are that person's.  'never': do not look "
+    "for faces.  [default: OpenCV's, where it is installed, without --method and --background]",
 )
 @click.option("--as-found", is_flag=True, help="Leave masks that jump for a frame or two as they are.")
 @click.option(
@@ -90,6 +96,7 @@ def hands(
     max_hands: int,
     method: str | None,
     background: str | None,
+    faces: str | None,
     as_found: bool,
     fps: float | None,
     video_path: str | None,
@@ -107,6 +114,7 @@ def hands(
       hri hands pictures/ --fps 15 --kind fourier --video seen.webm
       hri hands swipe.mp4 --source landmarks -o joints.json
       hri hands clap.mp4 --max-hands 2 --video seen.mp4
+      hri hands room.mp4 --faces haarcascade_frontalface_alt2.xml --video seen.mp4
       hri hands swipe.mp4 --method hsv_wide --background empty_room.jpg --video seen.mp4
     """
     if (kind is not None or options) and source != "silhouettes":
@@ -115,6 +123,10 @@ def hands(
         raise click.UsageError("--max-hands 2 is for silhouettes")
     if (method is not None or background is not None) and source != "silhouettes":
         raise click.UsageError("--method and --background are for silhouettes")
+    if faces is not None and source != "silhouettes":
+        raise click.UsageError("--faces is for silhouettes")
+    if faces not in (None, "never") and (method is not None or background is not None):
+        raise click.UsageError("--faces cannot go with --method or --background")
     if fps is not None and not Path(clip).is_dir():
         raise click.UsageError(f"--fps is for folders of pictures: {clip} is a file")
     chosen: Any = kind or "track"
@@ -132,6 +144,7 @@ def hands(
             smooth=not as_found,
             silhouette=_options(method),
             background=_background(background, read),
+            faces=faces or "auto",
             **fields,
         )
         if video_path is not None:

@@ -41,7 +41,7 @@ def _finders(frames: Sequence[NDArray[np.uint8]], ways: Sequence[Any]) -> dict[s
     return finders
 
 
-def _shared(mask: NDArray[np.bool_], joints: NDArray[np.float32], frame_size: tuple[int, int]) -> float:
+def shared_with_hull(mask: NDArray[np.bool_], joints: NDArray[np.float32], frame_size: tuple[int, int]) -> float:
     """What mask and hull share, of what either covers."""
     cv2 = import_opencv("to draw hulls")
     height, width = mask.shape
@@ -85,7 +85,7 @@ def _run(data_dir: Path, progress: Progress, *, way: Sequence[str] = WAYS) -> di
                 found = finder.extract(np.ascontiguousarray(frame))
                 if (mask := np.asarray(found.mask) > 0).any():
                     size = (frame.shape[1], frame.shape[0])
-                    pairs[name].append((_shared(mask, joints, size), float(found.quality)))
+                    pairs[name].append((shared_with_hull(mask, joints, size), float(found.quality)))
         progress("finding hands", done + 1, len(dataset))
     rows = [_row(name, pairs[name]) for name in way]
     rows.append(_row(ALL, [pair for found in pairs.values() for pair in found]))

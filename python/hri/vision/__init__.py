@@ -9,15 +9,41 @@ from typing import TYPE_CHECKING
 
 from hri._native import HandColourOptions, HandFinderOptions, HandObservation, MaskSmoothingOptions, SilhouetteOptions
 from hri.core.lazy import loader
+from hri.vision.faces import find_cascade
 from hri.vision.hands import background_of, find_hands, find_silhouettes
 
 if TYPE_CHECKING:
-    from hri._native_vision import HandColours, HandFinder, HandStream, SilhouetteExtractor, smooth_masks
+    from hri._native_vision import (
+        Face,
+        FaceFinder,
+        FaceFinderOptions,
+        HandColours,
+        HandFinder,
+        HandStream,
+        PersonHands,
+        PersonOptions,
+        SilhouetteExtractor,
+        smooth_masks,
+    )
 else:
-    _LOADED = ("HandColours", "HandFinder", "HandStream", "SilhouetteExtractor", "smooth_masks")
+    _LOADED = (
+        "Face",
+        "FaceFinder",
+        "FaceFinderOptions",
+        "HandColours",
+        "HandFinder",
+        "HandStream",
+        "PersonHands",
+        "PersonOptions",
+        "SilhouetteExtractor",
+        "smooth_masks",
+    )
     __getattr__ = loader(__name__, {"hri._native_vision": _LOADED})
 
 __all__ = [
+    "Face",
+    "FaceFinder",
+    "FaceFinderOptions",
     "HandColourOptions",
     "HandColours",
     "HandFinder",
@@ -25,9 +51,12 @@ __all__ = [
     "HandObservation",
     "HandStream",
     "MaskSmoothingOptions",
+    "PersonHands",
+    "PersonOptions",
     "SilhouetteExtractor",
     "SilhouetteOptions",
     "background_of",
+    "find_cascade",
     "find_hands",
     "find_silhouettes",
     "smooth_masks",

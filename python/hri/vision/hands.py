@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Hands in clips: silhouettes by colours learned from the clip."""
+"""Hands in clips: silhouettes by the face of a person, or by colours learned from the clip."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from hri.vision.faces import face_finder
 
 Frame = NDArray[np.uint8]
 Progress = Callable[[int, int], None]
@@ -21,6 +23,7 @@ def find_silhouettes(
     *,
     smooth: bool = True,
     background: Frame | None = None,
+    faces: Any = "auto",
 ) -> list[Any]:
     """The silhouette of the hand in every frame.
 
@@ -28,9 +31,9 @@ def find_silhouettes(
     ----------
     clip : sequence of uint8 arrays, shape (height, width, 3), BGR
     silhouette : SilhouetteOptions, optional
-        How the hand is found in every picture by itself. Without it, the colours of hand and background are learned
-        from a clip of eight frames or more; shorter clips, and those in which no hand stands out, are segmented picture
-        by picture with default options.
+        How the hand is found in every picture by itself. Without it, the hand is that of the person whose face is seen;
+        where none is, the colours of hand and background are learned from a clip of eight frames or more; shorter
+        clips, and those in which no hand stands out, are segmented picture by picture with default options.
     progress : callable, optional
         Called with (done, total) frames.
     smooth : bool
@@ -38,12 +41,14 @@ def find_silhouettes(
     background : uint8 array of the frames' shape, optional
         The place without a person, by the same camera: every frame is then segmented by itself, and what looks like
         skin in frame or background, but not in both, is the hand. `background_of` finds it in the clip itself.
+    faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder
+        How faces are found: see `hri.vision.faces.face_finder`. With `silhouette` or `background`, "auto" is "never".
 
     Returns
     -------
     list of HandObservation
     """
-    found: list[Any] = _finder(silhouette, smooth, background).find(_contiguous(clip), progress)
+    found: list[Any] = _finder(silhouette, smooth, background, faces).find(_contiguous(clip), progress)
     return found
 
 
@@ -55,12 +60,13 @@ def find_hands(
     *,
     smooth: bool = True,
     background: Frame | None = None,
+    faces: Any = "auto",
 ) -> dict[str, list[Any]]:
     """The silhouettes of one hand, or of both, in every frame.
 
     Parameters
     ----------
-    clip, silhouette, progress, smooth, background
+    clip, silhouette, progress, smooth, background, faces
         As for `find_silhouettes`.
     max_hands : int
         1 or 2.
@@ -69,16 +75,17 @@ def find_hands(
     -------
     dict of str to list of HandObservation
         "hand": what `find_silhouettes` gives; or "left" and "right": of the hand that was on that side of the picture
-        when both were first seen. Labels stay with the hands when these touch or cross (`HandPairTracker`). A face in
-        view may be mistaken for a hand.
+        when both were first seen. Labels stay with the hands when these touch or cross (`HandPairTracker`). A face that
+        `faces` does not find may be mistaken for a hand.
     """
     from hri.core.errors import InvalidArgument
 
     if max_hands not in (1, 2):
         raise InvalidArgument(f"max_hands is {max_hands}, must be 1 or 2")
     if max_hands == 1:
-        return {"hand": find_silhouettes(clip, silhouette, progress, smooth=smooth, background=background)}
-    left, right = _finder(silhouette, smooth, background).find_pair(_contiguous(clip), progress)
+        hand = find_silhouettes(clip, silhouette, progress, smooth=smooth, background=background, faces=faces)
+        return {"hand": hand}
+    left, right = _finder(silhouette, smooth, background, faces).find_pair(_contiguous(clip), progress)
     return {"left": left, "right": right}
 
 
@@ -108,13 +115,15 @@ def hand_place(mask: NDArray[np.uint8]) -> tuple[float, float, float] | None:
     return place
 
 
-def _finder(silhouette: Any, smooth: bool, background: Frame | None) -> Any:
+def _finder(silhouette: Any, smooth: bool, background: Frame | None, faces: Any) -> Any:
     from hri import _native_vision
 
+    chosen = silhouette is not None or background is not None
     options: dict[str, Any] = {"smooth": smooth}
     if silhouette is not None:
         options |= {"learning": "never", "silhouette": silhouette}
-    return _native_vision.HandFinder(_native_vision.HandFinderOptions(**options), background)
+    found = None if chosen and isinstance(faces, str) and faces == "auto" else face_finder(faces)
+    return _native_vision.HandFinder(_native_vision.HandFinderOptions(**options), background, faces=found)
 
 
 def _contiguous(clip: Sequence[Frame]) -> list[Frame]:

@@ -24,6 +24,8 @@ class LandmarkTracker:
     ----------
     each_alone : bool
         Look for the hand anew in every picture, for pictures that do not follow on one another.
+    max_hands : int
+        Hands that `find_all` gives, at most.
 
     Raises
     ------
@@ -31,11 +33,11 @@ class LandmarkTracker:
         Without MediaPipe; the message names the extra.
     """
 
-    def __init__(self, *, each_alone: bool = False) -> None:
+    def __init__(self, *, each_alone: bool = False, max_hands: int = 1) -> None:
         mediapipe = import_optional("mediapipe", "mediapipe", "to find the landmarks of hands")
         tracker = mediapipe.solutions.hands.Hands(
             static_image_mode=each_alone,
-            max_num_hands=1,
+            max_num_hands=max_hands,
             model_complexity=1,
             min_detection_confidence=0.3,
             min_tracking_confidence=0.3,
@@ -56,11 +58,13 @@ class LandmarkTracker:
 
         `frame` is uint8, shape (height, width, 3), BGR.
         """
-        hands = self._tracker.process(np.ascontiguousarray(frame[:, :, ::-1])).multi_hand_landmarks
-        if not hands:
-            return None
+        return next(iter(self.find_all(frame)), None)
+
+    def find_all(self, frame: Frame) -> list[Landmarks]:
+        """The same of every hand that is found."""
+        hands = self._tracker.process(np.ascontiguousarray(frame[:, :, ::-1])).multi_hand_landmarks or []
         size = np.array([frame.shape[1], frame.shape[0]], np.float32)
-        return np.array([(p.x, p.y) for p in hands[0].landmark], np.float32) * size
+        return [np.array([(p.x, p.y) for p in hand.landmark], np.float32) * size for hand in hands]
 
     def close(self) -> None:
         """Give back what the tracker holds."""

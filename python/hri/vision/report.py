@@ -128,6 +128,7 @@ def inspect_hands(
     max_hands: int = 1,
     smooth: bool = True,
     background: Any = None,
+    faces: Any = "auto",
     **options: Any,
 ) -> HandReport:
     """Find the hand, or both, in every frame of a clip, and their features.
@@ -151,6 +152,8 @@ def inspect_hands(
         Repair masks that jump for a frame or two.
     background : uint8 array of the frames' shape, optional
         The place without a person, of silhouettes: see `hri.vision.hands.find_silhouettes`.
+    faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder
+        The same, of silhouettes.
     **options
         Fields of the kind's options; tracks get the rate of the clip.
 
@@ -175,7 +178,7 @@ def inspect_hands(
         options.setdefault("frames_per_second", clip.fps)
     names = hand_column_names(kind, **options)
     hands = {}
-    sides = find_hands(clip.frames, max_hands, silhouette, progress, smooth=smooth, background=background)
+    sides = find_hands(clip.frames, max_hands, silhouette, progress, smooth=smooth, background=background, faces=faces)
     for side, found in sides.items():
         rows = iter(hand_features([s.grey for s in found], [s.mask for s in found], kind, **options))
         hands[side] = [_outlined(shape, rows) for shape in found]

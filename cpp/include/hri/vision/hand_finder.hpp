@@ -12,6 +12,7 @@
 #include "hri/core/export.hpp"
 #include "hri/features/hand/hand_finder_options.hpp"
 #include "hri/features/hand/hand_source.hpp"
+#include "hri/vision/person_hands.hpp"
 
 namespace hri {
 
@@ -25,6 +26,13 @@ class HRI_API HandFinder : public HandSource {
   /// by itself, and what looks like skin in it or in the background, but not in both, is the hand.
   HandFinder(const HandFinderOptions& options, ImageView background);
 
+  /// With a finder of faces: in clips in which a face is seen, hands are found as that person's
+  /// (PersonHands), in others as without it. Streams do not look for faces. `person.max_hands` is
+  /// ignored: find() looks for one hand, find_pair() for both. Throws InvalidArgument without a
+  /// finder.
+  HandFinder(const HandFinderOptions& options, std::shared_ptr<const FaceFinder> faces,
+             const PersonOptions& person = {});
+
   [[nodiscard]] const HandFinderOptions& options() const { return options_; }
 
   using HandSource::find;
@@ -36,7 +44,7 @@ class HRI_API HandFinder : public HandSource {
 
   /// Both hands: that of the left side of the picture, then that of the right one, as they were
   /// when both were first seen; labels go with the hands when these touch or cross
-  /// (HandPairTracker). A face in view may be mistaken for a hand.
+  /// (HandPairTracker). Without a finder of faces, a face in view may be mistaken for a hand.
   [[nodiscard]] std::array<std::vector<HandObservation>, 2> find_pair(
       Span<const ImageView> clip, const FrameProgress& progress = {}) const;
 
@@ -49,9 +57,12 @@ class HRI_API HandFinder : public HandSource {
 
  private:
   [[nodiscard]] std::vector<HandObservation> find(Span<const ImageView> clip, int max_hands,
-                                                  const FrameProgress& progress) const;
+                                                  const FrameProgress& progress,
+                                                  bool* by_person) const;
 
   HandFinderOptions options_;
+  std::shared_ptr<const FaceFinder> faces_;  // empty without one
+  PersonOptions person_;
   std::vector<std::uint8_t> background_;  // empty without one
   int background_width_px_ = 0;
   int background_height_px_ = 0;
