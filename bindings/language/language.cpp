@@ -91,6 +91,8 @@ void bind_network(py::module_& m) {
                   "Any number of words in any order; `silence` is the model between them.")
       .def_static("sequence", &hri::WordNetwork::sequence, py::arg("num_words"), py::arg("length"),
                   py::arg("silence") = -1, "So many words in any order.")
+      .def_static("transcript", &hri::WordNetwork::transcript, py::arg("words"),
+                  py::arg("silence") = -1, "The given words in this order: for forced alignment.")
       .def_static("bigram", &hri::WordNetwork::bigram, py::arg("language"), py::arg("labels"),
                   py::arg("silence") = -1,
                   "Any number of words, weighted by a language model of order 1 or 2.")

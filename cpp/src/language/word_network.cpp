@@ -130,6 +130,24 @@ WordNetwork WordNetwork::sequence(int num_words, int length, int silence) {
   return {std::move(draft.models), std::move(draft.arcs), initial, from};
 }
 
+WordNetwork WordNetwork::transcript(const std::vector<int>& words, int silence) {
+  require(!words.empty(), "words: there is none");
+  Draft draft;
+  const int initial = draft.add(kNull);
+  int from = initial;
+  for (const int word : words) {
+    require(word >= 0, "words: a number is below 0");
+    draft.add_silence(from, from, silence);
+    const int node = draft.add(word);
+    const int to = draft.add(kNull);
+    draft.connect(from, node);
+    draft.connect(node, to);
+    from = to;
+  }
+  draft.add_silence(from, from, silence);
+  return {std::move(draft.models), std::move(draft.arcs), initial, from};
+}
+
 WordNetwork WordNetwork::bigram(const NGramModel& language, const std::vector<std::string>& labels,
                                 int silence) {
   require(language.order() <= 2, "a network takes language models of order 1 or 2");

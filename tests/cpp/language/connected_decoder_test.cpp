@@ -25,6 +25,8 @@ std::vector<WordNetwork> networks() {
           WordNetwork::loop(2, kSilence),
           WordNetwork::sequence(2, 1),
           WordNetwork::sequence(2, 3, kSilence),
+          WordNetwork::transcript({1, 0}),
+          WordNetwork::transcript({0, 1, 1}, kSilence),
           WordNetwork::bigram(language, {"a", "b"}),
           WordNetwork::bigram(language, {"a", "b"}, kSilence)};
 }
@@ -231,6 +233,8 @@ TEST(WordNetwork, RefusesWhatIsNoNetwork) {
   EXPECT_THROW(WordNetwork({null, null}, {{0, 1, std::nan("")}}, 0, 1), InvalidArgument);
   EXPECT_THROW(WordNetwork::loop(0), InvalidArgument);
   EXPECT_THROW(WordNetwork::sequence(2, 1001), InvalidArgument);
+  EXPECT_THROW(WordNetwork::transcript({}), InvalidArgument);
+  EXPECT_THROW(WordNetwork::transcript({-1}), InvalidArgument);
   const NGramModel trigram = NGramModel::train({{"a", "b"}}, {3});
   EXPECT_THROW(WordNetwork::bigram(trigram, {"a"}), InvalidArgument);
   EXPECT_THROW(WordNetwork::bigram(NGramModel::train({{"a"}}), {"b"}), InvalidArgument);

@@ -36,6 +36,8 @@ class HRI_API WordNetwork {
   static WordNetwork loop(int num_words, int silence = kNoSilence);
   /// `length` words, 1..1000, in any order.
   static WordNetwork sequence(int num_words, int length, int silence = kNoSilence);
+  /// The given words in this order: for forced alignment. Throws InvalidArgument for none.
+  static WordNetwork transcript(const std::vector<int>& words, int silence = kNoSilence);
   /// Any number of words, weighted by a model of order 1 or 2; model i is the word labels[i].
   /// Throws InvalidArgument for other orders and for labels that the model does not know.
   static WordNetwork bigram(const NGramModel& language, const std::vector<std::string>& labels,

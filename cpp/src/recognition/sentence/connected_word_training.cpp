@@ -69,6 +69,34 @@ double final_stay(const GaussianMixtureHmm& model, const std::vector<MatrixF>& s
   return visits > 0 ? std::min(1 - visits / frames, kLongestStay) : 0.5;
 }
 
+// Forced alignment: where words that are known lie in frames.
+class Aligner {
+ public:
+  explicit Aligner(const TrainedWords& trained) : emissions_(trained.models) {
+    for (std::size_t m = 0; m < trained.models.size(); ++m) {
+      chains_.push_back(WordChain::of(trained.models[m].chain(),
+                                      trained.final_stays[static_cast<Eigen::Index>(m)]));
+    }
+  }
+
+  // Words and silences; `otherwise` where the frames are too few for the words.
+  [[nodiscard]] std::vector<DecodedWord> align(const MatrixF& frames,
+                                               const std::vector<int>& labels,
+                                               std::vector<DecodedWord> otherwise) const {
+    MatrixF log_emissions(frames.rows(), emissions_.num_states());
+    emissions_.compute(frames, log_emissions);
+    const int silence = static_cast<int>(chains_.size()) - 1;
+    ConnectedDecoder decoder(chains_, WordNetwork::transcript(labels, silence));
+    for (Eigen::Index t = 0; t < frames.rows(); ++t) decoder.push(row_span(log_emissions, t));
+    DecodedSentence sentence = decoder.finish();
+    return sentence.complete ? std::move(sentence.words) : std::move(otherwise);
+  }
+
+ private:
+  GaussianEmissions emissions_;
+  std::vector<WordChain> chains_;
+};
+
 class SentenceTrainer {
  public:
   SentenceTrainer(const ConnectedWordRecognizerOptions& options, std::vector<std::string> labels,
@@ -170,11 +198,19 @@ class SentenceTrainer {
 
   [[nodiscard]] TrainedWords train_without(int fold) const {
     const auto words = words_where([fold](const SpokenWord& w) { return w.fold != fold; });
-    return train_models(sequences_of(words));
+    TrainedWords trained = train_models(sequences_of(words, nullptr));
+    for (int i = 0; i < options_.num_alignments; ++i)
+      trained = train_models(sequences_of(words, &trained));
+    return trained;
   }
 
-  // Every copy joins the words in another way.
-  [[nodiscard]] ClassSequences sequences_of(const std::vector<const SpokenWord*>& words) const {
+  [[nodiscard]] int silence() const { return static_cast<int>(labels_.size()); }
+
+  // Every copy joins the words in another way. With models the words lie where these put them.
+  [[nodiscard]] ClassSequences sequences_of(const std::vector<const SpokenWord*>& words,
+                                            const TrainedWords* models) const {
+    std::optional<Aligner> aligner;
+    if (models != nullptr) aligner.emplace(*models);
     const auto num_copies = static_cast<std::size_t>(maker_.num_copies());
     std::vector<ClassSequences> of_copies(num_copies);
     const std::uint64_t seed = options_.words.seed;
@@ -183,8 +219,14 @@ class SentenceTrainer {
       std::uint64_t of_string = seed + copy;
       for (const WordString& string : maker_.join(words, seed + copy)) {
         poll(stop);
-        maker_.add_sequences(string, static_cast<int>(copy), of_string += num_copies,
-                             &of_copies[copy]);
+        const MatrixF frames =
+            maker_.frames(string, static_cast<int>(copy), of_string += num_copies);
+        auto segments = maker_.segments(string, frames.rows(), silence());
+        if (aligner) segments = aligner->align(frames, string.labels, std::move(segments));
+        for (const DecodedWord& segment : segments) {
+          of_copies[copy][static_cast<std::size_t>(segment.model)].push_back(
+              frames.middleRows(segment.first_frame, segment.last_frame - segment.first_frame));
+        }
       }
     });
     ClassSequences all(labels_.size() + 1);

@@ -96,32 +96,34 @@ std::vector<float> StringMaker::heard(const WordString& string, int copy,
   return with_noise(string.audio, mean_power(string.audio) * std::pow(10.0, -snr_db / 10), &random);
 }
 
-void StringMaker::add_sequences(const WordString& string, int copy, std::uint64_t seed,
-                                ClassSequences* sequences) const {
+MatrixF StringMaker::frames(const WordString& string, int copy, std::uint64_t seed) const {
   const std::size_t warp = static_cast<std::size_t>(copy) < front_ends_.size()
                                ? static_cast<std::size_t>(copy)
                                : mixed(seed, 0) % front_ends_.size();
-  const MatrixF frames = front_ends_[warp].frames(heard(string, copy, seed));
-  const auto add = [&](std::size_t label, Eigen::Index first, Eigen::Index last) {
-    if (last > first) (*sequences)[label].push_back(frames.middleRows(first, last - first));
-  };
+  return front_ends_[warp].frames(heard(string, copy, seed));
+}
+
+std::vector<DecodedWord> StringMaker::segments(const WordString& string, Eigen::Index num_frames,
+                                               int silence) const {
+  std::vector<DecodedWord> segments;
   Eigen::Index done = 0;
+  const auto add = [&](int model, Eigen::Index last) {
+    if (last > done) segments.push_back({model, done, last, 0});
+    done = last;
+  };
   const auto frames_before = [&](std::size_t sample) {
     Eigen::Index t = done;
-    while (t < frames.rows() &&
+    while (t < num_frames &&
            front_end().middle_of(static_cast<double>(t)) < static_cast<double>(sample))
       ++t;
     return t;
   };
   for (std::size_t i = 0; i < string.labels.size(); ++i) {
-    const Eigen::Index first = frames_before(string.firsts[i]);
-    add(sequences->size() - 1, done, first);
-    done = first;
-    const Eigen::Index last = frames_before(string.lasts[i]);
-    add(static_cast<std::size_t>(string.labels[i]), first, last);
-    done = last;
+    add(silence, frames_before(string.firsts[i]));
+    add(string.labels[i], frames_before(string.lasts[i]));
   }
-  add(sequences->size() - 1, done, frames.rows());
+  add(silence, num_frames);
+  return segments;
 }
 
 }  // namespace hri::detail

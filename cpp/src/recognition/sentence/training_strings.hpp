@@ -46,16 +46,18 @@ class StringMaker {
   /// are what was recorded around the words, as far as it goes. The noise floor is in them.
   [[nodiscard]] std::vector<WordString> join(const std::vector<const SpokenWord*>& words,
                                              std::uint64_t seed) const;
-  /// The same audio with the noise of copy `copy`, or as it is.
-  [[nodiscard]] std::vector<float> heard(const WordString& string, int copy,
-                                         std::uint64_t seed) const;
-  /// Appends the frames of every word and, as the last class, of every pause of copy `copy`.
-  void add_sequences(const WordString& string, int copy, std::uint64_t seed,
-                     ClassSequences* sequences) const;
+  /// The frames of copy `copy`.
+  [[nodiscard]] MatrixF frames(const WordString& string, int copy, std::uint64_t seed) const;
+  /// Where the words of a string and the pauses lie in its frames; those are model `silence`.
+  [[nodiscard]] std::vector<DecodedWord> segments(const WordString& string, Eigen::Index num_frames,
+                                                  int silence) const;
 
  private:
   [[nodiscard]] WordString join_one(const std::vector<const SpokenWord*>& words,
                                     Random* random) const;
+  // The audio with the noise of copy `copy`, or as it is.
+  [[nodiscard]] std::vector<float> heard(const WordString& string, int copy,
+                                         std::uint64_t seed) const;
 
   ConnectedWordRecognizerOptions options_;
   std::vector<SentenceFrontEnd> front_ends_;  // at every warp, the first of 1

@@ -29,6 +29,7 @@ struct HRI_API ConnectedWordRecognizerOptions {
   int silence_mixtures = 4;
   int max_words = 7;
   double max_pause_ms = 300;
+  int num_alignments = 1;
   bool choose_penalty = true;
   ConnectedDecoderOptions decoder;
 
@@ -43,6 +44,9 @@ struct HRI_API ConnectedWordRecognizerOptions {
     v("max_words", o.max_words, within(1, 100),
       "words of the strings that are trained on, at most");
     v("max_pause_ms", o.max_pause_ms, within(0, 10000), "longest pause in these strings");
+    v("num_alignments", o.num_alignments, within(0, 10),
+      "times that the boundaries of words are moved to where the models put them, and the models "
+      "trained again");
     v("choose_penalty", o.choose_penalty, any_value,
       "decoder.insertion_penalty is chosen on strings of speakers held out");
     v("decoder", o.decoder, any_value, "how sentences are searched");
