@@ -95,9 +95,9 @@ class ConnectedWordRecognizer(Recognizer):
 
     Examples
     --------
-    >>> digits = ConnectedWordRecognizer().fit(clips, labels, sample_rate_hz=16000, groups=speakers)
-    >>> digits.recognise(samples, 16000).text
-    'seven two two'
+    >>> digits = ConnectedWordRecognizer(max_words=3).fit(clips, labels, sample_rate_hz=16000)
+    >>> digits.recognise(samples, 16000, num_words=1).text
+    'seven'
     """
 
     mode = "speech"
