@@ -24,6 +24,7 @@ KEYWORDS_OF = (
     _native.GestureRecognizerOptions,
     _native.SpeakerAdapterOptions,
     _native.SpeechEmbeddingOptions,
+    _native.ConnectedWordRecognizerOptions,
 )
 
 KEYWORDS_HEAD = '''# SPDX-FileCopyrightText: The hri contributors

@@ -31,10 +31,12 @@ void bind_sequence_network(py::module_& m);
 void bind_softmax_regression(py::module_& m);
 void bind_hmm(py::module_& m);
 void bind_possibilistic(py::module_& m);
+void bind_language(py::module_& m);
 void bind_recognition(py::module_& m);
 void bind_speaker_adapter(py::module_& m);
 void bind_speech_embedding(py::module_& m);
 void bind_gesture_segments(py::module_& m);
+void bind_connected_words(py::module_& m);
 
 namespace {
 
@@ -99,7 +101,7 @@ void bind_errors(py::module_& m) {
 }  // namespace
 
 PYBIND11_MODULE(_native, m) {
-  m.doc() = "libhri's core: signal, features, models and recognition, without OpenCV.";
+  m.doc() = "libhri's core: signal, features, models, language and recognition, without OpenCV.";
   m.attr("__version__") = HRI_VERSION;
   bind_errors(m);
   m.def(
@@ -127,8 +129,10 @@ PYBIND11_MODULE(_native, m) {
   bind_softmax_regression(m);
   bind_hmm(m);
   bind_possibilistic(m);
+  bind_language(m);
   bind_recognition(m);
   bind_speaker_adapter(m);
   bind_speech_embedding(m);
   bind_gesture_segments(m);
+  bind_connected_words(m);
 }

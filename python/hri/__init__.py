@@ -3,8 +3,8 @@
 """Command a humanoid robot with words and signs.
 
 The names below are loaded on first use, so that ``import hri`` pulls in neither OpenCV nor PyBullet. The rooms are
-`hri.signal`, `hri.features`, `hri.models`, `hri.vision`, `hri.recognition`, `hri.io` (as in C++), and `hri.media`,
-`hri.datasets`, `hri.synthetic`, `hri.evaluation`, `hri.fusion`, `hri.live`, `hri.robot`.
+`hri.signal`, `hri.features`, `hri.models`, `hri.language`, `hri.vision`, `hri.recognition`, `hri.io` (as in C++), and
+`hri.media`, `hri.datasets`, `hri.synthetic`, `hri.evaluation`, `hri.fusion`, `hri.live`, `hri.robot`.
 """
 
 import logging
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         features,
         fusion,
         io,
+        language,
         live,
         media,
         models,
@@ -36,11 +37,13 @@ if TYPE_CHECKING:
     from hri.fusion import FusedDecision, fuse
     from hri.media import Audio, Clip, read_audio, read_frames
     from hri.recognition import (
+        ConnectedWordRecognizer,
         Decision,
         GestureRecognizer,
         GestureRecognizerOptions,
         NBest,
         SpeakerAdapter,
+        Transcript,
         WordRecognizer,
         WordRecognizerOptions,
         load,
@@ -56,6 +59,7 @@ else:
         "features",
         "fusion",
         "io",
+        "language",
         "live",
         "media",
         "models",
@@ -75,11 +79,13 @@ else:
             "hri.fusion": ("FusedDecision", "fuse"),
             "hri.media": ("Audio", "Clip", "read_audio", "read_frames"),
             "hri.recognition": (
+                "ConnectedWordRecognizer",
                 "Decision",
                 "GestureRecognizer",
                 "GestureRecognizerOptions",
                 "NBest",
                 "SpeakerAdapter",
+                "Transcript",
                 "WordRecognizer",
                 "WordRecognizerOptions",
                 "load",
@@ -100,6 +106,7 @@ __all__ = [
     "Audio",
     "CepstraOptions",
     "Clip",
+    "ConnectedWordRecognizer",
     "Dataset",
     "Decision",
     "Error",
@@ -114,6 +121,7 @@ __all__ = [
     "NBest",
     "NotFittedError",
     "SpeakerAdapter",
+    "Transcript",
     "WordRecognizer",
     "WordRecognizerOptions",
     "__version__",
@@ -126,6 +134,7 @@ __all__ = [
     "fusion",
     "gesture_trajectory",
     "io",
+    "language",
     "live",
     "load",
     "media",

@@ -24,7 +24,13 @@ __all__: list[str] = [
     "CodebookOptions",
     "CodebookReport",
     "ConfusedPair",
+    "ConnectedDecoder",
+    "ConnectedDecoderOptions",
+    "ConnectedWordRecognizer",
+    "ConnectedWordRecognizerOptions",
     "Decision",
+    "DecodedSentence",
+    "DecodedWord",
     "DiscreteHmm",
     "DiscreteHmmOptions",
     "DiscreteHmmStream",
@@ -41,6 +47,7 @@ __all__: list[str] = [
     "FourierDescriptorOptions",
     "GaussianBayes",
     "GaussianBayesOptions",
+    "GaussianEmissions",
     "GaussianMixture",
     "GaussianMixtureHmm",
     "GaussianMixtureHmmOptions",
@@ -80,11 +87,15 @@ __all__: list[str] = [
     "ModelFile",
     "MultiStreamCodebook",
     "NBest",
+    "NGramFit",
+    "NGramModel",
+    "NGramOptions",
     "NUM_LANDMARKS",
     "OptionField",
     "OrientationHistogramOptions",
     "PairedHand",
     "Pca",
+    "PossibilisticEmissions",
     "PossibilisticGaussianHmmSet",
     "PossibilisticHmmOptions",
     "PossibilisticHmmSet",
@@ -110,6 +121,8 @@ __all__: list[str] = [
     "StateChoiceOptions",
     "Topology",
     "TrainingReport",
+    "TranscribedWord",
+    "Transcript",
     "UtteranceDecision",
     "Wav",
     "WaveletDescriptorComputer",
@@ -117,6 +130,8 @@ __all__: list[str] = [
     "WaveletStream32",
     "WaveletStream64",
     "WaveletStreamOptions",
+    "WordChain",
+    "WordNetwork",
     "WordRecognizer",
     "WordRecognizerOptions",
     "activity_frames",
@@ -6428,6 +6443,610 @@ class GestureSegmenter:
     def options(self) -> GestureSegmenterOptions:
         """
         As passed, with defaults filled in.
+        """
+
+class ConnectedDecoder:
+    """
+    Token passing over a word network, frame by frame.
+    """
+    def __init__(
+        self,
+        chains: collections.abc.Sequence[WordChain],
+        network: WordNetwork,
+        options: ConnectedDecoderOptions = ...,
+    ) -> None: ...
+    def finish(self) -> DecodedSentence:
+        """
+        The best sentence; then as before the first frame.
+        """
+    def partial(self) -> DecodedSentence:
+        """
+        The best hypothesis so far.
+        """
+    def push(self, log_emissions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        One frame: log scores of all states, shape (num_states,).
+        """
+    def push_all(self, log_emissions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        push() of every row.
+        """
+    def reset(self) -> None:
+        """
+        Back to before the first frame.
+        """
+    def take_decided(self) -> list[DecodedWord]:
+        """
+        Words that change no more, since the last call.
+        """
+    @property
+    def alive(self) -> bool:
+        """
+        Whether any hypothesis is left.
+        """
+    @property
+    def num_active(self) -> int:
+        """
+        States with a hypothesis.
+        """
+    @property
+    def num_frames(self) -> int:
+        """
+        Pushed so far.
+        """
+    @property
+    def num_states(self) -> int:
+        """
+        Of all models.
+        """
+
+class ConnectedDecoderOptions:
+    """
+    Options of ConnectedDecoder.
+
+    Parameters
+    ----------
+    beam : float, default 2000.0
+        states whose score falls this much below the best (natural log) are dropped; 0..1e+12, 0 excluded
+    language_scale : float, default 1.0
+        factor on the log weights of the network (HTK's grammar scale); 0..1000000
+    insertion_penalty : float, default 0.0
+        added to the log score at every word; below 0: fewer words (HTK's -p); -1000000..1000000
+    max_open_words : int, default 65536
+        words of all hypotheses that are kept at most while these differ; beyond, the oldest word of the best one is decided; 64..100000000
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        beam: float = 2000.0,
+        language_scale: float = 1.0,
+        insertion_penalty: float = 0.0,
+        max_open_words: int = 65536,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def beam(self) -> float:
+        """
+        states whose score falls this much below the best (natural log) are dropped
+        """
+    @beam.setter
+    def beam(self, arg1: typing.Any) -> None: ...
+    @property
+    def insertion_penalty(self) -> float:
+        """
+        added to the log score at every word; below 0: fewer words (HTK's -p)
+        """
+    @insertion_penalty.setter
+    def insertion_penalty(self, arg1: typing.Any) -> None: ...
+    @property
+    def language_scale(self) -> float:
+        """
+        factor on the log weights of the network (HTK's grammar scale)
+        """
+    @language_scale.setter
+    def language_scale(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_open_words(self) -> int:
+        """
+        words of all hypotheses that are kept at most while these differ; beyond, the oldest word of the best one is decided
+        """
+    @max_open_words.setter
+    def max_open_words(self, arg1: typing.Any) -> None: ...
+
+class ConnectedWordRecognizer:
+    """
+    Connected words; hri.ConnectedWordRecognizer wraps it.
+    """
+    @staticmethod
+    def from_model_file(file: ModelFile) -> ConnectedWordRecognizer: ...
+    @staticmethod
+    def load(path: str | bytes | os.PathLike[str]) -> ConnectedWordRecognizer: ...
+    @staticmethod
+    def train(
+        samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        labels: collections.abc.Sequence[str],
+        groups: collections.abc.Sequence[str],
+        options: ConnectedWordRecognizerOptions,
+        progress: collections.abc.Callable[[int, int], None] | None = None,
+    ) -> ConnectedWordRecognizer: ...
+    def recognise(
+        self,
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+        num_words: typing.SupportsInt | typing.SupportsIndex = 0,
+    ) -> Transcript: ...
+    def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
+    def to_model_file(self) -> ModelFile: ...
+    def with_decoder(self, decoder: ConnectedDecoderOptions) -> ConnectedWordRecognizer: ...
+    def with_language(self, language: NGramModel) -> ConnectedWordRecognizer: ...
+    @property
+    def labels(self) -> list[str]: ...
+    @property
+    def options(self) -> ConnectedWordRecognizerOptions:
+        """
+        As trained, with what training chose.
+        """
+
+class ConnectedWordRecognizerOptions:
+    """
+    Options of ConnectedWordRecognizer.
+
+    Parameters
+    ----------
+    words : WordRecognizerOptions or dict
+        front end, models and augmentation as of isolated words, models of the kind hmm; what these reject words by is not used
+    silence_states : int, default 3
+        left-right states of silence; 1..64
+    silence_mixtures : int, default 4
+        Gaussians of each of them; 1..64
+    max_words : int, default 7
+        words of the strings that are trained on, at most; 1..100
+    max_pause_ms : float, default 300.0
+        longest pause in these strings; 0..10000 ms
+    num_alignments : int, default 1
+        times that the boundaries of words are moved to where the models put them, and the models trained again; 0..10
+    choose_penalty : bool, default True
+        decoder.insertion_penalty is chosen on strings of speakers held out
+    decoder : ConnectedDecoderOptions or dict
+        how sentences are searched
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        words: WordRecognizerOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        silence_states: int = 3,
+        silence_mixtures: int = 4,
+        max_words: int = 7,
+        max_pause_ms: float = 300.0,
+        num_alignments: int = 1,
+        choose_penalty: bool = True,
+        decoder: ConnectedDecoderOptions | collections.abc.Mapping[str, typing.Any] = ...,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def choose_penalty(self) -> bool:
+        """
+        decoder.insertion_penalty is chosen on strings of speakers held out
+        """
+    @choose_penalty.setter
+    def choose_penalty(self, arg1: typing.Any) -> None: ...
+    @property
+    def decoder(self) -> ConnectedDecoderOptions:
+        """
+        how sentences are searched
+        """
+    @decoder.setter
+    def decoder(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_pause_ms(self) -> float:
+        """
+        longest pause in these strings
+        """
+    @max_pause_ms.setter
+    def max_pause_ms(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_words(self) -> int:
+        """
+        words of the strings that are trained on, at most
+        """
+    @max_words.setter
+    def max_words(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_alignments(self) -> int:
+        """
+        times that the boundaries of words are moved to where the models put them, and the models trained again
+        """
+    @num_alignments.setter
+    def num_alignments(self, arg1: typing.Any) -> None: ...
+    @property
+    def silence_mixtures(self) -> int:
+        """
+        Gaussians of each of them
+        """
+    @silence_mixtures.setter
+    def silence_mixtures(self, arg1: typing.Any) -> None: ...
+    @property
+    def silence_states(self) -> int:
+        """
+        left-right states of silence
+        """
+    @silence_states.setter
+    def silence_states(self, arg1: typing.Any) -> None: ...
+    @property
+    def words(self) -> WordRecognizerOptions:
+        """
+        front end, models and augmentation as of isolated words, models of the kind hmm; what these reject words by is not used
+        """
+    @words.setter
+    def words(self, arg1: typing.Any) -> None: ...
+
+class DecodedSentence:
+    """
+    What a decoder found.
+    """
+    @property
+    def complete(self) -> bool:
+        """
+        Whether it is a whole sentence.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        Of the best path.
+        """
+    @property
+    def words(self) -> list[DecodedWord]:
+        """
+        In the order of time.
+        """
+
+class DecodedWord:
+    """
+    One word, or silence, of a decoded sentence.
+    """
+    @property
+    def first_frame(self) -> int:
+        """
+        First frame.
+        """
+    @property
+    def last_frame(self) -> int:
+        """
+        One past the last frame.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        What it adds to the sentence's.
+        """
+    @property
+    def model(self) -> int:
+        """
+        Number of the model.
+        """
+
+class GaussianEmissions:
+    """
+    Log densities of the states of several models.
+    """
+    def __init__(self, models: collections.abc.Sequence[GaussianMixtureHmm]) -> None: ...
+    def compute(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_frames, num_states).
+        """
+    @property
+    def num_states(self) -> int:
+        """
+        Of all models.
+        """
+
+class NGramFit:
+    """
+    How well a language model predicts sentences.
+    """
+    @property
+    def log_probability(self) -> float:
+        """
+        Natural log, of all words that the model knows.
+        """
+    @property
+    def num_unknown(self) -> int:
+        """
+        Words the model does not know.
+        """
+    @property
+    def num_words(self) -> int:
+        """
+        Predicted: known words and ends of sentences.
+        """
+    @property
+    def perplexity(self) -> float:
+        """
+        exp(-log_probability / num_words).
+        """
+
+class NGramModel:
+    """
+    N-gram language model of words with back-off; <s> and </s> are words, too.
+    """
+    @staticmethod
+    def load(path: str | bytes | os.PathLike[str]) -> NGramModel:
+        """
+        Reads an ARPA file; raises FormatError naming file and line.
+        """
+    @staticmethod
+    def parse(text: str, name: str) -> NGramModel:
+        """
+        Reads the text of an ARPA file; `name` is what errors call it.
+        """
+    @staticmethod
+    def train(
+        sentences: collections.abc.Sequence[collections.abc.Sequence[str]],
+        options: NGramOptions = ...,
+        vocabulary: collections.abc.Sequence[str] = [],
+    ) -> NGramModel:
+        """
+        Trains on lists of words; `vocabulary` names words beside those in them. Raises InvalidArgument for a word that is empty, a marker or has white space in it.
+        """
+    def fit_of(self, sentences: collections.abc.Sequence[collections.abc.Sequence[str]]) -> NGramFit:
+        """
+        An NGramFit: perplexity and what it is of.
+        """
+    def log_probability(self, history: collections.abc.Sequence[str], word: str) -> float:
+        """
+        log P(word | history), natural log; -inf for an unknown word, unless there is <unk>.
+        """
+    def num_ngrams(self, order: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        How many n-grams of an order there are.
+        """
+    def save(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes an ARPA file.
+        """
+    def to_arpa(self) -> str:
+        """
+        The text of the ARPA file.
+        """
+    @property
+    def order(self) -> int:
+        """
+        Words of the longest n-grams.
+        """
+    @property
+    def words(self) -> list[str]:
+        """
+        All words and markers.
+        """
+
+class NGramOptions:
+    """
+    Options of NGramModel.
+
+    Parameters
+    ----------
+    order : int, default 2
+        words of an n-gram; 2: bigram; 1..6
+    smoothing : {'witten_bell', 'kneser_ney'}, default 'witten_bell'
+        how n-grams that were not seen get their share
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self, *, order: int = 2, smoothing: typing.Literal["witten_bell", "kneser_ney"] = "witten_bell"
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def order(self) -> int:
+        """
+        words of an n-gram; 2: bigram
+        """
+    @order.setter
+    def order(self, arg1: typing.Any) -> None: ...
+    @property
+    def smoothing(self) -> typing.Literal["witten_bell", "kneser_ney"]:
+        """
+        how n-grams that were not seen get their share
+        """
+    @smoothing.setter
+    def smoothing(self, arg1: typing.Any) -> None: ...
+
+class PossibilisticEmissions:
+    """
+    Log possibilities of the states of a set of models.
+    """
+    def __init__(self, set: PossibilisticHmmSet) -> None: ...
+    def compute(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, a row for each symbol, shape (len(symbols), num_states).
+        """
+    @property
+    def num_states(self) -> int:
+        """
+        Of all models.
+        """
+
+class TranscribedWord:
+    """
+    One word of a transcript.
+    """
+    @property
+    def first_s(self) -> float:
+        """
+        Its beginning, in seconds.
+        """
+    @property
+    def label(self) -> str:
+        """
+        A word of the vocabulary.
+        """
+    @property
+    def last_s(self) -> float:
+        """
+        Its end, in seconds.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        What it adds to the transcript's.
+        """
+
+class Transcript:
+    """
+    The words of a recording.
+    """
+    @property
+    def complete(self) -> bool:
+        """
+        Whether there were enough frames.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        Of the best path.
+        """
+    @property
+    def notes(self) -> list[str]:
+        """
+        What was converted or assumed on the way.
+        """
+    @property
+    def words(self) -> list[TranscribedWord]:
+        """
+        In the order of time.
+        """
+
+class WordChain:
+    """
+    The states of a word as a decoder passes them.
+    """
+    @staticmethod
+    def of(
+        chain: MarkovChain, final_stay: typing.SupportsFloat | typing.SupportsIndex, is_silence: bool = False
+    ) -> WordChain:
+        """
+        Of a left-right MarkovChain, whose last state is left with 1 - final_stay.
+        """
+    def __init__(
+        self,
+        log_start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        log_transition: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        log_exit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        is_silence: bool = False,
+    ) -> None: ...
+
+class WordNetwork:
+    """
+    Which words may follow which; nodes are words or null nodes.
+    """
+    @staticmethod
+    def bigram(
+        language: NGramModel,
+        labels: collections.abc.Sequence[str],
+        silence: typing.SupportsInt | typing.SupportsIndex = -1,
+    ) -> WordNetwork:
+        """
+        Any number of words, weighted by a language model of order 1 or 2.
+        """
+    @staticmethod
+    def loop(
+        num_words: typing.SupportsInt | typing.SupportsIndex, silence: typing.SupportsInt | typing.SupportsIndex = -1
+    ) -> WordNetwork:
+        """
+        Any number of words in any order; `silence` is the model between them.
+        """
+    @staticmethod
+    def sequence(
+        num_words: typing.SupportsInt | typing.SupportsIndex,
+        length: typing.SupportsInt | typing.SupportsIndex,
+        silence: typing.SupportsInt | typing.SupportsIndex = -1,
+    ) -> WordNetwork:
+        """
+        So many words in any order.
+        """
+    @staticmethod
+    def transcript(
+        words: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        silence: typing.SupportsInt | typing.SupportsIndex = -1,
+    ) -> WordNetwork:
+        """
+        The given words in this order: for forced alignment.
+        """
+    def __init__(
+        self,
+        models: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        arcs: collections.abc.Sequence[
+            tuple[
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsFloat | typing.SupportsIndex,
+            ]
+        ],
+        initial: typing.SupportsInt | typing.SupportsIndex,
+        final: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None:
+        """
+        `models[n]` is the model of node n, -1 for a null node; an arc is (from, to, log weight).
+        """
+    @property
+    def final(self) -> int:
+        """
+        Where they end.
+        """
+    @property
+    def initial(self) -> int:
+        """
+        Where sentences begin.
+        """
+    @property
+    def models(self) -> list[int]:
+        """
+        The model of every node; -1: a null node.
         """
 
 def activity_frames(

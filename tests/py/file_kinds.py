@@ -20,6 +20,7 @@ from hri.core.plotting import new_axes, save_figure
 from hri.datasets.asl_sentences import HANDS_COLUMNS, SIGNERS_COLUMNS, WORDS_COLUMNS, read_asl_sentences
 from hri.datasets.manifest import Manifest, SampleRow, read_manifest, write_manifest
 from hri.io import ModelFile, read_wav, write_wav_pcm16
+from hri.language import NGramModel
 from hri.media import frame_rate, iterate_frames, read_audio, read_frames, read_image, write_image, write_video
 from hri.models import Codebook
 from hri.robot import Trajectory, gesture_trajectory, read_pulse_csv, read_short_csv
@@ -87,6 +88,7 @@ WRITERS: dict[str, Callable[[Any], object]] = {
     "clip.mkv": lambda path: write_video(path, [PICTURE] * 8, 10.0),
     "sound.wav": lambda path: write_wav_pcm16(path, SAMPLES, 8000),
     "model.hri": write_model,
+    "language.arpa": lambda path: NGramModel.train([["go", f"{i}"] for i in range(200)]).save(path),
     "estimator.hri": lambda path: Codebook(num_codewords=64).fit(ROWS).save(path),
     "figure.png": write_figure,
     "figure.svg": write_figure,
@@ -120,6 +122,8 @@ READERS: dict[str, Callable[[Any], object]] = {
     "any.hri": hri.load,
     "words.hri": hri.WordRecognizer.load,
     "signs.hri": hri.GestureRecognizer.load,
+    "connected.hri": hri.ConnectedWordRecognizer.load,
+    "language.arpa": NGramModel.load,
     "estimator.hri": Codebook.load,
     "dataset.toml": lambda path: read_manifest(Path(path)),
     "signers.csv": lambda path: read_asl_sentences(Path(path).parent),

@@ -59,7 +59,7 @@ def test_examples_print_what_they_show(
     assert result.attempted > 0 and result.failed == 0
 
 
-ROOMS = (hri.io, hri.signal, hri.features, hri.models, hri.vision, hri.recognition)
+ROOMS = (hri.io, hri.signal, hri.features, hri.models, hri.language, hri.vision, hri.recognition)
 
 
 def undocumented(owner: type) -> list[str]:

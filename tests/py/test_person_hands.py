@@ -97,7 +97,7 @@ def test_a_cascade_is_named_by_the_environment(tmp_path: Path, monkeypatch: pyte
 def test_the_command_line_refuses_faces_beside_another_way(hri, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
     path = tmp_path / "room.png"
     cv2.imwrite(str(path), room((80, 120))[0])
-    for options in (["--method", "hsv"], ["--background", "clip"], ["--source", "landmarks"]):
+    for options in (["--method", "hsv_wide"], ["--background", "clip"], ["--source", "landmarks"]):
         result = hri("hands", path, "--faces", "cascade.xml", *options)
         assert result.code == 2 and "--faces" in result.err
     absent = hri("hands", path, "--faces", tmp_path / "absent.xml")

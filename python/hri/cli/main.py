@@ -29,9 +29,14 @@ EXIT_INTERRUPTED = 130
 COMMANDS = {
     "demo": ("hri.cli.demo:demo", "See everything work: made-up recordings, training, fusion, a moving robot."),
     "train": ("hri.cli.train:train", "Train a recogniser on a folder of recordings."),
+    "train-connected": (
+        "hri.cli.connected:train_connected",
+        "Train a recogniser of connected words, on isolated ones.",
+    ),
     "add-word": ("hri.cli.vocabulary:add_word", "Add a word to a trained recogniser, from few recordings."),
     "remove-word": ("hri.cli.vocabulary:remove_word", "Remove a word from a trained recogniser."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
+    "transcribe": ("hri.cli.connected:transcribe", "Recognise several words in one recording, with their times."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
     "watch": ("hri.cli.watch:watch", "Recognise gestures as they are shown, to a camera or in a video."),
     "adapt": ("hri.cli.adapt:adapt", "Adapt a word recogniser to a speaker, a microphone or a room."),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from hri._native import (
     LEARNED_STILL_CHANGE,
+    ConnectedWordRecognizerOptions,
     GestureRecognizerOptions,
     GestureSegment,
     GestureSegmenter,
@@ -23,6 +24,7 @@ from hri.recognition.decision import Decision, NBest
 from hri.recognition.files import load
 from hri.recognition.gesture import GestureRecognizer
 from hri.recognition.held_out_report import ConfusedPair, HeldOutReport
+from hri.recognition.sentence import ConnectedWordRecognizer, TranscribedWord, Transcript
 from hri.recognition.word import (
     FillerWord,
     SpeakerAdapter,
@@ -42,6 +44,8 @@ else:
 __all__ = [
     "LEARNED_STILL_CHANGE",
     "ConfusedPair",
+    "ConnectedWordRecognizer",
+    "ConnectedWordRecognizerOptions",
     "Decision",
     "FillerWord",
     "GestureEvent",
@@ -60,6 +64,8 @@ __all__ = [
     "SpeakerAdapterOptions",
     "SpeechEmbedding",
     "SpeechEmbeddingOptions",
+    "TranscribedWord",
+    "Transcript",
     "Utterance",
     "WordRecognizer",
     "WordRecognizerOptions",

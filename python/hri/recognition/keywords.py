@@ -265,3 +265,25 @@ class SpeechEmbeddingKeywords(TypedDict, total=False):
     padding_s: float
     rows_per_step: int
     num_pieces: int
+
+
+class ConnectedDecoderKeywords(TypedDict, total=False):
+    """Fields of `ConnectedDecoderOptions`."""
+
+    beam: float
+    language_scale: float
+    insertion_penalty: float
+    max_open_words: int
+
+
+class ConnectedWordRecognizerKeywords(TypedDict, total=False):
+    """Fields of `ConnectedWordRecognizerOptions`."""
+
+    words: _native.WordRecognizerOptions | WordRecognizerKeywords
+    silence_states: int
+    silence_mixtures: int
+    max_words: int
+    max_pause_ms: float
+    num_alignments: int
+    choose_penalty: bool
+    decoder: _native.ConnectedDecoderOptions | ConnectedDecoderKeywords

@@ -8,6 +8,8 @@
 #include "hri/features/hand/hand_finder_options.hpp"
 #include "hri/features/hand/hand_pair.hpp"
 #include "hri/features/hand/hand_track.hpp"
+#include "hri/language/connected_decoder.hpp"
+#include "hri/language/ngram_model.hpp"
 #include "hri/models/adaptation/map_adaptation.hpp"
 #include "hri/models/classifiers/distance_classifier.hpp"
 #include "hri/models/classifiers/gaussian_bayes.hpp"
@@ -25,6 +27,7 @@
 #include "hri/models/possibility/possibilistic_hmm.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/gesture/gesture_stream.hpp"
+#include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
 #include "hri/signal/endpointer.hpp"
@@ -50,7 +53,7 @@ using All = testing::Types<
     StateChoiceOptions, SequenceModelOptions, AdaptationOptions, SpeakerAdapterOptions,
     SpeechEmbeddingOptions, WordRecognizerOptions, GestureRecognizerOptions, SilhouetteOptions,
     HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
-    GestureStreamOptions>;
+    GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ConnectedWordRecognizer to and from a model file.
+#include <utility>
+
+#include "hri/core/error.hpp"
+#include "hri/recognition/sentence/connected_word_recognizer.hpp"
+#include "io/option_fields.hpp"
+#include "recognition/reading.hpp"
+
+namespace hri {
+namespace {
+
+constexpr const char* kKind = "connected_word_recognizer";
+constexpr const char* kLanguage = "language";
+
+std::string prefix_of(std::size_t model) { return "hmm." + std::to_string(model) + "."; }
+
+}  // namespace
+
+ModelFile ConnectedWordRecognizer::to_model_file() const {
+  ModelFile file;
+  file.set_kind(kKind);
+  file.set_text_list("labels", labels_);
+  detail::write_options(options_, file);
+  for (std::size_t m = 0; m < models().size(); ++m) models()[m].write(file, prefix_of(m));
+  file.set_vector("final_stays", final_stays_);
+  if (language_ != nullptr) file.set_text(kLanguage, language_->to_arpa());
+  return file;
+}
+
+void ConnectedWordRecognizer::save(const std::string& path) const { to_model_file().write(path); }
+
+ConnectedWordRecognizer ConnectedWordRecognizer::load(const std::string& path) {
+  return from_model_file(ModelFile::read(path));
+}
+
+ConnectedWordRecognizer ConnectedWordRecognizer::from_model_file(const ModelFile& file) {
+  if (file.kind() != kKind) {
+    fail(ErrorKind::format,
+         file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
+  }
+  return detail::with_context(file, [&] { return read(file); });
+}
+
+ConnectedWordRecognizer ConnectedWordRecognizer::read(const ModelFile& file) {
+  ConnectedWordRecognizerOptions options;
+  detail::read_options(file, &options);
+  std::vector<std::string> labels = file.text_list("labels");
+  std::vector<GaussianMixtureHmm> models;
+  for (std::size_t m = 0; m <= labels.size(); ++m)
+    models.push_back(GaussianMixtureHmm::read(file, prefix_of(m)));
+  const VectorD final_stays = file.vector_d("final_stays");
+  ConnectedWordRecognizer result(options, std::move(labels), std::move(models), final_stays);
+  if (file.has(kLanguage)) {
+    result =
+        result.with_language(NGramModel::parse(file.text(kLanguage), file.name() + ": language"));
+  }
+  file.require_all_read();
+  return result;
+}
+
+}  // namespace hri

@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Training of ConnectedWordRecognizer: isolated recordings to strings, strings to sequences of
+// every word and of silence, one HMM each; the insertion penalty on strings of speakers held out.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/parallel_for.hpp"
+#include "hri/core/error.hpp"
+#include "hri/recognition/sentence/connected_word_recognizer.hpp"
+#include "hri/signal/activity.hpp"
+#include "hri/signal/resample.hpp"
+#include "recognition/sentence/training_strings.hpp"
+
+namespace hri {
+namespace {
+
+using detail::SpokenWord;
+using detail::StringMaker;
+using detail::WordString;
+
+constexpr int kMaxFolds = 4;
+constexpr int kNoFold = -1;
+constexpr int kDefaultRateHz = 16000;
+constexpr int kSpeakersPerMixture = 2;
+constexpr int kMaxMixtures = 4;
+constexpr double kLongestStay = 0.98;
+constexpr std::array kPenalties{-400.0, -300.0, -200.0, -150.0, -100.0, -70.0,
+                                -50.0,  -30.0,  -15.0,  0.0,    15.0,   30.0};
+
+// The models of a training, before they are a recogniser.
+struct TrainedWords {
+  std::vector<GaussianMixtureHmm> models;
+  VectorD final_stays;
+};
+
+// Fewest words substituted, deleted and inserted between two label sequences (Levenshtein).
+int num_errors(const std::vector<int>& truth, const std::vector<int>& found) {
+  std::vector<int> row(found.size() + 1);
+  for (std::size_t j = 0; j < row.size(); ++j) row[j] = static_cast<int>(j);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    int diagonal = row[0]++;
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      const int substituted = diagonal + (truth[i] == found[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+// From how long the last state lasts on average along the best paths of the sequences.
+double final_stay(const GaussianMixtureHmm& model, const std::vector<MatrixF>& sequences) {
+  constexpr std::size_t kEnough = 200;
+  double frames = 0;
+  double visits = 0;
+  std::vector<int> path;
+  for (std::size_t i = 0; i < std::min(sequences.size(), kEnough); ++i) {
+    if (model.viterbi(sequences[i], &path) == -std::numeric_limits<double>::infinity()) continue;
+    const auto last = std::count(path.begin(), path.end(), model.num_states() - 1);
+    frames += static_cast<double>(last);
+    visits += last > 0 ? 1 : 0;
+  }
+  return visits > 0 ? std::min(1 - visits / frames, kLongestStay) : 0.5;
+}
+
+// Forced alignment: where words that are known lie in frames.
+class Aligner {
+ public:
+  explicit Aligner(const TrainedWords& trained) : emissions_(trained.models) {
+    for (std::size_t m = 0; m < trained.models.size(); ++m) {
+      chains_.push_back(WordChain::of(trained.models[m].chain(),
+                                      trained.final_stays[static_cast<Eigen::Index>(m)]));
+    }
+  }
+
+  // Words and silences; `otherwise` where the frames are too few for the words.
+  [[nodiscard]] std::vector<DecodedWord> align(const MatrixF& frames,
+                                               const std::vector<int>& labels,
+                                               std::vector<DecodedWord> otherwise) const {
+    MatrixF log_emissions(frames.rows(), emissions_.num_states());
+    emissions_.compute(frames, log_emissions);
+    const int silence = static_cast<int>(chains_.size()) - 1;
+    ConnectedDecoder decoder(chains_, WordNetwork::transcript(labels, silence));
+    for (Eigen::Index t = 0; t < frames.rows(); ++t) decoder.push(row_span(log_emissions, t));
+    DecodedSentence sentence = decoder.finish();
+    return sentence.complete ? std::move(sentence.words) : std::move(otherwise);
+  }
+
+ private:
+  GaussianEmissions emissions_;
+  std::vector<WordChain> chains_;
+};
+
+class SentenceTrainer {
+ public:
+  SentenceTrainer(const ConnectedWordRecognizerOptions& options, std::vector<std::string> labels,
+                  StopCheck should_stop)
+      : options_(options),
+        labels_(std::move(labels)),
+        maker_(options),
+        should_stop_(std::move(should_stop)) {}
+
+  ConnectedWordRecognizer run(const std::vector<WordSample>& samples,
+                              const TrainingProgress& progress) {
+    read(samples);
+    const int num_folds = options_.choose_penalty ? assign_folds() : 0;
+    const int num_steps = num_folds + 1;
+    if (progress) progress(0, num_steps);
+    std::array<int, kPenalties.size()> errors{};
+    for (int fold = 0; fold < num_folds; ++fold) {
+      if (usable(fold)) count_errors(fold, &errors);
+      if (progress) progress(fold + 1, num_steps);
+    }
+    if (num_folds > 0) {
+      const auto best = std::min_element(errors.begin(), errors.end()) - errors.begin();
+      options_.decoder.insertion_penalty = kPenalties[static_cast<std::size_t>(best)];
+    }
+    ConnectedWordRecognizer result = recognizer(train_without(kNoFold));
+    if (progress) progress(num_steps, num_steps);
+    return result;
+  }
+
+ private:
+  // Words without speech are left out, but every label needs one.
+  void read(const std::vector<WordSample>& samples) {
+    words_.resize(samples.size());
+    detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
+      read_one(samples[i], &words_[i]);
+    });
+    words_.erase(std::remove_if(words_.begin(), words_.end(),
+                                [](const SpokenWord& word) { return word.first == word.last; }),
+                 words_.end());
+    for (std::size_t c = 0; c < labels_.size(); ++c) {
+      if (!has_label(static_cast<int>(c), kNoFold))
+        fail(ErrorKind::invalid_argument,
+             "no recording of the label '" + labels_[c] + "' has speech in it");
+    }
+  }
+
+  void read_one(const WordSample& sample, SpokenWord* word) const {
+    detail::check_recording(sample.samples, sample.sample_rate_hz);
+    const int rate_hz = maker_.front_end().sample_rate_hz();
+    if (sample.sample_rate_hz == rate_hz) {
+      word->clip.assign(sample.samples.begin(), sample.samples.end());
+    } else {
+      word->clip = resample(sample.samples, sample.sample_rate_hz, rate_hz);
+    }
+    ActivityOptions activity = options_.words.activity;
+    activity.padding_ms = 0;
+    const SpeechBounds bounds = find_speech(word->clip, rate_hz, activity);
+    if (!bounds.found) return;
+    word->first = bounds.first;
+    word->last = bounds.last;
+    word->label = label_index(labels_, sample.label);
+    word->group = sample.group;
+  }
+
+  [[nodiscard]] bool has_label(int label, int without_fold) const {
+    return std::any_of(words_.begin(), words_.end(), [&](const SpokenWord& word) {
+      return word.label == label && word.fold != without_fold;
+    });
+  }
+
+  int assign_folds() {
+    std::vector<int> classes;
+    std::vector<std::string> groups;
+    for (const SpokenWord& word : words_) {
+      classes.push_back(word.label);
+      groups.push_back(word.group);
+    }
+    const std::vector<int> folds = held_out_folds(classes, groups, kMaxFolds);
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i].fold = folds[i];
+    return *std::max_element(folds.begin(), folds.end()) + 1;
+  }
+
+  // Whether every word is trained without the fold.
+  [[nodiscard]] bool usable(int fold) const {
+    for (std::size_t c = 0; c < labels_.size(); ++c) {
+      if (!has_label(static_cast<int>(c), fold)) return false;
+    }
+    return true;
+  }
+
+  template <class Chosen>
+  [[nodiscard]] std::vector<const SpokenWord*> words_where(Chosen&& chosen) const {
+    std::vector<const SpokenWord*> found;
+    for (const SpokenWord& word : words_) {
+      if (chosen(word)) found.push_back(&word);
+    }
+    return found;
+  }
+
+  [[nodiscard]] TrainedWords train_without(int fold) const {
+    const auto words = words_where([fold](const SpokenWord& w) { return w.fold != fold; });
+    TrainedWords trained = train_models(sequences_of(words, nullptr));
+    for (int i = 0; i < options_.num_alignments; ++i)
+      trained = train_models(sequences_of(words, &trained));
+    return trained;
+  }
+
+  [[nodiscard]] int silence() const { return static_cast<int>(labels_.size()); }
+
+  // Every copy joins the words in another way. With models the words lie where these put them.
+  [[nodiscard]] ClassSequences sequences_of(const std::vector<const SpokenWord*>& words,
+                                            const TrainedWords* models) const {
+    std::optional<Aligner> aligner;
+    if (models != nullptr) aligner.emplace(*models);
+    const auto num_copies = static_cast<std::size_t>(maker_.num_copies());
+    std::vector<ClassSequences> of_copies(num_copies);
+    const std::uint64_t seed = options_.words.seed;
+    detail::parallel_for(num_copies, should_stop_, [&](std::size_t copy, const StopCheck& stop) {
+      of_copies[copy].resize(labels_.size() + 1);
+      std::uint64_t of_string = seed + copy;
+      for (const WordString& string : maker_.join(words, seed + copy)) {
+        poll(stop);
+        const MatrixF frames =
+            maker_.frames(string, static_cast<int>(copy), of_string += num_copies);
+        auto segments = maker_.segments(string, frames.rows(), silence());
+        if (aligner) segments = aligner->align(frames, string.labels, std::move(segments));
+        for (const DecodedWord& segment : segments) {
+          of_copies[copy][static_cast<std::size_t>(segment.model)].push_back(
+              frames.middleRows(segment.first_frame, segment.last_frame - segment.first_frame));
+        }
+      }
+    });
+    ClassSequences all(labels_.size() + 1);
+    for (ClassSequences& of_copy : of_copies) {
+      for (std::size_t c = 0; c < all.size(); ++c)
+        std::move(of_copy[c].begin(), of_copy[c].end(), std::back_inserter(all[c]));
+    }
+    return all;
+  }
+
+  [[nodiscard]] TrainedWords train_models(const ClassSequences& sequences) const {
+    std::vector<std::optional<GaussianMixtureHmm>> models(sequences.size());
+    TrainedWords trained;
+    trained.final_stays.resize(static_cast<Eigen::Index>(sequences.size()));
+    detail::parallel_for(sequences.size(), should_stop_, [&](std::size_t c, const StopCheck& stop) {
+      const bool is_silence = c + 1 == sequences.size();
+      GaussianMixtureHmmOptions options;
+      options.topology.num_states =
+          is_silence ? options_.silence_states : options_.words.num_states;
+      options.num_mixtures = is_silence ? options_.silence_mixtures : options_.words.num_mixtures;
+      options.max_iterations = options_.words.max_iterations;
+      options.seed = options_.words.seed;
+      options.should_stop = stop;
+      models[c] = GaussianMixtureHmm::train(sequences[c], options);
+      trained.final_stays[static_cast<Eigen::Index>(c)] = final_stay(*models[c], sequences[c]);
+    });
+    for (auto& model : models) trained.models.push_back(std::move(*model));
+    return trained;
+  }
+
+  [[nodiscard]] ConnectedWordRecognizer recognizer(TrainedWords trained) const {
+    return {options_, labels_, std::move(trained.models), trained.final_stays};
+  }
+
+  // Of strings of the fold, by every penalty.
+  void count_errors(int fold, std::array<int, kPenalties.size()>* errors) const {
+    const ConnectedWordRecognizer trained = recognizer(train_without(fold));
+    const std::vector<WordString> strings = maker_.join(
+        words_where([fold](const SpokenWord& w) { return w.fold == fold; }), options_.words.seed);
+    detail::parallel_for(errors->size(), should_stop_, [&](std::size_t p, const StopCheck& stop) {
+      ConnectedDecoderOptions decoder = options_.decoder;
+      decoder.insertion_penalty = kPenalties[p];
+      const ConnectedWordRecognizer tried = trained.with_decoder(decoder);
+      for (const WordString& string : strings) {
+        poll(stop);
+        std::vector<int> found;
+        const Transcript transcript =
+            tried.recognise(string.audio, maker_.front_end().sample_rate_hz());
+        for (const TranscribedWord& word : transcript.words)
+          found.push_back(label_index(labels_, word.label));
+        (*errors)[p] += num_errors(string.labels, found);
+      }
+    });
+  }
+
+  ConnectedWordRecognizerOptions options_;
+  std::vector<std::string> labels_;
+  StringMaker maker_;
+  StopCheck should_stop_;
+  std::vector<SpokenWord> words_;
+};
+
+}  // namespace
+
+ConnectedWordRecognizer ConnectedWordRecognizer::train(
+    const std::vector<WordSample>& samples, const ConnectedWordRecognizerOptions& options,
+    const TrainingProgress& progress, const StopCheck& should_stop) {
+  validate(options);
+  std::vector<std::string> labels;
+  std::set<std::string> speakers;
+  ConnectedWordRecognizerOptions used = options;
+  int& rate_hz = used.words.cepstra.sample_rate_hz;
+  const bool takes_lowest = rate_hz == 0;
+  if (takes_lowest) rate_hz = kDefaultRateHz;
+  for (const WordSample& sample : samples) {
+    labels.push_back(sample.label);
+    speakers.insert(sample.group);
+    if (takes_lowest) rate_hz = std::min(rate_hz, sample.sample_rate_hz);
+  }
+  if (used.words.num_mixtures == 0) {
+    used.words.num_mixtures =
+        std::clamp(static_cast<int>(speakers.size()) / kSpeakersPerMixture, 1, kMaxMixtures);
+  }
+  return SentenceTrainer(used, sorted_labels(labels), should_stop).run(samples, progress);
+}
+
+}  // namespace hri

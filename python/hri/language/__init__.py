@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Language: n-gram models of words, networks of words, the decoder of connected words, and word errors.
+
+The decoder knows models by their chains and by the log scores of their states; `hri.ConnectedWordRecognizer` puts it
+behind a front end.
+"""
+
+from hri._native import (
+    ConnectedDecoder,
+    ConnectedDecoderOptions,
+    DecodedSentence,
+    DecodedWord,
+    GaussianEmissions,
+    NGramFit,
+    NGramModel,
+    NGramOptions,
+    PossibilisticEmissions,
+    WordChain,
+    WordNetwork,
+)
+from hri.language.word_errors import AlignedWord, WordErrors, align_words, count_word_errors
+
+__all__ = [
+    "AlignedWord",
+    "ConnectedDecoder",
+    "ConnectedDecoderOptions",
+    "DecodedSentence",
+    "DecodedWord",
+    "GaussianEmissions",
+    "NGramFit",
+    "NGramModel",
+    "NGramOptions",
+    "PossibilisticEmissions",
+    "WordChain",
+    "WordErrors",
+    "WordNetwork",
+    "align_words",
+    "count_word_errors",
+]

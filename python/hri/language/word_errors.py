@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Word errors: substitutions, deletions and insertions by alignment, as NIST's sclite counts them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from hri.core.errors import InvalidArgument
+
+SUBSTITUTION, DELETION, INSERTION = 4, 3, 3
+"""Costs by which sclite aligns."""
+
+
+@dataclass(frozen=True)
+class AlignedWord:
+    """A word of the reference beside one of the hypothesis; None where there is none."""
+
+    reference: str | None
+    hypothesis: str | None
+
+
+@dataclass(frozen=True)
+class WordErrors:
+    """Counts over one sentence or many.
+
+    Attributes
+    ----------
+    num_words : int
+        Of the references.
+    substitutions, deletions, insertions : int
+    """
+
+    num_words: int = 0
+    substitutions: int = 0
+    deletions: int = 0
+    insertions: int = 0
+
+    @property
+    def total(self) -> int:
+        """All errors."""
+        return self.substitutions + self.deletions + self.insertions
+
+    @property
+    def rate(self) -> float:
+        """Word error rate, (S + D + I) / N: above 1 where more was inserted than said.
+
+        Raises
+        ------
+        InvalidArgument
+            Where the references have no word.
+        """
+        if self.num_words == 0:
+            raise InvalidArgument("a word error rate needs a reference with a word")
+        return self.total / self.num_words
+
+    def __add__(self, other: WordErrors) -> WordErrors:
+        return WordErrors(
+            self.num_words + other.num_words,
+            self.substitutions + other.substitutions,
+            self.deletions + other.deletions,
+            self.insertions + other.insertions,
+        )
+
+
+def align_words(reference: Sequence[str], hypothesis: Sequence[str]) -> list[AlignedWord]:
+    """Align two sentences at the least cost: 4 for a substitution, 3 for a deletion or an insertion, as sclite does.
+
+    Of alignments that cost the same, one with a word on both sides as late as possible.
+    """
+    rows = [[j * INSERTION for j in range(len(hypothesis) + 1)]]
+    for i, said in enumerate(reference, 1):
+        row = [i * DELETION]
+        for j, found in enumerate(hypothesis, 1):
+            both = rows[i - 1][j - 1] + (0 if said == found else SUBSTITUTION)
+            row.append(min(both, rows[i - 1][j] + DELETION, row[j - 1] + INSERTION))
+        rows.append(row)
+    aligned = []
+    i, j = len(reference), len(hypothesis)
+    while i or j:
+        cost = rows[i][j]
+        if i and j and cost == rows[i - 1][j - 1] + (0 if reference[i - 1] == hypothesis[j - 1] else SUBSTITUTION):
+            i, j = i - 1, j - 1
+            aligned.append(AlignedWord(reference[i], hypothesis[j]))
+        elif i and cost == rows[i - 1][j] + DELETION:
+            i -= 1
+            aligned.append(AlignedWord(reference[i], None))
+        else:
+            j -= 1
+            aligned.append(AlignedWord(None, hypothesis[j]))
+    return aligned[::-1]
+
+
+def count_word_errors(references: Sequence[Sequence[str]], hypotheses: Sequence[Sequence[str]]) -> WordErrors:
+    """The errors of all sentences together.
+
+    Raises
+    ------
+    InvalidArgument
+        For another number of hypotheses than of references, and for a sentence that is one string, not words.
+    """
+    if len(references) != len(hypotheses):
+        raise InvalidArgument(f"there are {len(references)} references and {len(hypotheses)} hypotheses")
+    errors = WordErrors()
+    for reference, hypothesis in zip(references, hypotheses, strict=True):
+        if isinstance(reference, str) or isinstance(hypothesis, str):
+            raise InvalidArgument("a sentence is a sequence of words: split it")
+        pairs = align_words(reference, hypothesis)
+        errors += WordErrors(
+            len(reference),
+            sum(None not in (p.reference, p.hypothesis) and p.reference != p.hypothesis for p in pairs),
+            sum(p.hypothesis is None for p in pairs),
+            sum(p.reference is None for p in pairs),
+        )
+    return errors

@@ -1,0 +1,227 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Connected words: trained on isolated ones, recognised in whole sentences."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from os import PathLike
+from typing import Any, Unpack
+
+from hri import _native
+from hri.core.errors import InvalidArgument
+from hri.language import NGramModel, WordErrors, count_word_errors
+from hri.media import naming_file, naming_files
+from hri.recognition.base import Recognizer
+from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
+from hri.recognition.keywords import ConnectedDecoderKeywords, ConnectedWordRecognizerKeywords
+from hri.recognition.loading import load_native
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class TranscribedWord:
+    """One word of a transcript.
+
+    Attributes
+    ----------
+    label : str
+    first_s, last_s : float
+        Its beginning and end from the beginning of the recording.
+    log_score : float
+        What it adds to the transcript's.
+    """
+
+    label: str
+    first_s: float
+    last_s: float
+    log_score: float
+
+
+@dataclass(frozen=True)
+class Transcript:
+    """The words of a recording.
+
+    Attributes
+    ----------
+    words : tuple of TranscribedWord
+        In the order of time; empty without speech.
+    log_score : float
+        Natural log, of the best path; 0 without speech.
+    complete : bool
+        False where the recording was too short for so many words as were asked for.
+    notes : tuple of str
+        What was converted or assumed on the way.
+    """
+
+    words: tuple[TranscribedWord, ...]
+    log_score: float = 0.0
+    complete: bool = True
+    notes: tuple[str, ...] = ()
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The words alone."""
+        return tuple(word.label for word in self.words)
+
+    @property
+    def text(self) -> str:
+        """The words, with spaces between."""
+        return " ".join(self.labels)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain values that can be written as JSON."""
+        return {"text": self.text, **asdict(self)}
+
+
+class ConnectedWordRecognizer(Recognizer):
+    """Recognise words that follow one another, with pauses between them or without.
+
+    Training joins isolated recordings of each speaker to strings whose word boundaries are known, and trains one HMM a
+    word and one of silence on these: cepstra are normalised over the utterance, in training as in recognition.
+
+    Parameters
+    ----------
+    **options
+        Fields of ``hri.ConnectedWordRecognizerOptions``; ``words`` takes those of ``hri.WordRecognizerOptions``.
+
+    Attributes
+    ----------
+    classes_ : ndarray of str
+        The labels, sorted; set by `fit` and `load`.
+
+    Examples
+    --------
+    >>> digits = ConnectedWordRecognizer(max_words=3).fit(clips, labels, sample_rate_hz=16000)
+    >>> digits.recognise(samples, 16000, num_words=1).text
+    'seven'
+    """
+
+    mode = "speech"
+    _native_class = _native.ConnectedWordRecognizer
+    _options_class = _native.ConnectedWordRecognizerOptions
+    options: _native.ConnectedWordRecognizerOptions
+
+    def __init__(self, **options: Unpack[ConnectedWordRecognizerKeywords]) -> None:
+        super().__init__(**options)
+
+    def fit(
+        self,
+        X: Sequence[AudioInput],
+        y: Sequence[str],
+        *,
+        sample_rate_hz: int | Sequence[int] | None = None,
+        groups: Sequence[str] | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> ConnectedWordRecognizer:
+        """Train on isolated words.
+
+        Parameters
+        ----------
+        X : sequence of paths, Audio, or arrays of shape (num_samples,)
+            A recording of one word each.
+        y : sequence of str
+            The word spoken in each.
+        sample_rate_hz : int or sequence of int, optional
+            Of arrays: one rate for all, or one for each.
+        groups : sequence of str, optional
+            The speaker of each recording: strings are joined within a speaker, and the insertion penalty is chosen on
+            speakers held out.
+        progress : callable, optional
+            Called with (done, total) training steps.
+
+        Raises
+        ------
+        InvalidArgument
+            For lengths that differ, a recording that is not finite or too short, or a label without speech.
+        Interrupted
+            When Ctrl-C is pressed; the recogniser is left as it was.
+        """
+        speakers = [""] * len(X) if groups is None else as_texts(groups, "groups")
+        if not len(X) == len(y) == len(speakers):
+            raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
+        clips = as_audios(X, sample_rate_hz)
+        _log.info("training on %d recordings of %d words", len(clips), len(set(y)))
+        with naming_files([clip.path for clip in clips], "X"):
+            self._native = self._native_class.train(
+                [clip.samples for clip in clips],
+                [clip.sample_rate_hz for clip in clips],
+                as_texts(y, "y"),
+                speakers,
+                self.options,
+                progress,
+            )
+        return self
+
+    def set_language(self, language: NGramModel) -> ConnectedWordRecognizer:
+        """Weigh sequences of words by a language model of order 1 or 2, which is saved with the model.
+
+        Raises
+        ------
+        InvalidArgument
+            For another order, and a label that the language model does not know.
+        """
+        self._native = self._trained.with_language(language)
+        return self
+
+    def set_decoder(self, **options: Unpack[ConnectedDecoderKeywords]) -> ConnectedWordRecognizer:
+        """Change options of the decoder after training, such as ``insertion_penalty`` or ``language_scale``."""
+        current = self._trained.options.decoder.as_dict()
+        self._native = self._trained.with_decoder(_native.ConnectedDecoderOptions(**{**current, **options}))
+        return self
+
+    @property
+    def insertion_penalty(self) -> float:
+        """Added to the log score at every word; by default chosen in training."""
+        return float(self._trained.options.decoder.insertion_penalty)
+
+    def recognise(
+        self, audio: AudioInput, sample_rate_hz: int | None = None, *, num_words: int | None = None
+    ) -> Transcript:
+        """Recognise the words of a recording.
+
+        Parameters
+        ----------
+        audio : path, Audio, or array of shape (num_samples,)
+        sample_rate_hz : int, optional
+            Of an array.
+        num_words : int, optional
+            How many words there are, where that is known; the language model then has no say.
+
+        Raises
+        ------
+        InvalidArgument
+            For an array without a rate, of several channels, not finite or shorter than one frame, and for a number of
+            words outside 1..1000.
+        FormatError, IoError
+            For a file that is no recording.
+        """
+        if num_words is not None and num_words < 1:
+            raise InvalidArgument(f"num_words is {num_words}, must lie in 1..1000")
+        clip = as_audio(audio, sample_rate_hz)
+        words = self._trained
+        with naming_file(clip.path):
+            found = words.recognise(clip.samples, clip.sample_rate_hz, num_words or 0)
+        return Transcript(
+            tuple(TranscribedWord(w.label, w.first_s, w.last_s, w.log_score) for w in found.words),
+            found.log_score,
+            found.complete,
+            (*clip.notes, *found.notes),
+        )
+
+    def count_errors(
+        self, X: Sequence[AudioInput], y: Sequence[Sequence[str]], sample_rate_hz: int | Sequence[int] | None = None
+    ) -> WordErrors:
+        """Word errors over recordings whose words are known."""
+        found = [self.recognise(clip).labels for clip in as_audios(X, sample_rate_hz)]
+        return count_word_errors(y, found)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> ConnectedWordRecognizer:
+        """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
+        return cls._wrap(
+            load_native(_native.ConnectedWordRecognizer.from_model_file, path, "connected_word_recognizer")
+        )

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/sentence/connected_word_recognizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hri/core/error.hpp"
+#include "recognition/tone_words.hpp"
+
+namespace hri {
+namespace {
+
+using testing_data::kRateHz;
+using testing_data::tone;
+
+// Tones last from 0.25 to 0.75 s of each clip.
+const testing_data::Clips& clips() {
+  static const testing_data::Clips made = testing_data::tone_clips();
+  return made;
+}
+
+ConnectedWordRecognizerOptions small_options() {
+  ConnectedWordRecognizerOptions options;
+  options.words.num_states = 5;
+  options.words.num_vtlp_factors = 1;
+  options.words.num_noisy_copies = 1;
+  options.words.min_snr_db = 10;
+  options.max_words = 4;
+  return options;
+}
+
+const ConnectedWordRecognizer& trained() {
+  static const ConnectedWordRecognizer recognizer =
+      ConnectedWordRecognizer::train(clips().samples, small_options());
+  return recognizer;
+}
+
+// Words of a speaker who was not trained on, with `pause_s` between their tones.
+std::vector<float> sentence(const std::vector<std::string>& words, double pause_s) {
+  std::vector<float> audio(kRateHz / 5, 0.0F);
+  std::uint64_t seed = 1000;
+  for (const std::string& word : words) {
+    const std::vector<float> clip = tone(575, word == "rise" ? 800 : -350, seed++);
+    audio.insert(audio.end(), clip.begin() + kRateHz / 4, clip.begin() + 3 * kRateHz / 4);
+    Random random(seed);
+    for (int n = 0; n < static_cast<int>(pause_s * kRateHz); ++n)
+      audio.push_back(static_cast<float>(0.001 * random.normal()));
+  }
+  audio.insert(audio.end(), kRateHz / 5, 0.0F);
+  return audio;
+}
+
+std::vector<std::string> labels_of(const Transcript& transcript) {
+  std::vector<std::string> labels;
+  for (const TranscribedWord& word : transcript.words) labels.push_back(word.label);
+  return labels;
+}
+
+const std::vector<std::string> kWords{"rise", "fall", "fall", "rise", "rise"};
+
+TEST(ConnectedWordRecognizer, FindsWordsAndTheirTimes) {
+  for (const double pause_s : {0.1, 0.3}) {
+    const Transcript found = trained().recognise(sentence(kWords, pause_s), kRateHz);
+    ASSERT_EQ(labels_of(found), kWords) << found.text();
+    EXPECT_TRUE(found.complete);
+    double first_s = 0.2;
+    for (const TranscribedWord& word : found.words) {
+      EXPECT_NEAR(word.first_s, first_s, 0.05);
+      EXPECT_NEAR(word.last_s, first_s + 0.5, 0.05);
+      first_s += 0.5 + pause_s;
+    }
+  }
+}
+
+TEST(ConnectedWordRecognizer, FindsSoManyWordsAsThereAre) {
+  const std::vector<float> audio = sentence(kWords, 0);
+  const Transcript found = trained().recognise(audio, kRateHz, 5);
+  EXPECT_EQ(labels_of(found), kWords) << found.text();
+  EXPECT_EQ(trained().recognise(audio, kRateHz, 3).words.size(), 3U);
+  const Transcript too_many = trained().recognise(audio, kRateHz, 500);
+  EXPECT_FALSE(too_many.complete);
+}
+
+TEST(ConnectedWordRecognizer, HearsNothingInSilence) {
+  const std::vector<float> silence(kRateHz, 0.0F);
+  const Transcript found = trained().recognise(silence, kRateHz);
+  EXPECT_TRUE(found.words.empty());
+  EXPECT_TRUE(found.complete);
+  EXPECT_EQ(found.text(), "");
+}
+
+TEST(ConnectedWordRecognizer, ResamplesAndSaysSo) {
+  const std::vector<float> audio = sentence(kWords, 0.2);
+  std::vector<float> twice;
+  for (const float x : audio) twice.insert(twice.end(), 2, x);
+  const Transcript found = trained().recognise(twice, 2 * kRateHz);
+  EXPECT_EQ(labels_of(found), kWords);
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_EQ(found.notes[0], "resampled from 32000 to 16000 Hz");
+}
+
+TEST(ConnectedWordRecognizer, FollowsItsLanguageModel) {
+  const std::vector<float> audio = sentence({"rise", "fall"}, 0.2);
+  ConnectedDecoderOptions decoder = trained().options().decoder;
+  decoder.language_scale = 1e5;
+  const auto forced = [&](const Sentence& only) {
+    const NGramModel language =
+        NGramModel::train(std::vector<Sentence>(1000, only), {2}, {"rise", "fall"});
+    return labels_of(
+        trained().with_decoder(decoder).with_language(language).recognise(audio, kRateHz));
+  };
+  EXPECT_EQ(forced({"fall"}), (std::vector<std::string>{"fall"}));
+  EXPECT_EQ(forced({"rise"}), (std::vector<std::string>{"rise"}));
+  EXPECT_THROW((void)trained().with_language(NGramModel::train({{"rise"}})), InvalidArgument);
+  EXPECT_THROW((void)trained().with_language(NGramModel::train({{"rise", "fall"}}, {3})),
+               InvalidArgument);
+}
+
+TEST(ConnectedWordRecognizer, IsTheSameFromItsFile) {
+  const ConnectedWordRecognizer with_language =
+      trained().with_language(NGramModel::train({{"rise", "fall"}, {"fall", "rise"}}));
+  const std::vector<float> audio = sentence(kWords, 0.1);
+  for (const ConnectedWordRecognizer& saved : {trained(), with_language}) {
+    const std::vector<std::uint8_t> bytes = saved.to_model_file().serialise();
+    const auto loaded = ConnectedWordRecognizer::from_model_file(ModelFile::parse(bytes, "m.hri"));
+    EXPECT_EQ(loaded.to_model_file().serialise(), bytes);
+    EXPECT_EQ(loaded.recognise(audio, kRateHz).log_score,
+              saved.recognise(audio, kRateHz).log_score);
+  }
+}
+
+TEST(ConnectedWordRecognizer, RefusesFilesWhosePartsDoNotFit) {
+  const auto refused = [](const auto& change) {
+    ModelFile file = trained().to_model_file();
+    change(&file);
+    EXPECT_THROW((void)ConnectedWordRecognizer::from_model_file(file), FormatError);
+  };
+  refused([](ModelFile* file) { file->set_kind("word_recognizer"); });
+  refused([](ModelFile* file) { file->set_text_list("labels", {"fall"}); });
+  refused([](ModelFile* file) { file->set_text_list("labels", {"rise", "fall"}); });
+  refused([](ModelFile* file) { file->set_text_list("labels", {"fall", "rise", "stop"}); });
+  refused([](ModelFile* file) { file->set_vector("final_stays", VectorD::Zero(2).eval()); });
+  refused([](ModelFile* file) { file->set_vector("final_stays", VectorD::Ones(3).eval()); });
+  refused([](ModelFile* file) { file->set_text("language", "\\data\\\n"); });
+  refused([](ModelFile* file) { file->set_text("words.model", "ptbhmm"); });
+  refused([](ModelFile* file) { file->set_integer("words.cepstra.num_cepstra", 5); });
+  refused([](ModelFile* file) { file->set_text("more", "than is known"); });
+}
+
+TEST(ConnectedWordRecognizer, RefusesWhatItCannotTrainOn) {
+  std::vector<WordSample> samples = clips().samples;
+  const std::vector<float> silence(kRateHz, 0.0F);
+  samples.push_back({silence, kRateHz, "nothing", "low"});
+  EXPECT_THROW(ConnectedWordRecognizer::train(samples, small_options()), InvalidArgument);
+  EXPECT_THROW(ConnectedWordRecognizer::train({}, small_options()), InvalidArgument);
+  ConnectedWordRecognizerOptions options = small_options();
+  options.words.model = SequenceModelKind::ptbhmm;
+  EXPECT_THROW(ConnectedWordRecognizer::train(clips().samples, options), InvalidArgument);
+  const std::vector<float> audio = sentence(kWords, 0);
+  EXPECT_THROW((void)trained().recognise(audio, 10), InvalidArgument);
+  EXPECT_THROW((void)trained().recognise(audio, kRateHz, -1), InvalidArgument);
+  EXPECT_THROW((void)trained().recognise(audio, kRateHz, 1001), InvalidArgument);
+  EXPECT_THROW((void)trained().recognise({}, kRateHz), InvalidArgument);
+}
+
+TEST(ConnectedWordRecognizer, IsInterrupted) {
+  EXPECT_THROW(
+      ConnectedWordRecognizer::train(clips().samples, small_options(), {}, [] { return true; }),
+      Interrupted);
+}
+
+}  // namespace
+}  // namespace hri
