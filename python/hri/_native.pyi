@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Written by tools/generate_stubs.py from the compiled module; do not edit.
 """
-libhri's core: signal, features, models and recognition, without OpenCV.
+libhri's core: signal, features, models, language and recognition, without OpenCV.
 """
 
 from __future__ import annotations
@@ -5172,6 +5172,415 @@ class PossibilisticHmmStream:
         Frames pushed so far.
         """
 
+class NGramOptions:
+    """
+    Options of NGramModel.
+
+    Parameters
+    ----------
+    order : int, default 2
+        words of an n-gram; 2: bigram; 1..6
+    smoothing : {'witten_bell', 'kneser_ney'}, default 'witten_bell'
+        how n-grams that were not seen get their share
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self, *, order: int = 2, smoothing: typing.Literal["witten_bell", "kneser_ney"] = "witten_bell"
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def order(self) -> int:
+        """
+        words of an n-gram; 2: bigram
+        """
+    @order.setter
+    def order(self, arg1: typing.Any) -> None: ...
+    @property
+    def smoothing(self) -> typing.Literal["witten_bell", "kneser_ney"]:
+        """
+        how n-grams that were not seen get their share
+        """
+    @smoothing.setter
+    def smoothing(self, arg1: typing.Any) -> None: ...
+
+class NGramFit:
+    """
+    How well a language model predicts sentences.
+    """
+    @property
+    def log_probability(self) -> float:
+        """
+        Natural log, of all words that the model knows.
+        """
+    @property
+    def num_unknown(self) -> int:
+        """
+        Words the model does not know.
+        """
+    @property
+    def num_words(self) -> int:
+        """
+        Predicted: known words and ends of sentences.
+        """
+    @property
+    def perplexity(self) -> float:
+        """
+        exp(-log_probability / num_words).
+        """
+
+class NGramModel:
+    """
+    N-gram language model of words with back-off; <s> and </s> are words, too.
+    """
+    @staticmethod
+    def load(path: str | bytes | os.PathLike[str]) -> NGramModel:
+        """
+        Reads an ARPA file; raises FormatError naming file and line.
+        """
+    @staticmethod
+    def parse(text: str, name: str) -> NGramModel:
+        """
+        Reads the text of an ARPA file; `name` is what errors call it.
+        """
+    @staticmethod
+    def train(
+        sentences: collections.abc.Sequence[collections.abc.Sequence[str]],
+        options: NGramOptions = ...,
+        vocabulary: collections.abc.Sequence[str] = [],
+    ) -> NGramModel:
+        """
+        Trains on lists of words; `vocabulary` names words beside those in them. Raises InvalidArgument for a word that is empty, a marker or has white space in it.
+        """
+    def fit_of(self, sentences: collections.abc.Sequence[collections.abc.Sequence[str]]) -> NGramFit:
+        """
+        An NGramFit: perplexity and what it is of.
+        """
+    def log_probability(self, history: collections.abc.Sequence[str], word: str) -> float:
+        """
+        log P(word | history), natural log; -inf for an unknown word, unless there is <unk>.
+        """
+    def num_ngrams(self, order: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        How many n-grams of an order there are.
+        """
+    def save(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes an ARPA file.
+        """
+    def to_arpa(self) -> str:
+        """
+        The text of the ARPA file.
+        """
+    @property
+    def order(self) -> int:
+        """
+        Words of the longest n-grams.
+        """
+    @property
+    def words(self) -> list[str]:
+        """
+        All words and markers.
+        """
+
+class WordNetwork:
+    """
+    Which words may follow which; nodes are words or null nodes.
+    """
+    @staticmethod
+    def bigram(
+        language: NGramModel,
+        labels: collections.abc.Sequence[str],
+        silence: typing.SupportsInt | typing.SupportsIndex = -1,
+    ) -> WordNetwork:
+        """
+        Any number of words, weighted by a language model of order 1 or 2.
+        """
+    @staticmethod
+    def loop(
+        num_words: typing.SupportsInt | typing.SupportsIndex, silence: typing.SupportsInt | typing.SupportsIndex = -1
+    ) -> WordNetwork:
+        """
+        Any number of words in any order; `silence` is the model between them.
+        """
+    @staticmethod
+    def sequence(
+        num_words: typing.SupportsInt | typing.SupportsIndex,
+        length: typing.SupportsInt | typing.SupportsIndex,
+        silence: typing.SupportsInt | typing.SupportsIndex = -1,
+    ) -> WordNetwork:
+        """
+        So many words in any order.
+        """
+    @staticmethod
+    def transcript(
+        words: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        silence: typing.SupportsInt | typing.SupportsIndex = -1,
+    ) -> WordNetwork:
+        """
+        The given words in this order: for forced alignment.
+        """
+    def __init__(
+        self,
+        models: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        arcs: collections.abc.Sequence[
+            tuple[
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsFloat | typing.SupportsIndex,
+            ]
+        ],
+        initial: typing.SupportsInt | typing.SupportsIndex,
+        final: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None:
+        """
+        `models[n]` is the model of node n, -1 for a null node; an arc is (from, to, log weight).
+        """
+    @property
+    def final(self) -> int:
+        """
+        Where they end.
+        """
+    @property
+    def initial(self) -> int:
+        """
+        Where sentences begin.
+        """
+    @property
+    def models(self) -> list[int]:
+        """
+        The model of every node; -1: a null node.
+        """
+
+class ConnectedDecoderOptions:
+    """
+    Options of ConnectedDecoder.
+
+    Parameters
+    ----------
+    beam : float, default 2000.0
+        states whose score falls this much below the best (natural log) are dropped; 0..1e+12, 0 excluded
+    language_scale : float, default 1.0
+        factor on the log weights of the network (HTK's grammar scale); 0..1000000
+    insertion_penalty : float, default 0.0
+        added to the log score at every word; below 0: fewer words (HTK's -p); -1000000..1000000
+    max_open_words : int, default 65536
+        words of all hypotheses that are kept at most while these differ; beyond, the oldest word of the best one is decided; 64..100000000
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        beam: float = 2000.0,
+        language_scale: float = 1.0,
+        insertion_penalty: float = 0.0,
+        max_open_words: int = 65536,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def beam(self) -> float:
+        """
+        states whose score falls this much below the best (natural log) are dropped
+        """
+    @beam.setter
+    def beam(self, arg1: typing.Any) -> None: ...
+    @property
+    def insertion_penalty(self) -> float:
+        """
+        added to the log score at every word; below 0: fewer words (HTK's -p)
+        """
+    @insertion_penalty.setter
+    def insertion_penalty(self, arg1: typing.Any) -> None: ...
+    @property
+    def language_scale(self) -> float:
+        """
+        factor on the log weights of the network (HTK's grammar scale)
+        """
+    @language_scale.setter
+    def language_scale(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_open_words(self) -> int:
+        """
+        words of all hypotheses that are kept at most while these differ; beyond, the oldest word of the best one is decided
+        """
+    @max_open_words.setter
+    def max_open_words(self, arg1: typing.Any) -> None: ...
+
+class WordChain:
+    """
+    The states of a word as a decoder passes them.
+    """
+    @staticmethod
+    def of(
+        chain: MarkovChain, final_stay: typing.SupportsFloat | typing.SupportsIndex, is_silence: bool = False
+    ) -> WordChain:
+        """
+        Of a left-right MarkovChain, whose last state is left with 1 - final_stay.
+        """
+    def __init__(
+        self,
+        log_start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        log_transition: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        log_exit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        is_silence: bool = False,
+    ) -> None: ...
+
+class DecodedWord:
+    """
+    One word, or silence, of a decoded sentence.
+    """
+    @property
+    def first_frame(self) -> int:
+        """
+        First frame.
+        """
+    @property
+    def last_frame(self) -> int:
+        """
+        One past the last frame.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        What it adds to the sentence's.
+        """
+    @property
+    def model(self) -> int:
+        """
+        Number of the model.
+        """
+
+class DecodedSentence:
+    """
+    What a decoder found.
+    """
+    @property
+    def complete(self) -> bool:
+        """
+        Whether it is a whole sentence.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        Of the best path.
+        """
+    @property
+    def words(self) -> list[DecodedWord]:
+        """
+        In the order of time.
+        """
+
+class ConnectedDecoder:
+    """
+    Token passing over a word network, frame by frame.
+    """
+    def __init__(
+        self, chains: collections.abc.Sequence[WordChain], network: WordNetwork, options: ConnectedDecoderOptions = ...
+    ) -> None: ...
+    def finish(self) -> DecodedSentence:
+        """
+        The best sentence; then as before the first frame.
+        """
+    def partial(self) -> DecodedSentence:
+        """
+        The best hypothesis so far.
+        """
+    def push(self, log_emissions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        One frame: log scores of all states, shape (num_states,).
+        """
+    def push_all(self, log_emissions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        push() of every row.
+        """
+    def reset(self) -> None:
+        """
+        Back to before the first frame.
+        """
+    def take_decided(self) -> list[DecodedWord]:
+        """
+        Words that change no more, since the last call.
+        """
+    @property
+    def alive(self) -> bool:
+        """
+        Whether any hypothesis is left.
+        """
+    @property
+    def num_active(self) -> int:
+        """
+        States with a hypothesis.
+        """
+    @property
+    def num_frames(self) -> int:
+        """
+        Pushed so far.
+        """
+    @property
+    def num_states(self) -> int:
+        """
+        Of all models.
+        """
+
+class GaussianEmissions:
+    """
+    Log densities of the states of several models.
+    """
+    def __init__(self, models: collections.abc.Sequence[GaussianMixtureHmm]) -> None: ...
+    def compute(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_frames, num_states).
+        """
+    @property
+    def num_states(self) -> int:
+        """
+        Of all models.
+        """
+
+class PossibilisticEmissions:
+    """
+    Log possibilities of the states of a set of models.
+    """
+    def __init__(self, set: PossibilisticHmmSet) -> None: ...
+    def compute(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, a row for each symbol, shape (len(symbols), num_states).
+        """
+    @property
+    def num_states(self) -> int:
+        """
+        Of all models.
+        """
+
 class NBest:
     """
     One class of the n-best list.
@@ -6445,163 +6854,6 @@ class GestureSegmenter:
         As passed, with defaults filled in.
         """
 
-class ConnectedDecoder:
-    """
-    Token passing over a word network, frame by frame.
-    """
-    def __init__(
-        self,
-        chains: collections.abc.Sequence[WordChain],
-        network: WordNetwork,
-        options: ConnectedDecoderOptions = ...,
-    ) -> None: ...
-    def finish(self) -> DecodedSentence:
-        """
-        The best sentence; then as before the first frame.
-        """
-    def partial(self) -> DecodedSentence:
-        """
-        The best hypothesis so far.
-        """
-    def push(self, log_emissions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
-        """
-        One frame: log scores of all states, shape (num_states,).
-        """
-    def push_all(self, log_emissions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
-        """
-        push() of every row.
-        """
-    def reset(self) -> None:
-        """
-        Back to before the first frame.
-        """
-    def take_decided(self) -> list[DecodedWord]:
-        """
-        Words that change no more, since the last call.
-        """
-    @property
-    def alive(self) -> bool:
-        """
-        Whether any hypothesis is left.
-        """
-    @property
-    def num_active(self) -> int:
-        """
-        States with a hypothesis.
-        """
-    @property
-    def num_frames(self) -> int:
-        """
-        Pushed so far.
-        """
-    @property
-    def num_states(self) -> int:
-        """
-        Of all models.
-        """
-
-class ConnectedDecoderOptions:
-    """
-    Options of ConnectedDecoder.
-
-    Parameters
-    ----------
-    beam : float, default 2000.0
-        states whose score falls this much below the best (natural log) are dropped; 0..1e+12, 0 excluded
-    language_scale : float, default 1.0
-        factor on the log weights of the network (HTK's grammar scale); 0..1000000
-    insertion_penalty : float, default 0.0
-        added to the log score at every word; below 0: fewer words (HTK's -p); -1000000..1000000
-    max_open_words : int, default 65536
-        words of all hypotheses that are kept at most while these differ; beyond, the oldest word of the best one is decided; 64..100000000
-    """
-
-    __hash__: typing.ClassVar[None] = None
-    @staticmethod
-    def fields() -> list[OptionField]:
-        """
-        What each field is, in their order.
-        """
-    def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __getstate__(self) -> dict: ...
-    def __init__(
-        self,
-        *,
-        beam: float = 2000.0,
-        language_scale: float = 1.0,
-        insertion_penalty: float = 0.0,
-        max_open_words: int = 65536,
-    ) -> None: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, arg0: dict) -> None: ...
-    def as_dict(self) -> dict:
-        """
-        All fields as plain values, those of nested structs as dicts.
-        """
-    @property
-    def beam(self) -> float:
-        """
-        states whose score falls this much below the best (natural log) are dropped
-        """
-    @beam.setter
-    def beam(self, arg1: typing.Any) -> None: ...
-    @property
-    def insertion_penalty(self) -> float:
-        """
-        added to the log score at every word; below 0: fewer words (HTK's -p)
-        """
-    @insertion_penalty.setter
-    def insertion_penalty(self, arg1: typing.Any) -> None: ...
-    @property
-    def language_scale(self) -> float:
-        """
-        factor on the log weights of the network (HTK's grammar scale)
-        """
-    @language_scale.setter
-    def language_scale(self, arg1: typing.Any) -> None: ...
-    @property
-    def max_open_words(self) -> int:
-        """
-        words of all hypotheses that are kept at most while these differ; beyond, the oldest word of the best one is decided
-        """
-    @max_open_words.setter
-    def max_open_words(self, arg1: typing.Any) -> None: ...
-
-class ConnectedWordRecognizer:
-    """
-    Connected words; hri.ConnectedWordRecognizer wraps it.
-    """
-    @staticmethod
-    def from_model_file(file: ModelFile) -> ConnectedWordRecognizer: ...
-    @staticmethod
-    def load(path: str | bytes | os.PathLike[str]) -> ConnectedWordRecognizer: ...
-    @staticmethod
-    def train(
-        samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
-        sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
-        labels: collections.abc.Sequence[str],
-        groups: collections.abc.Sequence[str],
-        options: ConnectedWordRecognizerOptions,
-        progress: collections.abc.Callable[[int, int], None] | None = None,
-    ) -> ConnectedWordRecognizer: ...
-    def recognise(
-        self,
-        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
-        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
-        num_words: typing.SupportsInt | typing.SupportsIndex = 0,
-    ) -> Transcript: ...
-    def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
-    def to_model_file(self) -> ModelFile: ...
-    def with_decoder(self, decoder: ConnectedDecoderOptions) -> ConnectedWordRecognizer: ...
-    def with_language(self, language: NGramModel) -> ConnectedWordRecognizer: ...
-    @property
-    def labels(self) -> list[str]: ...
-    @property
-    def options(self) -> ConnectedWordRecognizerOptions:
-        """
-        As trained, with what training chose.
-        """
-
 class ConnectedWordRecognizerOptions:
     """
     Options of ConnectedWordRecognizer.
@@ -6709,208 +6961,6 @@ class ConnectedWordRecognizerOptions:
     @words.setter
     def words(self, arg1: typing.Any) -> None: ...
 
-class DecodedSentence:
-    """
-    What a decoder found.
-    """
-    @property
-    def complete(self) -> bool:
-        """
-        Whether it is a whole sentence.
-        """
-    @property
-    def log_score(self) -> float:
-        """
-        Of the best path.
-        """
-    @property
-    def words(self) -> list[DecodedWord]:
-        """
-        In the order of time.
-        """
-
-class DecodedWord:
-    """
-    One word, or silence, of a decoded sentence.
-    """
-    @property
-    def first_frame(self) -> int:
-        """
-        First frame.
-        """
-    @property
-    def last_frame(self) -> int:
-        """
-        One past the last frame.
-        """
-    @property
-    def log_score(self) -> float:
-        """
-        What it adds to the sentence's.
-        """
-    @property
-    def model(self) -> int:
-        """
-        Number of the model.
-        """
-
-class GaussianEmissions:
-    """
-    Log densities of the states of several models.
-    """
-    def __init__(self, models: collections.abc.Sequence[GaussianMixtureHmm]) -> None: ...
-    def compute(
-        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
-    ) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        float32, shape (num_frames, num_states).
-        """
-    @property
-    def num_states(self) -> int:
-        """
-        Of all models.
-        """
-
-class NGramFit:
-    """
-    How well a language model predicts sentences.
-    """
-    @property
-    def log_probability(self) -> float:
-        """
-        Natural log, of all words that the model knows.
-        """
-    @property
-    def num_unknown(self) -> int:
-        """
-        Words the model does not know.
-        """
-    @property
-    def num_words(self) -> int:
-        """
-        Predicted: known words and ends of sentences.
-        """
-    @property
-    def perplexity(self) -> float:
-        """
-        exp(-log_probability / num_words).
-        """
-
-class NGramModel:
-    """
-    N-gram language model of words with back-off; <s> and </s> are words, too.
-    """
-    @staticmethod
-    def load(path: str | bytes | os.PathLike[str]) -> NGramModel:
-        """
-        Reads an ARPA file; raises FormatError naming file and line.
-        """
-    @staticmethod
-    def parse(text: str, name: str) -> NGramModel:
-        """
-        Reads the text of an ARPA file; `name` is what errors call it.
-        """
-    @staticmethod
-    def train(
-        sentences: collections.abc.Sequence[collections.abc.Sequence[str]],
-        options: NGramOptions = ...,
-        vocabulary: collections.abc.Sequence[str] = [],
-    ) -> NGramModel:
-        """
-        Trains on lists of words; `vocabulary` names words beside those in them. Raises InvalidArgument for a word that is empty, a marker or has white space in it.
-        """
-    def fit_of(self, sentences: collections.abc.Sequence[collections.abc.Sequence[str]]) -> NGramFit:
-        """
-        An NGramFit: perplexity and what it is of.
-        """
-    def log_probability(self, history: collections.abc.Sequence[str], word: str) -> float:
-        """
-        log P(word | history), natural log; -inf for an unknown word, unless there is <unk>.
-        """
-    def num_ngrams(self, order: typing.SupportsInt | typing.SupportsIndex) -> int:
-        """
-        How many n-grams of an order there are.
-        """
-    def save(self, path: str | bytes | os.PathLike[str]) -> None:
-        """
-        Writes an ARPA file.
-        """
-    def to_arpa(self) -> str:
-        """
-        The text of the ARPA file.
-        """
-    @property
-    def order(self) -> int:
-        """
-        Words of the longest n-grams.
-        """
-    @property
-    def words(self) -> list[str]:
-        """
-        All words and markers.
-        """
-
-class NGramOptions:
-    """
-    Options of NGramModel.
-
-    Parameters
-    ----------
-    order : int, default 2
-        words of an n-gram; 2: bigram; 1..6
-    smoothing : {'witten_bell', 'kneser_ney'}, default 'witten_bell'
-        how n-grams that were not seen get their share
-    """
-
-    __hash__: typing.ClassVar[None] = None
-    @staticmethod
-    def fields() -> list[OptionField]:
-        """
-        What each field is, in their order.
-        """
-    def __eq__(self, arg0: typing.Any) -> bool: ...
-    def __getstate__(self) -> dict: ...
-    def __init__(
-        self, *, order: int = 2, smoothing: typing.Literal["witten_bell", "kneser_ney"] = "witten_bell"
-    ) -> None: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, arg0: dict) -> None: ...
-    def as_dict(self) -> dict:
-        """
-        All fields as plain values, those of nested structs as dicts.
-        """
-    @property
-    def order(self) -> int:
-        """
-        words of an n-gram; 2: bigram
-        """
-    @order.setter
-    def order(self, arg1: typing.Any) -> None: ...
-    @property
-    def smoothing(self) -> typing.Literal["witten_bell", "kneser_ney"]:
-        """
-        how n-grams that were not seen get their share
-        """
-    @smoothing.setter
-    def smoothing(self, arg1: typing.Any) -> None: ...
-
-class PossibilisticEmissions:
-    """
-    Log possibilities of the states of a set of models.
-    """
-    def __init__(self, set: PossibilisticHmmSet) -> None: ...
-    def compute(
-        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
-    ) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        float32, a row for each symbol, shape (len(symbols), num_states).
-        """
-    @property
-    def num_states(self) -> int:
-        """
-        Of all models.
-        """
-
 class TranscribedWord:
     """
     One word of a transcript.
@@ -6961,92 +7011,39 @@ class Transcript:
         In the order of time.
         """
 
-class WordChain:
+class ConnectedWordRecognizer:
     """
-    The states of a word as a decoder passes them.
-    """
-    @staticmethod
-    def of(
-        chain: MarkovChain, final_stay: typing.SupportsFloat | typing.SupportsIndex, is_silence: bool = False
-    ) -> WordChain:
-        """
-        Of a left-right MarkovChain, whose last state is left with 1 - final_stay.
-        """
-    def __init__(
-        self,
-        log_start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-        log_transition: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-        log_exit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
-        is_silence: bool = False,
-    ) -> None: ...
-
-class WordNetwork:
-    """
-    Which words may follow which; nodes are words or null nodes.
+    Connected words; hri.ConnectedWordRecognizer wraps it.
     """
     @staticmethod
-    def bigram(
-        language: NGramModel,
+    def from_model_file(file: ModelFile) -> ConnectedWordRecognizer: ...
+    @staticmethod
+    def load(path: str | bytes | os.PathLike[str]) -> ConnectedWordRecognizer: ...
+    @staticmethod
+    def train(
+        samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
         labels: collections.abc.Sequence[str],
-        silence: typing.SupportsInt | typing.SupportsIndex = -1,
-    ) -> WordNetwork:
-        """
-        Any number of words, weighted by a language model of order 1 or 2.
-        """
-    @staticmethod
-    def loop(
-        num_words: typing.SupportsInt | typing.SupportsIndex, silence: typing.SupportsInt | typing.SupportsIndex = -1
-    ) -> WordNetwork:
-        """
-        Any number of words in any order; `silence` is the model between them.
-        """
-    @staticmethod
-    def sequence(
-        num_words: typing.SupportsInt | typing.SupportsIndex,
-        length: typing.SupportsInt | typing.SupportsIndex,
-        silence: typing.SupportsInt | typing.SupportsIndex = -1,
-    ) -> WordNetwork:
-        """
-        So many words in any order.
-        """
-    @staticmethod
-    def transcript(
-        words: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
-        silence: typing.SupportsInt | typing.SupportsIndex = -1,
-    ) -> WordNetwork:
-        """
-        The given words in this order: for forced alignment.
-        """
-    def __init__(
+        groups: collections.abc.Sequence[str],
+        options: ConnectedWordRecognizerOptions,
+        progress: collections.abc.Callable[[int, int], None] | None = None,
+    ) -> ConnectedWordRecognizer: ...
+    def recognise(
         self,
-        models: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
-        arcs: collections.abc.Sequence[
-            tuple[
-                typing.SupportsInt | typing.SupportsIndex,
-                typing.SupportsInt | typing.SupportsIndex,
-                typing.SupportsFloat | typing.SupportsIndex,
-            ]
-        ],
-        initial: typing.SupportsInt | typing.SupportsIndex,
-        final: typing.SupportsInt | typing.SupportsIndex,
-    ) -> None:
-        """
-        `models[n]` is the model of node n, -1 for a null node; an arc is (from, to, log weight).
-        """
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+        num_words: typing.SupportsInt | typing.SupportsIndex = 0,
+    ) -> Transcript: ...
+    def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
+    def to_model_file(self) -> ModelFile: ...
+    def with_decoder(self, decoder: ConnectedDecoderOptions) -> ConnectedWordRecognizer: ...
+    def with_language(self, language: NGramModel) -> ConnectedWordRecognizer: ...
     @property
-    def final(self) -> int:
-        """
-        Where they end.
-        """
+    def labels(self) -> list[str]: ...
     @property
-    def initial(self) -> int:
+    def options(self) -> ConnectedWordRecognizerOptions:
         """
-        Where sentences begin.
-        """
-    @property
-    def models(self) -> list[int]:
-        """
-        The model of every node; -1: a null node.
+        As trained, with what training chose.
         """
 
 def activity_frames(

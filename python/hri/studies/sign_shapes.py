@@ -62,7 +62,7 @@ def read_signs(data_dir: Path, progress: Progress) -> SignPictures:
     dataset = Dataset.load(data_dir / "sign_digits", "gesture")
     greys, masks, missing = [], [], 0
     for done, sample in enumerate(dataset.samples):
-        (found,) = find_silhouettes([read_image(sample.path)])
+        (found,) = find_silhouettes([read_image(sample.path)], faces="never")  # hands alone
         mask = np.asarray(found.mask)
         if not mask.any():
             mask, missing = np.full_like(mask, 255), missing + 1
