@@ -28,11 +28,12 @@ class Line:
 
 ACCURACY = (
     Line("English digits (FSDD), each of 4 speakers held out", "fsdd", {"listening": "alone"}),
+    Line("English digits, the same, with a pretrained speech embedding", "fsdd-both", {"listening": "alone"}),
     Line("Hindi digits, the same, with a pretrained speech embedding", "hindi-digits-both", {"listening": "alone"}),
     Line(
-        "40 commands, 4 of 24 speakers held out, embedding and network",
-        "commands-network",
-        {"test": "quiet"},
+        "40 commands, 4 of 24 speakers held out, with the embedding",
+        "commands",
+        {"front_end": "both", "test": "quiet"},
     ),
     Line("Still hand signs 0-9, 130 persons, 5 folds by person", "sign-digits", {"light": "as recorded"}),
     Line("8 dynamic gestures before webcams, 5 stratified folds", "webcam-gestures", {"source": "silhouettes"}),

@@ -62,6 +62,7 @@ void bind_ngram_model(py::module_& m) {
           [](const hri::NGramModel& self, const std::vector<std::string>& history,
              const std::string& word) {
             std::vector<int> numbers;
+            numbers.reserve(history.size());
             for (const std::string& h : history) numbers.push_back(self.index_of(h));
             return self.log_probability(numbers, self.index_of(word));
           },

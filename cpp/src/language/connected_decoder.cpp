@@ -139,6 +139,13 @@ struct ConnectedDecoder::State {
     return models[static_cast<std::size_t>(words[static_cast<std::size_t>(word)].model)];
   }
 
+  [[nodiscard]] Token& token_at(const WordNode& word, int state) {
+    return tokens[static_cast<std::size_t>(word.first_state) + static_cast<std::size_t>(state)];
+  }
+  [[nodiscard]] const Token& token_at(const WordNode& word, int state) const {
+    return tokens[static_cast<std::size_t>(word.first_state) + static_cast<std::size_t>(state)];
+  }
+
   void begin() {
     records.reset();
     num_frames = 0;
@@ -193,7 +200,7 @@ struct ConnectedDecoder::State {
       word.is_active = false;
       exits[w] = {};
       for (int j = 0; j < model.num_states; ++j) {
-        Token& token = tokens[static_cast<std::size_t>(word.first_state + j)];
+        Token& token = token_at(word, j);
         if (token.score < lowest) token = {};
         if (!token.alive()) continue;
         word.is_active = true;
@@ -284,7 +291,7 @@ struct ConnectedDecoder::State {
     for (const WordNode& word : words) {
       const int size = models[static_cast<std::size_t>(word.model)].num_states;
       for (int j = 0; j < size; ++j) {
-        const Token& token = tokens[static_cast<std::size_t>(word.first_state + j)];
+        const Token& token = token_at(word, j);
         if (token.score > best.score) {
           best = token;
           in = &word;

@@ -153,12 +153,13 @@ class NGramTrainer {
 namespace {
 
 void check_words(const std::vector<std::string>& words, const std::string& name) {
+  const std::string where = name + ": the word '";
   for (const std::string& word : words) {
     const char* fault = detail::word_fault(word);
     if (word == NGramModel::kStart || word == NGramModel::kEnd || word == NGramModel::kUnknown)
       fault = "is a marker";
     if (fault != nullptr)
-      fail(ErrorKind::invalid_argument, name + ": the word '" + word + "' " + fault);
+      fail(ErrorKind::invalid_argument, std::string(where).append(word).append("' ").append(fault));
   }
 }
 

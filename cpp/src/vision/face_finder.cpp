@@ -25,7 +25,8 @@ FaceFinder::FaceFinder(const std::string& cascade_path, const FaceFinderOptions&
   bool loaded = false;
   try {
     loaded = cascade_->classifier.load(cascade_path);
-  } catch (const cv::Exception&) {  // it parses what is no XML, or other XML, by throwing
+    // NOLINTNEXTLINE(bugprone-empty-catch): it parses what is no XML, or other XML, by throwing
+  } catch (const cv::Exception&) {
   }
   if (!loaded || cascade_->classifier.empty())
     fail(ErrorKind::format, cascade_path + ": not a cascade of classifiers that OpenCV reads");

@@ -31,7 +31,7 @@ FOUND = 0.3
 
 _NO_SIGN = "no_class"
 _CHOSEN_ON = 4
-"""The options were chosen on every fourth picture of `hand`, in the order of paths."""
+"""The options were chosen on every fourth picture of `hand`, in the order of paths, and on all of `body`."""
 
 
 def _hands_of(joints: Sequence[Landmarks], folder: str) -> list[Landmarks]:
@@ -71,13 +71,13 @@ def _measure(
     paths: Sequence[Path], folder: str, way: Sequence[str], faces: Any, progress: Progress
 ) -> list[dict[str, Any]]:
     max_hands = 2 if folder == "body" else 1
-    parts = ("chosen on", "others") if folder == "hand" else ("others",)
+    parts = ("chosen on", "others") if folder == "hand" else ("chosen on",)
     shared: dict[tuple[str, str], list[float]] = {(part, name): [] for part in parts for name in way}
     seen: dict[str, list[bool]] = {part: [] for part in parts}
     with LandmarkTracker(each_alone=True, max_hands=2) as tracker:
         for number, path in enumerate(paths):
             frame = read_image(path)
-            part = "chosen on" if folder == "hand" and number % _CHOSEN_ON == 0 else "others"
+            part = "others" if folder == "hand" and number % _CHOSEN_ON else "chosen on"
             joints = _hands_of(tracker.find_all(frame), folder)
             if joints and _NO_SIGN not in path.parts:
                 seen[part].append(faces.find(frame) is not None)

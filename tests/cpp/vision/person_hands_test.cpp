@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -150,7 +151,11 @@ TEST(PersonHands, RefusesBadInput) {
 
 TEST(FaceFinder, RefusesWhatIsNoCascade) {
   EXPECT_THROW(FaceFinder("/nonexistent/cascade.xml"), IoError);
-  EXPECT_THROW(FaceFinder(std::string(__FILE__)), FormatError);
+  const std::string path = ::testing::TempDir() + "no_cascade.xml";
+  std::ofstream(path) << "<?xml version=\"1.0\"?><opencv_storage><other/></opencv_storage>";
+  EXPECT_THROW(FaceFinder{path}, FormatError);
+  std::ofstream(path) << "not XML";
+  EXPECT_THROW(FaceFinder{path}, FormatError);
 }
 
 }  // namespace

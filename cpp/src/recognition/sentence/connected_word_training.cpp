@@ -275,6 +275,7 @@ class SentenceTrainer {
         std::vector<int> found;
         const Transcript transcript =
             tried.recognise(string.audio, maker_.front_end().sample_rate_hz());
+        found.reserve(transcript.words.size());
         for (const TranscribedWord& word : transcript.words)
           found.push_back(label_index(labels_, word.label));
         (*errors)[p] += num_errors(string.labels, found);
