@@ -51,7 +51,7 @@ struct NGramFit {
 };
 
 /// Immutable; const calls are safe from several threads. Word numbers count from 0 in the order of
-/// words(); <s> and </s> are words, too.
+/// words(); kStart and kEnd are words, too.
 class HRI_API NGramModel {
  public:
   static constexpr const char* kStart = "<s>";
@@ -60,7 +60,7 @@ class HRI_API NGramModel {
   static constexpr int kMaxOrder = 6;
 
   /// Trains on sentences; `vocabulary` names words beside those in them. Of every history the
-  /// probabilities of all words and of </s> sum to 1. Throws InvalidArgument for no sentence, and
+  /// probabilities of all words and of kEnd sum to 1. Throws InvalidArgument for no sentence, and
   /// for a word that is empty, a marker, not UTF-8 or has white space in it (names the sentence).
   static NGramModel train(const std::vector<Sentence>& sentences, const NGramOptions& options = {},
                           const std::vector<std::string>& vocabulary = {});
@@ -79,14 +79,15 @@ class HRI_API NGramModel {
   [[nodiscard]] const std::vector<std::string>& words() const { return words_; }
   /// The number of n-grams of an order, 1..order().
   [[nodiscard]] std::int64_t num_ngrams(int order) const;
-  /// The number of a word: that of <unk> for one unknown, -1 where the model has no <unk> either.
+  /// The number of a word: that of kUnknown for one unknown, -1 where the model has no kUnknown
+  /// either.
   [[nodiscard]] int index_of(const std::string& word) const;
   [[nodiscard]] int start() const { return start_; }
   [[nodiscard]] int end() const { return end_; }
 
   /// log P(word | history), natural log; the last order() - 1 words of the history count, -1 (an
-  /// unknown word) ends it. -inf for <s> and for -1. Throws InvalidArgument for numbers that there
-  /// are not.
+  /// unknown word) ends it. -inf for kStart and for -1. Throws InvalidArgument for numbers that
+  /// there are not.
   [[nodiscard]] double log_probability(Span<const int> history, int word) const;
 
   [[nodiscard]] NGramFit fit_of(const std::vector<Sentence>& sentences) const;
