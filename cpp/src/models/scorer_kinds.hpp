@@ -4,6 +4,7 @@
 // The kinds of SequenceScorer, and what they share.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,8 +50,11 @@ std::shared_ptr<const SequenceScorer> extend_ptbhmm_scorer(const SequenceScorer&
                                                            int num_recordings,
                                                            const StopCheck& should_stop);
 
-/// All frames of all classes, one below the other.
-MatrixF stack_frames(const ClassSequences& sequences);
+constexpr Eigen::Index kAllFrames = std::numeric_limits<Eigen::Index>::max();
+
+/// The frames of all classes, one below the other; of more than `max_frames` as many, evenly
+/// spaced.
+MatrixF stack_frames(const ClassSequences& sequences, Eigen::Index max_frames);
 
 Topology left_right(int num_states);
 

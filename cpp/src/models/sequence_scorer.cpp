@@ -57,17 +57,19 @@ std::shared_ptr<const SequenceScorer> read_sequence_scorer(const ModelFile& file
 
 namespace detail {
 
-MatrixF stack_frames(const ClassSequences& sequences) {
+MatrixF stack_frames(const ClassSequences& sequences, Eigen::Index max_frames) {
   Eigen::Index rows = 0;
   for (const auto& list : sequences) {
     for (const MatrixF& m : list) rows += m.rows();
   }
-  MatrixF all(rows, sequences.front().front().cols());
-  Eigen::Index at = 0;
+  const Eigen::Index every = rows <= max_frames ? 1 : (rows + max_frames - 1) / max_frames;
+  MatrixF all((rows + every - 1) / every, sequences.front().front().cols());
+  Eigen::Index frame = 0;
   for (const auto& list : sequences) {
     for (const MatrixF& m : list) {
-      all.middleRows(at, m.rows()) = m;
-      at += m.rows();
+      for (Eigen::Index t = 0; t < m.rows(); ++t, ++frame) {
+        if (frame % every == 0) all.row(frame / every) = m.row(t);
+      }
     }
   }
   return all;

@@ -23,15 +23,15 @@ void add_aligned(const MarkovChain& chain, const MixtureBank& bank,
                  const std::vector<MatrixF>& sequences, const StopCheck& should_stop,
                  MixtureAccumulator* accumulator) {
   MatrixD densities;
-  MatrixD components;
+  MatrixD shares;
   MatrixD gamma;
   for (const MatrixF& frames : sequences) {
     poll(should_stop);
-    bank.log_densities(frames, &densities, &components);
+    bank.log_densities(frames, &densities, &shares);
     gamma.resize(frames.rows(), bank.num_states());
     const double total =
         forward_backward(chain, rows_of(densities), gamma.data(), bank.num_states(), nullptr);
-    if (std::isfinite(total)) accumulator->add(frames, gamma, components, densities);
+    if (std::isfinite(total)) accumulator->add(frames, gamma, shares);
   }
 }
 

@@ -39,13 +39,13 @@ class Passage {
     const std::ptrdiff_t num_frames = frames.rows();
     for (PaddedMatrix* matrix : {&log_b_, &alpha_, &after_, &beta_, &gamma_})
       matrix->resize(num_frames, kLanes);
-    components_.resize(num_frames, model_.bank().means().rows());
+    shares_.resize(num_frames, model_.bank().means().rows());
     const int n = model_.num_states();
     for (std::ptrdiff_t t = 0; t < num_frames && n < kLanes; ++t)
       std::fill(log_b_.row(t) + n, log_b_.row(t) + kLanes, 0.0);
     const bool mixed = model_.bank().num_mixtures() > 1;
     log_densities_of_finite(model_.bank(), frames, log_b_.row(0), kLanes,
-                            mixed ? components_.row(0) : nullptr, components_.stride());
+                            mixed ? shares_.row(0) : nullptr, shares_.stride());
     start(model_.chain(), log_b_.row(0), alpha_.row(0));
     std::fill_n(beta_.row(num_frames - 1), kLanes, kMinusInf);
     std::fill_n(beta_.row(num_frames - 1), n, 0.0);
@@ -70,8 +70,7 @@ class Passage {
       forward_backward(chain, {log_b_.row(0), kLanes, frames.rows(), nullptr}, gamma_.row(0),
                        kLanes, counts);
     }
-    accumulator->add(frames, {gamma_.row(0), kLanes, components_.row(0), components_.stride(),
-                              log_b_.row(0), kLanes});
+    accumulator->add(frames, {gamma_.row(0), kLanes, shares_.row(0), shares_.stride()});
     return total;
   }
 
@@ -79,7 +78,7 @@ class Passage {
   const GaussianMixtureHmm& model_;
   const ByOneRows& chain_;
   LogPass pass_;
-  PaddedMatrix log_b_, alpha_, after_, beta_, gamma_, components_;
+  PaddedMatrix log_b_, alpha_, after_, beta_, gamma_, shares_;
 };
 
 double add_side_by_side(const GaussianMixtureHmm& model, const std::vector<MatrixF>& sequences,
@@ -112,18 +111,17 @@ double add_expectations(const GaussianMixtureHmm& model, const std::vector<Matri
     return add_side_by_side(model, sequences, should_stop, counts, accumulator);
   const int n = model.num_states();
   MatrixD densities;
-  MatrixD components;
+  MatrixD shares;
   MatrixD gamma;
   double total = 0;
   for (const MatrixF& s : sequences) {
     poll(should_stop);
     densities.resize(s.rows(), n);
-    components.resize(s.rows(), model.bank().means().rows());
-    log_densities_of_finite(model.bank(), s, densities.data(), n, components.data(),
-                            components.cols());
+    shares.resize(s.rows(), model.bank().means().rows());
+    log_densities_of_finite(model.bank(), s, densities.data(), n, shares.data(), shares.cols());
     gamma.resize(s.rows(), n);
     total += forward_backward(model.chain(), rows_of(densities), gamma.data(), n, counts);
-    accumulator->add(s, gamma, components, densities);
+    accumulator->add(s, gamma, shares);
   }
   return total;
 }

@@ -120,14 +120,13 @@ GaussianMixtureHmm train_few(const std::vector<GaussianMixtureHmm>& known,
   MarkovChain chain = MarkovChain::initial(known.front().chain().topology());
   MixtureBank bank = first_bank(frames, n, pooled, options.num_recordings);
   MatrixD densities;
-  MatrixD components;
   MatrixD gamma;
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     detail::ChainCounts counts(n);
     StateSums sums(n, dim);
     for (std::size_t s = 0; s < sequences.size(); ++s) {
       poll(options.should_stop);
-      bank.log_densities(sequences[s], &densities, &components);
+      bank.log_densities(sequences[s], &densities, nullptr);
       gamma.resize(densities.rows(), n);
       detail::forward_backward(chain, detail::rows_of(densities), gamma.data(), n, &counts);
       sums.add(frames[s], gamma);

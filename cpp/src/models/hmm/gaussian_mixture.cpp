@@ -46,16 +46,15 @@ GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtu
   const double certain = 1;
   TrainingReport local;
   VectorD densities(rows.rows());
-  detail::PaddedMatrix components(kBlock, options.num_mixtures, 0);
+  detail::PaddedMatrix shares(kBlock, options.num_mixtures, 0);
   for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
     MixtureAccumulator accumulator(1, options.num_mixtures, bank.dim());
     for (Eigen::Index first = 0; first < rows.rows(); first += kBlock) {
       poll(options.should_stop);
       const auto block = rows.middleRows(first, std::min(kBlock, rows.rows() - first));
       double* of_block = densities.data() + first;
-      detail::log_densities_of_finite(bank, block, of_block, 1, components.row(0),
-                                      components.stride());
-      accumulator.add(block, {&certain, 0, components.row(0), components.stride(), of_block, 1});
+      detail::log_densities_of_finite(bank, block, of_block, 1, shares.row(0), shares.stride());
+      accumulator.add(block, {&certain, 0, shares.row(0), shares.stride()});
     }
     const double total = densities.sum();
     if (!local.log_likelihoods.empty()) {

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kSharedIterations = 2;
 constexpr double kGarbageWideWeight = 0.01;
+constexpr Eigen::Index kMostGarbageFrames = 540000;  // an hour and a half of speech
 // The names of fillers in model files since format version 1.
 constexpr const char* kNumFillers = "num_background";
 constexpr const char* kFiller = "background";
@@ -183,7 +184,8 @@ std::shared_ptr<const SequenceScorer> train_hmm_scorer(const ClassSequences& seq
   // The model of all frames takes longest, and begins first.
   parallel_for(sequences.size() + 1, should_stop, [&](std::size_t i, const StopCheck& stop) {
     if (i == 0) {
-      garbage = GaussianMixture::train(stack_frames(sequences), garbage_options(options, stop));
+      garbage = GaussianMixture::train(stack_frames(sequences, kMostGarbageFrames),
+                                       garbage_options(options, stop));
     } else {
       hmms[i - 1] = GaussianMixtureHmm::train(sequences[i - 1], hmm_options(options, stop));
     }

@@ -3,7 +3,6 @@
 //
 // The M step of Baum-Welch for mixture banks.
 #include <algorithm>
-#include <cmath>
 
 #include "core/simd.hpp"
 #include "hri/models/hmm/mixture_bank.hpp"
@@ -38,12 +37,8 @@ void write_weights(const detail::Alignment& a, Eigen::Index t, Eigen::Index num_
     } else if (num_mixtures == 1) {
       out[0] = gamma[j];
     } else {
-      const double* components = a.components + t * a.component_stride + j * num_mixtures;
-      const double density = a.densities[t * a.density_stride + j];
-      for (Eigen::Index c = 0; c < num_mixtures; ++c) {
-        const double w = gamma[j] * std::exp(components[c] - density);
-        out[c] = w > 0 ? w : 0.0;
-      }
+      const double* shares = a.shares + t * a.share_stride + j * num_mixtures;
+      for (Eigen::Index c = 0; c < num_mixtures; ++c) out[c] = gamma[j] * shares[c];
     }
   }
 }
@@ -55,10 +50,8 @@ MixtureAccumulator::MixtureAccumulator(int num_states, int num_mixtures, int dim
       dim_(dim),
       totals_(static_cast<std::ptrdiff_t>(num_states) * num_mixtures, 2 * dim + 1, 0) {}
 
-void MixtureAccumulator::add(ConstMatrixRefF frames, const MatrixD& gamma,
-                             const MatrixD& components, const MatrixD& densities) {
-  add(frames, {gamma.data(), gamma.cols(), components.data(), components.cols(), densities.data(),
-               densities.cols()});
+void MixtureAccumulator::add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& shares) {
+  add(frames, {gamma.data(), gamma.cols(), shares.data(), shares.cols()});
 }
 
 // A weight of 0 adds nothing, to the bit, so that products of whole blocks may be summed.

@@ -9,6 +9,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/models/row_checks.hpp"
+#include "models/hmm/dense_kernels.hpp"
 #include "models/hmm/mixture_kernels.hpp"
 
 namespace hri {
@@ -16,17 +17,19 @@ namespace {
 
 constexpr double kLog2Pi = 1.8378770664093454835606594728112;
 
-template <class T>
-T log_sum_exp(const T* values, int count) {
-  T top = values[0];
+constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
+
+// In float, as models have been scored since format version 1.
+float log_sum_exp(const float* values, int count) {
+  float top = values[0];
   for (int i = 1; i < count; ++i) top = values[i] > top ? values[i] : top;
-  if (!(top > -std::numeric_limits<T>::infinity())) return top;
+  if (!(top > -std::numeric_limits<float>::infinity())) return top;
   // Added to a sum of exp(highest) or more, what lies this far below is lost in rounding.
-  constexpr T kLost = sizeof(T) == sizeof(float) ? 19 : 39;
-  T sum = 0;
-  T highest = -std::numeric_limits<T>::infinity();
+  constexpr float kLost = 19;
+  float sum = 0;
+  float highest = -std::numeric_limits<float>::infinity();
   for (int i = 0; i < count; ++i) {
-    const T exponent = values[i] - top;
+    const float exponent = values[i] - top;
     if (exponent < highest - kLost) continue;
     sum += std::exp(exponent);
     highest = std::max(highest, exponent);
@@ -34,16 +37,58 @@ T log_sum_exp(const T* values, int count) {
   return top + std::log(sum);
 }
 
-// The densities of states from those of their components.
-template <class T>
-void mix(const T* components, int num_states, int num_mixtures, T* out) {
-  if (num_mixtures == 1) {
-    std::copy_n(components, num_states, out);
-    return;
+// The same of all states in double, with the exponentials of all components side by side.
+class Mixing {
+ public:
+  Mixing(int num_states, int num_mixtures)
+      : num_states_(num_states),
+        num_mixtures_(num_mixtures),
+        stride_(detail::padded(static_cast<std::ptrdiff_t>(num_states) * num_mixtures)) {
+    const std::ptrdiff_t states = detail::padded(num_states);
+    thread_local detail::AlignedVector buffer;
+    buffer.resize(static_cast<std::size_t>(2 * stride_ + 3 * states));
+    below_ = buffer.data();
+    shares_ = below_ + stride_;
+    tops_ = shares_ + stride_;
+    sums_ = tops_ + states;
+    logs_ = sums_ + states;
+    std::fill_n(below_, stride_, 0.0);
+    std::fill_n(sums_, states, 1.0);
   }
-  for (int j = 0; j < num_states; ++j)
-    out[j] = log_sum_exp(components + static_cast<std::ptrdiff_t>(j) * num_mixtures, num_mixtures);
-}
+
+  // `shares`, if not null, are those of the components in the densities of their states.
+  void mix(const double* components, double* out, double* shares) {
+    const std::ptrdiff_t k = num_mixtures_;
+    for (int j = 0; j < num_states_; ++j) {
+      const double* own = components + j * k;
+      tops_[j] = *std::max_element(own, own + k);
+      for (std::ptrdiff_t c = 0; c < k; ++c) below_[j * k + c] = own[c] - tops_[j];
+    }
+    const detail::DenseKernels& kernels = detail::dense_kernels();
+    kernels.exponentials(below_, 0, stride_, shares_);
+    for (int j = 0; j < num_states_; ++j) {
+      double sum = 0;
+      for (std::ptrdiff_t c = 0; c < k; ++c) sum += shares_[j * k + c];
+      sums_[j] = tops_[j] > kMinusInf ? sum : 1;
+    }
+    kernels.logarithms(sums_, 0, detail::padded(num_states_), logs_);
+    for (int j = 0; j < num_states_; ++j) {
+      out[j] = tops_[j] + logs_[j];
+      if (shares == nullptr) continue;
+      for (std::ptrdiff_t c = 0; c < k; ++c) shares[j * k + c] = shares_[j * k + c] / sums_[j];
+    }
+  }
+
+ private:
+  int num_states_;
+  int num_mixtures_;
+  std::ptrdiff_t stride_;
+  double* below_;  // the best component of the state
+  double* shares_;
+  double* tops_;
+  double* sums_;
+  double* logs_;
+};
 
 // Means and precisions by columns, each row padded; after them there is nothing.
 template <class T, class Buffer>
@@ -101,26 +146,29 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
   validate_finite(frames, "frames");
   require(out.rows() == frames.rows() && out.cols() == num_states(),
           "out must have shape (num_frames, num_states)");
-  const int k = num_mixtures();
   const auto table = table_of(columns_f_, means_.rows(), dim());
   thread_local std::vector<float> scratch;
   scratch.resize(static_cast<std::size_t>(table.stride));
   const detail::MixtureKernels& kernels = detail::mixture_kernels();
+  const int k = num_mixtures();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     kernels.distances_f(frames.data() + t * frames.outerStride(), table, scratch.data());
     for (std::size_t r = 0; r < constants_f_.size(); ++r)
       scratch[r] = constants_f_[r] - 0.5F * scratch[r];
-    mix(scratch.data(), num_states(), k, out.data() + t * out.outerStride());
+    float* of_frame = out.data() + t * out.outerStride();
+    for (int j = 0; j < num_states(); ++j) {
+      const float* own = scratch.data() + static_cast<std::ptrdiff_t>(j) * k;
+      of_frame[j] = k == 1 ? *own : log_sum_exp(own, k);
+    }
   }
 }
 
-void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* components) const {
+void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* shares) const {
   out->resize(frames.rows(), num_states());
-  if (components != nullptr) components->resize(frames.rows(), means_.rows());
+  if (shares != nullptr) shares->setOnes(frames.rows(), means_.rows());
   validate_finite(frames, "frames");
   detail::log_densities_of_finite(*this, frames, out->data(), num_states(),
-                                  components == nullptr ? nullptr : components->data(),
-                                  means_.rows());
+                                  shares == nullptr ? nullptr : shares->data(), means_.rows());
 }
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, double* out) const {
@@ -129,9 +177,8 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, double* out) const {
 }
 
 void detail::log_densities_of_finite(const MixtureBank& bank, ConstMatrixRefF frames, double* out,
-                                     std::ptrdiff_t stride, double* components,
-                                     std::ptrdiff_t component_stride) {
-  const int k = bank.num_mixtures();
+                                     std::ptrdiff_t stride, double* shares,
+                                     std::ptrdiff_t share_stride) {
   const auto num_rows = static_cast<std::ptrdiff_t>(bank.constants_.size());
   const auto table = table_of(bank.columns_, num_rows, bank.dim());
   thread_local AlignedVector buffer;
@@ -139,14 +186,19 @@ void detail::log_densities_of_finite(const MixtureBank& bank, ConstMatrixRefF fr
   double* logs = buffer.data();
   double* x = logs + table.stride;
   const MixtureKernels& kernels = mixture_kernels();
+  const bool mixed = bank.num_mixtures() > 1;
+  Mixing mixing(bank.num_states(), bank.num_mixtures());
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     const float* frame = frames.data() + t * frames.outerStride();
     for (int d = 0; d < bank.dim(); ++d) x[d] = static_cast<double>(frame[d]);
     kernels.distances(x, table, logs);
     for (std::ptrdiff_t r = 0; r < num_rows; ++r)
       logs[r] = bank.constants_[static_cast<std::size_t>(r)] - 0.5 * logs[r];
-    if (components != nullptr) std::copy_n(logs, num_rows, components + t * component_stride);
-    mix(logs, bank.num_states(), k, out + t * stride);
+    if (mixed) {
+      mixing.mix(logs, out + t * stride, shares == nullptr ? nullptr : shares + t * share_stride);
+    } else {
+      std::copy_n(logs, num_rows, out + t * stride);
+    }
   }
 }
 

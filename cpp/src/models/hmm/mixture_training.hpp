@@ -19,10 +19,8 @@ namespace hri::detail {
 struct Alignment {
   const double* gamma = nullptr;
   std::ptrdiff_t gamma_stride = 0;  ///< 0: one row for all frames
-  const double* components = nullptr;
-  std::ptrdiff_t component_stride = 0;
-  const double* densities = nullptr;
-  std::ptrdiff_t density_stride = 0;
+  const double* shares = nullptr;   ///< of components in the density of their state
+  std::ptrdiff_t share_stride = 0;
 };
 
 /// The centre that is nearest to a row: what minCoeff() finds among squaredNorm()s of Eigen,

@@ -81,7 +81,7 @@ std::shared_ptr<const SequenceScorer> train_ptbhmm_scorer(const ClassSequences& 
   CodebookOptions of_codebook;
   of_codebook.num_codewords = options.num_codewords;
   of_codebook.should_stop = should_stop;
-  Codebook codebook = Codebook::train_lbg(stack_frames(sequences), of_codebook);
+  Codebook codebook = Codebook::train_lbg(stack_frames(sequences, kAllFrames), of_codebook);
   std::vector<std::vector<SymbolSequence>> symbols;
   symbols.reserve(sequences.size());
   for (const auto& list : sequences) symbols.push_back(quantise(codebook, list));

@@ -27,20 +27,22 @@ void HeldOutWords::add_word(const StreamFrames& frames, int label, bool as_recor
                             const MultiStreamScorer& scorer) {
   using Kind = VerifierExample::Kind;
   const VectorF scores = scorer.scores(frames);
-  const VectorD features = WordVerifier::features(scorer, frames, scores);
+  const WordEvidence evidence = WordVerifier::evidence(scorer, frames, scores);
+  const VectorD features = WordVerifier::features(scorer, frames, evidence);
   decisions_.push_back({scores, label, 0});
   features_.push_back(features);
   as_recorded_.push_back(as_recorded);
   if (argmax(scores) == label) examples_.push_back({features, Kind::word});
   // Of two words neither can be left out.
   if (scores.size() <= 2) return;
-  as_unknown_.push_back(WordVerifier::features(scorer, frames, scores, label));
+  as_unknown_.push_back(WordVerifier::features(scorer, frames, evidence, label));
   examples_.push_back({as_unknown_.back(), Kind::other_word});
 }
 
 void HeldOutWords::add_non_word(const StreamFrames& frames, VerifierExample::Kind kind,
                                 const MultiStreamScorer& scorer) {
-  examples_.push_back({WordVerifier::features(scorer, frames, scorer.scores(frames)), kind});
+  const WordEvidence evidence = WordVerifier::evidence(scorer, frames, scorer.scores(frames));
+  examples_.push_back({WordVerifier::features(scorer, frames, evidence), kind});
 }
 
 void HeldOutWords::append(HeldOutWords more) {

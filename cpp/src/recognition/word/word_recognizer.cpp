@@ -87,7 +87,8 @@ VectorF WordRecognizer::scores(Span<const float> audio, int sample_rate_hz) cons
 }
 
 float WordRecognizer::verification_score(const StreamFrames& frames, const VectorF& scores) const {
-  return verifier_.verification_score(WordVerifier::features(scorer_, frames, scores));
+  const WordEvidence evidence = WordVerifier::evidence(scorer_, frames, scores);
+  return verifier_.verification_score(WordVerifier::features(scorer_, frames, evidence));
 }
 
 void WordRecognizer::save(const std::string& path) const { to_model_file().write(path); }

@@ -138,41 +138,52 @@ std::vector<std::string> WordVerifier::feature_names(const MultiStreamScorer& sc
   return names;
 }
 
+WordEvidence WordVerifier::evidence(const MultiStreamScorer& scorer, const StreamFrames& frames,
+                                    const VectorF& scores) {
+  WordEvidence result;
+  result.scores = scores;
+  result.of_streams = scores;
+  const VectorScorer* vectors = scorer.vectors().get();
+  if (vectors != nullptr) {
+    result.of_streams -= scorer.vector_scores(frames);
+    result.nearness = -vectors->squared_distances(scorer.vector_of(frames));
+  }
+  if (scorer.network() != nullptr) {
+    result.of_network = scorer.network_scores(frames);
+    result.of_streams -= result.of_network;
+  }
+  result.garbage = static_cast<double>(scorer.garbage_score(frames));
+  if (scorer.num_fillers() == 0) return result;
+  result.fillers = best_fillers(scorer.filler_scores(frames));
+  if (vectors != nullptr) {
+    const VectorF distances = vectors->filler_squared_distances(scorer.vector_of(frames));
+    result.nearness_of_fillers = best_fillers(-distances);
+  }
+  return result;
+}
+
 VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFrames& frames,
-                               const VectorF& scores, int left_out) {
+                               const WordEvidence& evidence, int left_out) {
   std::vector<double> result;
   const auto num_frames = static_cast<double>(frames.front().rows());
-  const VectorScorer* vectors = scorer.vectors().get();
-  VectorF of_streams = scores;
-  VectorF nearness;  // minus the squared distances: what lies nearest scores best
-  if (vectors != nullptr) {
-    of_streams -= scorer.vector_scores(frames);
-    nearness = -vectors->squared_distances(scorer.vector_of(frames));
-  }
-  VectorF of_network;
-  if (scorer.network() != nullptr) {
-    of_network = scorer.network_scores(frames);
-    of_streams -= of_network;
-  }
-  const std::size_t best = best_word(scores, left_out);
+  const bool vectors = scorer.vectors() != nullptr;
+  const std::size_t best = best_word(evidence.scores, left_out);
   const auto at = static_cast<Eigen::Index>(best);
-  const auto top = static_cast<double>(of_streams[at]);
-  result.push_back((top - scorer.garbage_score(frames)) / num_frames);
-  result.push_back((top - rival_score(of_streams, best, left_out)) / num_frames);
+  const auto top = static_cast<double>(evidence.of_streams[at]);
+  result.push_back((top - evidence.garbage) / num_frames);
+  result.push_back((top - rival_score(evidence.of_streams, best, left_out)) / num_frames);
   if (scorer.streams().front()->has_paths())
     add_path_features(scorer, frames, best, left_out, &result);
-  const double distance = vectors != nullptr ? -static_cast<double>(nearness[at]) : 0.0;
-  if (vectors != nullptr)
-    result.push_back(log_ratio(distance, -rival_score(nearness, best, left_out)));
+  const double distance = vectors ? -static_cast<double>(evidence.nearness[at]) : 0.0;
+  if (vectors)
+    result.push_back(log_ratio(distance, -rival_score(evidence.nearness, best, left_out)));
   if (scorer.network() != nullptr) {
-    result.push_back(static_cast<double>(of_network[at]) - rival_score(of_network, best, left_out));
+    result.push_back(static_cast<double>(evidence.of_network[at]) -
+                     rival_score(evidence.of_network, best, left_out));
   }
   if (scorer.num_fillers() > 0) {
-    result.push_back((top - best_fillers(scorer.filler_scores(frames))) / num_frames);
-    if (vectors != nullptr) {
-      const VectorF of_fillers = -vectors->filler_squared_distances(scorer.vector_of(frames));
-      result.push_back(log_ratio(distance, -best_fillers(of_fillers)));
-    }
+    result.push_back((top - evidence.fillers) / num_frames);
+    if (vectors) result.push_back(log_ratio(distance, -evidence.nearness_of_fillers));
   }
   return Eigen::Map<const VectorD>(result.data(), static_cast<Eigen::Index>(result.size()));
 }

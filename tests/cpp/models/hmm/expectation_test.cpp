@@ -67,12 +67,12 @@ TEST(Expectation, OfSequencesSideBySideHasTheBitsOfOneAfterTheOther) {
         found.total = add_expectations(model, all, {}, &found.counts, &found.accumulator);
         for (const MatrixF& frames : all) {
           MatrixD densities;
-          MatrixD components;
+          MatrixD shares;
           MatrixD gamma(frames.rows(), num_states);
-          model.bank().log_densities(frames, &densities, &components);
+          model.bank().log_densities(frames, &densities, &shares);
           plain.total += forward_backward(model.chain(), rows_of(densities), gamma.data(),
                                           num_states, &plain.counts);
-          plain.accumulator.add(frames, gamma, components, densities);
+          plain.accumulator.add(frames, gamma, shares);
         }
         expect_equal(found, plain,
                      std::to_string(num_states) + " states, " + std::to_string(num_mixtures) +

@@ -95,6 +95,42 @@ TEST(MixtureBank, ScoresEveryWidthInFloatAsInDouble) {
   }
 }
 
+// A component of weight 0, and frames so far away that nothing but the best component counts.
+TEST(MixtureBank, SharesDensitiesAmongComponentsAsTheySay) {
+  for (const int num_mixtures : {2, 3, 16}) {
+    constexpr int kStates = 3;
+    constexpr int kDim = 5;
+    const int rows = kStates * num_mixtures;
+    MatrixD weights = MatrixD::Constant(kStates, num_mixtures, 1.0 / (num_mixtures - 1));
+    weights.col(1).setZero();
+    const MatrixD means = noise(rows, kDim, 1).cast<double>();
+    const MatrixD variances = noise(rows, kDim, 2).cast<double>().cwiseAbs().array() + 0.5;
+    const MixtureBank bank(weights, means, variances);
+    MatrixF frames = noise(9, kDim, 3);
+    frames.row(4) *= 1000;
+    MatrixD densities;
+    MatrixD shares;
+    bank.log_densities(frames, &densities, &shares);
+    for (int t = 0; t < frames.rows(); ++t) {
+      for (int j = 0; j < kStates; ++j) {
+        const auto own = shares.row(t).segment(j * num_mixtures, num_mixtures);
+        EXPECT_NEAR(own.sum(), 1, 1e-14);
+        EXPECT_EQ(own[1], 0);
+        for (int c = 0; c < num_mixtures; ++c) {
+          if (c == 1) continue;
+          const int r = j * num_mixtures + c;
+          const auto off = (frames.row(t).cast<double>() - means.row(r)).array();
+          const double log_density =
+              std::log(weights(j, c)) -
+              0.5 * ((off.square() / variances.row(r).array()).sum() +
+                     (variances.row(r).array() * 2 * 3.14159265358979323846).log().sum());
+          EXPECT_NEAR(own[c], std::exp(log_density - densities(t, j)), 1e-9) << t << " " << r;
+        }
+      }
+    }
+  }
+}
+
 TEST(GaussianMixture, RefusesFilesOfSeveralStates) {
   ModelFile file;
   MixtureBank(MatrixD::Ones(2, 1), MatrixD::Zero(2, 1), MatrixD::Ones(2, 1)).write(file, "g.");

@@ -106,18 +106,16 @@ TEST(MixtureAccumulator, GivesTheBitsOfPlainSums) {
     MatrixD squares = MatrixD::Zero(num_rows, kDim);
     for (const int length : {1, 3, 64, 65, 200}) {
       const MatrixF frames = noise(length, kDim, 7);
-      const MatrixD components = 3 * noise(length, num_rows, 8).cast<double>();
-      const MatrixD densities = noise(length, kStates, 9).cast<double>();
+      const MatrixD shares = noise(length, num_rows, 8).cast<double>().cwiseAbs();
       MatrixD gamma = noise(length, kStates, 10).cast<double>().cwiseMax(0.0);
       gamma.col(2).setConstant(1e-13);  // too little to count
-      accumulator.add(frames, gamma, components, densities);
+      accumulator.add(frames, gamma, shares);
       for (int t = 0; t < length; ++t) {
         const Eigen::RowVectorXd x = frames.row(t).cast<double>();
         for (int r = 0; r < num_rows; ++r) {
           const int j = r / num_mixtures;
           if (!(gamma(t, j) > 1e-12)) continue;
-          const double w = gamma(t, j) *
-                           (num_mixtures == 1 ? 1.0 : std::exp(components(t, r) - densities(t, j)));
+          const double w = gamma(t, j) * (num_mixtures == 1 ? 1.0 : shares(t, r));
           counts[r] += w;
           sums.row(r) += w * x;
           squares.row(r) += w * x.cwiseAbs2();

@@ -156,7 +156,8 @@ VectorD features_of(int first_frames, int second_frames, int left_out) {
   MatrixF frames(first_frames + second_frames, 1);
   frames.topRows(first_frames).setZero();
   frames.bottomRows(second_frames).setConstant(5);
-  return WordVerifier::features(scorer, {frames}, scorer.scores({frames}), left_out);
+  const WordEvidence evidence = WordVerifier::evidence(scorer, {frames}, scorer.scores({frames}));
+  return WordVerifier::features(scorer, {frames}, evidence, left_out);
 }
 
 TEST(WordVerifier, FeaturesAreThoseOfTheAlignment) {

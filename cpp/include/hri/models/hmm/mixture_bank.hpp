@@ -24,11 +24,10 @@ namespace detail {
 struct Alignment;
 
 /// Log densities in double of frames that are known to be finite: of every state to rows of
-/// `stride` values, and of every component to rows of `component_stride`, if `components` is not
-/// null.
+/// `stride` values, and, where states have several components and `shares` is not null, the share
+/// of every component in the density of its state to rows of `share_stride`.
 void log_densities_of_finite(const MixtureBank& bank, ConstMatrixRefF frames, double* out,
-                             std::ptrdiff_t stride, double* components,
-                             std::ptrdiff_t component_stride);
+                             std::ptrdiff_t stride, double* shares, std::ptrdiff_t share_stride);
 }  // namespace detail
 
 /// Immutable; const calls are safe from several threads. Invariant: weights of a state sum to 1,
@@ -52,9 +51,9 @@ class HRI_API MixtureBank {
   /// (num_frames, num_states).
   void log_densities(ConstMatrixRefF frames, MatrixRefF out) const;
 
-  /// The same in double, with the log density of every component, (num_frames, num_states *
-  /// num_mixtures), if wanted.
-  void log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* components) const;
+  /// The same in double, with the share of every component in the density of its state,
+  /// (num_frames, num_states * num_mixtures), if wanted.
+  void log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* shares) const;
 
   /// The same for `out` of (num_frames, num_states) values, row by row; allocates nothing once the
   /// thread has used a bank as large.
@@ -65,8 +64,8 @@ class HRI_API MixtureBank {
 
  private:
   friend void detail::log_densities_of_finite(const MixtureBank& bank, ConstMatrixRefF frames,
-                                              double* out, std::ptrdiff_t stride,
-                                              double* components, std::ptrdiff_t component_stride);
+                                              double* out, std::ptrdiff_t stride, double* shares,
+                                              std::ptrdiff_t share_stride);
 
   MatrixD weights_;
   MatrixD means_;
@@ -92,10 +91,9 @@ class HRI_API MixtureAccumulator {
  public:
   MixtureAccumulator(int num_states, int num_mixtures, int dim);
 
-  /// Adds one sequence: `gamma` (num_frames, num_states) are state posteriors; `components` and
-  /// `densities` as MixtureBank::log_densities gave them.
-  void add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& components,
-           const MatrixD& densities);
+  /// Adds one sequence: `gamma` (num_frames, num_states) are state posteriors; `shares` as
+  /// MixtureBank::log_densities gave them.
+  void add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& shares);
 
   /// Adds imagined frames, as `prior` would have given them: `frames_per_state` of every state,
   /// shared by its components as their weights say.

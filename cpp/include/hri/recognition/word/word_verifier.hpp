@@ -31,6 +31,17 @@ struct VerifierExample {
   Kind kind = Kind::word;
 };
 
+/// What the features of a word are made from, whichever class is left out.
+struct WordEvidence {
+  VectorF scores;      ///< of all parts of the scorer together
+  VectorF of_streams;  ///< by the streams alone
+  VectorF nearness;    ///< of vectors, where they are scored: minus the squared distances
+  VectorF of_network;  ///< where there is one
+  double garbage = 0;
+  double fillers = 0;  ///< of those that fit best
+  double nearness_of_fillers = 0;
+};
+
 /// Immutable; const calls are safe from several threads. An untrained one takes the first feature
 /// for the score.
 class HRI_API WordVerifier {
@@ -43,9 +54,12 @@ class HRI_API WordVerifier {
   /// ratios of squared distances.
   static std::vector<std::string> feature_names(const MultiStreamScorer& scorer);
 
-  /// Features of the best word by `scores`, as if there were no class `left_out` (-1: none).
+  /// `scores` are what `scorer` gives the frames.
+  static WordEvidence evidence(const MultiStreamScorer& scorer, const StreamFrames& frames,
+                               const VectorF& scores);
+  /// Features of the best word, as if there were no class `left_out` (-1: none).
   static VectorD features(const MultiStreamScorer& scorer, const StreamFrames& frames,
-                          const VectorF& scores, int left_out = -1);
+                          const WordEvidence& evidence, int left_out = -1);
 
   /// Trains on held-out examples: words against other words, and words against sounds, both kinds
   /// of equal weight. With fillers their features, and that of a network, alone decide against
