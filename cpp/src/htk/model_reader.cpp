@@ -57,7 +57,7 @@ class ModelReader {
     macro.type = type;
     macro.name = tokens_.take_name();
     if (index_.count(key(type, macro.name)) > 0)
-      tokens_.refuse(std::string("~") + type + " \"" + macro.name + "\" is defined already");
+      tokens_.refuse_taken(std::string("~") + type + " \"" + macro.name + "\" is defined already");
     switch (type) {
       case 'h':
         macro.hmm = hmm();
@@ -109,7 +109,7 @@ class ModelReader {
   bool option() {
     if (tokens_.skip("STREAMINFO")) {
       if (tokens_.take_whole(1, 1000) != 1)
-        tokens_.refuse("models of several streams are not read");
+        tokens_.refuse_taken("models of several streams are not read");
       set_size(tokens_.take_whole(1, kMostColumns));
     } else if (tokens_.skip("VECSIZE")) {
       set_size(tokens_.take_whole(1, kMostColumns));
@@ -128,7 +128,7 @@ class ModelReader {
 
   void set_size(int size) {
     if (set_->vector_size != 0 && set_->vector_size != size)
-      tokens_.refuse("vectors had " + std::to_string(set_->vector_size) + " values above");
+      tokens_.refuse_taken("vectors had " + std::to_string(set_->vector_size) + " values above");
     set_->vector_size = size;
   }
 
@@ -149,11 +149,12 @@ class ModelReader {
     while (tokens_.skip("STATE")) {
       const int number = tokens_.take_whole(2, num_states - 1);
       if (!states.emplace(number, state()).second)
-        tokens_.refuse("state " + std::to_string(number) + " is defined twice");
+        tokens_.refuse_taken("state " + std::to_string(number) + " is defined twice");
     }
     if (static_cast<int>(states.size()) != num_states - 2)
-      tokens_.refuse(std::to_string(states.size()) + " states are defined, <NUMSTATES> says " +
-                     std::to_string(num_states - 2) + " beside entry and exit");
+      tokens_.refuse_taken(std::to_string(states.size()) +
+                           " states are defined, <NUMSTATES> says " +
+                           std::to_string(num_states - 2) + " beside entry and exit");
     for (auto& [number, one] : states) definition.states.push_back(std::move(one));
     definition.transitions = transitions(num_states);
     tokens_.expect("ENDHMM");
@@ -172,7 +173,7 @@ class ModelReader {
     if (tokens_.skip("NUMMIXES")) definition.num_mixtures = tokens_.take_whole(1, kMostMixtures);
     if (tokens_.skip("SWEIGHTS")) {
       if (tokens_.take_whole(1, 1000) != 1 || tokens_.take_number() != 1)
-        tokens_.refuse("models of several streams are not read");
+        tokens_.refuse_taken("models of several streams are not read");
     }
     if (tokens_.skip("STREAM")) tokens_.take_whole(1, 1);
     if (tokens_.is("DPROB") || tokens_.is("TMIX"))
@@ -187,14 +188,14 @@ class ModelReader {
       WeightedComponent one;
       one.number = tokens_.take_whole(before + 1, definition.num_mixtures);
       one.weight = tokens_.take_number();
-      if (one.weight < 0 || one.weight > 1) tokens_.refuse("a weight is outside 0..1");
+      if (one.weight < 0 || one.weight > 1) tokens_.refuse_taken("a weight is outside 0..1");
       one.component = component();
       before = one.number;
       sum += one.weight;
       definition.components.push_back(std::move(one));
     }
     if (!(std::fabs(sum - 1) <= kSumTolerance))
-      tokens_.refuse("the weights of a state do not sum to 1");
+      tokens_.refuse_taken("the weights of a state do not sum to 1");
     return definition;
   }
 
@@ -229,7 +230,8 @@ class ModelReader {
     definition.values.resize(size);
     for (int i = 0; i < size; ++i) {
       definition.values[i] = tokens_.take_number();
-      if (type == 'v' && !(definition.values[i] > 0)) tokens_.refuse("a variance is not above 0");
+      if (type == 'v' && !(definition.values[i] > 0))
+        tokens_.refuse_taken("a variance is not above 0");
     }
     return definition;
   }
@@ -238,14 +240,14 @@ class ModelReader {
   TransitionDefinition transitions(int num_states) {
     if (const MacroDefinition* macro = used('t'); macro != nullptr) {
       if (macro->transitions.values.rows() != num_states)
-        tokens_.refuse("~t \"" + macro->name + "\" has another number of states");
+        tokens_.refuse_taken("~t \"" + macro->name + "\" has another number of states");
       count_values(macro->transitions.values.size());
       return {macro->name, macro->transitions.values};
     }
     tokens_.expect("TRANSP");
     const int size = tokens_.take_whole(3, kMostStates);
     if (num_states != 0 && size != num_states)
-      tokens_.refuse("<TRANSP> has another number of states than <NUMSTATES>");
+      tokens_.refuse_taken("<TRANSP> has another number of states than <NUMSTATES>");
     TransitionDefinition definition;
     count_values(std::int64_t{size} * size);
     definition.values.resize(size, size);
@@ -253,14 +255,15 @@ class ModelReader {
       double sum = 0;
       for (int j = 0; j < size; ++j) {
         const double value = tokens_.take_number();
-        if (value < 0 || value > 1) tokens_.refuse("a transition is outside 0..1");
+        if (value < 0 || value > 1) tokens_.refuse_taken("a transition is outside 0..1");
         if (value > 0 && (j == 0 || i == size - 1))
-          tokens_.refuse("a transition leads to the entry or from the exit");
+          tokens_.refuse_taken("a transition leads to the entry or from the exit");
         definition.values(i, j) = value;
         sum += value;
       }
       if (i < size - 1 && !(std::fabs(sum - 1) <= kSumTolerance))
-        tokens_.refuse("the transitions from state " + std::to_string(i + 1) + " do not sum to 1");
+        tokens_.refuse_taken("the transitions from state " + std::to_string(i + 1) +
+                             " do not sum to 1");
     }
     return definition;
   }

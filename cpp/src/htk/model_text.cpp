@@ -17,8 +17,8 @@ bool is_space(char c) { return std::string(kSpaces).find(c) != std::string::npos
 
 }  // namespace
 
-void ModelTokens::refuse(const std::string& why) const {
-  fail(ErrorKind::format, name_ + ": line " + std::to_string(token_line_) + ": " + why);
+void ModelTokens::refuse_at(std::int64_t line, const std::string& why) const {
+  fail(ErrorKind::format, name_ + ": line " + std::to_string(line) + ": " + why);
 }
 
 void ModelTokens::skip_blanks() {
@@ -27,6 +27,7 @@ void ModelTokens::skip_blanks() {
 
 void ModelTokens::advance() {
   skip_blanks();
+  taken_line_ = token_line_;
   token_line_ = line_;
   now_ = ModelToken();
   if (at_ >= text_.size()) return;

@@ -37,9 +37,12 @@ class ModelTokens {
   std::string take_name();
   double take_number();
   int take_whole(int low, int high);
-  [[noreturn]] void refuse(const std::string& why) const;
+  /// Of the token that stands here, and of the one before.
+  [[noreturn]] void refuse(const std::string& why) const { refuse_at(token_line_, why); }
+  [[noreturn]] void refuse_taken(const std::string& why) const { refuse_at(taken_line_, why); }
 
  private:
+  [[noreturn]] void refuse_at(std::int64_t line, const std::string& why) const;
   void skip_blanks();
   void read_quoted();
 
@@ -47,6 +50,7 @@ class ModelTokens {
   const std::string& name_;
   std::size_t at_ = 0;
   std::int64_t line_ = 1;        // where reading is
+  std::int64_t taken_line_ = 1;  // where the token before began
   std::int64_t token_line_ = 1;  // where the token began
   ModelToken now_;
 };

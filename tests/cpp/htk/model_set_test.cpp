@@ -129,22 +129,22 @@ TEST(ModelSet, RefusesModelsThatDoNotFit) {
 }
 
 TEST(ModelSet, RefusesDamagedFilesByNameAndLine) {
-  EXPECT_EQ(refusal(kShared + kShared), "models: line 45: ~t \"steps\" is defined already");
+  EXPECT_EQ(refusal(kShared + kShared), "models: line 44: ~t \"steps\" is defined already");
   EXPECT_EQ(refusal("<BEGINHMM>"), "models: line 1: expected a macro, such as ~h");
   EXPECT_EQ(refusal(replaced(kShared, "~s \"begin\"\n<STATE> 3", "~s \"end\"\n<STATE> 3")),
-            "models: line 34: ~s \"end\" is not defined above");
+            "models: line 33: ~s \"end\" is not defined above");
   EXPECT_EQ(refusal(replaced(kShared, "<MEAN> 2\n 3", "<MEAN> 3\n 3")),
-            "models: line 36: vectors had 2 values above");
+            "models: line 35: vectors had 2 values above");
   EXPECT_EQ(refusal(replaced(kShared, "<NUMSTATES> 4", "<NUMSTATES> 5")),
-            "models: line 40: 2 states are defined, <NUMSTATES> says 3 beside entry and exit");
+            "models: line 38: 2 states are defined, <NUMSTATES> says 3 beside entry and exit");
   EXPECT_EQ(refusal(replaced(kShared, "<STATE> 3", "<STATE> 2")),
-            "models: line 40: state 2 is defined twice");
+            "models: line 38: state 2 is defined twice");
   EXPECT_EQ(refusal(replaced(kShared, "7.500000e-01", "6.500000e-01")),
-            "models: line 30: the weights of a state do not sum to 1");
+            "models: line 28: the weights of a state do not sum to 1");
   EXPECT_EQ(refusal(replaced(kShared, " 1.000000e-02", " 0.000000e+00")),
-            "models: line 17: a variance is not above 0");
+            "models: line 15: a variance is not above 0");
   EXPECT_EQ(refusal(replaced(kShared, "6.000000e-01", "5.000000e-01")),
-            "models: line 8: the transitions from state 2 do not sum to 1");
+            "models: line 7: the transitions from state 2 do not sum to 1");
   EXPECT_EQ(refusal(replaced(kShared, "6.000000e-01", "nan")), "models: line 7: expected a number");
   EXPECT_EQ(refusal(replaced(kShared, "<NULLD>", "<FULLC>")),
             "models: line 3: <FULLC> is not read");
