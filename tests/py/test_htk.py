@@ -122,10 +122,10 @@ def test_tools_lead_from_recordings_to_word_errors(hri, coded: Path, tmp_path: P
     assert "WORD: %Corr=100.00, Acc=100.00 [H=10, D=0, S=0, I=0, N=10]" in scored.out
     assert scored.out.count("[H=   ") == 4
 
-    # Every word takes its second: 0.25 s of pause on each side of half a second.
+    # Every word takes its second: 0.25 s of pause on each side of half a second, in which a boundary may lie.
     for entry, sentence in zip(MasterLabelFile.read("found.mlf").entries, SENTENCES, strict=True):
         for number, label in enumerate(entry[1].labels):
-            assert abs(label.first / 1e7 - number) < 0.15 and len(sentence) * 1e7 >= label.last
+            assert abs(label.first / 1e7 - number) <= 0.25 and len(sentence) * 1e7 >= label.last
 
     # Alignment of what was said gives the same scores.
     Path("words.mlf").write_text('#!MLF!#\n"*/sentence1.lab"\n"7"\n"7"\nrise\n.\n')

@@ -62,7 +62,7 @@ def retrain_model(
 
 def _final_stay(model: GaussianMixtureHmm, sequences: Sequence[NDArray[np.float32]]) -> float:
     """The probability to stay in the last state that its length on the best paths makes most likely."""
-    last = len(model.chain.start) - 1
+    last = model.num_states - 1
     lengths = [np.count_nonzero(np.asarray(model.viterbi(frames)[1]) == last) for frames in sequences]
     mean = max(1.0, float(np.mean(lengths)))
     return 1 - 1 / mean

@@ -75,7 +75,7 @@ def init(
     sequences = _segments(all_arguments(files, scripts), source.kind, configs, references, label)
     shape = source.hmm(model)
     made = ModelSet(source.kind)
-    num_states = len(shape.chain.start)
+    num_states = shape.num_states
     train_model(
         made,
         name or model,
