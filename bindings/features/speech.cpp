@@ -51,14 +51,7 @@ void bind_computer(py::module_& m) {
             return out;
           },
           py::arg("audio"),
-          "Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.")
-      .def(
-          "log_filter_energies",
-          [](const Computer& self, const hri_bind::FloatArray& audio) {
-            return hri_bind::to_array(self.log_filter_energies(hri_bind::as_span(audio, "audio")));
-          },
-          py::arg("audio"),
-          "ln of the energies of the filters, before the DCT: float32, (num_frames, num_filters).");
+          "Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.");
 }
 
 // The first `count` rows, for which `rows` was made.

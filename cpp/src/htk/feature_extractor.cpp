@@ -16,6 +16,7 @@ namespace {
 constexpr double kFullScale = 32768;  // of the 16-bit samples that HTK computes with
 constexpr double kLogZero = -1e10;    // HTK's log of no energy
 constexpr double kLeastEnergy = 2.45e-308;
+constexpr float kLeastFilter = 1;  // HTK's MELFLOOR
 
 bool is_of_filters(BaseKind base) {
   return base == BaseKind::mfcc || base == BaseKind::fbank || base == BaseKind::melspec;
@@ -65,8 +66,13 @@ CepstraOptions cepstra_options(ParameterKind kind, int sample_rate_hz,
   if (!is_of_filters(kind.base)) o.kind = CepstraKind::linear_prediction;
   // Of the others only frames and filters are used.
   if (kind.base != BaseKind::mfcc && kind.base != BaseKind::lpcepstra) o.num_cepstra = 1;
-  if (kind.base == BaseKind::melspec) o.energy_floor = 1e-30;
   return o;
+}
+
+int fft_size_of(int frame_length) {
+  int size = 2;
+  while (size < frame_length) size *= 2;
+  return size;
 }
 
 }  // namespace
@@ -76,6 +82,8 @@ FeatureExtractor::FeatureExtractor(ParameterKind kind, int sample_rate_hz,
     : kind_(checked(kind)),
       options_(validated(options)),
       computer_(cepstra_options(kind, sample_rate_hz, options)),
+      fft_(fft_size_of(computer_.frame_length())),
+      bank_(computer_.options().filter_bank_options(), sample_rate_hz, fft_.size()),
       window_(make_window(computer_.options().window, computer_.frame_length())) {}
 
 int FeatureExtractor::num_base() const {
@@ -110,9 +118,9 @@ MatrixF FeatureExtractor::compute(Span<const float> audio) const {
 MatrixF FeatureExtractor::base(Span<const float> audio) const {
   switch (kind_.base) {
     case BaseKind::fbank:
-      return computer_.log_filter_energies(audio);
+      return filter_energies(audio).cwiseMax(kLeastFilter).array().log();
     case BaseKind::melspec:
-      return computer_.log_filter_energies(audio).array().exp();
+      return filter_energies(audio);
     case BaseKind::lpc:
       return linear_prediction(audio);
     default:
@@ -131,6 +139,22 @@ void FeatureExtractor::condition(Span<const float> audio, Eigen::Index frame, bo
   for (Eigen::Index n = length - 1; n > 0; --n) (*out)[n] -= options_.pre_emphasis * (*out)[n - 1];
   (*out)[0] *= 1 - options_.pre_emphasis;
   out->array() *= Eigen::Map<const VectorF>(window_.data(), length).cast<double>().array();
+}
+
+MatrixF FeatureExtractor::filter_energies(Span<const float> audio) const {
+  MatrixF out(computer_.num_frames(audio.size()), bank_.num_filters());
+  VectorD frame;
+  VectorF padded = VectorF::Zero(fft_.size());
+  VectorF spectrum(fft_.num_bins());
+  const Span<float> bins(spectrum.data(), static_cast<std::size_t>(spectrum.size()));
+  for (Eigen::Index t = 0; t < out.rows(); ++t) {
+    condition(audio, t, false, &frame);
+    padded.head(frame.size()) = frame.cast<float>();
+    fft_.power_spectrum({padded.data(), static_cast<std::size_t>(padded.size())}, bins);
+    if (!options_.use_power) spectrum = spectrum.cwiseSqrt();
+    bank_.apply(bins, {out.data() + t * out.cols(), static_cast<std::size_t>(out.cols())});
+  }
+  return out;
 }
 
 MatrixF FeatureExtractor::linear_prediction(Span<const float> audio) const {

@@ -43,7 +43,7 @@ def code_file(source: str | PathLike[str], configuration: HtkConfiguration) -> H
     rate = UNITS_PER_S / file.sample_period
     if rate != round(rate):
         raise FormatError(f"{fspath(source)}: a sample period of {file.sample_period} * 100 ns is no whole rate in Hz")
-    return _code_audio(file.values[:, 0] / FULL_SCALE, round(rate), fspath(source), configuration)
+    return _code_audio(file.values[:, 0] / np.float32(FULL_SCALE), round(rate), fspath(source), configuration)
 
 
 def load_observations(

@@ -7,8 +7,8 @@ from __future__ import annotations
 import shlex
 from os import PathLike, fspath
 
-from hri.core import files
 from hri.core.errors import FormatError
+from hri.core.files import read_text, split_lines
 
 
 def read_script(path: str | PathLike[str]) -> list[str]:
@@ -44,7 +44,7 @@ def read_list(path: str | PathLike[str]) -> dict[str, str]:
 
 def _rows(path: str | PathLike[str]) -> list[list[str]]:
     rows = []
-    for number, line in enumerate(files.split_lines(files.read_text(path)), 1):
+    for number, line in enumerate(split_lines(read_text(path)), 1):
         try:
             rows.append(shlex.split(line))
         except ValueError:

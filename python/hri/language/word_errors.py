@@ -64,32 +64,26 @@ class WordErrors:
         )
 
 
-def align_words(
-    reference: Sequence[str],
-    hypothesis: Sequence[str],
-    costs: tuple[int, int, int] = (SUBSTITUTION, DELETION, INSERTION),
-) -> list[AlignedWord]:
+def align_words(reference: Sequence[str], hypothesis: Sequence[str]) -> list[AlignedWord]:
     """Align two sentences at the least cost: 4 for a substitution, 3 for a deletion or an insertion, as sclite does.
 
-    `costs` are others, in this order. Of alignments that cost the same, one with a word on both sides as late as
-    possible.
+    Of alignments that cost the same, one with a word on both sides as late as possible.
     """
-    substitution, deletion, insertion = costs
-    rows = [[j * insertion for j in range(len(hypothesis) + 1)]]
+    rows = [[j * INSERTION for j in range(len(hypothesis) + 1)]]
     for i, said in enumerate(reference, 1):
-        row = [i * deletion]
+        row = [i * DELETION]
         for j, found in enumerate(hypothesis, 1):
-            both = rows[i - 1][j - 1] + (0 if said == found else substitution)
-            row.append(min(both, rows[i - 1][j] + deletion, row[j - 1] + insertion))
+            both = rows[i - 1][j - 1] + (0 if said == found else SUBSTITUTION)
+            row.append(min(both, rows[i - 1][j] + DELETION, row[j - 1] + INSERTION))
         rows.append(row)
     aligned = []
     i, j = len(reference), len(hypothesis)
     while i or j:
         cost = rows[i][j]
-        if i and j and cost == rows[i - 1][j - 1] + (0 if reference[i - 1] == hypothesis[j - 1] else substitution):
+        if i and j and cost == rows[i - 1][j - 1] + (0 if reference[i - 1] == hypothesis[j - 1] else SUBSTITUTION):
             i, j = i - 1, j - 1
             aligned.append(AlignedWord(reference[i], hypothesis[j]))
-        elif i and cost == rows[i - 1][j] + deletion:
+        elif i and cost == rows[i - 1][j] + DELETION:
             i -= 1
             aligned.append(AlignedWord(reference[i], None))
         else:

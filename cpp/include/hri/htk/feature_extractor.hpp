@@ -12,7 +12,9 @@
 #include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
+#include "hri/features/speech/filter_bank.hpp"
 #include "hri/htk/parameter_file.hpp"
+#include "hri/signal/fft.hpp"
 
 namespace hri::htk {
 
@@ -92,6 +94,7 @@ class HRI_API FeatureExtractor {
  private:
   [[nodiscard]] int num_base() const;  // columns without c0 and energy
   [[nodiscard]] MatrixF base(Span<const float> audio) const;
+  [[nodiscard]] MatrixF filter_energies(Span<const float> audio) const;
   [[nodiscard]] MatrixF linear_prediction(Span<const float> audio) const;
   [[nodiscard]] VectorD log_energies(Span<const float> audio) const;
   void condition(Span<const float> audio, Eigen::Index frame, bool raw, VectorD* out) const;
@@ -99,6 +102,8 @@ class HRI_API FeatureExtractor {
   ParameterKind kind_;
   HtkFeatureOptions options_;
   CepstraComputer computer_;
+  RealFft fft_;
+  FilterBank bank_;
   std::vector<float> window_;
 };
 

@@ -89,7 +89,7 @@ MatrixF CepstraComputer::compute(Span<const float> audio) const {
   return out;
 }
 
-void CepstraComputer::check(Span<const float> audio) const {
+void CepstraComputer::compute(Span<const float> audio, MatrixRefF out) const {
   const std::size_t bad = first_not_finite(audio.data(), audio.size());
   if (bad < audio.size()) {
     fail(ErrorKind::invalid_argument, "audio is not finite at sample " + std::to_string(bad));
@@ -99,10 +99,6 @@ void CepstraComputer::check(Span<const float> audio) const {
                                           " samples, one frame takes " +
                                           std::to_string(frame_length_));
   }
-}
-
-void CepstraComputer::compute(Span<const float> audio, MatrixRefF out) const {
-  check(audio);
   require(out.rows() == num_frames(audio.size()) && out.cols() == num_features(),
           "out must have shape (num_frames, num_features)");
   compute_static(audio, out.leftCols(num_static()));

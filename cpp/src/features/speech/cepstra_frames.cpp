@@ -85,31 +85,6 @@ void CepstraComputer::compute_static(Span<const float> audio, MatrixRefF out) co
   }
 }
 
-MatrixF CepstraComputer::log_filter_energies(Span<const float> audio) const {
-  require(options_.kind == CepstraKind::filter_bank, "linear prediction has no filters");
-  check(audio);
-  const auto lanes = static_cast<Eigen::Index>(num_lanes());
-  const auto length = static_cast<std::size_t>(frame_length_) + 1;
-  Workspace& work = workspace();
-  work.edges.resize(kMostLanes * length);
-  work.logs.resize(static_cast<std::size_t>((bank_.num_filters() + 1) * lanes));
-  MatrixF out(num_frames(audio.size()), bank_.num_filters());
-  std::array<const float*, kMostLanes> frames{};
-  for (Eigen::Index first = 0; first < out.rows(); first += lanes) {
-    const Eigen::Index count = std::min(lanes, out.rows() - first);
-    for (Eigen::Index l = 0; l < count; ++l) {
-      const auto lane = static_cast<std::size_t>(l);
-      frames[lane] = frame_at(audio, first + l, {work.edges.data() + lane * length, length});
-    }
-    log_energies({frames.data(), static_cast<std::size_t>(count)}, work.logs.data(), &work);
-    for (Eigen::Index l = 0; l < count; ++l) {
-      for (Eigen::Index m = 0; m < out.cols(); ++m)
-        out(first + l, m) = work.logs[static_cast<std::size_t>(m * lanes + l)];
-    }
-  }
-  return out;
-}
-
 void CepstraComputer::compute_frames(Span<const float* const> frames, MatrixRefF out) const {
   require(out.rows() == static_cast<Eigen::Index>(frames.size()) && out.cols() == num_static(),
           "out must have shape (frames.size(), num_static)");

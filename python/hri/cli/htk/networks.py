@@ -17,7 +17,12 @@ from hri.htk import Dictionary, WordLattice, random_sentence
 @click.argument("grammar", type=INPUT)
 @click.argument("lattice", type=OutputFile())
 def parse(grammar: str, lattice: str) -> None:
-    """Compile a grammar to a word network, as HParse."""
+    """Compile a grammar to a word network, as HParse.
+
+    \b
+    Example:
+      hri htk parse grammar wdnet
+    """
     WordLattice.read_grammar(grammar).write(lattice)
 
 
@@ -28,7 +33,12 @@ def parse(grammar: str, lattice: str) -> None:
 @click.argument("lattice", type=INPUT)
 @click.argument("dictionary", type=INPUT)
 def sgen(count: int, numbered: bool, seed: int, lattice: str, dictionary: str) -> None:
-    """Print random sentences of a word network, as HSGen."""
+    """Print random sentences of a word network, as HSGen.
+
+    \b
+    Example:
+      hri htk sgen -n 5 wdnet dict
+    """
     network = WordLattice.read(lattice)
     known = {entry.word for entry in Dictionary.read(dictionary).entries}
     for word in network.words:

@@ -19,7 +19,12 @@ from hri.htk import ParameterFile, code_file, list_parameters
 @trace_option
 @click.argument("files", nargs=-1)
 def copy(configs: tuple[str, ...], scripts: tuple[str, ...], trace: int, files: tuple[str, ...]) -> None:
-    """Convert recordings to parameter files, as HCopy; FILES are pairs of a source and a target."""
+    """Convert recordings to parameter files, as HCopy; FILES are pairs of a source and a target.
+
+    \b
+    Example:
+      hri htk copy -C config -S copy.scp
+    """
     configuration = load_configuration(configs)
     names = all_arguments(files, scripts)
     if not names or len(names) % 2:
@@ -51,7 +56,12 @@ def list_files(
     items: int,
     files: tuple[str, ...],
 ) -> None:
-    """Print parameter files, as HList."""
+    """Print parameter files, as HList.
+
+    \b
+    Example:
+      hri htk list -h -e 9 seven.mfc
+    """
     for name in all_arguments(files, scripts):
         file = ParameterFile.read(name)
         if raw:

@@ -89,10 +89,15 @@ def vite(
     model_list: str,
     files: tuple[str, ...],
 ) -> None:
-    """Recognise parameter files by a word network, or align their transcriptions, as HVite."""
+    """Recognise parameter files by a word network, or align their transcriptions, as HVite.
+
+    \b
+    Example:
+      hri htk vite -H models -w wdnet -S test.scp -i found.mlf dict list
+    """
     if align == (network is not None):
         raise click.UsageError("either -w SLF or -a")
-    if set(leave_out) - set("STNW"):
+    if set(leave_out) - set("STN"):
         raise click.UsageError("-o takes letters of STN")
     configuration = load_configuration(configs)
     models = load_models(macros)
@@ -149,6 +154,12 @@ def _labels(sentence: RecognisedSentence, period: int, leave_out: str) -> list[L
             continue
         frames = word.last_frame - word.first_frame
         score = word.log_score / frames if "N" in leave_out else word.log_score
-        times = (None, None) if "T" in leave_out else (word.first_frame * period, word.last_frame * period)
-        labels.append(Label(word.output, *times, None if "S" in leave_out else round(score, 6)))
+        first, last = word.first_frame * period, word.last_frame * period
+        label = Label(
+            word.output,
+            None if "T" in leave_out else first,
+            None if "T" in leave_out else last,
+            None if "S" in leave_out else round(score, 6),
+        )
+        labels.append(label)
     return labels

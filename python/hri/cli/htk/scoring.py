@@ -18,8 +18,8 @@ from hri.cli.htk.options import (
     labels_option,
     script_option,
 )
-from hri.core import files
 from hri.core.errors import FormatError
+from hri.core.files import read_text
 from hri.htk import MasterLabelFile, Results, Transcription, compare, read_list
 from hri.htk.results import HTK_COSTS, WIDTH, aligned_lines
 from hri.language.word_errors import DELETION, INSERTION, SUBSTITUTION
@@ -51,7 +51,12 @@ def results(
     label_list: str,
     found: tuple[str, ...],
 ) -> None:
-    """Count errors of recognised label files or MLFs, as HResults; LABEL_LIST names all labels."""
+    """Count errors of recognised label files or MLFs, as HResults; LABEL_LIST names all labels.
+
+    \b
+    Example:
+      hri htk results -I said.mlf list found.mlf
+    """
     names = all_arguments(found, scripts)
     if not names:
         raise click.UsageError("there is no file of recognised labels")
@@ -90,7 +95,7 @@ def results(
 def _recognised(names: list[str]) -> Iterator[tuple[str, Transcription]]:
     """Pairs of the name of a recording's labels and these, of label files and of what MLFs hold."""
     for name in names:
-        text = files.read_text(name)
+        text = read_text(name)
         if text.startswith(MASTER):
             yield from MasterLabelFile.parse(text, name).entries
         else:

@@ -69,7 +69,12 @@ def init(
     prototype: str,
     files: tuple[str, ...],
 ) -> None:
-    """Train one model from uniform segmentation, as HInit; PROTOTYPE says its states and mixtures."""
+    """Train one model from uniform segmentation, as HInit; PROTOTYPE says its states and mixtures.
+
+    \b
+    Example:
+      hri htk init -M hmm0 -o seven proto seven_0.mfc seven_1.mfc
+    """
     source, model = _only_model(prototype)
     references = References(masters, label_folder, suffix)
     sequences = _segments(all_arguments(files, scripts), source.kind, configs, references, label)
@@ -115,7 +120,12 @@ def rest(
     definition: str,
     files: tuple[str, ...],
 ) -> None:
-    """Train one model further by Baum-Welch, as HRest."""
+    """Train one model further by Baum-Welch, as HRest.
+
+    \b
+    Example:
+      hri htk rest -M hmm1 hmm0/seven seven_0.mfc seven_1.mfc
+    """
     source, model = _only_model(definition)
     references = References(masters, label_folder, suffix)
     sequences = _segments(all_arguments(files, scripts), source.kind, configs, references, label)

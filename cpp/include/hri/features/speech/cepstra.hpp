@@ -38,10 +38,6 @@ class HRI_API CepstraComputer {
   /// The same into `out`; allocates nothing once a thread has met this frame length.
   void compute(Span<const float> audio, MatrixRefF out) const;
 
-  /// ln of the energies of the filters, before the DCT, shape (num_frames, num_filters). Throws as
-  /// compute() does, and InvalidArgument for linear prediction.
-  [[nodiscard]] MatrixF log_filter_energies(Span<const float> audio) const;
-
   /// Static cepstra as they are before anything is done along time, shape (frames.size(),
   /// num_static). Every frame is frame_length() + 1 samples, the first being what came before it.
   void compute_frames(Span<const float* const> frames, MatrixRefF out) const;
@@ -49,7 +45,6 @@ class HRI_API CepstraComputer {
  private:
   struct Workspace;
   static Workspace& workspace();
-  void check(Span<const float> audio) const;
   void set_dct();
   [[nodiscard]] Eigen::Index column_of(int n) const;  // of cepstrum n
   [[nodiscard]] const float* frame_at(Span<const float> audio, std::ptrdiff_t t,
