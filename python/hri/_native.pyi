@@ -1441,12 +1441,6 @@ class CepstraComputer:
         """
         Features, float32, shape (num_frames, num_features); raises InvalidArgument for NaN.
         """
-    def log_filter_energies(
-        self, audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
-    ) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ln of the energies of the filters, before the DCT: float32, (num_frames, num_filters).
-        """
     def num_frames(self, num_samples: typing.SupportsInt | typing.SupportsIndex) -> int:
         """
         Frames of a clip of so many samples.

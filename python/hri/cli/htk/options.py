@@ -68,8 +68,10 @@ class References:
         path = Path(recording).with_suffix(f".{self._suffix}")
         if self._folder is not None:
             path = Path(self._folder, path.name)
+        # A pattern such as */a.lab also means a file in the current folder.
+        name = str(path) if path.parent != Path() else f"./{path}"
         for master in self._masters:
-            found = master.find(str(path))
+            found = master.find(name)
             if found is not None:
                 return found
         if self._masters and not path.is_file():
