@@ -35,6 +35,7 @@ from hri.htk import (
     train_model,
 )
 from hri.io import write_wav_pcm16
+from hri.language import count_word_errors
 
 CONFIG = """# coding parameters
 SOURCEFORMAT = WAV
@@ -230,6 +231,14 @@ def test_words_are_aligned_at_htks_costs():
     errors, pairs = compare(["one", "two"], ["two", "three"])
     assert (errors.substitutions, errors.deletions, errors.insertions) == (0, 1, 1)
     assert len(pairs) == 3
+
+
+def test_words_are_aligned_at_nists_costs_as_sclite_does():
+    """`count_word_errors` is compared with sclite itself, where that is installed."""
+    rng = np.random.default_rng(3)
+    for _ in range(200):
+        said, found = (["abcd"[i] for i in rng.integers(0, 4, rng.integers(0, 9))] for _ in range(2))
+        assert compare(said, found, (4, 3, 3))[0] == count_word_errors([said], [found])
 
 
 def test_results_are_printed_as_hresults_does():
