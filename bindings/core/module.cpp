@@ -37,6 +37,8 @@ void bind_speaker_adapter(py::module_& m);
 void bind_speech_embedding(py::module_& m);
 void bind_gesture_segments(py::module_& m);
 void bind_connected_words(py::module_& m);
+void bind_htk_files(py::module_& m);
+void bind_htk_models(py::module_& m);
 
 namespace {
 
@@ -101,7 +103,9 @@ void bind_errors(py::module_& m) {
 }  // namespace
 
 PYBIND11_MODULE(_native, m) {
-  m.doc() = "libhri's core: signal, features, models, language and recognition, without OpenCV.";
+  m.doc() =
+      "libhri's core: signal, features, models, language, recognition and HTK's files, without "
+      "OpenCV.";
   m.attr("__version__") = HRI_VERSION;
   bind_errors(m);
   m.def(
@@ -135,4 +139,6 @@ PYBIND11_MODULE(_native, m) {
   bind_speech_embedding(m);
   bind_gesture_segments(m);
   bind_connected_words(m);
+  bind_htk_files(m);
+  bind_htk_models(m);
 }

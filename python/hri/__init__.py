@@ -3,8 +3,8 @@
 """Command a humanoid robot with words and signs.
 
 The names below are loaded on first use, so that ``import hri`` pulls in neither OpenCV nor PyBullet. The rooms are
-`hri.signal`, `hri.features`, `hri.models`, `hri.language`, `hri.vision`, `hri.recognition`, `hri.io` (as in C++), and
-`hri.media`, `hri.datasets`, `hri.synthetic`, `hri.evaluation`, `hri.fusion`, `hri.live`, `hri.robot`.
+`hri.signal`, `hri.features`, `hri.models`, `hri.language`, `hri.htk`, `hri.vision`, `hri.recognition`, `hri.io` (as in
+C++), and `hri.media`, `hri.datasets`, `hri.synthetic`, `hri.evaluation`, `hri.fusion`, `hri.live`, `hri.robot`.
 """
 
 import logging
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
         evaluation,
         features,
         fusion,
+        htk,
         io,
         language,
         live,
@@ -58,6 +59,7 @@ else:
         "evaluation",
         "features",
         "fusion",
+        "htk",
         "io",
         "language",
         "live",
@@ -133,6 +135,7 @@ __all__ = [
     "fuse",
     "fusion",
     "gesture_trajectory",
+    "htk",
     "io",
     "language",
     "live",

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Written by tools/generate_stubs.py from the compiled module; do not edit.
 """
-libhri's core: signal, features, models, language and recognition, without OpenCV.
+libhri's core: signal, features, models, language, recognition and HTK's files, without OpenCV.
 """
 
 from __future__ import annotations
@@ -70,6 +70,20 @@ __all__: list[str] = [
     "HandTrackComputer",
     "HandTrackOptions",
     "HeldOutReport",
+    "HtkConfiguration",
+    "HtkDictionary",
+    "HtkFeatureExtractor",
+    "HtkFeatureOptions",
+    "HtkLabel",
+    "HtkMasterLabelFile",
+    "HtkModelSet",
+    "HtkParameterFile",
+    "HtkPronunciation",
+    "HtkRecognisedSentence",
+    "HtkRecognisedWord",
+    "HtkRecognizer",
+    "HtkTranscription",
+    "HtkWordLattice",
     "Interrupted",
     "InvalidArgument",
     "IoError",
@@ -7044,6 +7058,721 @@ class ConnectedWordRecognizer:
     def options(self) -> ConnectedWordRecognizerOptions:
         """
         As trained, with what training chose.
+        """
+
+class HtkFeatureOptions:
+    """
+    How HTK computes parameters; defaults are HTK's.
+
+    Parameters
+    ----------
+    frame_shift_ms : float, default 10.0
+        TARGETRATE; 1..1000 ms
+    frame_length_ms : float, default 25.6
+        WINDOWSIZE; 1..1000 ms
+    zero_mean : bool, default False
+        ZMEANSOURCE: subtract the mean of every frame
+    pre_emphasis : float, default 0.97
+        PREEMCOEF; 0..1
+    hamming : bool, default True
+        USEHAMMING; False: no window
+    use_power : bool, default False
+        USEPOWER: filters over the power, not the magnitude
+    num_filters : int, default 20
+        NUMCHANS; 2..512
+    low_hz : float, default 0.0
+        LOFREQ; 0..192000 Hz
+    high_hz : float, default 0.0
+        HIFREQ; 0: half the sample rate; 0..192000 Hz
+    warp : float, default 1.0
+        WARPFREQ: frequencies are divided by it; 0.5..2
+    warp_low_hz : float, default 0.0
+        WARPLCUTOFF; 0..192000 Hz
+    warp_high_hz : float, default 0.0
+        WARPUCUTOFF; 0..192000 Hz
+    lpc_order : int, default 12
+        LPCORDER; 1..64
+    num_cepstra : int, default 12
+        NUMCEPS; 1..511
+    lifter : float, default 22.0
+        CEPLIFTER; 0: off; 0..1000000
+    raw_energy : bool, default True
+        RAWENERGY: the energy before pre-emphasis and window
+    normalise_energy : bool, default True
+        ENORMALISE: 1 - energy_scale times how far a frame's log energy is below the largest
+    energy_scale : float, default 0.1
+        ESCALE; 0..1000000, 0 excluded
+    silence_floor_db : float, default 50.0
+        SILFLOOR: energies further below the largest are raised to that; 0..1000 dB
+    delta_window : int, default 2
+        DELTAWINDOW; 1..10
+    acceleration_window : int, default 2
+        ACCWINDOW; 1..10
+    third_window : int, default 2
+        THIRDWINDOW; 1..10
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        frame_shift_ms: float = 10.0,
+        frame_length_ms: float = 25.6,
+        zero_mean: bool = False,
+        pre_emphasis: float = 0.97,
+        hamming: bool = True,
+        use_power: bool = False,
+        num_filters: int = 20,
+        low_hz: float = 0.0,
+        high_hz: float = 0.0,
+        warp: float = 1.0,
+        warp_low_hz: float = 0.0,
+        warp_high_hz: float = 0.0,
+        lpc_order: int = 12,
+        num_cepstra: int = 12,
+        lifter: float = 22.0,
+        raw_energy: bool = True,
+        normalise_energy: bool = True,
+        energy_scale: float = 0.1,
+        silence_floor_db: float = 50.0,
+        delta_window: int = 2,
+        acceleration_window: int = 2,
+        third_window: int = 2,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def acceleration_window(self) -> int:
+        """
+        ACCWINDOW
+        """
+    @acceleration_window.setter
+    def acceleration_window(self, arg1: typing.Any) -> None: ...
+    @property
+    def delta_window(self) -> int:
+        """
+        DELTAWINDOW
+        """
+    @delta_window.setter
+    def delta_window(self, arg1: typing.Any) -> None: ...
+    @property
+    def energy_scale(self) -> float:
+        """
+        ESCALE
+        """
+    @energy_scale.setter
+    def energy_scale(self, arg1: typing.Any) -> None: ...
+    @property
+    def frame_length_ms(self) -> float:
+        """
+        WINDOWSIZE
+        """
+    @frame_length_ms.setter
+    def frame_length_ms(self, arg1: typing.Any) -> None: ...
+    @property
+    def frame_shift_ms(self) -> float:
+        """
+        TARGETRATE
+        """
+    @frame_shift_ms.setter
+    def frame_shift_ms(self, arg1: typing.Any) -> None: ...
+    @property
+    def hamming(self) -> bool:
+        """
+        USEHAMMING; False: no window
+        """
+    @hamming.setter
+    def hamming(self, arg1: typing.Any) -> None: ...
+    @property
+    def high_hz(self) -> float:
+        """
+        HIFREQ; 0: half the sample rate
+        """
+    @high_hz.setter
+    def high_hz(self, arg1: typing.Any) -> None: ...
+    @property
+    def lifter(self) -> float:
+        """
+        CEPLIFTER; 0: off
+        """
+    @lifter.setter
+    def lifter(self, arg1: typing.Any) -> None: ...
+    @property
+    def low_hz(self) -> float:
+        """
+        LOFREQ
+        """
+    @low_hz.setter
+    def low_hz(self, arg1: typing.Any) -> None: ...
+    @property
+    def lpc_order(self) -> int:
+        """
+        LPCORDER
+        """
+    @lpc_order.setter
+    def lpc_order(self, arg1: typing.Any) -> None: ...
+    @property
+    def normalise_energy(self) -> bool:
+        """
+        ENORMALISE: 1 - energy_scale times how far a frame's log energy is below the largest
+        """
+    @normalise_energy.setter
+    def normalise_energy(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_cepstra(self) -> int:
+        """
+        NUMCEPS
+        """
+    @num_cepstra.setter
+    def num_cepstra(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_filters(self) -> int:
+        """
+        NUMCHANS
+        """
+    @num_filters.setter
+    def num_filters(self, arg1: typing.Any) -> None: ...
+    @property
+    def pre_emphasis(self) -> float:
+        """
+        PREEMCOEF
+        """
+    @pre_emphasis.setter
+    def pre_emphasis(self, arg1: typing.Any) -> None: ...
+    @property
+    def raw_energy(self) -> bool:
+        """
+        RAWENERGY: the energy before pre-emphasis and window
+        """
+    @raw_energy.setter
+    def raw_energy(self, arg1: typing.Any) -> None: ...
+    @property
+    def silence_floor_db(self) -> float:
+        """
+        SILFLOOR: energies further below the largest are raised to that
+        """
+    @silence_floor_db.setter
+    def silence_floor_db(self, arg1: typing.Any) -> None: ...
+    @property
+    def third_window(self) -> int:
+        """
+        THIRDWINDOW
+        """
+    @third_window.setter
+    def third_window(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_power(self) -> bool:
+        """
+        USEPOWER: filters over the power, not the magnitude
+        """
+    @use_power.setter
+    def use_power(self, arg1: typing.Any) -> None: ...
+    @property
+    def warp(self) -> float:
+        """
+        WARPFREQ: frequencies are divided by it
+        """
+    @warp.setter
+    def warp(self, arg1: typing.Any) -> None: ...
+    @property
+    def warp_high_hz(self) -> float:
+        """
+        WARPUCUTOFF
+        """
+    @warp_high_hz.setter
+    def warp_high_hz(self, arg1: typing.Any) -> None: ...
+    @property
+    def warp_low_hz(self) -> float:
+        """
+        WARPLCUTOFF
+        """
+    @warp_low_hz.setter
+    def warp_low_hz(self, arg1: typing.Any) -> None: ...
+    @property
+    def zero_mean(self) -> bool:
+        """
+        ZMEANSOURCE: subtract the mean of every frame
+        """
+    @zero_mean.setter
+    def zero_mean(self, arg1: typing.Any) -> None: ...
+
+class HtkParameterFile:
+    """
+    Frames of an HTK parameter file, in rows.
+    """
+    @staticmethod
+    def parse(data: bytes, name: str) -> HtkParameterFile:
+        """
+        The same of bytes; `name` is what errors call them.
+        """
+    @staticmethod
+    def read(path: str | bytes | os.PathLike[str]) -> HtkParameterFile:
+        """
+        Raises FormatError naming file and byte.
+        """
+    def __init__(
+        self,
+        values: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        kind: str,
+        sample_period: typing.SupportsInt | typing.SupportsIndex = 100000,
+    ) -> None: ...
+    def convert(self, kind: str, options: HtkFeatureOptions = ...) -> HtkParameterFile:
+        """
+        As another kind of the same base: differences are added or left out.
+        """
+    def observations(self, kind: str, options: HtkFeatureOptions = ...) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Frames as models of this kind see them, float32, shape (num_frames, num_columns).
+        """
+    def serialise(self) -> bytes:
+        """
+        The bytes of the file.
+        """
+    def write(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        With _C in `kind` compressed, with _K with a checksum.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        Such as MFCC_E_D.
+        """
+    @property
+    def sample_period(self) -> int:
+        """
+        From frame to frame, in 100 ns.
+        """
+    @property
+    def values(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_frames, num_columns).
+        """
+
+class HtkFeatureExtractor:
+    """
+    Audio to MFCC, FBANK, MELSPEC, LPC or LPCEPSTRA as HTK's.
+    """
+    def __init__(
+        self, kind: str, sample_rate_hz: typing.SupportsInt | typing.SupportsIndex, options: HtkFeatureOptions = ...
+    ) -> None: ...
+    def compute(
+        self, audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_frames, num_columns); full scale is -1..1.
+        """
+    @property
+    def num_columns(self) -> int:
+        """
+        Of a frame.
+        """
+    @property
+    def sample_period(self) -> int:
+        """
+        From frame to frame, in 100 ns.
+        """
+
+class HtkConfiguration:
+    """
+    What HTK's configuration files set.
+    """
+    def __init__(self) -> None: ...
+    def parse(self, text: str, name: str) -> None:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    def read(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Sets what a file sets; raises FormatError naming file and line.
+        """
+    def written_kind(self, source: str) -> str:
+        """
+        The kind of files to write, _C and _K included.
+        """
+    @property
+    def features(self) -> HtkFeatureOptions:
+        """
+        As HtkFeatureOptions.
+        """
+    @property
+    def has_target_rate(self) -> bool:
+        """
+        Whether TARGETRATE is set.
+        """
+    @property
+    def ignored(self) -> list[str]:
+        """
+        Keys that set nothing here.
+        """
+    @property
+    def source_format(self) -> str:
+        """
+        SOURCEFORMAT: HTK or WAV.
+        """
+    @property
+    def target(self) -> str:
+        """
+        TARGETKIND.
+        """
+
+class HtkLabel:
+    """
+    A name with times in 100 ns and a score, where it has them.
+    """
+    def __init__(
+        self,
+        name: str,
+        first: typing.SupportsInt | typing.SupportsIndex | None = None,
+        last: typing.SupportsInt | typing.SupportsIndex | None = None,
+        score: typing.SupportsFloat | typing.SupportsIndex | None = None,
+    ) -> None: ...
+    @property
+    def first(self) -> int | None:
+        """
+        Where it begins, in 100 ns.
+        """
+    @property
+    def last(self) -> int | None:
+        """
+        Where it ends, in 100 ns.
+        """
+    @property
+    def name(self) -> str:
+        """
+        What was said.
+        """
+    @property
+    def score(self) -> float | None:
+        """
+        Its score.
+        """
+
+class HtkTranscription:
+    """
+    The labels of one recording.
+    """
+    @staticmethod
+    def parse(text: str, name: str) -> HtkTranscription:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    @staticmethod
+    def read(path: str | bytes | os.PathLike[str]) -> HtkTranscription:
+        """
+        Reads a label file; raises FormatError naming file and line.
+        """
+    def __init__(self, labels: collections.abc.Sequence[HtkLabel]) -> None: ...
+    def to_text(self) -> str:
+        """
+        The text of a label file.
+        """
+    def write(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes a label file.
+        """
+    @property
+    def alternatives(self) -> list[list[HtkLabel]]:
+        """
+        Labels of each.
+        """
+    @property
+    def labels(self) -> list[HtkLabel]:
+        """
+        Of the first alternative.
+        """
+
+class HtkMasterLabelFile:
+    """
+    Transcriptions by patterns of the names of their label files.
+    """
+    @staticmethod
+    def parse(text: str, name: str) -> HtkMasterLabelFile:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    @staticmethod
+    def read(path: str | bytes | os.PathLike[str]) -> HtkMasterLabelFile:
+        """
+        Raises FormatError naming file and line.
+        """
+    def __init__(self, entries: collections.abc.Sequence[tuple[str, HtkTranscription]] = []) -> None: ...
+    def find(self, name: str) -> HtkTranscription | None:
+        """
+        Of the first pattern that matches the name; None where none does.
+        """
+    def to_text(self) -> str:
+        """
+        The text of the file.
+        """
+    def write(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes the file.
+        """
+    @property
+    def entries(self) -> list[tuple[str, HtkTranscription]]:
+        """
+        Pairs of a pattern and a transcription.
+        """
+
+class HtkModelSet:
+    """
+    HTK's model definitions: HMMs of Gaussian mixtures.
+    """
+    def __init__(self, kind: str = "ANON") -> None: ...
+    def add(
+        self, name: str, model: GaussianMixtureHmm, final_stay: typing.SupportsFloat | typing.SupportsIndex
+    ) -> None:
+        """
+        Adds a left-right HMM, whose last state is left with 1 - final_stay.
+        """
+    def hmm(self, name: str) -> GaussianMixtureHmm:
+        """
+        Its Gaussians, and its chain without entry and exit.
+        """
+    def parse(self, text: str, name: str) -> None:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    def read(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Adds what a file defines; raises FormatError naming file and line.
+        """
+    def to_text(self) -> str:
+        """
+        The text of a file.
+        """
+    def transitions(self, name: str) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Its transitions with entry and exit, float64.
+        """
+    def write(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes a file.
+        """
+    @property
+    def hmm_names(self) -> list[str]:
+        """
+        Names of the HMMs.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        Of the frames.
+        """
+    @property
+    def vector_size(self) -> int:
+        """
+        Columns of a frame; 0: not set.
+        """
+
+class HtkPronunciation:
+    """
+    A word and the models that it is made of.
+    """
+    def __init__(
+        self,
+        word: str,
+        models: collections.abc.Sequence[str],
+        output: str | None = None,
+        probability: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None: ...
+    @property
+    def models(self) -> list[str]:
+        """
+        Names of models.
+        """
+    @property
+    def output(self) -> str:
+        """
+        What is printed for it; empty: nothing.
+        """
+    @property
+    def probability(self) -> float:
+        """
+        Among those of the word.
+        """
+    @property
+    def word(self) -> str:
+        """
+        As networks have it.
+        """
+
+class HtkDictionary:
+    """
+    Pronunciations of words.
+    """
+    @staticmethod
+    def parse(text: str, name: str) -> HtkDictionary:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    @staticmethod
+    def read(path: str | bytes | os.PathLike[str]) -> HtkDictionary:
+        """
+        Raises FormatError naming file and line.
+        """
+    def __init__(self, entries: collections.abc.Sequence[HtkPronunciation] = []) -> None: ...
+    def to_text(self) -> str:
+        """
+        The text of the file.
+        """
+    def write(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes the file.
+        """
+    @property
+    def entries(self) -> list[HtkPronunciation]:
+        """
+        In the order of the file.
+        """
+
+class HtkWordLattice:
+    """
+    A word network: words on nodes, weights on arcs.
+    """
+    @staticmethod
+    def of_grammar(text: str, name: str) -> HtkWordLattice:
+        """
+        The network of a grammar in HParse's form.
+        """
+    @staticmethod
+    def of_words(words: collections.abc.Sequence[str]) -> HtkWordLattice:
+        """
+        The one sentence, for forced alignment.
+        """
+    @staticmethod
+    def parse(text: str, name: str) -> HtkWordLattice:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    @staticmethod
+    def read(path: str | bytes | os.PathLike[str]) -> HtkWordLattice:
+        """
+        Reads a file in standard lattice format; raises FormatError naming file and line.
+        """
+    @staticmethod
+    def read_grammar(path: str | bytes | os.PathLike[str]) -> HtkWordLattice:
+        """
+        The same of a file.
+        """
+    def __init__(
+        self,
+        words: collections.abc.Sequence[str],
+        arcs: collections.abc.Sequence[
+            tuple[
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsFloat | typing.SupportsIndex,
+            ]
+        ],
+    ) -> None:
+        """
+        An arc is (from, to, log weight).
+        """
+    def to_text(self) -> str:
+        """
+        The text of the file.
+        """
+    def write(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes the file.
+        """
+    @property
+    def arcs(self) -> list[tuple[int, int, float]]:
+        """
+        (from, to, log weight).
+        """
+    @property
+    def first(self) -> int:
+        """
+        The node that begins sentences.
+        """
+    @property
+    def last(self) -> int:
+        """
+        The node that ends them.
+        """
+    @property
+    def words(self) -> list[str]:
+        """
+        Of the nodes; !NULL: none.
+        """
+
+class HtkRecognisedWord:
+    """
+    A word of a recognised sentence.
+    """
+    @property
+    def first_frame(self) -> int:
+        """
+        First frame.
+        """
+    @property
+    def last_frame(self) -> int:
+        """
+        One past the last frame.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        What it adds to the sentence's.
+        """
+    @property
+    def output(self) -> str:
+        """
+        What is printed for it; empty: nothing.
+        """
+    @property
+    def word(self) -> str:
+        """
+        As the network has it.
+        """
+
+class HtkRecognisedSentence:
+    """
+    What a recogniser found.
+    """
+    @property
+    def complete(self) -> bool:
+        """
+        Whether it is a whole sentence.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        Of the best path.
+        """
+    @property
+    def words(self) -> list[HtkRecognisedWord]:
+        """
+        In the order of time.
+        """
+
+class HtkRecognizer:
+    """
+    HVite: models, dictionary and network of words.
+    """
+    def __init__(
+        self,
+        models: HtkModelSet,
+        dictionary: HtkDictionary,
+        lattice: HtkWordLattice,
+        options: ConnectedDecoderOptions = ...,
+    ) -> None: ...
+    def recognise(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> HtkRecognisedSentence:
+        """
+        The best sentence of frames, shape (num_frames, num_columns).
         """
 
 def activity_frames(

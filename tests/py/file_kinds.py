@@ -19,6 +19,19 @@ from hri.core import files
 from hri.core.plotting import new_axes, save_figure
 from hri.datasets.asl_sentences import HANDS_COLUMNS, SIGNERS_COLUMNS, WORDS_COLUMNS, read_asl_sentences
 from hri.datasets.manifest import Manifest, SampleRow, read_manifest, write_manifest
+from hri.htk import (
+    Configuration,
+    Dictionary,
+    Label,
+    MasterLabelFile,
+    ModelSet,
+    ParameterFile,
+    Pronunciation,
+    Transcription,
+    WordLattice,
+    read_list,
+    read_script,
+)
 from hri.io import ModelFile, read_wav, write_wav_pcm16
 from hri.language import NGramModel
 from hri.media import frame_rate, iterate_frames, read_audio, read_frames, read_image, write_image, write_video
@@ -68,6 +81,14 @@ def write_figure(path: Any) -> None:
     save_figure(axes.figure, path)
 
 
+def write_htk_models(path: Any) -> None:
+    models = ModelSet()
+    models.parse(f"~u mean <MEAN> 400 {'0.5 ' * 400}", "models")
+    models.write(path)
+
+
+LABELS = Transcription([Label(f"word {i}", i * 100) for i in range(200)])
+
 WRITERS: dict[str, Callable[[Any], object]] = {
     "text.txt": lambda path: files.write_text(path, "text " * 2000),
     "bytes.bin": lambda path: files.write_bytes(path, bytes(8000)),
@@ -89,6 +110,12 @@ WRITERS: dict[str, Callable[[Any], object]] = {
     "sound.wav": lambda path: write_wav_pcm16(path, SAMPLES, 8000),
     "model.hri": write_model,
     "language.arpa": lambda path: NGramModel.train([["go", f"{i}"] for i in range(200)]).save(path),
+    "frames.mfc": lambda path: ParameterFile(ROWS, "USER").write(path),
+    "labels.lab": LABELS.write,
+    "labels.mlf": MasterLabelFile([("*/a.lab", LABELS)]).write,
+    "words.dict": Dictionary([Pronunciation(f"word{i}", ["w", "d"]) for i in range(200)]).write,
+    "words.slf": WordLattice.of_words([f"word{i}" for i in range(200)]).write,
+    "models.mmf": write_htk_models,
     "estimator.hri": lambda path: Codebook(num_codewords=64).fit(ROWS).save(path),
     "figure.png": write_figure,
     "figure.svg": write_figure,
@@ -124,6 +151,16 @@ READERS: dict[str, Callable[[Any], object]] = {
     "signs.hri": hri.GestureRecognizer.load,
     "connected.hri": hri.ConnectedWordRecognizer.load,
     "language.arpa": NGramModel.load,
+    "frames.mfc": ParameterFile.read,
+    "labels.lab": Transcription.read,
+    "labels.mlf": MasterLabelFile.read,
+    "words.dict": Dictionary.read,
+    "words.slf": WordLattice.read,
+    "words.grammar": WordLattice.read_grammar,
+    "models.mmf": lambda path: ModelSet().read(path),
+    "coding.config": lambda path: Configuration().read(path),
+    "copy.scp": read_script,
+    "models.list": read_list,
     "estimator.hri": Codebook.load,
     "dataset.toml": lambda path: read_manifest(Path(path)),
     "signers.csv": lambda path: read_asl_sentences(Path(path).parent),

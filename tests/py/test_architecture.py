@@ -22,6 +22,7 @@ CPP = {
     "models": {"core", "io"},
     "language": {"core", "io", "models"},
     "recognition": {"core", "io", "signal", "features", "models", "language"},
+    "htk": {"core", "io", "signal", "features", "models", "language"},
     "vision": {"core", "io", "signal", "features"},
 }
 PYTHON = {
@@ -31,6 +32,7 @@ PYTHON = {
     "models": {"core", "io"},
     "language": {"core", "models"},
     "io": {"core"},
+    "htk": {"core", "io", "language"},
     "media": {"core", "io"},
     "vision": {"core", "features", "media"},
     "datasets": {"core", "media"},
@@ -56,7 +58,7 @@ WITHIN = {
 ONLY_IN = {"pybullet": {"robot/simulation/pybullet_backend.py"}}
 AT_THE_ROOT = {"__init__.py", "__main__.py"}
 # The compiled modules are imported by the rooms that mirror those of C++; all else takes what these offer.
-NATIVE_ROOMS = {"__init__.py", "core", "io", "signal", "features", "models", "language", "vision", "recognition"}
+NATIVE_ROOMS = {"__init__.py", "core", "io", "signal", "features", "models", "language", "htk", "vision", "recognition"}
 MAX_LINES = 450
 
 

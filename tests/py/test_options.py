@@ -126,7 +126,7 @@ def test_fields_that_do_not_go_together_are_refused() -> None:
 
 
 def test_every_class_is_offered_by_a_room() -> None:
-    rooms = (hri.signal, hri.features, hri.models, hri.language, hri.vision, hri.recognition)
+    rooms = (hri.signal, hri.features, hri.models, hri.language, hri.htk, hri.vision, hri.recognition)
     offered = {name for room in rooms for name in room.__all__}
     assert {options_class.__name__ for options_class in CLASSES_WITH_FIELDS} - offered == set()
 

@@ -49,6 +49,7 @@ COMMANDS = {
     "denoise": ("hri.cli.denoise:denoise", "Reduce noise in a recording by wavelets."),
     "study": ("hri.cli.study:study", "Repeat a published measurement (accuracy, rejection, robustness)."),
     "robot": ("hri.cli.robot:robot", "Check, simulate and film motions of the robots HOAP-2 and NAO."),
+    "htk": ("hri.cli.htk:htk", "HTK's tools on HTK's files: copy, list, parse, vite, results and others."),
     "info": ("hri.cli.info:info", "Show what is installed, or what a model file holds."),
 }
 

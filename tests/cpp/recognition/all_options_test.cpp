@@ -8,6 +8,7 @@
 #include "hri/features/hand/hand_finder_options.hpp"
 #include "hri/features/hand/hand_pair.hpp"
 #include "hri/features/hand/hand_track.hpp"
+#include "hri/htk/feature_extractor.hpp"
 #include "hri/language/connected_decoder.hpp"
 #include "hri/language/ngram_model.hpp"
 #include "hri/models/adaptation/map_adaptation.hpp"
@@ -53,7 +54,8 @@ using All = testing::Types<
     StateChoiceOptions, SequenceModelOptions, AdaptationOptions, SpeakerAdapterOptions,
     SpeechEmbeddingOptions, WordRecognizerOptions, GestureRecognizerOptions, SilhouetteOptions,
     HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
-    GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions>;
+    GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
+    htk::HtkFeatureOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// HTK's models, dictionaries and word networks, and what recognises with them.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/arrays.hpp"
+#include "core/paths.hpp"
+#include "hri/htk/recognizer.hpp"
+
+namespace py = pybind11;
+using hri::htk::Dictionary;
+using hri::htk::ModelSet;
+using hri::htk::Pronunciation;
+using hri::htk::RecognisedSentence;
+using hri::htk::RecognisedWord;
+using hri::htk::Recognizer;
+using hri::htk::WordLattice;
+using hri_bind::FloatArray;
+using hri_bind::Path;
+
+namespace {
+
+void bind_models(py::module_& m) {
+  py::class_<ModelSet>(m, "HtkModelSet", "HTK's model definitions: HMMs of Gaussian mixtures.")
+      .def(py::init([](const std::string& kind) {
+             ModelSet made;
+             made.kind = hri::htk::ParameterKind::parse(kind);
+             return made;
+           }),
+           py::arg("kind") = "ANON")
+      .def(
+          "read", [](ModelSet& self, const Path& path) { self.read(path.text); }, py::arg("path"),
+          "Adds what a file defines; raises FormatError naming file and line.")
+      .def("parse", &ModelSet::parse, py::arg("text"), py::arg("name"),
+           "The same of a text; `name` is what errors call it.")
+      .def("to_text", &ModelSet::to_text, "The text of a file.")
+      .def(
+          "write", [](const ModelSet& self, const Path& path) { self.write(path.text); },
+          py::arg("path"), "Writes a file.")
+      .def("add", &ModelSet::add, py::arg("name"), py::arg("model"), py::arg("final_stay"),
+           "Adds a left-right HMM, whose last state is left with 1 - final_stay.")
+      .def(
+          "hmm",
+          [](const ModelSet& self, const std::string& name) {
+            const auto* macro = self.find('h', name);
+            if (macro == nullptr)
+              hri::fail(hri::ErrorKind::invalid_argument, "there is no model '" + name + "'");
+            return hri::htk::to_hmm(macro->hmm);
+          },
+          py::arg("name"), "Its Gaussians, and its chain without entry and exit.")
+      .def(
+          "transitions",
+          [](const ModelSet& self, const std::string& name) {
+            const auto* macro = self.find('h', name);
+            if (macro == nullptr)
+              hri::fail(hri::ErrorKind::invalid_argument, "there is no model '" + name + "'");
+            return hri_bind::to_array(macro->hmm.transitions.values);
+          },
+          py::arg("name"), "Its transitions with entry and exit, float64.")
+      .def_property_readonly("hmm_names", &ModelSet::hmm_names, "Names of the HMMs.")
+      .def_readonly("vector_size", &ModelSet::vector_size, "Columns of a frame; 0: not set.")
+      .def_property_readonly(
+          "kind", [](const ModelSet& self) { return self.kind.text(); }, "Of the frames.");
+}
+
+void bind_words(py::module_& m) {
+  py::class_<Pronunciation>(m, "HtkPronunciation", "A word and the models that it is made of.")
+      .def(py::init([](std::string word, std::vector<std::string> models,
+                       std::optional<std::string> output, double probability) {
+             return Pronunciation{std::move(word), output.has_value(), output.value_or(""),
+                                  probability, std::move(models)};
+           }),
+           py::arg("word"), py::arg("models"), py::arg("output") = py::none(),
+           py::arg("probability") = 1.0)
+      .def_readonly("word", &Pronunciation::word, "As networks have it.")
+      .def_readonly("models", &Pronunciation::models, "Names of models.")
+      .def_readonly("probability", &Pronunciation::probability, "Among those of the word.")
+      .def_property_readonly(
+          "output",
+          [](const Pronunciation& self) { return self.has_output ? self.output : self.word; },
+          "What is printed for it; empty: nothing.");
+  py::class_<Dictionary>(m, "HtkDictionary", "Pronunciations of words.")
+      .def(py::init(
+               [](std::vector<Pronunciation> entries) { return Dictionary{std::move(entries)}; }),
+           py::arg("entries") = std::vector<Pronunciation>{})
+      .def_static(
+          "read", [](const Path& path) { return Dictionary::read(path.text); }, py::arg("path"),
+          "Raises FormatError naming file and line.")
+      .def_static("parse", &Dictionary::parse, py::arg("text"), py::arg("name"),
+                  "The same of a text; `name` is what errors call it.")
+      .def("to_text", &Dictionary::to_text, "The text of the file.")
+      .def(
+          "write", [](const Dictionary& self, const Path& path) { self.write(path.text); },
+          py::arg("path"), "Writes the file.")
+      .def_readonly("entries", &Dictionary::entries, "In the order of the file.");
+  py::class_<WordLattice>(m, "HtkWordLattice", "A word network: words on nodes, weights on arcs.")
+      .def(py::init([](std::vector<std::string> words,
+                       const std::vector<std::tuple<int, int, double>>& arcs) {
+             WordLattice made{std::move(words), {}};
+             for (const auto& [from, to, log_weight] : arcs)
+               made.arcs.push_back({from, to, log_weight});
+             if (const std::string fault = made.fault(); !fault.empty())
+               hri::fail(hri::ErrorKind::invalid_argument, fault);
+             return made;
+           }),
+           py::arg("words"), py::arg("arcs"), "An arc is (from, to, log weight).")
+      .def_static(
+          "read", [](const Path& path) { return WordLattice::read(path.text); }, py::arg("path"),
+          "Reads a file in standard lattice format; raises FormatError naming file and line.")
+      .def_static("parse", &WordLattice::parse, py::arg("text"), py::arg("name"),
+                  "The same of a text; `name` is what errors call it.")
+      .def_static("of_grammar", &WordLattice::of_grammar, py::arg("text"), py::arg("name"),
+                  "The network of a grammar in HParse's form.")
+      .def_static(
+          "read_grammar", [](const Path& path) { return WordLattice::read_grammar(path.text); },
+          py::arg("path"), "The same of a file.")
+      .def_static("of_words", &WordLattice::of_words, py::arg("words"),
+                  "The one sentence, for forced alignment.")
+      .def("to_text", &WordLattice::to_text, "The text of the file.")
+      .def(
+          "write", [](const WordLattice& self, const Path& path) { self.write(path.text); },
+          py::arg("path"), "Writes the file.")
+      .def_readonly("words", &WordLattice::words, "Of the nodes; !NULL: none.")
+      .def_property_readonly(
+          "arcs",
+          [](const WordLattice& self) {
+            std::vector<std::tuple<int, int, double>> arcs;
+            for (const auto& arc : self.arcs) arcs.emplace_back(arc.from, arc.to, arc.log_weight);
+            return arcs;
+          },
+          "(from, to, log weight).")
+      .def_property_readonly("first", &WordLattice::first, "The node that begins sentences.")
+      .def_property_readonly("last", &WordLattice::last, "The node that ends them.");
+}
+
+void bind_recognizer(py::module_& m) {
+  py::class_<RecognisedWord>(m, "HtkRecognisedWord", "A word of a recognised sentence.")
+      .def_readonly("word", &RecognisedWord::word, "As the network has it.")
+      .def_readonly("output", &RecognisedWord::output, "What is printed for it; empty: nothing.")
+      .def_readonly("first_frame", &RecognisedWord::first_frame, "First frame.")
+      .def_readonly("last_frame", &RecognisedWord::last_frame, "One past the last frame.")
+      .def_readonly("log_score", &RecognisedWord::log_score, "What it adds to the sentence's.");
+  py::class_<RecognisedSentence>(m, "HtkRecognisedSentence", "What a recogniser found.")
+      .def_readonly("complete", &RecognisedSentence::complete, "Whether it is a whole sentence.")
+      .def_readonly("log_score", &RecognisedSentence::log_score, "Of the best path.")
+      .def_readonly("words", &RecognisedSentence::words, "In the order of time.");
+  py::class_<Recognizer>(m, "HtkRecognizer", "HVite: models, dictionary and network of words.")
+      .def(py::init<const ModelSet&, const Dictionary&, const WordLattice&,
+                    const hri::ConnectedDecoderOptions&>(),
+           py::arg("models"), py::arg("dictionary"), py::arg("lattice"),
+           py::arg_v("options", hri::ConnectedDecoderOptions(), "ConnectedDecoderOptions()"))
+      .def(
+          "recognise",
+          [](const Recognizer& self, const FloatArray& observations) {
+            const auto frames = hri_bind::as_matrix(observations, "observations");
+            const py::gil_scoped_release release;
+            return self.recognise(frames);
+          },
+          py::arg("observations"), "The best sentence of frames, shape (num_frames, num_columns).");
+}
+
+}  // namespace
+
+void bind_htk_models(py::module_& m) {
+  bind_models(m);
+  bind_words(m);
+  bind_recognizer(m);
+}

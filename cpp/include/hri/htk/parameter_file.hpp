@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// HTK's parameter files: a header of 12 bytes, then frames, all big-endian (HTK Book, section
+// 5.10.1).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hri/core/export.hpp"
+#include "hri/core/types.hpp"
+#include "hri/htk/parameter_kind.hpp"
+
+namespace hri::htk {
+
+/// What a file holds. What was read is written again byte for byte, unless _C meets a column whose
+/// mean is more than about 100 times its range.
+struct HRI_API ParameterFile {
+  ParameterKind kind;
+  std::int32_t sample_period = 100000;  ///< from frame to frame, in 100 ns
+  /// Frames in rows. Of WAVEFORM and DISCRETE whole numbers within 16 bits; of IREFC within -1..1.
+  MatrixF values;
+  /// Of _C: the file holds scale * value - offset, rounded. Empty: chosen from the ranges of the
+  /// columns.
+  std::vector<float> scale;
+  std::vector<float> offset;
+
+  /// Throws IoError, and FormatError naming file and byte for whatever is no such file: a kind that
+  /// there is not, sizes that do not fit the file, a checksum that is wrong, values not finite.
+  static ParameterFile read(const std::string& path);
+  /// The same from memory; `name` stands for the path in messages.
+  static ParameterFile parse(Span<const std::uint8_t> bytes, const std::string& name);
+
+  /// The bytes of the file: with _C in `kind` compressed, with _K with a checksum; _N is left out,
+  /// as HTK does, since files hold the energy. Throws InvalidArgument for no frame, no column, kind
+  /// ANON, columns that the kind cannot have, and values not finite or out of range.
+  [[nodiscard]] std::vector<std::uint8_t> serialise() const;
+  void write(const std::string& path) const;
+
+  /// Columns of the static coefficients.
+  [[nodiscard]] int num_static() const;
+};
+
+}  // namespace hri::htk

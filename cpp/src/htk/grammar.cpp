@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// WordLattice from a grammar: by recursive descent to a tree, which becomes nodes and arcs.
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "hri/core/error.hpp"
+#include "hri/htk/word_lattice.hpp"
+#include "htk/text_lines.hpp"
+
+namespace hri::htk {
+namespace {
+
+constexpr std::size_t kMostNodes = 1000000;
+constexpr int kMostDepth = 200;  // of brackets within brackets
+
+struct Expression {
+  enum class Kind : std::uint8_t { word, sequence, choice, option, none_or_more, one_or_more };
+  Kind kind = Kind::sequence;
+  std::string word;
+  std::vector<std::shared_ptr<const Expression>> parts;
+  bool may_be_empty = false;
+  int depth = 1;
+};
+using Part = std::shared_ptr<const Expression>;
+
+// A token is a mark, or a name: of a variable (with its $) or of a word.
+struct GrammarToken {
+  char mark = '\0';
+  std::string name;
+  bool ended = false;
+};
+
+class GrammarReader {
+ public:
+  GrammarReader(const std::string& text, const std::string& name) : text_(text), name_(name) {
+    advance();
+  }
+
+  Part read() {
+    while (!now_.name.empty() && now_.name.front() == '$') read_definition();
+    if (now_.mark != '(') refuse("expected a definition of a $name, or the sentence in ( )");
+    advance();
+    Part sentence = choice(1);
+    expect(')');
+    if (!now_.ended) refuse("nothing stands behind the sentence");
+    return sentence;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    fail(ErrorKind::format, name_ + ": line " + std::to_string(token_line_) + ": " + why);
+  }
+
+  void skip_blanks() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '\n') ++line_;
+      if (c == '#') {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (c == '/' && text_.compare(at_, 2, "/*") == 0) {
+        const std::size_t end = text_.find("*/", at_ + 2);
+        token_line_ = line_;
+        if (end == std::string::npos) refuse("a comment does not end");
+        for (; at_ < end + 2; ++at_) line_ += text_[at_] == '\n' ? 1 : 0;
+      } else if (std::string(" \t\r\n").find(c) != std::string::npos) {
+        ++at_;
+      } else {
+        return;
+      }
+    }
+  }
+
+  void advance() {
+    skip_blanks();
+    token_line_ = line_;
+    now_ = GrammarToken();
+    if (at_ >= text_.size()) {
+      now_.ended = true;
+      return;
+    }
+    if (std::string("()[]{}<>|=;").find(text_[at_]) != std::string::npos) {
+      now_.mark = text_[at_++];
+      return;
+    }
+    std::size_t end = at_;
+    if (text_[at_] == '"' || text_[at_] == '\'') {
+      ++end;
+      while (end < text_.size() && text_[end] != text_[at_] && text_[end] != '\n')
+        end += text_[end] == '\\' ? 2 : 1;
+      if (end >= text_.size() || text_[end] != text_[at_]) refuse("a quotation does not end");
+      ++end;
+    } else {
+      while (end < text_.size() &&
+             std::string("()[]{}<>|=; \t\r\n").find(text_[end]) == std::string::npos)
+        end += text_[end] == '\\' ? 2 : 1;
+      end = std::min(end, text_.size());
+    }
+    std::vector<std::string> fields;
+    if (!detail::split_fields(text_.substr(at_, end - at_), &fields) || fields.size() != 1 ||
+        fields.front().empty())
+      refuse("a name is empty, or its quotation does not end");
+    now_.name = fields.front();
+    at_ = end;
+  }
+
+  void expect(char mark) {
+    if (now_.mark != mark) refuse(std::string("expected ") + mark);
+    advance();
+  }
+
+  void read_definition() {
+    const std::string name = now_.name;
+    advance();
+    expect('=');
+    Part value = choice(1);
+    expect(';');
+    if (!variables_.emplace(name, std::move(value)).second)
+      refuse("'" + name + "' is defined twice");
+  }
+
+  Part choice(int depth) {
+    if (depth > kMostDepth) refuse("brackets stand in brackets, too deep");
+    std::vector<Part> parts{sequence(depth)};
+    while (now_.mark == '|') {
+      advance();
+      parts.push_back(sequence(depth));
+    }
+    if (parts.size() == 1) return parts.front();
+    bool may_be_empty = false;
+    for (const Part& part : parts) may_be_empty = may_be_empty || part->may_be_empty;
+    return make(Expression::Kind::choice, std::move(parts), may_be_empty);
+  }
+
+  Part sequence(int depth) {
+    std::vector<Part> parts;
+    bool may_be_empty = true;
+    while (!now_.name.empty() || now_.mark == '(' || now_.mark == '[' || now_.mark == '{' ||
+           now_.mark == '<') {
+      parts.push_back(factor(depth));
+      may_be_empty = may_be_empty && parts.back()->may_be_empty;
+    }
+    if (parts.empty()) refuse("expected a word, a $name or a bracket");
+    return parts.size() == 1 ? parts.front()
+                             : make(Expression::Kind::sequence, std::move(parts), may_be_empty);
+  }
+
+  Part factor(int depth) {
+    if (!now_.name.empty()) return named();
+    const char mark = now_.mark;
+    advance();
+    if (mark == '<' && now_.mark == '<') refuse("loops << >> in context are not read");
+    Part inside = choice(depth + 1);
+    switch (mark) {
+      case '(':
+        expect(')');
+        return inside;
+      case '[':
+        expect(']');
+        return make(Expression::Kind::option, {inside}, true);
+      case '{':
+        require_words(inside);
+        expect('}');
+        return make(Expression::Kind::none_or_more, {inside}, true);
+      default:
+        require_words(inside);
+        expect('>');
+        return make(Expression::Kind::one_or_more, {inside}, false);
+    }
+  }
+
+  void require_words(const Part& inside) const {
+    if (inside->may_be_empty) refuse("what is repeated here may be empty: a cycle without words");
+  }
+
+  Part named() {
+    const std::string name = now_.name;
+    if (name == "WD_BEGIN%" || name == "WD_END%") refuse(name + " is not read");
+    Part found;
+    if (name.front() == '$') {
+      const auto variable = variables_.find(name);
+      if (variable == variables_.end()) refuse("'" + name + "' is not defined above");
+      found = variable->second;
+    } else {
+      Expression word;
+      word.kind = Expression::Kind::word;
+      word.word = name;
+      word.may_be_empty = name == WordLattice::kNull;
+      found = std::make_shared<const Expression>(std::move(word));
+    }
+    advance();
+    return found;
+  }
+
+  Part make(Expression::Kind kind, std::vector<Part> parts, bool may_be_empty) const {
+    Expression made;
+    made.kind = kind;
+    made.may_be_empty = may_be_empty;
+    for (const Part& part : parts) made.depth = std::max(made.depth, part->depth + 1);
+    if (made.depth > 10 * kMostDepth) refuse("the definitions stand in each other too deep");
+    made.parts = std::move(parts);
+    return std::make_shared<const Expression>(std::move(made));
+  }
+
+  const std::string& text_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  std::int64_t line_ = 1;
+  std::int64_t token_line_ = 1;
+  GrammarToken now_;
+  std::map<std::string, Part> variables_;
+};
+
+class LatticeBuilder {
+ public:
+  explicit LatticeBuilder(const std::string& name) : name_(name) {}
+
+  WordLattice build(const Part& sentence) {
+    const int first = add(WordLattice::kNull);
+    const Ends ends = expand(*sentence);
+    const int last = add(WordLattice::kNull);
+    connect(first, ends.entry);
+    connect(ends.exit, last);
+    return std::move(lattice_);
+  }
+
+ private:
+  struct Ends {
+    int entry;
+    int exit;
+  };
+
+  int add(const std::string& word) {
+    if (lattice_.words.size() >= kMostNodes)
+      fail(ErrorKind::format, name_ + ": the grammar has more than a million nodes");
+    lattice_.words.push_back(word);
+    return static_cast<int>(lattice_.words.size()) - 1;
+  }
+  void connect(int from, int to) { lattice_.arcs.push_back({from, to, 0}); }
+
+  Ends expand(const Expression& e) {
+    switch (e.kind) {
+      case Expression::Kind::word: {
+        const int node = add(e.word);
+        return {node, node};
+      }
+      case Expression::Kind::sequence: {
+        Ends ends = expand(*e.parts.front());
+        for (std::size_t i = 1; i < e.parts.size(); ++i) {
+          const Ends next = expand(*e.parts[i]);
+          connect(ends.exit, next.entry);
+          ends.exit = next.exit;
+        }
+        return ends;
+      }
+      case Expression::Kind::none_or_more: {
+        const int node = add(WordLattice::kNull);
+        const Ends inside = expand(*e.parts.front());
+        connect(node, inside.entry);
+        connect(inside.exit, node);
+        return {node, node};
+      }
+      case Expression::Kind::one_or_more: {
+        const int entry = add(WordLattice::kNull);
+        const Ends inside = expand(*e.parts.front());
+        const int exit = add(WordLattice::kNull);
+        connect(entry, inside.entry);
+        connect(inside.exit, entry);
+        connect(inside.exit, exit);
+        return {entry, exit};
+      }
+      default: {
+        const int entry = add(WordLattice::kNull);
+        const int exit = add(WordLattice::kNull);
+        for (const Part& part : e.parts) {
+          const Ends inside = expand(*part);
+          connect(entry, inside.entry);
+          connect(inside.exit, exit);
+        }
+        if (e.kind == Expression::Kind::option) connect(entry, exit);
+        return {entry, exit};
+      }
+    }
+  }
+
+  const std::string& name_;
+  WordLattice lattice_;
+};
+
+}  // namespace
+
+WordLattice WordLattice::of_grammar(const std::string& text, const std::string& name) {
+  detail::require_text(text, name);
+  return LatticeBuilder(name).build(GrammarReader(text, name).read());
+}
+
+}  // namespace hri::htk

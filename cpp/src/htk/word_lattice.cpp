@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/htk/word_lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "hri/core/error.hpp"
+#include "htk/text_lines.hpp"
+
+namespace hri::htk {
+namespace {
+
+constexpr std::int64_t kMost = 10000000;  // nodes or arcs of a file
+
+// NAME=VALUE fields of one line.
+using Fields = std::map<std::string, std::string>;
+
+class LatticeReader {
+ public:
+  LatticeReader(const std::string& text, const std::string& name) : lines_(text, name) {}
+
+  WordLattice read() {
+    while (lines_.next()) {
+      if (lines_.line().empty() || lines_.line().front() == '#') continue;
+      read_line(fields());
+    }
+    if (num_nodes_ < 0) lines_.refuse("the lattice has no line with N= and L=");
+    if (static_cast<std::int64_t>(nodes_.size()) != num_nodes_)
+      lines_.refuse("there are " + std::to_string(nodes_.size()) + " nodes above, N= says " +
+                    std::to_string(num_nodes_));
+    if (static_cast<std::int64_t>(lattice_.arcs.size()) != num_arcs_)
+      lines_.refuse("there are " + std::to_string(lattice_.arcs.size()) + " arcs above, L= says " +
+                    std::to_string(num_arcs_));
+    for (auto& [number, word] : nodes_) lattice_.words.push_back(std::move(word));
+    if (const std::string fault = lattice_.fault(); !fault.empty()) lines_.refuse(fault);
+    return std::move(lattice_);
+  }
+
+ private:
+  [[nodiscard]] Fields fields() const {
+    Fields found;
+    std::vector<std::string> parts;
+    // A value becomes a part of its own, so that it may stand in quotation marks.
+    std::string line;
+    bool in_quotes = false;
+    const std::string& given = lines_.line();
+    for (std::size_t at = 0; at < given.size(); ++at) {
+      line += given[at];
+      if (given[at] == '\\' && at + 1 < given.size()) {
+        line += given[++at];
+      } else if (given[at] == '"') {
+        in_quotes = !in_quotes;
+      } else if (given[at] == '=' && !in_quotes) {
+        line += ' ';
+      }
+    }
+    if (!detail::split_fields(line, &parts)) lines_.refuse("a quotation does not end");
+    for (std::size_t i = 0; i < parts.size(); i += 2) {
+      const std::string& part = parts[i];
+      if (part.size() < 2 || part.back() != '=' || i + 1 >= parts.size())
+        lines_.refuse("expected fields NAME=VALUE");
+      if (!found.emplace(part.substr(0, part.size() - 1), parts[i + 1]).second)
+        lines_.refuse("the field " + part + " stands here twice");
+    }
+    return found;
+  }
+
+  void read_line(const Fields& fields) {
+    if (fields.count("SUBLAT") > 0) lines_.refuse("lattices in lattices are not read");
+    if (fields.count("I") > 0) {
+      read_node(fields);
+    } else if (fields.count("J") > 0) {
+      read_arc(fields);
+    } else if (fields.count("N") > 0 || fields.count("L") > 0) {
+      if (num_nodes_ >= 0) lines_.refuse("N= and L= stand here again");
+      if (fields.count("N") == 0 || fields.count("L") == 0) lines_.refuse("expected N= and L=");
+      num_nodes_ = lines_.whole_of(fields.at("N"), 1, kMost);
+      num_arcs_ = lines_.whole_of(fields.at("L"), 0, kMost);
+    } else if (fields.count("base") > 0) {
+      const double base = lines_.number_of(fields.at("base"));
+      if (!(base > 0) || base == 1) lines_.refuse("the base of logs is not above 0, or is 1");
+      log_base_ = std::log(base);
+    }
+    // All others say where the lattice comes from.
+  }
+
+  void require_header() const {
+    if (num_nodes_ < 0) lines_.refuse("nodes and arcs stand behind N= and L=");
+  }
+
+  void read_node(const Fields& fields) {
+    require_header();
+    const std::int64_t number = lines_.whole_of(fields.at("I"), 0, num_nodes_ - 1);
+    const auto word = fields.find("W");
+    const std::string name = word == fields.end() ? WordLattice::kNull : word->second;
+    if (name.empty()) lines_.refuse("a word is empty");
+    if (!nodes_.emplace(number, name).second)
+      lines_.refuse("node " + std::to_string(number) + " stands here again");
+  }
+
+  void read_arc(const Fields& fields) {
+    require_header();
+    (void)lines_.whole_of(fields.at("J"), 0, std::max<std::int64_t>(num_arcs_, 1) - 1);
+    if (fields.count("W") > 0) lines_.refuse("words on arcs are not read");
+    WordLattice::Arc arc;
+    for (const auto& [keys, node] : {std::pair{std::pair{"S", "START"}, &arc.from},
+                                     std::pair{std::pair{"E", "END"}, &arc.to}}) {
+      auto found = fields.find(keys.first);
+      if (found == fields.end()) found = fields.find(keys.second);
+      if (found == fields.end()) lines_.refuse("an arc needs S= and E=");
+      *node = static_cast<int>(lines_.whole_of(found->second, 0, num_nodes_ - 1));
+    }
+    if (const auto weight = fields.find("l"); weight != fields.end())
+      arc.log_weight = lines_.number_of(weight->second, 1e12) * log_base_;
+    if (static_cast<std::int64_t>(lattice_.arcs.size()) >= num_arcs_)
+      lines_.refuse("there are more arcs than L= says");
+    lattice_.arcs.push_back(arc);
+  }
+
+  detail::TextLines lines_;
+  WordLattice lattice_;
+  std::map<std::int64_t, std::string> nodes_;
+  std::int64_t num_nodes_ = -1;
+  std::int64_t num_arcs_ = 0;
+  double log_base_ = 1;
+};
+
+// The only node for which `found` is false; -1: none or several.
+int only_one(const std::vector<bool>& found) {
+  if (std::count(found.begin(), found.end(), false) != 1) return -1;
+  return static_cast<int>(std::find(found.begin(), found.end(), false) - found.begin());
+}
+
+int end_of(const WordLattice& lattice, bool last) {
+  std::vector<bool> has(lattice.words.size());
+  for (const WordLattice::Arc& arc : lattice.arcs)
+    has[static_cast<std::size_t>(last ? arc.from : arc.to)] = true;
+  return only_one(has);
+}
+
+// Whether arcs between nodes without words go round: what is left when nodes without predecessors
+// are taken away again and again.
+bool has_null_cycle(const WordLattice& lattice) {
+  const auto is_null = [&](int n) {
+    return lattice.words[static_cast<std::size_t>(n)] == WordLattice::kNull;
+  };
+  std::vector<std::vector<int>> next(lattice.words.size());
+  std::vector<int> num_before(lattice.words.size());
+  for (const WordLattice::Arc& arc : lattice.arcs) {
+    if (!is_null(arc.from) || !is_null(arc.to)) continue;
+    next[static_cast<std::size_t>(arc.from)].push_back(arc.to);
+    ++num_before[static_cast<std::size_t>(arc.to)];
+  }
+  std::vector<int> open;
+  for (std::size_t n = 0; n < next.size(); ++n) {
+    if (num_before[n] == 0) open.push_back(static_cast<int>(n));
+  }
+  std::size_t num_taken = 0;
+  while (!open.empty()) {
+    const int node = open.back();
+    open.pop_back();
+    ++num_taken;
+    for (const int to : next[static_cast<std::size_t>(node)]) {
+      if (--num_before[static_cast<std::size_t>(to)] == 0) open.push_back(to);
+    }
+  }
+  return num_taken < next.size();
+}
+
+// A word as the reader above takes it.
+std::string word_text(const std::string& word) {
+  detail::require_name(word, "the word");
+  const std::string text = detail::quoted(word);
+  return text == word && word.find('=') != std::string::npos ? "\"" + word + "\"" : text;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() < width ? text + std::string(width - text.size(), ' ') : text;
+}
+
+}  // namespace
+
+int WordLattice::first() const { return end_of(*this, false); }
+int WordLattice::last() const { return end_of(*this, true); }
+
+std::string WordLattice::fault() const {
+  const auto size = static_cast<int>(words.size());
+  for (const Arc& arc : arcs) {
+    if (arc.from < 0 || arc.from >= size || arc.to < 0 || arc.to >= size)
+      return "an arc joins nodes that there are not";
+    if (!std::isfinite(arc.log_weight)) return "the weight of an arc is not finite";
+  }
+  if (first() < 0) return "not exactly one node is without predecessors, to begin sentences";
+  if (last() < 0) return "not exactly one node is without successors, to end sentences";
+  if (has_null_cycle(*this)) return "nodes without words make a cycle";
+  return {};
+}
+
+WordLattice WordLattice::of_words(const std::vector<std::string>& sentence) {
+  WordLattice lattice;
+  lattice.words.emplace_back(kNull);
+  lattice.words.insert(lattice.words.end(), sentence.begin(), sentence.end());
+  lattice.words.emplace_back(kNull);
+  for (int n = 1; n < static_cast<int>(lattice.words.size()); ++n)
+    lattice.arcs.push_back({n - 1, n, 0});
+  return lattice;
+}
+
+WordLattice WordLattice::parse(const std::string& text, const std::string& name) {
+  detail::require_text(text, name);
+  return LatticeReader(text, name).read();
+}
+
+WordLattice WordLattice::read(const std::string& path) {
+  return parse(detail::read_text(path), path);
+}
+
+WordLattice WordLattice::read_grammar(const std::string& path) {
+  return of_grammar(detail::read_text(path), path);
+}
+
+std::string WordLattice::to_text() const {
+  const std::string found = fault();
+  require(found.empty(), found.c_str());
+  std::string text = "VERSION=1.0\nN=" + padded(std::to_string(words.size()), 4) +
+                     " L=" + std::to_string(arcs.size()) + "\n";
+  for (std::size_t n = 0; n < words.size(); ++n) {
+    text += "I=" + padded(std::to_string(n), 4) + " W=" + word_text(words[n]) + "\n";
+  }
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    text += "J=" + padded(std::to_string(a), 5) + " S=" + padded(std::to_string(arcs[a].from), 4) +
+            " E=" + std::to_string(arcs[a].to);
+    if (arcs[a].log_weight != 0) text += " l=" + detail::shortest(arcs[a].log_weight);
+    text += "\n";
+  }
+  return text;
+}
+
+void WordLattice::write(const std::string& path) const { detail::write_text(path, to_text()); }
+
+}  // namespace hri::htk

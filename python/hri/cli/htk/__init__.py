@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri htk``: HTK's tools, with their options."""
+
+from __future__ import annotations
+
+import click
+
+from hri.cli.groups import SuggestingGroup
+from hri.cli.htk.networks import parse, sgen
+from hri.cli.htk.parameters import copy, list_files
+from hri.cli.htk.recognition import vite
+from hri.cli.htk.scoring import results
+from hri.cli.htk.training import init, rest
+
+
+@click.group(cls=SuggestingGroup)
+def htk() -> None:
+    """HTK's tools on HTK's files, with HTK's options.
+
+    \b
+    Examples:
+      hri htk copy -C config -S copy.scp
+      hri htk list -h -e 9 a.mfc
+      hri htk parse grammar wdnet
+      hri htk vite -H models -w wdnet -S test.scp -i found.mlf dict list
+      hri htk results -I words.mlf list found.mlf
+    """
+
+
+for _command in (copy, list_files, results, parse, sgen, vite, init, rest):
+    htk.add_command(_command)

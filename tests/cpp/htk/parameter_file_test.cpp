@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/htk/parameter_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "hri/core/error.hpp"
+
+namespace hri::htk {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+ParameterFile sample(const std::string& kind, int columns = 6) {
+  ParameterFile file;
+  file.kind = ParameterKind::parse(kind);
+  file.values.resize(5, columns);
+  for (Eigen::Index i = 0; i < file.values.size(); ++i)
+    file.values.data()[i] = static_cast<float>(i * i) / 7 - 3;
+  return file;
+}
+
+std::string refusal(const Bytes& bytes) {
+  try {
+    ParameterFile::parse(bytes, "a.mfc");
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
+TEST(ParameterKind, HasHtksCodesAndNames) {
+  // HTK Book, section 5.10.1, and kinds that programs in use know by number.
+  EXPECT_EQ(ParameterKind::parse("MFCC_0_D_A").code(), 8966);
+  EXPECT_EQ(ParameterKind::parse("MFCC_E_D_A").code(), 838);
+  EXPECT_EQ(ParameterKind::parse("fbank_k").code(), 7 + 4096);
+  EXPECT_EQ(ParameterKind::parse("MFCC_0_A_D").text(), "MFCC_D_A_0");
+  EXPECT_EQ(ParameterKind::parse("PLP_Z_0_T_A_D_E_N_C_K").text(), "PLP_E_D_N_A_T_C_K_Z_0");
+  EXPECT_EQ(ParameterKind::parse("USER").num_blocks(), 1);
+  EXPECT_EQ(ParameterKind::parse("USER_D_A_T").num_blocks(), 4);
+}
+
+TEST(ParameterKind, RefusesWhatThereIsNot) {
+  for (const char* name : {"", "MFC", "MFCC_", "MFCC_X", "MFCC_D_D", "MFCC_A", "MFCC_D_T", "MFCC_N",
+                           "MFCC_V", "WAVEFORM_E", "DISCRETE_C", "MFCC D"})
+    EXPECT_THROW(ParameterKind::parse(name), InvalidArgument) << name;
+}
+
+TEST(ParameterFile, IsLaidOutAsHtkHasIt) {
+  ParameterFile file;
+  file.kind = ParameterKind::parse("MFCC");
+  file.values.resize(1, 2);
+  file.values << 1.0F, -2.0F;
+  const Bytes expected{0, 0, 0, 1, 0, 1, 0x86, 0xa0, 0, 8, 0, 6, 0x3f, 0x80, 0, 0, 0xc0, 0, 0, 0};
+  EXPECT_EQ(file.serialise(), expected);
+}
+
+TEST(ParameterFile, ChecksumIsOfBigEndianWords) {
+  ParameterFile file = sample("USER_K", 1);
+  const Bytes bytes = file.serialise();
+  std::uint32_t sum = 0;
+  for (std::size_t i = 12; i + 2 < bytes.size(); i += 2)
+    sum = (sum * 65536 + bytes[i] * 256U + bytes[i + 1]) % 36897;
+  EXPECT_EQ(bytes[bytes.size() - 2] * 256U + bytes.back(), sum);
+}
+
+TEST(ParameterFile, IsWrittenAgainAsItWasRead) {
+  for (const char* kind : {"MFCC", "MFCC_K", "MFCC_C", "MFCC_C_K", "MFCC_E_D", "MFCC_0_D_A_K",
+                           "FBANK_D_A_T", "USER_C"}) {
+    const int columns = 6 * ParameterKind::parse(kind).num_blocks();
+    const Bytes bytes = sample(kind, columns).serialise();
+    const ParameterFile read = ParameterFile::parse(bytes, kind);
+    EXPECT_EQ(read.serialise(), bytes) << kind;
+    EXPECT_EQ(read.kind.text(), ParameterKind::parse(kind).text());
+    EXPECT_EQ(read.num_static(), 6);
+  }
+}
+
+TEST(ParameterFile, KeepsValuesToTheBitWithoutCompression) {
+  const ParameterFile file = sample("MFCC_E");
+  EXPECT_EQ(ParameterFile::parse(file.serialise(), "a").values, file.values);
+}
+
+TEST(ParameterFile, CompressesWithinHalfAStep) {
+  ParameterFile file = sample("MFCC_C");
+  file.values.col(2).setConstant(-7.25F);
+  const MatrixF read = ParameterFile::parse(file.serialise(), "a").values;
+  for (Eigen::Index c = 0; c < read.cols(); ++c) {
+    const float step = (file.values.col(c).maxCoeff() - file.values.col(c).minCoeff()) / 65534;
+    EXPECT_LE((read.col(c) - file.values.col(c)).cwiseAbs().maxCoeff(), 0.51F * step);
+  }
+}
+
+TEST(ParameterFile, HoldsIntegersOfWaveformsAndCodewords) {
+  for (const char* kind : {"WAVEFORM", "DISCRETE_K"}) {
+    ParameterFile file;
+    file.kind = ParameterKind::parse(kind);
+    file.values.resize(3, 1);
+    file.values << 0, 32767, -32768;
+    const Bytes bytes = file.serialise();
+    EXPECT_EQ(ParameterFile::parse(bytes, kind).values, file.values);
+    file.values(1) = 32768;
+    EXPECT_THROW((void)file.serialise(), InvalidArgument);
+  }
+  ParameterFile file = sample("IREFC", 1);
+  file.values << 0, 1, -1, 0.5F, 0.25F;
+  const Bytes bytes = file.serialise();
+  EXPECT_EQ(ParameterFile::parse(bytes, "k").serialise(), bytes);
+}
+
+TEST(ParameterFile, LeavesOutThatEnergyIsSuppressed) {
+  ParameterFile file = sample("MFCC_E_D_N");
+  EXPECT_EQ(ParameterFile::parse(file.serialise(), "a").kind.text(), "MFCC_E_D");
+}
+
+TEST(ParameterFile, RefusesDamagedFilesByNameAndByte) {
+  const Bytes good = sample("MFCC_K").serialise();
+  EXPECT_EQ(refusal(good), "nothing thrown");
+  EXPECT_EQ(refusal({}), "a.mfc: byte 0: the header takes 12 bytes");
+  Bytes bytes = good;
+  bytes.pop_back();
+  EXPECT_EQ(refusal(bytes), "a.mfc: byte 0: the header says 134 bytes, the file has 133");
+  bytes = good;
+  bytes[0] = 0x7f;
+  EXPECT_NE(refusal(bytes).find("a.mfc: byte 0: the header says"), std::string::npos);
+  bytes[0] = 0xff;
+  EXPECT_EQ(refusal(bytes), "a.mfc: byte 0: the number of frames is not above 0");
+  bytes = good;
+  bytes[4] = 0xff;
+  EXPECT_EQ(refusal(bytes), "a.mfc: byte 4: the sample period is not above 0");
+  bytes = good;
+  bytes[9] = 0;
+  EXPECT_EQ(refusal(bytes), "a.mfc: byte 8: a frame of MFCC_K cannot take 0 bytes");
+  bytes = good;
+  bytes[11] = 63;
+  EXPECT_NE(refusal(bytes).find("a.mfc: byte 10: the parameter kind"), std::string::npos);
+  bytes = good;
+  bytes[40] ^= 1;
+  EXPECT_EQ(refusal(bytes), "a.mfc: byte 132: the checksum is wrong: the file is damaged");
+  bytes = sample("MFCC").serialise();
+  bytes[12] = 0x7f;
+  bytes[13] = 0xc0;
+  EXPECT_EQ(refusal(bytes), "a.mfc: byte 12: a value is not finite");
+}
+
+TEST(ParameterFile, RefusesEveryCutFile) {
+  for (const char* kind : {"MFCC_C_K", "MFCC_E_D"}) {
+    const Bytes good = sample(kind).serialise();
+    for (std::size_t size = 0; size < good.size(); ++size)
+      EXPECT_NE(refusal({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)}),
+                "nothing thrown");
+  }
+}
+
+TEST(ParameterFile, RefusesToWriteWhatNoFileCanHold) {
+  ParameterFile file = sample("MFCC");
+  file.values(0) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW((void)file.serialise(), InvalidArgument);
+  EXPECT_THROW((void)sample("MFCC_D_A_T").serialise(), InvalidArgument);
+  EXPECT_THROW((void)sample("WAVEFORM").serialise(), InvalidArgument);
+  file = sample("MFCC");
+  file.kind = ParameterKind();
+  EXPECT_THROW((void)file.serialise(), InvalidArgument);
+  file = sample("MFCC");
+  file.sample_period = 0;
+  EXPECT_THROW((void)file.serialise(), InvalidArgument);
+  file = sample("MFCC_C");
+  file.scale = {1, 2};
+  EXPECT_THROW((void)file.serialise(), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hri::htk

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/htk/recognizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "hri/core/error.hpp"
+
+namespace hri::htk {
+namespace {
+
+// Models of one state whose frames lie at a, b, c; sp may be skipped.
+ModelSet models() {
+  std::string text = "~o <VECSIZE> 1 <USER>\n";
+  const auto add = [&](const std::string& name, double mean, const std::string& entry) {
+    text += "~h \"" + name + "\" <BEGINHMM> <NUMSTATES> 3 <STATE> 2 <MEAN> 1 " +
+            std::to_string(mean) + " <VARIANCE> 1 1 <TRANSP> 3 " + entry +
+            " 0 0.75 0.25 0 0 0 <ENDHMM>\n";
+  };
+  add("a", 0, "0 1 0");
+  add("b", 10, "0 1 0");
+  add("c", 20, "0 1 0");
+  add("sp", 30, "0 0.5 0.5");
+  ModelSet set;
+  set.parse(text, "models");
+  return set;
+}
+
+Dictionary words() {
+  return Dictionary::parse("first a b sp\nfirst 0.5 b a sp\nsecond [2] c sp\nquiet [] sp a\n", "d");
+}
+
+MatrixF frames(const std::vector<float>& values) {
+  return Eigen::Map<const MatrixF>(values.data(), static_cast<Eigen::Index>(values.size()), 1);
+}
+
+std::string found(const std::string& grammar, const std::vector<float>& values) {
+  const Recognizer recognizer(models(), words(), WordLattice::of_grammar(grammar, "g"));
+  std::string text;
+  for (const RecognisedWord& word : recognizer.recognise(frames(values)).words)
+    text += word.output + ":" + std::to_string(word.first_frame) + "-" +
+            std::to_string(word.last_frame) + " ";
+  return text;
+}
+
+TEST(Recognizer, FindsWordsOfSeveralModelsAndPronunciations) {
+  const std::string any = "( { first | second } )";
+  EXPECT_EQ(found(any, {0, 0, 10, 20, 20, 10, 0}), "first:0-3 2:3-5 first:5-7 ");
+  EXPECT_EQ(found(any, {0, 10, 30, 30, 20, 30}), "first:0-4 2:4-6 ");
+  EXPECT_EQ(found("( quiet first )", {0, 0, 10}), ":0-1 first:1-3 ");
+}
+
+TEST(Recognizer, ScoresAsTheBestPathDoes) {
+  const Recognizer recognizer(models(), words(), WordLattice::of_words({"second"}));
+  const RecognisedSentence sentence = recognizer.recognise(frames({20, 21}));
+  EXPECT_TRUE(sentence.complete);
+  // Two frames in c, out of it, past sp.
+  const double expected =
+      -std::log(2 * 3.14159265358979) - 0.5 + std::log(0.75) + std::log(0.25) + std::log(0.5);
+  EXPECT_NEAR(sentence.log_score, expected, 1e-5);
+}
+
+TEST(Recognizer, SaysWhereNoSentenceFits) {
+  const Recognizer recognizer(models(), words(), WordLattice::of_words({"first", "second"}));
+  EXPECT_FALSE(recognizer.recognise(frames({0, 10})).complete);
+  EXPECT_TRUE(recognizer.recognise(frames({0, 10, 20})).complete);
+}
+
+TEST(Recognizer, RefusesWhatDoesNotFitTogether) {
+  const auto lattice = [](const std::string& word) { return WordLattice::of_words({word}); };
+  EXPECT_THROW(Recognizer(models(), words(), lattice("third")), InvalidArgument);
+  EXPECT_THROW(Recognizer(models(), words(), lattice("!NULL")), InvalidArgument);
+  EXPECT_THROW(Recognizer(models(), Dictionary::parse("x d\n", "d"), lattice("x")),
+               InvalidArgument);
+  EXPECT_THROW(Recognizer(models(), Dictionary::parse("x sp sp\n", "d"), lattice("x")),
+               InvalidArgument);
+  const Recognizer recognizer(models(), words(), lattice("first"));
+  EXPECT_THROW((void)recognizer.recognise(MatrixF::Zero(3, 2)), InvalidArgument);
+  MatrixF bad = frames({0, 10});
+  bad(0, 0) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW((void)recognizer.recognise(bad), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hri::htk

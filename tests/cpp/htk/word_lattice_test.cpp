@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/htk/word_lattice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "hri/core/error.hpp"
+#include "hri/htk/dictionary.hpp"
+
+namespace hri::htk {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// All sentences of at most `most` words.
+std::set<Words> sentences(const WordLattice& lattice, std::size_t most) {
+  std::set<Words> found;
+  std::set<std::pair<int, Words>> seen;
+  std::function<void(int, Words)> walk = [&](int node, Words words) {
+    const std::string& word = lattice.words[static_cast<std::size_t>(node)];
+    if (word != WordLattice::kNull) words.push_back(word);
+    if (words.size() > most || !seen.insert({node, words}).second) return;
+    if (node == lattice.last()) found.insert(words);
+    for (const WordLattice::Arc& arc : lattice.arcs) {
+      if (arc.from == node) walk(arc.to, words);
+    }
+  };
+  walk(lattice.first(), {});
+  return found;
+}
+
+std::set<Words> of_grammar(const std::string& text, std::size_t most = 3) {
+  return sentences(WordLattice::of_grammar(text, "grammar"), most);
+}
+
+template <class Read>
+std::string refusal(const std::string& text, Read read) {
+  try {
+    read(text, "file");
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+std::string grammar_refusal(const std::string& text) {
+  return refusal(text, WordLattice::of_grammar);
+}
+std::string lattice_refusal(const std::string& text) { return refusal(text, WordLattice::parse); }
+
+TEST(WordLattice, HoldsTheSentencesOfAGrammar) {
+  EXPECT_EQ(of_grammar("( go | stop )"), (std::set<Words>{{"go"}, {"stop"}}));
+  EXPECT_EQ(of_grammar("( go [ left | right ] )"),
+            (std::set<Words>{{"go"}, {"go", "left"}, {"go", "right"}}));
+  EXPECT_EQ(of_grammar("( a { b } )"), (std::set<Words>{{"a"}, {"a", "b"}, {"a", "b", "b"}}));
+  EXPECT_EQ(of_grammar("( < a | b > )", 2),
+            (std::set<Words>{{"a"}, {"b"}, {"a", "a"}, {"a", "b"}, {"b", "a"}, {"b", "b"}}));
+  EXPECT_EQ(of_grammar("$digit = one | two; # digits\n/* a\nsentence */\n$two = $digit $digit;\n"
+                       "( \"sil\" $two | ( $digit ) )"),
+            (std::set<Words>{{"one"},
+                             {"two"},
+                             {"sil", "one", "one"},
+                             {"sil", "one", "two"},
+                             {"sil", "two", "one"},
+                             {"sil", "two", "two"}}));
+  EXPECT_EQ(of_grammar("( { a } { b } )", 1), (std::set<Words>{{}, {"a"}, {"b"}}));
+}
+
+TEST(WordLattice, RefusesGrammarsByNameAndLine) {
+  EXPECT_EQ(grammar_refusal(""),
+            "file: line 1: expected a definition of a $name, or the sentence in ( )");
+  EXPECT_EQ(grammar_refusal("$a = b | $a;\n( $a )"), "file: line 1: '$a' is not defined above");
+  EXPECT_EQ(grammar_refusal("$a = b;\n$a = c;\n( $a )"), "file: line 3: '$a' is defined twice");
+  EXPECT_EQ(grammar_refusal("( a\n"), "file: line 2: expected )");
+  EXPECT_EQ(grammar_refusal("( a ) b"), "file: line 1: nothing stands behind the sentence");
+  EXPECT_EQ(grammar_refusal("( a | )"), "file: line 1: expected a word, a $name or a bracket");
+  EXPECT_EQ(grammar_refusal("(\n{ [ a ] } )"),
+            "file: line 2: what is repeated here may be empty: a cycle without words");
+  EXPECT_EQ(grammar_refusal("( << a >> )"), "file: line 1: loops << >> in context are not read");
+  EXPECT_EQ(grammar_refusal("( a /* b )"), "file: line 1: a comment does not end");
+  EXPECT_EQ(grammar_refusal("( \"a )"), "file: line 1: a quotation does not end");
+  EXPECT_EQ(grammar_refusal(std::string(100000, '(')),
+            "file: line 1: brackets stand in brackets, too deep");
+  std::string doubling = "$a0 = a;\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string before = "$a" + std::to_string(i - 1);
+    doubling += "$a" + std::to_string(i) + " = " + before + " " + before + ";\n";
+  }
+  EXPECT_EQ(grammar_refusal(doubling + "( $a39 )"),
+            "file: the grammar has more than a million nodes");
+}
+
+TEST(WordLattice, IsReadAsItWasWritten) {
+  WordLattice lattice = WordLattice::of_grammar("$d = one | two; ( sil { $d } sil )", "grammar");
+  lattice.arcs[1].log_weight = -1.0 / 3;
+  for (const char* word : {"a=b", "two words", "x\"y", "b\\c", "=", "#"}) {
+    lattice.words[1] = word;
+    const std::string text = lattice.to_text();
+    const WordLattice read = WordLattice::parse(text, "again");
+    EXPECT_EQ(read.to_text(), text);
+    EXPECT_EQ(read.words, lattice.words);
+    EXPECT_EQ(read.arcs[1].log_weight, lattice.arcs[1].log_weight);
+  }
+}
+
+TEST(WordLattice, ReadsFilesOfOtherPrograms) {
+  const WordLattice lattice = WordLattice::parse(
+      "VERSION=1.0\r\n# by HParse\nlmscale=1.0 base=10\nN=4    L=4\nI=0    W=!NULL\nI=3\n"
+      "I=1 t=0.25 W=one v=1\nI=2    W=\"two\"\nJ=0 S=0 E=1 l=-1\nJ=1     START=0 END=2 a=-5\n"
+      "J=2 S=1 E=3\nJ=3 S=2 E=3\n",
+      "other.slf");
+  EXPECT_EQ(lattice.words, (Words{"!NULL", "one", "two", "!NULL"}));
+  EXPECT_EQ(lattice.first(), 0);
+  EXPECT_EQ(lattice.last(), 3);
+  EXPECT_NEAR(lattice.arcs[0].log_weight, -2.302585092994046, 1e-12);
+}
+
+TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
+  const std::string good = "N=3 L=2\nI=0\nI=1 W=a\nI=2\nJ=0 S=0 E=1\nJ=1 S=1 E=2\n";
+  EXPECT_EQ(lattice_refusal(good), "nothing thrown");
+  EXPECT_EQ(lattice_refusal(""), "file: line 0: the lattice has no line with N= and L=");
+  EXPECT_EQ(lattice_refusal("I=0\n"), "file: line 1: nodes and arcs stand behind N= and L=");
+  EXPECT_EQ(lattice_refusal(good + "J=1 S=0 E=2\n"),
+            "file: line 7: there are more arcs than L= says");
+  EXPECT_EQ(lattice_refusal(good.substr(0, good.size() - 12)),
+            "file: line 5: there are 1 arcs above, L= says 2");
+  EXPECT_EQ(lattice_refusal("N=3 L=2\nI=0\nI=1 W=a\nI=1 W=b\n"),
+            "file: line 4: node 1 stands here again");
+  EXPECT_EQ(lattice_refusal("N=3 L=2\nI=3\n"), "file: line 2: '3' is no whole number in 0..2");
+  EXPECT_EQ(lattice_refusal("N=99999999999 L=2\n"),
+            "file: line 1: '99999999999' is no whole number in 1..10000000");
+  EXPECT_EQ(lattice_refusal("N=3 L=2\nSUBLAT=x\n"),
+            "file: line 2: lattices in lattices are not read");
+  EXPECT_EQ(lattice_refusal("N=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1 W=a\n"),
+            "file: line 4: words on arcs are not read");
+  EXPECT_EQ(lattice_refusal("N=3 L=1\nI=0\nI=1\nI=2\nJ=0 S=0 E=1\n"),
+            "file: line 5: not exactly one node is without predecessors, to begin sentences");
+  EXPECT_EQ(lattice_refusal("N=4 L=5\nI=0\nI=1\nI=2\nI=3\nJ=0 S=0 E=1\nJ=1 S=1 E=2\nJ=2 S=2 E=1\n"
+                            "J=3 S=2 E=3\nJ=4 S=0 E=3\n"),
+            "file: line 10: nodes without words make a cycle");
+}
+
+TEST(Dictionary, ReadsOutputsAndProbabilities) {
+  const Dictionary d = Dictionary::parse(
+      "# words\none w ah n\none [1] 0.25 hh w ah n\nSENT-START [] sil\n7 7\n\"8\" \"[x]\" ey t\n",
+      "words.dic");
+  ASSERT_EQ(d.entries.size(), 5U);
+  EXPECT_FALSE(d.entries[0].has_output);
+  EXPECT_EQ(d.entries[1].output, "1");
+  EXPECT_EQ(d.entries[1].probability, 0.25);
+  EXPECT_EQ(d.entries[1].models, (Words{"hh", "w", "ah", "n"}));
+  EXPECT_TRUE(d.entries[2].has_output);
+  EXPECT_EQ(d.entries[2].output, "");
+  EXPECT_EQ(d.entries[3].models, Words{"7"});
+  EXPECT_EQ(d.entries[4].models[0], "[x]");
+  EXPECT_EQ(d.by_word().at("one"), (std::vector<int>{0, 1}));
+  const std::string text = d.to_text();
+  EXPECT_EQ(Dictionary::parse(text, "again").to_text(), text);
+}
+
+TEST(Dictionary, RefusesByNameAndLine) {
+  const auto of = [](const std::string& text) { return refusal(text, Dictionary::parse); };
+  EXPECT_EQ(of("one w\ntwo\n"), "file: line 2: 'two' has no models");
+  EXPECT_EQ(of("one [1]\n"), "file: line 1: 'one' has no models");
+  EXPECT_EQ(of("one 1.5 w\n"),
+            "file: line 1: the probability of a pronunciation is outside 0..1, 0 excluded");
+  EXPECT_EQ(of("one \"w\n"), "file: line 1: a quotation does not end");
+  EXPECT_EQ(of("one \"\" w\n"), "file: line 1: the name of a model is empty");
+  EXPECT_EQ(of("\xff w\n"), "file: line 1: is not UTF-8 text");
+}
+
+}  // namespace
+}  // namespace hri::htk

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Any bytes as one of HTK's files; the first byte chooses which. What is read is written and read
+// again as it was.
+#include "fuzzing.hpp"
+#include "hri/htk/configuration.hpp"
+#include "hri/htk/labels.hpp"
+#include "hri/htk/recognizer.hpp"
+
+namespace {
+
+template <class File>
+void check_text(const File& file) {
+  const std::string text = file.to_text();
+  if (File::parse(text, "again").to_text() != text) std::abort();
+}
+
+void read_parameters(const std::uint8_t* data, std::size_t size) {
+  const auto file = hri::htk::ParameterFile::parse({data, size}, "input");
+  const std::vector<std::uint8_t> bytes = file.serialise();
+  const auto again = hri::htk::ParameterFile::parse(bytes, "again");
+  if (again.values.rows() != file.values.rows() || again.serialise().size() != bytes.size())
+    std::abort();
+}
+
+void read_models(const std::string& text) {
+  hri::htk::ModelSet set;
+  set.parse(text, "input");
+  const std::string written = set.to_text();
+  hri::htk::ModelSet again;
+  again.parse(written, "again");
+  if (again.to_text() != written) std::abort();
+  for (const std::string& name : set.hmm_names()) {
+    double log_skip = 0;
+    hri::htk::to_chain(set.find('h', name)->hmm, &log_skip);
+    hri::htk::to_hmm(set.find('h', name)->hmm);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  hri::fuzzing::expect_typed_errors([&] {
+    const std::string text(data + 1, data + size);
+    switch (data[0] % 8) {
+      case 0: read_parameters(data + 1, size - 1); break;
+      case 1: check_text(hri::htk::MasterLabelFile::parse(text, "input")); break;
+      case 2: check_text(hri::htk::Transcription::parse(text, "input")); break;
+      case 3: check_text(hri::htk::Dictionary::parse(text, "input")); break;
+      case 4: check_text(hri::htk::WordLattice::parse(text, "input")); break;
+      case 5: check_text(hri::htk::WordLattice::of_grammar(text, "input")); break;
+      case 6: read_models(text); break;
+      default: hri::htk::Configuration().parse(text, "input"); break;
+    }
+  });
+  return 0;
+}
