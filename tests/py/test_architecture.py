@@ -40,7 +40,7 @@ PYTHON = {
     "evaluation": {"core", "signal", "media", "datasets", "recognition"},
     "fusion": {"core", "recognition.decision"},
     "robot": {"core", "media"},
-    "session": {"core", "io", "media", "recognition", "live", "fusion", "robot"},
+    "session": {"core", "media", "signal", "recognition", "live", "fusion", "robot"},
 }
 PYTHON["studies"] = {*PYTHON}
 PYTHON["demo"] = {*PYTHON, "cli"} - {"studies"}

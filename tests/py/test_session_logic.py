@@ -314,7 +314,7 @@ def test_a_label_may_resume_and_no_ends_a_motion() -> None:
 def test_a_fault_of_the_robot_stops_it_and_a_refused_motion_does_not() -> None:
     talk = Dialogue(motions=MOTIONS)
     talk.decide(pair("7"), 1.0)
-    assert [a.kind for a in talk.moved("no link", True)] == ["stop", "say", "state"] and talk.state == "stopped"
+    assert [a.kind for a in talk.moved("no link", True)] == ["say", "stop", "state"] and talk.state == "stopped"
     talk.resume()
     talk.decide(pair("7"), 2.0)
     assert kinds(talk.moved("refused", False)) == [("say", "refused"), ("state", "idle")]

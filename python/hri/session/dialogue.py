@@ -102,7 +102,7 @@ class Dialogue:
         """A decision on a word, a sign or both."""
         label, status = pair.fused.label, pair.fused.status
         if label in self._options.fusion.stop_labels and status not in (UNKNOWN, NO_INPUT, ASK):
-            return [Action(STOP, label, pair.fused.rule), *self._go(STOPPED)]
+            return self.halt(pair.fused.rule, label)
         if self.state == STOPPED:
             if label in self._options.resume_labels:
                 return self.resume()
@@ -124,8 +124,13 @@ class Dialogue:
         """The motion has ended: "" as it should, else why not; a fault of the robot's stops it."""
         said = [Action(SAY, text=message)] if message else []
         if fault:
-            return [Action(STOP, text=message), *said, *self._go(STOPPED)]
+            return [*said, *self.halt(message)]
         return [*said, *(self._calm() if self.state == ACTING else [])]
+
+    def halt(self, why: str, label: str = "") -> list[Action]:
+        """STOP."""
+        self._asked = ()
+        return [Action(STOP, label, why), *self._go(STOPPED)]
 
     def resume(self) -> list[Action]:
         """A person ends STOP."""

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
@@ -26,8 +25,8 @@ class SessionOptions:
         Longest time between the end of a word or sign and the beginning of the one that belongs to it, 0 or more; what
         overlaps is 0 apart.
     onset_s : float
-        How long after it began a word or sign is reported at the latest, above 0: for so long after the window the other
-        mode is still waited for.
+        How long after it began a word or sign is reported at the latest, above 0: for so long after the window the
+        other mode is still waited for.
     max_wait_s : float
         Longest time from the end of a word or sign to its decision, above 0, however long the other mode goes on.
     rule : {"table_6_9", "weighted_sum", "product", "dempster_shafer"}
@@ -80,13 +79,13 @@ class SessionOptions:
             raise InvalidArgument(f"SessionOptions.confirm_below must lie in 0..1, got {self.confirm_below}")
         if self.rule not in RULES:
             raise InvalidArgument(f"SessionOptions.rule: no rule {self.rule!r}; {did_you_mean(self.rule, RULES)}")
-        value: Any = self.fusion
-        if not isinstance(value, FusionOptions):
-            raise InvalidArgument(f"SessionOptions.fusion must be FusionOptions, got {type(value).__name__}")
+        fusion: object = self.fusion
+        if not isinstance(fusion, FusionOptions):
+            raise InvalidArgument(f"SessionOptions.fusion must be FusionOptions, got {type(fusion).__name__}")
         self._require_labels()
 
     def _require_labels(self) -> None:
-        meaning = {label: "fusion.stop_labels" for label in self.fusion.stop_labels}
+        meaning = dict.fromkeys(self.fusion.stop_labels, "fusion.stop_labels")
         for name in _LABELS:
             labels: object = getattr(self, name)
             if not isinstance(labels, tuple) or not all(isinstance(label, str) and label for label in labels):

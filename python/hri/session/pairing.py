@@ -88,12 +88,13 @@ class _Stream:
 class Pairer:
     """Pairs the words and the signs of two streams.
 
-    Times are the session's; those of one mode never fall, and neither mode has to wait for the other. A word and a sign
-    belong together when at most `SessionOptions.window_s` lies between them; of several the nearest. What stays alone is
-    decided on as soon as nothing that belongs to it can come any more: at once where the other mode has no source.
+    Times are the session's; those of one mode never fall, and neither mode has to wait for the other. A word and a
+    sign belong together when at most `SessionOptions.window_s` lies between them; of several the nearest. What stays
+    alone is decided on as soon as nothing that belongs to it can come any more: at once where the other mode has no
+    source.
 
-    A sure STOP and labels that lead the dialogue wait for nothing. An unsure STOP while the robot moves waits only for a
-    sign that has begun, or a word, and never for one to come.
+    A sure STOP and labels that lead the dialogue wait for nothing. An unsure STOP while the robot moves waits for what
+    has begun in the other mode, and never for what may come.
     """
 
     def __init__(self, options: SessionOptions | None = None) -> None:
