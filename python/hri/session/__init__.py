@@ -6,6 +6,25 @@ from hri.session.dialogue import STATES, Action, Dialogue
 from hri.session.live import EventQueue
 from hri.session.options import SessionOptions
 from hri.session.pairing import Observation, Pair, Pairer
-from hri.session.session import Session
+from hri.session.reading import Recording, read_recording
+from hri.session.recording import McapRecorder
+from hri.session.replay import decisions, replay
+from hri.session.session import Session, SessionRecorder
 
-__all__ = ["STATES", "Action", "Dialogue", "EventQueue", "Observation", "Pair", "Pairer", "Session", "SessionOptions"]
+__all__ = [
+    "STATES",
+    "Action",
+    "Dialogue",
+    "EventQueue",
+    "McapRecorder",
+    "Observation",
+    "Pair",
+    "Pairer",
+    "Recording",
+    "Session",
+    "SessionOptions",
+    "SessionRecorder",
+    "decisions",
+    "read_recording",
+    "replay",
+]

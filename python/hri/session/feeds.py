@@ -27,8 +27,8 @@ Source = TypeVar("Source", AudioSource, FrameSource)
 class Recorder(Protocol):
     """Keeps what a session hears, sees and does; called by several threads."""
 
-    def sound(self, samples: Any, sample_rate_hz: int, offset_s: float, stream: int) -> None:
-        """Samples of the stream with this number, and by how much its clock is behind the session's."""
+    def sound(self, samples: Any, sample_rate_hz: int, stream_s: float, offset_s: float, stream: int) -> None:
+        """Samples, when the first was in the stream of this number, and by how much its clock is behind."""
         ...
 
     def picture(self, frame: Any, stream_s: float, offset_s: float, stream: int) -> None:
@@ -83,7 +83,8 @@ class TappedSound:
             self._num_samples += len(samples)
             self.alignment.note(self._num_samples / rate, len(samples) / rate, lost / rate)
             if self._recorder is not None:
-                self._recorder.sound(samples, rate, self.alignment.offset_s, self._stream)
+                first_s = (self._num_samples - len(samples)) / rate
+                self._recorder.sound(samples, rate, first_s, self.alignment.offset_s, self._stream)
         return samples
 
     def close(self) -> None:

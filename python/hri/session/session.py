@@ -8,9 +8,9 @@ import math
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any, Protocol
 
 from hri.core.errors import Error, FormatError, InvalidArgument
@@ -36,8 +36,8 @@ _CLOSE_S = 5.0
 class SessionRecorder(StreamRecorder, Protocol):
     """Keeps a session; called by several threads."""
 
-    def begin(self) -> None:
-        """A session begins. Raises InvalidArgument while another one does."""
+    def begin(self, about: Mapping[str, Any]) -> None:
+        """A session begins; what a replay needs to know of it. Raises InvalidArgument while another one is recorded."""
         ...
 
     def event(self, event: Event) -> None:
@@ -116,7 +116,8 @@ class Session:
         for label in self.options.wake_labels + self.options.resume_labels:
             if label not in self._labels:
                 raise InvalidArgument(f"{label!r} is in no vocabulary: {', '.join(sorted(self._labels))}")
-        ids = dict(model_ids or {})
+        self._model_ids = ids = dict(model_ids or {})
+        self._endpointer, self._segmenter = endpointer, segmenter
         self._listener = None if words is None else Listener(words, endpointer, model_id=ids.get("speech", ""))
         self._watcher = None if signs is None else Watcher(signs, segmenter, model_id=ids.get("gesture", ""))
         self.refused: dict[str, str] = {}
@@ -219,9 +220,20 @@ class Session:
                     self.refused[label] = str(error)
         return found
 
+    def _about(self) -> dict[str, Any]:
+        given = {"endpointer": self._endpointer, "segmenter": self._segmenter}
+        return {
+            "options": asdict(self.options),
+            "labels": sorted(self._commands()),
+            "models": self._model_ids,
+            **{name: None if options is None else options.as_dict() for name, options in given.items()},
+        }
+
+    def _commands(self) -> Collection[str]:
+        return self._labels if self._robot is None else self._motions.keys()
+
     def _logic(self, body: Body) -> SessionLogic:
-        labels = self._labels if self._robot is None else self._motions.keys()
-        return SessionLogic(self.options, body, labels, self._on_say)
+        return SessionLogic(self.options, body, self._commands(), self._on_say)
 
     @contextmanager
     def _begun(self, clock: Clock | None, recorder: SessionRecorder | None) -> Iterator[Body]:
@@ -230,8 +242,9 @@ class Session:
             raise InvalidArgument("the session is running already")
         with ExitStack() as stack:
             stack.callback(self._running.release)
+            self._inbox = deque(maxlen=64)  # without what was asked for before
             if recorder is not None:
-                recorder.begin()
+                recorder.begin(self._about())
                 stack.callback(recorder.end)
             if self._robot is None:
                 yield NoRobot()

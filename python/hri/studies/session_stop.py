@@ -47,7 +47,7 @@ class Commands:
         self.times_s.append(time_s)
         self.rows.append([positions_rad[name] for name in HOAP2.names])
 
-    def begin(self) -> None:
+    def begin(self, about: Mapping[str, Any]) -> None:
         """Do nothing."""
 
     def end(self) -> None:
@@ -59,7 +59,7 @@ class Commands:
     def motion(self, time_s: float, label: str, trajectory: Trajectory) -> None:
         """Do nothing."""
 
-    def sound(self, samples: Any, sample_rate_hz: int, offset_s: float, stream: int) -> None:
+    def sound(self, samples: Any, sample_rate_hz: int, stream_s: float, offset_s: float, stream: int) -> None:
         """Do nothing."""
 
     def picture(self, frame: Any, stream_s: float, offset_s: float, stream: int) -> None:
@@ -136,7 +136,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
             counts["clear"] += right and sample.label == "stop"
             if right and (sample.label == "stop" or sample.label in motions):
                 clear[sample.label == "stop"].append(audio.samples)
-        halted = []
+        halted: list[bool] = []
         with open_robot("kinematic") as robot:
             session = Session(words, robot=robot, options=SessionOptions(confirm_below=0), motions=motions)
             wanted = len(range(part, NUM_TRIES, NUM_FOLDS))
