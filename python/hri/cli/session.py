@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import hashlib
 import sys
-from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -96,8 +95,8 @@ def session(
     """Command a robot by words and signs, together or alone, live or from a recording and a video.
 
     FILE is a sound file, a video, or one of each that began at the same time; without any, microphone and camera are
-    used. STOP is heeded at any moment; Ctrl-C stops the robot and ends the session. On a terminal: the state, the level,
-    decisions and why; otherwise, or with --json, one JSON object a line.
+    used. STOP is heeded at any moment; Ctrl-C stops the robot and ends the session. On a terminal: the state, the
+    level, decisions and why; otherwise, or with --json, one JSON object a line.
 
     \b
     Examples:
