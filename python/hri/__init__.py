@@ -4,7 +4,8 @@
 
 The names below are loaded on first use, so that ``import hri`` pulls in neither OpenCV nor PyBullet. The rooms are
 `hri.signal`, `hri.features`, `hri.models`, `hri.language`, `hri.htk`, `hri.vision`, `hri.recognition`, `hri.io` (as in
-C++), and `hri.media`, `hri.datasets`, `hri.synthetic`, `hri.evaluation`, `hri.fusion`, `hri.live`, `hri.robot`.
+C++), and `hri.media`, `hri.datasets`, `hri.synthetic`, `hri.evaluation`, `hri.fusion`, `hri.live`, `hri.robot`,
+`hri.session`.
 """
 
 import logging
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
         models,
         recognition,
         robot,
+        session,
         signal,
         synthetic,
         vision,
@@ -50,6 +52,7 @@ if TYPE_CHECKING:
         load,
     )
     from hri.robot import gesture_trajectory, open_robot, render_video
+    from hri.session import Session
     from hri.signal import denoise
 else:
     from hri.core.lazy import loader
@@ -67,6 +70,7 @@ else:
         "models",
         "recognition",
         "robot",
+        "session",
         "signal",
         "synthetic",
         "vision",
@@ -93,6 +97,7 @@ else:
                 "load",
             ),
             "hri.robot": ("gesture_trajectory", "open_robot", "render_video"),
+            "hri.session": ("Session",),
             "hri.signal": ("denoise",),
         },
         _ROOMS,
@@ -122,6 +127,7 @@ __all__ = [
     "IoError",
     "NBest",
     "NotFittedError",
+    "Session",
     "SpeakerAdapter",
     "Transcript",
     "WordRecognizer",
@@ -149,6 +155,7 @@ __all__ = [
     "recognition",
     "render_video",
     "robot",
+    "session",
     "set_num_threads",
     "signal",
     "synthetic",

@@ -42,6 +42,7 @@ PYTHON = {
     "evaluation": {"core", "signal", "media", "datasets", "recognition"},
     "fusion": {"core", "recognition.decision"},
     "robot": {"core", "media"},
+    "session": {"core", "media", "signal", "recognition", "live", "fusion", "robot"},
 }
 PYTHON["studies"] = {*PYTHON}
 PYTHON["demo"] = {*PYTHON, "cli"} - {"studies"}

@@ -39,6 +39,7 @@ COMMANDS = {
     "transcribe": ("hri.cli.connected:transcribe", "Recognise several words in one recording, with their times."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
     "watch": ("hri.cli.watch:watch", "Recognise gestures as they are shown, to a camera or in a video."),
+    "session": ("hri.cli.session:session", "Command a robot by words and signs, live or from recordings."),
     "adapt": ("hri.cli.adapt:adapt", "Adapt a word recogniser to a speaker, a microphone or a room."),
     "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on unseen persons, with cross-validation."),
     "record": ("hri.cli.record:record", "Record a data set of your own words or gestures."),

@@ -8,6 +8,8 @@ from hri.media.suffixes import AUDIO_SUFFIXES, IMAGE_SUFFIXES, MODEL_SUFFIX, VID
 from hri.media.video import (
     DEFAULT_FPS,
     Clip,
+    decode_image,
+    encode_png,
     frame_rate,
     iterate_frames,
     read_frames,
@@ -26,6 +28,8 @@ __all__ = [
     "Audio",
     "Clip",
     "VideoWriter",
+    "decode_image",
+    "encode_png",
     "frame_rate",
     "iterate_frames",
     "kind_of_file",

@@ -68,9 +68,13 @@ def read_image(path: str | PathLike[str]) -> Frame:
     IoError
         For a file that cannot be opened.
     """
+    return decode_image(read_bytes(path), str(path))
+
+
+def decode_image(data: bytes, name: str) -> Frame:
+    """A picture in memory, as `read_image` gives it; FormatError with the name of the file that it is from."""
+    path = Path(name)
     cv2 = import_opencv("to read pictures")
-    path = Path(path)
-    data = read_bytes(path)
     if is_cut(data):
         raise FormatError(f"{path}: file ends early")
     _require_size(path, *picture_size(data) or (0, 0))
@@ -236,6 +240,15 @@ def write_image(path: str | PathLike[str], image: Frame, quality: int = 92) -> N
     if not ok:
         raise InvalidArgument(f"{path}: an array of shape {image.shape} is no picture")
     write_bytes(path, data.tobytes())
+
+
+def encode_png(image: NDArray[np.uint8]) -> bytes:
+    """A picture as a PNG file, quickly rather than small; InvalidArgument for an array that is no picture."""
+    cv2 = import_opencv("to write pictures")
+    ok, data = cv2.imencode(".png", image, [cv2.IMWRITE_PNG_COMPRESSION, 1])
+    if not ok:
+        raise InvalidArgument(f"an array of shape {image.shape} is no picture")
+    return bytes(data.tobytes())
 
 
 def frame_rate(path: str | PathLike[str]) -> float:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
@@ -31,6 +31,8 @@ _UPRIGHT_S = 0.5
 _HOLD_AFTER_FALL_S = 1.0
 _LOOK_S = 0.01
 _FEEL_S = 0.005
+_SAME_RAD = 1e-9
+_MOST_PREPARED = 256
 _TOLERANCES_RAD = np.array([-LIMIT_TOLERANCE_RAD, LIMIT_TOLERANCE_RAD])
 
 
@@ -51,6 +53,9 @@ class Robot(ABC):
         Time from one command to the next.
     events : list of Event
         What ended motions, oldest first.
+    on_command : callable of (time_s, positions_rad), optional
+        Called before every command with the robot's time and where all joints are sent, in the thread that moves; must
+        not raise. It may wait: the command is sent when it returns.
     """
 
     step_s: float = 0.001
@@ -58,6 +63,8 @@ class Robot(ABC):
     def __init__(self, table: JointTable = HOAP2) -> None:
         self.table = table
         self.events: list[Event] = []
+        self.on_command: Callable[[float, Mapping[str, float]], None] | None = None
+        self._prepared: dict[Trajectory, NDArray[np.float64]] = {}
         self._touched = SelfContacts()
         self._stop = StopLatch()
         self._moves = threading.Lock()
@@ -134,13 +141,26 @@ class Robot(ABC):
             if self._link_lost:
                 self._commanded.update(self._joint_positions())
                 self._link_lost = False
-            others = dict(zip(self.table.names, self._positions_sent(self.table.names).tolist(), strict=True))
-            require_safe(trajectory, self.table, others_rad=others)
-            begin = np.array([others[name] for name in trajectory.joint_names])
-            approach = approach_to(trajectory, begin, self.table)
-            if approach is not None:
-                require_safe_approach(approach, self.table, others)
+            begin, approach = self._checked(trajectory)
             return self._play(Playback(begin, approach, trajectory), stops, film, log)
+
+    def prepare(self, trajectory: Trajectory) -> None:
+        """Check a motion, so that `perform` begins it at once where all joints are still where they are now.
+
+        Parameters
+        ----------
+        trajectory : Trajectory
+
+        Raises
+        ------
+        TrajectoryError, InvalidArgument, Error
+            As of `perform`.
+        """
+        with self._one_at_a_time():
+            why_not = self._why_not(trajectory)
+            if why_not:
+                raise InvalidArgument(why_not)
+            self._checked(trajectory)
 
     def hold(self, duration_s: float, log: MotionLog | None = None) -> bool:
         """Keep the joints where they were sent for a time, also when stopped; False when the robot falls meanwhile.
@@ -308,6 +328,25 @@ class Robot(ABC):
             self._mover = None
             self._moves.release()
 
+    def _checked(self, trajectory: Trajectory) -> tuple[NDArray[np.float64], Trajectory | None]:
+        """Where the motion's joints are, and the way to its first row; raises TrajectoryError for what is not safe."""
+        positions = self._positions_sent(self.table.names)
+        others = dict(zip(self.table.names, positions.tolist(), strict=True))
+        begin = np.array([others.get(name, np.nan) for name in trajectory.joint_names])
+        before = self._prepared.get(trajectory)
+        safe = before is not None and bool(np.abs(before - positions).max() <= _SAME_RAD)
+        if not safe:
+            require_safe(trajectory, self.table, others_rad=others)
+        approach = approach_to(trajectory, begin, self.table)
+        if not safe:
+            if approach is not None:
+                require_safe_approach(approach, self.table, others)
+            self._prepared.pop(trajectory, None)
+            if len(self._prepared) >= _MOST_PREPARED:
+                del self._prepared[next(iter(self._prepared))]
+            self._prepared[trajectory] = positions
+        return begin, approach
+
     def _play(self, playback: Playback, stops: object, film: Film, log: MotionLog | None) -> bool:
         names = playback.trajectory.joint_names
         before = now = playback.begin_rad.tolist()
@@ -355,6 +394,8 @@ class Robot(ABC):
 
     def _send(self, positions_rad: dict[str, float], log: MotionLog | None) -> None:
         self._commanded.update(positions_rad)
+        if self.on_command is not None:
+            self.on_command(self.time_s, self._commanded)
         try:
             self._command(positions_rad)
         except Exception as error:

@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri session``."""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hri.cli.live_screen import camera, events_json_option, microphone, stall_option
+from hri.cli.messages import note
+from hri.cli.output import OutputFile
+from hri.cli.recognizers import kept_model
+from hri.cli.session_screen import show_session
+from hri.core.errors import InvalidArgument
+from hri.core.files import MAX_MODEL_BYTES, read_bytes
+from hri.fusion import RULES, FusionOptions
+from hri.live import FileSource, VideoSource
+from hri.media import kind_of_file
+from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.robot import BACKENDS, ROBOTS, JointTable, open_robot, stopped_by_signals
+from hri.session import McapRecorder, Session, SessionOptions, decisions, read_recording, replay
+
+EXIT_DIFFERENT = 1
+EXIT_SIGNAL = 128
+_MODEL = click.Path(exists=True, dir_okay=False, path_type=Path)
+_NO_ROBOT = "none"
+
+
+@click.command()
+@click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option("--speech-model", type=_MODEL, help="From 'hri train speech'; the default is the one kept per user.")
+@click.option("--gesture-model", type=_MODEL, help="The same for gestures.")
+@click.option("--no-speech", is_flag=True, help="Signs only: use no microphone.")
+@click.option("--no-gesture", is_flag=True, help="Words only: use no camera.")
+@click.option("--microphone", "microphone_name", metavar="NAME", help="Number or part of the name of the microphone.")
+@click.option("--camera", "camera_name", default="0", show_default=True, help="Number or address of the camera.")
+@stall_option
+@click.option("--wake", multiple=True, metavar="LABEL", help="Take commands only after this word or sign.")
+@click.option("--stop", "stops", multiple=True, default=("stop",), show_default=True, help="A label that stops.")
+@click.option("--stop-threshold", type=float, metavar="P", help="Confidence from which STOP is sure; else the model's.")
+@click.option("--resume", multiple=True, metavar="LABEL", help="A word or sign that ends STOP.")
+@click.option(
+    "--confirm-below", type=float, default=0.5, show_default=True, help="Ask for what is less sure; 1: always."
+)
+@click.option("--window", "window_s", type=float, default=1.0, show_default=True, help="Seconds between word and sign.")
+@click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
+@click.option(
+    "--backend",
+    type=click.Choice((*BACKENDS, _NO_ROBOT)),
+    default="pybullet",
+    show_default=True,
+    help="The robot with physics, without, or no robot.",
+)
+@click.option("--gui", is_flag=True, help="Show the robot in a window (pybullet).")
+@click.option(
+    "--robot",
+    "table",
+    type=click.Choice(tuple(ROBOTS)),
+    default="hoap2",
+    show_default=True,
+    callback=lambda context, option, name: ROBOTS[name],
+)
+@click.option("--record", "record_path", type=OutputFile((".mcap",)), metavar="FILE", help="Keep everything (.mcap).")
+@click.option("--replay", "replay_path", type=_MODEL, metavar="FILE", help="Decide once more on what --record kept.")
+@events_json_option
+def session(
+    files: tuple[Path, ...],
+    speech_model: Path | None,
+    gesture_model: Path | None,
+    no_speech: bool,
+    no_gesture: bool,
+    microphone_name: str | None,
+    camera_name: str,
+    stall_s: float,
+    wake: tuple[str, ...],
+    stops: tuple[str, ...],
+    stop_threshold: float | None,
+    resume: tuple[str, ...],
+    confirm_below: float,
+    window_s: float,
+    rule: str,
+    backend: str,
+    gui: bool,
+    table: JointTable,
+    record_path: str | None,
+    replay_path: Path | None,
+    as_json: bool,
+) -> None:
+    """Command a robot by words and signs, together or alone, live or from a recording and a video.
+
+    FILE is a sound file, a video, or one of each that began at the same time; without any, microphone and camera are
+    used. STOP is heeded at any moment; Ctrl-C stops the robot and ends the session. On a terminal: the state, the
+    level, decisions and why; otherwise, or with --json, one JSON object a line.
+
+    \b
+    Examples:
+      hri session
+      hri session --wake robot --resume start --record class.mcap
+      hri session --backend kinematic --json words.wav signs.mp4
+      hri session --replay class.mcap
+    """
+    if replay_path is not None:
+        _replay(replay_path, speech_model, gesture_model, as_json)
+        return
+    sound, video = _files(files)
+    live = not files
+    with_speech, with_gesture = (not no_speech, not no_gesture) if live else (sound is not None, video is not None)
+    if not (with_speech or with_gesture):
+        raise click.UsageError("--no-speech and --no-gesture leave nothing")
+    fusion = FusionOptions(stop_labels=stops, stop_threshold=stop_threshold)
+    options = SessionOptions(
+        window_s, rule=rule, fusion=fusion, wake_labels=wake, resume_labels=resume, confirm_below=confirm_below
+    )
+    ids: dict[str, str] = {}
+    words = _load(WordRecognizer, "speech", speech_model, ids) if with_speech else None
+    signs = _load(GestureRecognizer, "gesture", gesture_model, ids) if with_gesture else None
+    with ExitStack() as stack:
+        robot = None
+        if backend != _NO_ROBOT:
+            robot = stack.enter_context(open_robot(backend, gui=gui, table=table))
+        note("preparing the robot's motions")
+        made = Session(words, signs, robot, options, model_ids=ids)
+        for label, why in made.refused.items():
+            note(f"no motion for {label}: {why}")
+        hear: Any = None
+        see: Any = None
+        if with_speech:
+            hear = (lambda: microphone(microphone_name, stall_s)) if live else FileSource(sound or "")
+        if with_gesture:
+            see = (lambda: camera(camera_name, stall_s)) if live else VideoSource(video or "")
+        recorder = None if record_path is None else McapRecorder(record_path)
+        signals = stack.enter_context(stopped_by_signals(made))
+        failed = show_session(made.run(hear, see, live=live, recorder=recorder), as_json, lambda: bool(signals))
+    if recorder is not None and recorder.failure:
+        note(f"not recorded: {recorder.failure}")
+    if signals:
+        sys.exit(EXIT_SIGNAL + signals[0])
+    if failed:
+        raise InvalidArgument(failed)
+
+
+def _replay(path: Path, speech_model: Path | None, gesture_model: Path | None, as_json: bool) -> None:
+    """Decide once more; exit code 1 where a decision differs."""
+    recording = read_recording(path)
+    ids: dict[str, str] = {}
+    words = _load(WordRecognizer, "speech", speech_model, ids) if recording.sound else None
+    signs = _load(GestureRecognizer, "gesture", gesture_model, ids) if recording.pictures else None
+    for mode, name in ids.items():
+        if name != recording.models.get(mode):
+            note(f"{mode}: recorded with {recording.models.get(mode) or 'another model'}, replayed with {name}")
+    again: list[dict[str, Any]] = []
+
+    def kept() -> Any:
+        for event in replay(recording, words, signs):
+            again.append(event.to_dict())
+            yield event
+
+    show_session(kept(), as_json, lambda: False)
+    before, after = decisions(recording.events), decisions(again)
+    if before == after:
+        note(f"{path}: {len(after)} events of the session, all as recorded")
+        return
+    first = next((i for i, pair in enumerate(zip(before, after, strict=False)) if pair[0] != pair[1]), None)
+    place = before[first] if first is not None else (before + after)[min(len(before), len(after))]
+    note(f"{path}: differs from what was recorded at {place['time']:g} s, {place['event']}")
+    sys.exit(EXIT_DIFFERENT)
+
+
+def _files(files: tuple[Path, ...]) -> tuple[Path | None, Path | None]:
+    """The sound file and the video among `files`."""
+    found: dict[str, Path] = {}
+    for file in files:
+        kind = kind_of_file(file)
+        if kind not in ("a sound file", "a video"):
+            raise click.UsageError(f"{file} is neither a sound file nor a video by its suffix")
+        if kind in found:
+            raise click.UsageError(f"{found[kind]} and {file} are both {kind.removeprefix('a ')}s: one at a time")
+        found[kind] = file
+    return found.get("a sound file"), found.get("a video")
+
+
+def _load(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
+    """The recogniser in a model file; its name and hash go into `ids`."""
+    chosen = path or kept_model(mode)
+    ids[mode] = f"{chosen.name}:{hashlib.sha256(read_bytes(chosen, MAX_MODEL_BYTES)).hexdigest()[:12]}"
+    return kind.load(chosen)

@@ -1,0 +1,30 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A live session: words and signs paired, a dialogue, a robot that answers."""
+
+from hri.session.dialogue import STATES, Action, Dialogue
+from hri.session.live import EventQueue
+from hri.session.options import SessionOptions
+from hri.session.pairing import Observation, Pair, Pairer
+from hri.session.reading import Recording, read_recording
+from hri.session.recording import McapRecorder
+from hri.session.replay import decisions, replay
+from hri.session.session import Session, SessionRecorder
+
+__all__ = [
+    "STATES",
+    "Action",
+    "Dialogue",
+    "EventQueue",
+    "McapRecorder",
+    "Observation",
+    "Pair",
+    "Pairer",
+    "Recording",
+    "Session",
+    "SessionOptions",
+    "SessionRecorder",
+    "decisions",
+    "read_recording",
+    "replay",
+]

@@ -1,0 +1,193 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The dialogue: which decision is a command, when the robot asks, moves and stops; without clocks and threads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from hri.fusion import ASK
+from hri.recognition.decision import NO_INPUT, UNKNOWN
+from hri.session.options import SessionOptions
+from hri.session.pairing import Pair
+
+IDLE = "idle"
+ATTENDING = "attending"
+LISTENING = "listening"
+CONFIRMING = "confirming"
+ACTING = "acting"
+STOPPED = "stopped"
+STATES = (IDLE, ATTENDING, LISTENING, CONFIRMING, ACTING, STOPPED)
+
+SAY = "say"
+MOVE = "move"
+REST = "rest"
+STOP = "stop"
+RESUME = "resume"
+IGNORE = "ignored"
+STATE = "state"
+
+
+@dataclass(frozen=True)
+class Action:
+    """What is to be done, or has changed.
+
+    Attributes
+    ----------
+    kind : str
+        "say" (voice and screen), "move" (carry out `label`), "rest" (end the motion under way), "stop" (end it, and let
+        none begin), "resume", "ignored" (a decision that is no command now), or "state".
+    label : str
+        Of a "move", or of what was ignored.
+    text : str
+        What to say, the state that is new, or why.
+    """
+
+    kind: str
+    label: str = ""
+    text: str = ""
+
+
+class Dialogue:
+    """The states of a dialogue, driven by decisions and times.
+
+    ========== ================================================================================================
+    idle       nothing goes on; without `SessionOptions.wake_labels` every decision is a command
+    attending  the wake word or sign came: a command may begin within `attend_s`
+    listening  something that may be a command is being said or shown
+    confirming the robot repeats what it understood and waits: the same label or "yes" confirms, "no" takes back,
+               another command replaces it, and after `confirm_s` nothing is done
+    acting     the robot moves: "no" ends the motion, another command is ignored
+    stopped    no motion begins until `resume`, or one of `resume_labels`
+    ========== ================================================================================================
+
+    STOP counts in each of them.
+
+    Parameters
+    ----------
+    options : SessionOptions, optional
+    motions : collection of str
+        Labels that the robot has a motion for.
+    """
+
+    def __init__(self, options: SessionOptions | None = None, motions: Collection[str] = ()) -> None:
+        self._options = options or SessionOptions()
+        self._motions = frozenset(motions)
+        self.state = IDLE
+        self._active = False
+        self._attend_until_s = -math.inf
+        self._answer_until_s = -math.inf
+        self._asked: tuple[str, ...] = ()
+
+    def activity(self, active: bool, time_s: float) -> list[Action]:
+        """Something is being said or shown, or waits to be decided on; or no longer."""
+        self._active = active
+        if active and (self.state == ATTENDING or (self.state == IDLE and not self._options.wake_labels)):
+            return self._go(LISTENING)
+        if not active and self.state == LISTENING:
+            return self._go(ATTENDING if time_s <= self._attend_until_s else IDLE)
+        return []
+
+    def tick(self, time_s: float) -> list[Action]:
+        """Time has passed."""
+        if self.state == ATTENDING and time_s > self._attend_until_s:
+            return self._go(IDLE)
+        if self.state == CONFIRMING and time_s > self._answer_until_s and not self._active:
+            return [Action(SAY, text="No answer: I do nothing."), *self._calm()]
+        return []
+
+    def decide(self, pair: Pair, time_s: float) -> list[Action]:
+        """A decision on a word, a sign or both."""
+        label, status = pair.fused.label, pair.fused.status
+        if label in self._options.fusion.stop_labels and status not in (UNKNOWN, NO_INPUT, ASK):
+            return self.halt(pair.fused.rule, label)
+        if self.state == STOPPED:
+            if label in self._options.resume_labels:
+                return self.resume()
+            return [Action(IGNORE, label, "stopped until resume")]
+        if status == NO_INPUT:
+            return [Action(IGNORE, label, "no input")]
+        if status == ASK:
+            rest = [Action(REST, text=pair.fused.rule)] if self.state == ACTING else []
+            return [*rest, *self._ask(tuple(entry.label for entry in pair.fused.nbest), time_s)]
+        if self.state == ACTING:
+            if label in self._options.no_labels:
+                return [Action(REST, label, "taken back"), *self._calm()]
+            return [Action(IGNORE, label, "the robot moves")]
+        if self.state == CONFIRMING:
+            return self._answer(pair, time_s)
+        return self._command(pair, time_s)
+
+    def moved(self, message: str, fault: bool) -> list[Action]:
+        """The motion has ended: "" as it should, else why not; a fault of the robot's stops it."""
+        said = [Action(SAY, text=message)] if message else []
+        if fault:
+            return [*said, *self.halt(message)]
+        return [*said, *(self._calm() if self.state == ACTING else [])]
+
+    def halt(self, why: str, label: str = "") -> list[Action]:
+        """STOP."""
+        self._asked = ()
+        return [Action(STOP, label, why), *self._go(STOPPED)]
+
+    def resume(self) -> list[Action]:
+        """A person ends STOP."""
+        if self.state != STOPPED:
+            return []
+        return [Action(RESUME), Action(SAY, text="Ready."), *self._calm()]
+
+    def _command(self, pair: Pair, time_s: float) -> list[Action]:
+        fused = pair.fused
+        if self._options.wake_labels:
+            attended = pair.first_s <= self._attend_until_s
+            self._attend_until_s = -math.inf
+            if fused.label in self._options.wake_labels:
+                self._attend_until_s = pair.last_s + self._options.attend_s
+                return self._go(ATTENDING) if self.state != LISTENING else []
+            if not attended:
+                return [Action(IGNORE, fused.label, "not preceded by the wake word"), *self._calm()]
+        if fused.status == UNKNOWN:
+            return [Action(SAY, text="I did not understand that."), *self._calm()]
+        if fused.label in self._options.control_labels:
+            return [Action(IGNORE, fused.label, "nothing was asked"), *self._calm()]
+        if fused.label not in self._motions:
+            return [Action(SAY, text=f"I have no motion for {fused.label}."), *self._calm()]
+        if self._options.confirm_below == 1 or fused.confidence < self._options.confirm_below:
+            return self._ask((fused.label,), time_s)
+        return self._move(fused.label)
+
+    def _answer(self, pair: Pair, time_s: float) -> list[Action]:
+        label, status = pair.fused.label, pair.fused.status
+        if status == UNKNOWN:
+            return self._ask(self._asked, time_s)
+        if label in self._options.no_labels:
+            return [Action(SAY, text="I do nothing."), *self._calm()]
+        if label in self._options.yes_labels:
+            return self._move(self._asked[0]) if len(self._asked) == 1 else self._ask(self._asked, time_s)
+        if label in self._asked and label in self._motions:
+            return self._move(label)
+        if label in self._motions:
+            return self._ask((label,), time_s)
+        return [Action(IGNORE, label, "it is no answer")]
+
+    def _ask(self, labels: tuple[str, ...], time_s: float) -> list[Action]:
+        self._asked = labels
+        self._answer_until_s = time_s + self._options.confirm_s
+        return [Action(SAY, text=f"Did you mean {' or '.join(labels)}?"), *self._go(CONFIRMING)]
+
+    def _move(self, label: str) -> list[Action]:
+        self._asked = ()
+        return [Action(SAY, text=f"{label}."), *self._go(ACTING), Action(MOVE, label)]
+
+    def _calm(self) -> list[Action]:
+        """Back to where the next command is waited for."""
+        self._asked = ()
+        return self._go(LISTENING if self._active and not self._options.wake_labels else IDLE)
+
+    def _go(self, state: str) -> list[Action]:
+        if state == self.state:
+            return []
+        self.state = state
+        return [Action(STATE, text=state)]

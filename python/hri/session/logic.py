@@ -1,0 +1,239 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What follows from each event of the streams: pairs, the dialogue, motions; the same live, over files and replayed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import Any, Protocol
+
+from hri.live import Event
+from hri.live import events as kinds
+from hri.recognition.decision import RECOGNISED, plain
+from hri.session import dialogue as acts
+from hri.session.dialogue import ACTING, Action, Dialogue
+from hri.session.feeds import Arrival, is_over
+from hri.session.mover import Cause, Moved
+from hri.session.options import SessionOptions
+from hri.session.pairing import MODES, Observation, Pair, Pairer
+
+FUSED = "fused"
+SAY = "say"
+STATE = "state"
+IGNORED = "ignored"
+STOP = "stop"
+REST = "rest"
+RESUMED = "resumed"
+ASKED = "asked"
+TICK = "tick"
+MOTION_START = "motion_start"
+MOTION_END = "motion_end"
+HALT = "halt"
+
+_BEGINS = frozenset((kinds.SPEECH_START, kinds.GESTURE_START))
+_DROPS = frozenset((kinds.SPEECH_DROPPED, kinds.GESTURE_DROPPED))
+_JOINS = frozenset((kinds.LISTENING, kinds.WATCHING, kinds.RECONNECTED))
+
+
+class Body(Protocol):
+    """What moves: `Mover`, or what takes its place where there is no robot."""
+
+    def begin(self, label: str, cause: Cause) -> None: ...
+    def stop(self, cause: Cause) -> None: ...
+    def rest(self, cause: Cause) -> None: ...
+    def resume(self) -> None: ...
+    def advance(self, time_s: float) -> list[Moved]: ...
+
+
+class NoRobot:
+    """Carries out every motion at once.
+
+    Parameters
+    ----------
+    reports : bool
+        Whether it says so; a replay takes what the recording says.
+    """
+
+    def __init__(self, reports: bool = True) -> None:
+        self._reports = reports
+        self._done: list[Moved] = []
+
+    def begin(self, label: str, cause: Cause) -> None:
+        """Report the motion as done."""
+        if self._reports:
+            self._done.append(Moved("motion_end", label, cause.time_s, completed=True))
+
+    def stop(self, cause: Cause) -> None:
+        """Do nothing: nothing moves."""
+
+    def rest(self, cause: Cause) -> None:
+        """Do nothing: nothing moves."""
+
+    def resume(self) -> None:
+        """Do nothing: nothing is stopped."""
+
+    def advance(self, time_s: float) -> list[Moved]:
+        """What was done since the last call."""
+        done, self._done = self._done, []
+        return done
+
+
+class SessionLogic:
+    """Events of the streams in, events of the session out.
+
+    Parameters
+    ----------
+    options : SessionOptions
+    body : Body
+    labels : collection of str
+        Those that are commands: what the body has motions for.
+    on_say : callable of str, optional
+        Gets what the robot says.
+    """
+
+    def __init__(
+        self,
+        options: SessionOptions,
+        body: Body,
+        labels: Collection[str],
+        on_say: Callable[[str], None] | None = None,
+    ) -> None:
+        self._body = body
+        self._on_say = on_say
+        self.pairer = Pairer(options)
+        self.dialogue = Dialogue(options, labels)
+        self._unsettled: set[str] = set()
+        self._state = self.dialogue.state
+
+    def process(self, arrival: Arrival) -> list[Event]:
+        """The event, after what the robot did before it, and then what follows from it."""
+        event = arrival.event
+        out = self.passed(event.time)
+        out.append(event)
+        cause = Cause(event.time, event.time, arrival.at_s)
+        if event.mode == "robot":
+            self._moved(event, cause, out)
+        elif event.mode == "session":
+            self._asked(event, cause, out)
+        else:
+            self._heed(event, cause, out)
+        out += self.passed(event.time)
+        return out
+
+    def passed(self, time_s: float) -> list[Event]:
+        """Time has come to this; what the robot did until then, and what follows."""
+        out: list[Event] = []
+        while moved := self._body.advance(time_s):
+            for one in moved:
+                event = moved_event(one)
+                out.append(event)
+                self._moved(event, Cause(one.time_s, one.time_s, 0.0), out)
+        return out
+
+    def _heed(self, event: Event, cause: Cause, out: list[Event]) -> None:
+        """Heed an event of a stream."""
+        mode, time_s = event.mode, event.time
+        pairs: list[Pair] = []
+        if event.event in _JOINS:
+            self.pairer.join(mode, time_s)
+        elif event.event in _BEGINS:
+            self.pairer.begin(mode, event.fields["first_s"], time_s)
+        elif event.event == kinds.DECISION and event.decision is not None:
+            self._unsettled.discard(mode)
+            seen = Observation(event.decision, event.fields["first_s"], event.fields["last_s"])
+            pairs = self.pairer.observe(seen, time_s)
+        elif event.event in _DROPS and mode not in self._unsettled:
+            pairs = self.pairer.drop(mode, time_s)
+        elif is_over(event):
+            self._unsettled.discard(mode)
+            pairs = self.pairer.leave(mode, time_s)
+        else:
+            if event.event == kinds.PRELIMINARY:  # what was shown may go on
+                self._unsettled.add(mode)
+            pairs = self.pairer.tick(mode, time_s)
+        for pair in pairs:
+            out.append(fused_event(pair, time_s))
+            decided = Cause(pair.last_s, time_s, cause.computed_s)
+            self._do(self.dialogue.decide(pair, time_s), decided, out)
+        self._time_passes(time_s, cause, out)
+
+    def _moved(self, event: Event, cause: Cause, out: list[Event]) -> None:
+        if event.event == MOTION_END:
+            self._do(self.dialogue.moved(event.fields["message"], event.fields["fault"]), cause, out)
+            self._time_passes(event.time, cause, out)
+
+    def _asked(self, event: Event, cause: Cause, out: list[Event]) -> None:
+        if event.event == ASKED and event.fields["command"] == STOP:
+            self._do(self.dialogue.halt("asked for"), cause, out)
+        elif event.event == ASKED:
+            self._do(self.dialogue.resume(), cause, out)
+        self._time_passes(event.time, cause, out)
+
+    def _time_passes(self, time_s: float, cause: Cause, out: list[Event]) -> None:
+        self._do(self.dialogue.tick(time_s), cause, out)
+        self._do(self.dialogue.activity(self.pairer.active, time_s), cause, out)
+        self.pairer.hurried = self.dialogue.state == ACTING
+
+    def _do(self, actions: list[Action], cause: Cause, out: list[Event]) -> None:
+        for action in actions:
+            if action.kind == acts.MOVE:
+                self._body.begin(action.label, cause)
+                continue
+            if action.kind == acts.STOP:
+                self._body.stop(cause)
+                self.pairer.clear()
+            elif action.kind == acts.REST:
+                self._body.rest(cause)
+            elif action.kind == acts.RESUME:
+                self._body.resume()
+            elif action.kind == acts.SAY and self._on_say is not None:
+                self._on_say(action.text)
+            out.append(self._event(action, cause.time_s))
+
+    def _event(self, action: Action, time_s: float) -> Event:
+        if action.kind == acts.STATE:
+            before, self._state = self._state, action.text
+            return session_event(time_s, STATE, state=action.text, before=before)
+        if action.kind == acts.SAY:
+            return session_event(time_s, SAY, text=action.text)
+        if action.kind == acts.RESUME:
+            return session_event(time_s, RESUMED)
+        return session_event(time_s, action.kind, label=action.label, reason=action.text)
+
+
+def session_event(time_s: float, kind: str, **fields: Any) -> Event:
+    """An event of the session itself."""
+    return Event(time_s, kind, fields, mode="session")
+
+
+def fused_event(pair: Pair, time_s: float) -> Event:
+    """The event of a decision on a word, a sign or both."""
+    fused = pair.fused
+    modes = {mode: getattr(fused, mode) for mode in MODES}
+    fields = {
+        "first_s": round(pair.first_s, 4),
+        "last_s": round(pair.last_s, 4),
+        "final": fused.label if fused.status == RECOGNISED else "",
+        "status": fused.status,
+        "confidence": fused.confidence,
+        "rule": fused.rule,
+        "why": pair.why,
+        "carried_by": pair.carried_by,
+        "apart_s": round(pair.apart_s, 4),
+        **{
+            mode: None if d is None else {"label": d.label, "status": d.status, "confidence": d.confidence}
+            for mode, d in modes.items()
+        },
+        "nbest": [{"label": entry.label, "probability": entry.probability} for entry in fused.nbest],
+    }
+    return session_event(time_s, FUSED, **plain(fields))
+
+
+def moved_event(moved: Moved) -> Event:
+    """The event of something that a robot did."""
+    fields: dict[str, Any] = {"label": moved.label}
+    if moved.kind == MOTION_END:
+        fields |= {"completed": moved.completed, "message": moved.message, "fault": moved.fault}
+    else:
+        fields |= {"wait_ms": round(moved.wait_ms, 3), "compute_ms": round(moved.compute_ms, 3)}
+    return Event(moved.time_s, moved.kind, fields, mode="robot")

@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Options of a session: what belongs together, what is a command, when the robot asks."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from hri.core.errors import InvalidArgument
+from hri.core.suggest import did_you_mean
+from hri.fusion import RULES, FusionOptions
+
+_POSITIVE = ("onset_s", "max_wait_s", "attend_s", "confirm_s", "retry_s")
+_LABELS = ("wake_labels", "yes_labels", "no_labels", "resume_labels")
+
+
+@dataclass(frozen=True)
+class SessionOptions:
+    """How a session pairs words with signs and leads the dialogue.
+
+    Attributes
+    ----------
+    window_s : float
+        Longest time between the end of a word or sign and the beginning of the one that belongs to it, 0 or more; what
+        overlaps is 0 apart.
+    onset_s : float
+        How long after it began a word or sign is reported at the latest, above 0: for so long after the window the
+        other mode is still waited for.
+    max_wait_s : float
+        Longest time from the end of a word or sign to its decision, above 0, however long the other mode goes on.
+    rule : {"table_6_9", "weighted_sum", "product", "dempster_shafer"}
+        As of `hri.fuse`.
+    fusion : FusionOptions
+        Thresholds and weights of the rule; which labels stop, and from which confidence.
+    wake_labels : tuple of str
+        A word or sign that precedes every command; () makes each a command.
+    attend_s : float
+        Longest time from the end of the wake word to the beginning of the command, above 0.
+    confirm_below : float
+        The robot asks before it carries out a command of less confidence, 0..1; 0 never asks, 1 always.
+    confirm_s : float
+        For how long it waits for the answer, above 0.
+    yes_labels, no_labels : tuple of str
+        Answers, beside the label itself, which confirms too.
+    resume_labels : tuple of str
+        What ends STOP; () leaves that to `Session.resume`.
+    retry_s : float
+        How often a source that vanished is opened again, above 0.
+
+    Raises
+    ------
+    InvalidArgument
+        For a value out of range, an unknown rule, or a label of two meanings.
+    """
+
+    window_s: float = 1.0
+    onset_s: float = 0.25
+    max_wait_s: float = 6.0
+    rule: str = "table_6_9"
+    fusion: FusionOptions = field(default_factory=FusionOptions)
+    wake_labels: tuple[str, ...] = ()
+    attend_s: float = 3.0
+    confirm_below: float = 0.5
+    confirm_s: float = 8.0
+    yes_labels: tuple[str, ...] = ("yes",)
+    no_labels: tuple[str, ...] = ("no",)
+    resume_labels: tuple[str, ...] = ()
+    retry_s: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.window_s) and self.window_s >= 0):
+            raise InvalidArgument(f"SessionOptions.window_s must be 0 or more and finite, got {self.window_s}")
+        for name in _POSITIVE:
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0):
+                raise InvalidArgument(f"SessionOptions.{name} must be above 0 and finite, got {value}")
+        if not 0 <= self.confirm_below <= 1:
+            raise InvalidArgument(f"SessionOptions.confirm_below must lie in 0..1, got {self.confirm_below}")
+        if self.rule not in RULES:
+            raise InvalidArgument(f"SessionOptions.rule: no rule {self.rule!r}; {did_you_mean(self.rule, RULES)}")
+        fusion: object = self.fusion
+        if not isinstance(fusion, FusionOptions):
+            raise InvalidArgument(f"SessionOptions.fusion must be FusionOptions, got {type(fusion).__name__}")
+        self._require_labels()
+
+    def _require_labels(self) -> None:
+        meaning = dict.fromkeys(self.fusion.stop_labels, "fusion.stop_labels")
+        for name in _LABELS:
+            labels: object = getattr(self, name)
+            if not isinstance(labels, tuple) or not all(isinstance(label, str) and label for label in labels):
+                raise InvalidArgument(f"SessionOptions.{name} must be a tuple of labels, got {labels!r}")
+            for label in labels:
+                if meaning.setdefault(label, name) != name:
+                    raise InvalidArgument(f"SessionOptions.{name}: {label!r} is one of {meaning[label]}, too")
+
+    @property
+    def control_labels(self) -> frozenset[str]:
+        """Labels that lead the dialogue and are no commands: they belong to nothing said or shown beside them."""
+        return frozenset((*self.wake_labels, *self.yes_labels, *self.no_labels, *self.resume_labels))

@@ -1,0 +1,255 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Which word and which sign belong together; by the times of the streams alone, without clocks and threads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from hri.core.errors import InvalidArgument
+from hri.fusion import FusedDecision, fuse
+from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
+from hri.session.options import SessionOptions
+
+MODES = ("speech", "gesture")
+CHANCE = 0.5
+"""A stop label below this confidence is unsure, even where training set no threshold: more likely wrong than right."""
+_OTHER = {"speech": "gesture", "gesture": "speech"}
+
+
+@dataclass(frozen=True)
+class Observation:
+    """A word or a sign that was decided on.
+
+    Attributes
+    ----------
+    decision : Decision
+        Its mode is the mode of the observation.
+    first_s, last_s : float
+        When it was said or shown, in the session's time.
+    """
+
+    decision: Decision
+    first_s: float
+    last_s: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.first_s) and self.first_s <= self.last_s < math.inf):
+            raise InvalidArgument(f"a word or sign from {self.first_s} to {self.last_s} s: times must not fall")
+
+    @property
+    def mode(self) -> str:
+        """The mode, "speech" or "gesture"."""
+        return self.decision.mode
+
+
+@dataclass(frozen=True)
+class Pair:
+    """What was decided on together, or alone.
+
+    Attributes
+    ----------
+    fused : FusedDecision
+        Its `speech` and `gesture` are what was paired; None for the mode that was not there.
+    first_s, last_s : float
+        From the beginning of the first to the end of the last.
+    apart_s : float
+        Between the end of one and the beginning of the other; 0 where they overlap, and for one alone.
+    why : str
+        Why they were paired, or why one was not waited for any longer.
+    """
+
+    fused: FusedDecision
+    first_s: float
+    last_s: float
+    apart_s: float
+    why: str
+
+    @property
+    def carried_by(self) -> str:
+        """The mode whose best class is the decision: "speech", "gesture", "both", or "" for neither."""
+        modes = (self.fused.speech, self.fused.gesture)
+        carriers = [d.mode for d in modes if d is not None and d.nbest and d.nbest[0].label == self.fused.label]
+        return "both" if len(carriers) == 2 else "".join(carriers)
+
+
+@dataclass
+class _Stream:
+    """What is known of one mode."""
+
+    present: bool = False
+    now_s: float = -math.inf
+    begun_s: float | None = None
+    waiting: list[Observation] = field(default_factory=list)
+
+
+class Pairer:
+    """Pairs the words and the signs of two streams.
+
+    Times are the session's; those of one mode never fall, and neither mode has to wait for the other. A word and a
+    sign belong together when at most `SessionOptions.window_s` lies between them; of several the nearest. What stays
+    alone is decided on as soon as nothing that belongs to it can come any more: at once where the other mode has no
+    source.
+
+    A sure STOP and labels that lead the dialogue wait for nothing. An unsure STOP while the robot moves waits for what
+    has begun in the other mode, and never for what may come.
+    """
+
+    def __init__(self, options: SessionOptions | None = None) -> None:
+        self._options = options or SessionOptions()
+        self._streams = {mode: _Stream() for mode in MODES}
+        self._now_s = 0.0
+        self.hurried = False
+        """Set while the robot moves."""
+
+    @property
+    def waiting(self) -> int:
+        """How many words and signs wait."""
+        return sum(len(stream.waiting) for stream in self._streams.values())
+
+    @property
+    def active(self) -> bool:
+        """Whether something is being said or shown, or waits."""
+        return self.waiting > 0 or any(stream.begun_s is not None for stream in self._streams.values())
+
+    def join(self, mode: str, time_s: float) -> None:
+        """A source of this mode begins, or is back."""
+        self._streams[mode].present = True
+        self._pass(mode, time_s)
+
+    def leave(self, mode: str, time_s: float) -> list[Pair]:
+        """The source of this mode has ended or vanished: it is waited for no longer."""
+        self._pass(mode, time_s)
+        self._streams[mode].present, self._streams[mode].begun_s = False, None
+        return list(self._resolve())
+
+    def begin(self, mode: str, first_s: float, time_s: float) -> None:
+        """A word or sign has begun; it ends with `observe` or `drop`."""
+        self._pass(mode, time_s)
+        stream = self._streams[mode]
+        stream.begun_s = first_s if stream.begun_s is None else min(first_s, stream.begun_s)
+
+    def drop(self, mode: str, time_s: float) -> list[Pair]:
+        """What had begun was no word or sign."""
+        self._pass(mode, time_s)
+        self._streams[mode].begun_s = None
+        return list(self._resolve())
+
+    def tick(self, mode: str, time_s: float) -> list[Pair]:
+        """The stream of this mode has come to this time."""
+        self._pass(mode, time_s)
+        return list(self._resolve())
+
+    def observe(self, observation: Observation, time_s: float) -> list[Pair]:
+        """A word or sign was decided on."""
+        self._pass(observation.mode, time_s)
+        stream = self._streams[observation.mode]
+        stream.begun_s = None
+        decision = self._strict(observation.decision)
+        observation = replace(observation, decision=decision)
+        if self._is_sure_stop(decision):
+            return [_alone(observation, self._options, "STOP waits for nothing")]
+        if decision.status == RECOGNISED and decision.label in self._options.control_labels:
+            return [*self._resolve(), _alone(observation, self._options, "it leads the dialogue")]
+        if decision.status == NO_INPUT:  # belongs to nothing, and must not take the place of what does
+            return [*self._resolve(), _alone(observation, self._options, "no input")]
+        stream.waiting.append(observation)
+        return list(self._resolve())
+
+    def clear(self) -> None:
+        """Forget what waits, as after STOP."""
+        for stream in self._streams.values():
+            stream.waiting.clear()
+
+    def _pass(self, mode: str, time_s: float) -> None:
+        if mode not in self._streams:
+            raise InvalidArgument(f"no mode {mode!r}; there are: {', '.join(MODES)}")
+        self._streams[mode].now_s = max(self._streams[mode].now_s, time_s)
+        self._now_s = max(self._now_s, time_s)
+
+    def _strict(self, decision: Decision) -> Decision:
+        stop = decision.label in self._options.fusion.stop_labels
+        return replace(decision, class_threshold=max(CHANCE, decision.class_threshold)) if stop else decision
+
+    def _is_stop(self, decision: Decision) -> bool:
+        return decision.status == RECOGNISED and decision.label in self._options.fusion.stop_labels
+
+    def _is_sure_stop(self, decision: Decision) -> bool:
+        threshold = self._options.fusion.stop_threshold
+        sure = decision.class_threshold if threshold is None else threshold
+        return self._is_stop(decision) and decision.confidence >= sure
+
+    def _resolve(self) -> Iterator[Pair]:
+        while True:
+            nearest = self._nearest()
+            if nearest is not None and not self._may_come_nearer(*nearest):
+                word, sign = nearest
+                # What came before these in its mode can belong to nothing that comes after them.
+                for mode, partner in (("speech", word), ("gesture", sign)):
+                    waiting = self._streams[mode].waiting
+                    for earlier in waiting[: waiting.index(partner)]:
+                        yield _alone(earlier, self._options, "another one was nearer")
+                    del waiting[: waiting.index(partner) + 1]
+                yield _together(word, sign, self._options)
+                continue
+            alone = self._due()
+            if alone is None:
+                return
+            observation, why = alone
+            self._streams[observation.mode].waiting.remove(observation)
+            yield _alone(observation, self._options, why)
+
+    def _nearest(self) -> tuple[Observation, Observation] | None:
+        words, signs = (self._streams[mode].waiting for mode in MODES)
+        pairs = [(w, s) for w in words for s in signs if _apart(w, s) <= self._options.window_s]
+        # Of those that overlap, the two that began at about the same time.
+        return min(pairs, key=lambda p: (_apart(*p), abs(p[0].first_s - p[1].first_s)), default=None)
+
+    def _may_come_nearer(self, word: Observation, sign: Observation) -> bool:
+        """Whether what is still being said or shown is nearer to one of the two than they are to each other."""
+        apart = _apart(word, sign)
+        for one, other in ((word, sign), (sign, word)):
+            begun_s = self._streams[other.mode].begun_s
+            if begun_s is not None and max(0.0, begun_s - one.last_s) < apart and not self._too_late(one):
+                return True
+        return False
+
+    def _due(self) -> tuple[Observation, str] | None:
+        """The first that need not wait any longer, and why."""
+        waiting = sorted((o for s in self._streams.values() for o in s.waiting), key=lambda o: (o.last_s, o.mode))
+        for observation in waiting:
+            other = self._streams[_OTHER[observation.mode]]
+            until_s = observation.last_s + self._options.window_s
+            if not other.present:
+                return observation, f"no source of {_OTHER[observation.mode]}"
+            if self._too_late(observation):
+                return observation, f"the other mode took more than {self._options.max_wait_s:g} s"
+            if other.begun_s is not None and other.begun_s <= until_s:
+                continue
+            if other.now_s >= until_s + self._options.onset_s:
+                return observation, f"nothing else within {self._options.window_s:g} s"
+            if self.hurried and self._is_stop(observation.decision) and not other.waiting:
+                return observation, "an unsure STOP while the robot moves, and nothing beside it"
+        return None
+
+    def _too_late(self, observation: Observation) -> bool:
+        return self._now_s >= observation.last_s + self._options.max_wait_s
+
+
+def _apart(one: Observation, other: Observation) -> float:
+    return max(0.0, one.first_s - other.last_s, other.first_s - one.last_s)
+
+
+def _alone(observation: Observation, options: SessionOptions, why: str) -> Pair:
+    modes = {mode: observation.decision if mode == observation.mode else None for mode in MODES}
+    fused = fuse(**modes, rule=options.rule, options=options.fusion)
+    return Pair(fused, observation.first_s, observation.last_s, 0.0, f"alone: {why}")
+
+
+def _together(word: Observation, sign: Observation, options: SessionOptions) -> Pair:
+    fused = fuse(word.decision, sign.decision, rule=options.rule, options=options.fusion)
+    apart = _apart(word, sign)
+    why = f"a word and a sign {apart:.2f} s apart" if apart else "a word and a sign at once"
+    return Pair(fused, min(word.first_s, sign.first_s), max(word.last_s, sign.last_s), apart, why)

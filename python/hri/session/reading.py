@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""An MCAP file of a session, read whole and checked."""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass, field
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from hri.core.errors import Error, FormatError
+from hri.core.files import parse_json, read_bytes
+from hri.core.optional import import_optional
+from hri.fusion import FusionOptions
+from hri.session.options import SessionOptions
+from hri.session.recording import EVENTS, FORMAT, PCM_16, PCM_FLOAT, PICTURES, SOUND, VERSION
+
+MAX_BYTES = 1 << 31
+_MAX_RATE_HZ = 1_000_000
+
+
+@dataclass(frozen=True)
+class Message:
+    """Samples or a picture: when it was in its stream, by how much that is behind, its data in base64, their format."""
+
+    time_s: float
+    offset_s: float
+    data: str
+    format: str
+    rate: int = 0
+
+
+@dataclass
+class Recording:
+    """What an MCAP file of a session holds.
+
+    Attributes
+    ----------
+    path : Path
+    options : SessionOptions
+    labels : list of str
+        Labels that were commands.
+    models : dict of mode to str
+        Which models decided.
+    endpointer, segmenter : dict or None
+        Their options, where they were given.
+    events : list of dict
+        As `Event.to_dict` gives them, in the order in which they were heeded.
+    sound, pictures : dict of int to list of Message
+        Of each stream, in order.
+    """
+
+    path: Path
+    options: SessionOptions
+    labels: list[str]
+    models: dict[str, str]
+    endpointer: dict[str, Any] | None
+    segmenter: dict[str, Any] | None
+    events: list[dict[str, Any]] = field(default_factory=list)
+    sound: dict[int, list[Message]] = field(default_factory=dict)
+    pictures: dict[int, list[Message]] = field(default_factory=dict)
+
+
+def wrong(name: str | Path, what: str) -> FormatError:
+    """The error for a file that is no recording of a session."""
+    return FormatError(f"{name}: not a recorded session: {what}")
+
+
+def read_recording(path: str | PathLike[str]) -> Recording:
+    """Read what `McapRecorder` wrote.
+
+    Raises
+    ------
+    ImportError
+        Without mcap.
+    IoError
+        For a file that cannot be read.
+    FormatError
+        For another file, one that is damaged, or one of more than 2 GB; it names the message.
+    """
+    mcap = import_optional("mcap.reader", "mcap", "to read a recorded session")
+    path = Path(path)
+    data = io.BytesIO(read_bytes(path, MAX_BYTES))
+    try:
+        reader = mcap.make_reader(data, validate_crcs=True)
+        about = next((one.metadata for one in reader.iter_metadata() if one.name == FORMAT), None)
+        if about is None:
+            raise wrong(path, "it has no metadata of a session")
+        recording = _begun(path, about)
+        topics = [EVENTS, SOUND, PICTURES]
+        for _, channel, message in reader.iter_messages(topics, log_time_order=False):
+            _add(recording, channel.topic, parse_json(message.data.decode(), f"{path}: {channel.topic}"))
+    except Error:
+        raise
+    except Exception as error:  # the library raises many kinds for what is damaged
+        raise wrong(path, f"{type(error).__name__}: {error}") from error
+    return recording
+
+
+def _begun(path: Path, about: dict[str, str]) -> Recording:
+    fields = {name: parse_json(value, f"{path}: {name}") for name, value in about.items()}
+    if fields.get("version") != VERSION:
+        raise wrong(path, f"version {fields.get('version')!r} is not {VERSION}")
+    try:
+        options = dict(fields["options"])
+        fusion = _with_tuples(options.pop("fusion"))
+        labels, models = [str(label) for label in fields["labels"]], dict(fields["models"])
+        chosen = SessionOptions(**_with_tuples(options), fusion=FusionOptions(**fusion))
+        return Recording(path, chosen, labels, models, fields["endpointer"], fields["segmenter"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise wrong(path, f"its options: {error}") from error
+
+
+def _with_tuples(options: dict[str, Any]) -> dict[str, Any]:
+    return {name: tuple(value) if isinstance(value, list) else value for name, value in options.items()}
+
+
+def _add(recording: Recording, topic: str, message: Any) -> None:
+    try:
+        if topic == EVENTS:
+            _number(message["time"])
+            if not isinstance(message["event"], str) or not isinstance(message["mode"], str):
+                raise TypeError("event and mode must be text")
+            if message["event"] == "motion_end" and not isinstance(message["message"], str):
+                raise TypeError("message must be text")
+            if message["event"] in ("motion_end", "asked"):
+                _ = message["fault"] if message["event"] == "motion_end" else message["command"]
+            recording.events.append(message)
+            return
+        rate = message["sample_rate"] if topic == SOUND else 0
+        kept = Message(
+            _number(message["time_s"]), _number(message["offset_s"]), message["data"], message["format"], rate
+        )
+        known = (PCM_16, PCM_FLOAT) if topic == SOUND else ("png",)
+        if kept.format not in known or not isinstance(kept.data, str):
+            raise ValueError(f"format {kept.format!r} is none of {', '.join(known)}")
+        if topic == SOUND and not (isinstance(rate, int) and 1 <= rate <= _MAX_RATE_HZ):
+            raise ValueError(f"sample_rate {rate!r} must lie in 1..{_MAX_RATE_HZ}")
+        stream = message["stream"]
+        if not isinstance(stream, int) or stream < 0:
+            raise ValueError(f"stream {stream!r} must be 0 or more")
+        (recording.sound if topic == SOUND else recording.pictures).setdefault(stream, []).append(kept)
+    except (KeyError, TypeError, ValueError) as error:
+        raise wrong(recording.path, f"{topic}: {type(error).__name__}: {error}") from error
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise TypeError(f"{value!r} is no number")
+    return float(value)

@@ -1,0 +1,352 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A live session: sources, recognisers, the dialogue and a robot joined."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from contextlib import ExitStack, closing, contextmanager
+from dataclasses import asdict, replace
+from typing import Any, Protocol
+
+from hri.core.errors import Error, FormatError, InvalidArgument
+from hri.live import AudioSource, Event, FrameSource, Listener, Watcher
+from hri.recognition import GestureRecognizer, GestureSegmenterOptions, WordRecognizer
+from hri.robot import NAO, Robot, Trajectory, gesture_trajectory, load_gestures, with_nao_arms
+from hri.session.feeds import Arrival, Clock, Feed, merge
+from hri.session.feeds import Recorder as StreamRecorder
+from hri.session.live import EventQueue, LiveFeeds
+from hri.session.logic import ASKED, STOP, TICK, Body, NoRobot, SessionLogic, session_event
+from hri.session.mover import Mover
+from hri.session.options import SessionOptions
+from hri.signal import EndpointerOptions
+
+SoundSource = AudioSource | Callable[[], AudioSource]
+PictureSource = FrameSource | Callable[[], FrameSource]
+
+_POLL_S = 0.02
+_TICK_S = 1.0
+_CLOSE_S = 5.0
+
+
+class SessionRecorder(StreamRecorder, Protocol):
+    """Keeps a session; called by several threads."""
+
+    def begin(self, about: Mapping[str, Any]) -> None:
+        """A session begins; what a replay needs to know of it. Raises InvalidArgument while another one is recorded."""
+        ...
+
+    def event(self, event: Event) -> None:
+        """What happened, in the order in which it was heeded."""
+        ...
+
+    def joints(self, time_s: float, positions_rad: Mapping[str, float]) -> None:
+        """Where the joints are sent."""
+        ...
+
+    def motion(self, time_s: float, label: str, trajectory: Trajectory) -> None:
+        """A motion begins."""
+        ...
+
+    def end(self) -> None:
+        """The session is over."""
+        ...
+
+
+class Session:
+    """A person commands by word and sign, the robot answers.
+
+    Parameters
+    ----------
+    words : WordRecognizer, optional
+        Trained or loaded; needed for sound.
+    signs : GestureRecognizer, optional
+        Trained or loaded; needed for pictures.
+    robot : Robot, optional
+        Moved by `run`, and left open. Without one nothing moves, and every command counts as carried out.
+    options : SessionOptions, optional
+    motions : mapping of str to Trajectory, optional
+        What the robot does for a label; by default the gesture of the same name. Each is checked here, from where the
+        joints are: those that the robot cannot make are left out, and `refused` says why.
+    endpointer : EndpointerOptions, optional
+        When a word begins and ends; see `hri.live.Listener`.
+    segmenter : GestureSegmenterOptions, optional
+        When a gesture begins and ends; see `hri.live.Watcher`.
+    on_say : callable of str, optional
+        Gets what the robot says, in the thread that decides; it must not wait.
+    model_ids : mapping of mode to str, optional
+        Which models decide; passed on with decisions.
+
+    Attributes
+    ----------
+    refused : dict of str to str
+        Labels of the vocabulary that the robot has no motion for, and why.
+
+    Raises
+    ------
+    InvalidArgument
+        Without any recogniser, or for a label of the options that neither knows.
+    NotFittedError
+        For a recogniser that is not trained.
+    """
+
+    def __init__(
+        self,
+        words: WordRecognizer | None = None,
+        signs: GestureRecognizer | None = None,
+        robot: Robot | None = None,
+        options: SessionOptions | None = None,
+        *,
+        motions: Mapping[str, Trajectory] | None = None,
+        endpointer: EndpointerOptions | None = None,
+        segmenter: GestureSegmenterOptions | None = None,
+        on_say: Callable[[str], None] | None = None,
+        model_ids: Mapping[str, str] | None = None,
+    ) -> None:
+        if words is None and signs is None:
+            raise InvalidArgument("a session needs a recogniser of words or of gestures")
+        self.options = options or SessionOptions()
+        self._robot = robot
+        self._on_say = on_say
+        self._labels = {str(label) for one in (words, signs) if one is not None for label in one.classes_}
+        for label in self.options.wake_labels + self.options.resume_labels:
+            if label not in self._labels:
+                raise InvalidArgument(f"{label!r} is in no vocabulary: {', '.join(sorted(self._labels))}")
+        self._model_ids = ids = dict(model_ids or {})
+        self._endpointer, self._segmenter = endpointer, segmenter
+        self._listener = None if words is None else Listener(words, endpointer, model_id=ids.get("speech", ""))
+        self._watcher = None if signs is None else Watcher(signs, segmenter, model_id=ids.get("gesture", ""))
+        self.refused: dict[str, str] = {}
+        self._motions = self._prepared(motions)
+        self._inbox: EventQueue | deque[Event] = deque(maxlen=64)
+        self._running = threading.Lock()
+
+    @property
+    def motions(self) -> dict[str, Trajectory]:
+        """What the robot does for each label."""
+        return dict(self._motions)
+
+    def run(
+        self,
+        sound: SoundSource | None = None,
+        pictures: PictureSource | None = None,
+        *,
+        live: bool = False,
+        recorder: SessionRecorder | None = None,
+    ) -> Iterator[Event]:
+        """Events until all sources end; sources and threads are closed then, and also when the caller stops early.
+
+        Parameters
+        ----------
+        sound, pictures : source, or callable that opens one
+            One that vanishes leaves the other mode working. It comes back if a callable opens it again.
+        live : bool
+            The sources are devices: each has a thread, and a caller that is slow misses events and makes nothing wait.
+            Otherwise time is that of samples and pictures, and the same recordings give the same events.
+        recorder : SessionRecorder, optional
+
+        Raises
+        ------
+        InvalidArgument
+            Without a source, for a source without a recogniser, and for a robot that is stopped; from the first event,
+            when this session, its robot or its recorder is in use.
+        IoError
+            When a recording cannot be opened.
+        """
+        self._feeds(sound, pictures, None, recorder)  # refuses what is missing now
+        if self._robot is not None and self._robot.stopped:
+            raise InvalidArgument("the robot is stopped: call its resume() first")
+        return self._run_live(sound, pictures, recorder) if live else self._run(sound, pictures, recorder)
+
+    def stop(self) -> None:
+        """STOP, as by a button: at once, from any thread."""
+        if self._robot is not None:
+            self._robot.stop()
+        self._ask(STOP)
+
+    def resume(self) -> None:
+        """End STOP; from any thread."""
+        self._ask("resume")
+
+    def _ask(self, command: str) -> None:
+        event = session_event(0.0, ASKED, command=command)
+        if isinstance(self._inbox, EventQueue):
+            self._inbox.put(event)
+        else:
+            self._inbox.append(event)
+
+    def _feeds(
+        self,
+        sound: SoundSource | None,
+        pictures: PictureSource | None,
+        clock: Clock | None,
+        recorder: SessionRecorder | None,
+    ) -> list[Feed[Any]]:
+        if sound is None and pictures is None:
+            raise InvalidArgument("a session needs a source of sound or of pictures")
+        feeds: list[Feed[Any]] = []
+        if sound is not None:
+            if self._listener is None:
+                raise InvalidArgument("sound needs a recogniser of words")
+            feeds.append(Feed("speech", sound, self._listener.listen, clock, recorder))
+        if pictures is not None:
+            if self._watcher is None:
+                raise InvalidArgument("pictures need a recogniser of gestures")
+            feeds.append(Feed("gesture", pictures, self._watcher.watch, clock, recorder))
+        return feeds
+
+    def _prepared(self, motions: Mapping[str, Trajectory] | None) -> dict[str, Trajectory]:
+        if self._robot is None:
+            return {}
+        found: dict[str, Trajectory] = {}
+        led = {*self.options.control_labels, *self.options.fusion.stop_labels}
+        for label in sorted(self._labels - led):
+            if motions is None and label not in load_gestures():
+                self.refused[label] = "no gesture has this name"
+            elif motions is not None and label not in motions:
+                self.refused[label] = "it is in no motion"
+            else:
+                trajectory = motions[label] if motions is not None else gesture_trajectory(label)
+                if motions is None and self._robot.table is NAO:
+                    trajectory = with_nao_arms(trajectory)
+                try:
+                    self._robot.prepare(trajectory)
+                    found[label] = trajectory
+                except (FormatError, InvalidArgument) as error:
+                    self.refused[label] = str(error)
+        return found
+
+    def _about(self) -> dict[str, Any]:
+        given = {"endpointer": self._endpointer, "segmenter": self._segmenter}
+        return {
+            "options": asdict(self.options),
+            "labels": sorted(self._commands()),
+            "models": self._model_ids,
+            **{name: None if options is None else options.as_dict() for name, options in given.items()},
+        }
+
+    def _commands(self) -> Collection[str]:
+        return self._labels if self._robot is None else self._motions.keys()
+
+    def _logic(self, body: Body) -> SessionLogic:
+        return SessionLogic(self.options, body, self._commands(), self._on_say)
+
+    @contextmanager
+    def _begun(self, clock: Clock | None, recorder: SessionRecorder | None) -> Iterator[Body]:
+        """What moves, while the session runs."""
+        if not self._running.acquire(blocking=False):
+            raise InvalidArgument("the session is running already")
+        with ExitStack() as stack:
+            stack.callback(self._running.release)
+            self._inbox = deque(maxlen=64)  # without what was asked for before
+            if recorder is not None:
+                recorder.begin(self._about())
+                stack.callback(recorder.end)
+            if self._robot is None:
+                yield NoRobot()
+                return
+            on_joints = None if recorder is None else recorder.joints
+            body = Mover(self._robot, self._motions, clock, on_joints)
+            stack.callback(body.close)
+            yield body
+
+    def _run(
+        self, sound: SoundSource | None, pictures: PictureSource | None, recorder: SessionRecorder | None
+    ) -> Iterator[Event]:
+        with self._begun(None, recorder) as body:
+            feeds = self._feeds(sound, pictures, None, recorder)
+            logic = self._logic(body)
+            time_s = 0.0
+            with closing(merge(feeds, self.options.retry_s)) as arrivals:
+                for arrival in arrivals:
+                    time_s = arrival.event.time
+                    yield from self._kept(self._answered(logic, time_s), recorder)
+                    yield from self._kept(logic.process(arrival), recorder)
+            yield from self._kept(self._answered(logic, time_s), recorder)
+            yield from self._kept(logic.passed(math.inf), recorder)
+
+    def _answered(self, logic: SessionLogic, time_s: float) -> Iterator[Event]:
+        """What follows from what the caller asked for."""
+        assert isinstance(self._inbox, deque)
+        while self._inbox:
+            asked = replace(self._inbox.popleft(), time=time_s)
+            yield from logic.process(Arrival(asked, time.perf_counter()))
+
+    def _run_live(
+        self, sound: SoundSource | None, pictures: PictureSource | None, recorder: SessionRecorder | None
+    ) -> Iterator[Event]:
+        begun_s = time.monotonic()
+
+        def clock() -> float:
+            return time.monotonic() - begun_s
+
+        output = EventQueue()
+        failure: list[BaseException] = []
+        with self._begun(clock, recorder) as body, ExitStack() as stack:
+            logic = self._logic(body)
+            live = LiveFeeds(self._feeds(sound, pictures, clock, recorder), self.options.retry_s)
+            stack.callback(live.close)
+            self._inbox = live.queue
+
+            def decide() -> None:
+                try:
+                    self._decide(logic, live.queue, body, clock, output, recorder)
+                except BaseException as error:  # reported in the caller's thread
+                    failure.append(error)
+                finally:
+                    output.close()
+
+            def end() -> None:
+                self._inbox = deque(maxlen=64)
+                live.queue.close()
+                thread.join(_CLOSE_S)
+
+            thread = threading.Thread(target=decide, daemon=True, name="hri-session")
+            stack.callback(end)
+            thread.start()
+            while not output.over:
+                arrival = output.get(_POLL_S)
+                if arrival is not None:
+                    yield arrival.event
+            if failure:
+                raise Error(f"the session ended: {failure[0]}") from failure[0]
+
+    def _decide(
+        self,
+        logic: SessionLogic,
+        queue: EventQueue,
+        body: Body,
+        clock: Clock,
+        output: EventQueue,
+        recorder: SessionRecorder | None,
+    ) -> None:
+        """Heed events as they come until all sources have ended and the robot rests."""
+        last_s = 0.0
+        while not (queue.over and not (isinstance(body, Mover) and body.busy)):
+            arrival = queue.get(_POLL_S)
+            if arrival is None and clock() - last_s < _TICK_S:
+                happened = logic.passed(clock())
+            else:
+                last_s = clock()
+                if arrival is None:
+                    arrival = Arrival(session_event(last_s, TICK), time.perf_counter())
+                elif arrival.event.mode == "session":
+                    arrival = replace(arrival, event=replace(arrival.event, time=last_s))
+                happened = logic.process(arrival)
+            for event in self._kept(happened, recorder):
+                output.put(event)
+        for event in self._kept(logic.passed(clock()), recorder):
+            output.put(event)
+
+    def _kept(self, events: Iterable[Event], recorder: SessionRecorder | None) -> Iterator[Event]:
+        for event in events:
+            if recorder is not None:
+                recorder.event(event)
+                if event.event == "motion_start" and event.fields["label"] in self._motions:
+                    label = event.fields["label"]
+                    recorder.motion(event.time, label, self._motions[label])
+            yield event

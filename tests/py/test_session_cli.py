@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri session``: JSON lines, a screen, recordings that repeat, and messages for what is missing."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from conftest import RATE_HZ
+from drawn_hands import FPS
+from hri.cli.session_screen import describe, show_session
+from hri.io import write_wav_pcm16
+from hri.live import Event
+from hri.media import write_video
+from session_people import signing, speech, train_signs, train_words
+
+pytest.importorskip("cv2")
+pytest.importorskip("hri._native_vision")
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder with both models, a recording and a video."""
+    folder = tmp_path_factory.mktemp("scene")
+    train_words().save(folder / "words.hri")
+    train_signs().save(folder / "signs.hri")
+    write_wav_pcm16(str(folder / "said.wav"), speech([("flat", 1.5), ("stop", 6.0)], 8.0), RATE_HZ)
+    write_video(folder / "shown.avi", signing([("flat", 1.2)], 8.0), FPS)
+    return folder
+
+
+def models(scene: Path) -> tuple[object, ...]:
+    return ("--speech-model", scene / "words.hri", "--gesture-model", scene / "signs.hri")
+
+
+def rows(out: str) -> list[dict[str, Any]]:
+    return [json.loads(line) for line in out.splitlines()]
+
+
+def test_a_scene_is_printed_recorded_and_replayed(hri, scene: Path, tmp_path: Path) -> None:
+    pytest.importorskip("mcap")
+    files = (scene / "said.wav", scene / "shown.avi")
+    kept = tmp_path / "kept.mcap"
+    done = hri("session", *models(scene), "--backend", "none", "--record", kept, *files)
+    assert done.code == 0
+    printed = rows(done.out)
+    assert [row["final"] for row in printed if row["event"] == "fused"] == ["flat", "stop"]
+    assert {"fused", "state", "say", "stop", "level", "hand", "motion_end"} <= {row["event"] for row in printed}
+    fused = next(row for row in printed if row["event"] == "fused")
+    assert fused["mode"] == "session" and fused["carried_by"] == "both" and fused["speech"]["label"] == "flat"
+    assert fused["rule"].startswith("table 6.9") and "at once" in fused["why"]
+    again = hri("session", *models(scene), "--replay", kept)
+    assert again.code == 0 and "all as recorded" in again.err
+    assert [row["final"] for row in rows(again.out) if row["event"] == "fused"] == ["flat", "stop"]
+
+
+def test_a_replay_by_other_models_that_decides_otherwise_fails(hri, scene: Path, tmp_path: Path) -> None:
+    pytest.importorskip("mcap")
+    import hri as package
+    from conftest import tone_word
+
+    kept, other = tmp_path / "kept.mcap", tmp_path / "other.hri"
+    model = ("--speech-model", scene / "words.hri")
+    assert hri("session", *model, "--backend", "none", "--record", kept, scene / "said.wav").code == 0
+    swapped = [
+        (tone_word(500.0 + 50 * (take % 3), slope, take), label, f"p{take % 3}")
+        for take in range(6)
+        for label, slope in (("stop", 800.0), ("flat", 0.0))
+    ]
+    x, y, persons = map(list, zip(*swapped, strict=True))
+    package.WordRecognizer(false_reject_rate=0.0).fit(x, y, sample_rate_hz=RATE_HZ, groups=persons).save(other)
+    again = hri("session", "--speech-model", other, "--replay", kept)
+    assert (
+        again.code == 1 and "differs from what was recorded at" in again.err and "replayed with other.hri" in again.err
+    )
+
+
+def test_the_robot_moves_and_reports_labels_without_a_motion(hri, scene: Path) -> None:
+    done = hri("session", "--speech-model", scene / "words.hri", "--backend", "kinematic", scene / "said.wav")
+    assert done.code == 0 and "no motion for flat: no gesture has this name" in done.err
+    assert "I have no motion for flat." in [row.get("text") for row in rows(done.out)]
+
+
+def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> None:
+    said, shown = scene / "said.wav", scene / "shown.avi"
+    (tmp_path / "no.hri").write_bytes(b"no model")
+    (tmp_path / "no.mcap").write_bytes(b"no recording")
+    for arguments, code, message in (
+        ((said, said), 2, "are both sound files"),
+        ((scene / "words.hri",), 2, "neither a sound file nor a video"),
+        (("--no-speech", "--no-gesture"), 2, "leave nothing"),
+        ((said,), 3, "there is no speech model yet"),
+        (("--speech-model", tmp_path / "no.hri", said), 3, "no.hri"),
+        (("--speech-model", scene / "signs.hri", said), 3, "signs.hri is a gesture recogniser"),
+        ((*models(scene), "--wake", "robot", said, shown), 3, "'robot' is in no vocabulary"),
+        ((*models(scene), "--confirm-below", "2", said), 3, "confirm_below"),
+        (("--replay", tmp_path / "no.mcap"), 3, "not a recorded session"),
+        ((*models(scene), "--record", tmp_path / "kept.txt", said), 2, ".mcap"),
+    ):
+        result = hri("session", "--backend", "none", *arguments)
+        assert result.code == code and message in result.err, (arguments, result.err)
+
+
+def test_devices_that_are_missing_end_the_session_in_words(hri, scene: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from hri.cli import session as command
+    from hri.core.errors import IoError
+
+    def missing(*_: object) -> Any:
+        raise IoError("no microphone can be opened: connect one")
+
+    monkeypatch.setattr(command, "microphone", missing)
+    model = ("--speech-model", scene / "words.hri")
+    done = hri("session", *model, "--backend", "none", "--no-gesture")
+    assert done.code == 3 and "no microphone can be opened" in done.err
+    assert [row["event"] for row in rows(done.out)] == ["stall"]
+
+
+def test_the_screen_shows_decisions_and_why(monkeypatch: pytest.MonkeyPatch) -> None:
+    events = [
+        Event(0.0, "listening", {"source": "microphone", "sample_rate_hz": 16000}),
+        Event(0.5, "level", {"level_db": -40.0, "over_noise_db": 3.0, "in_speech": True}),
+        Event(0.6, "state", {"state": "listening", "before": "idle"}, mode="session"),
+        Event(1.0, "fused", {
+            "final": "7", "status": "recognised", "rule": "table 6.9: x", "why": "at once", "gesture": None,
+            "speech": {"label": "7", "confidence": 0.9}}, mode="session"),
+        Event(1.0, "say", {"text": "7."}, mode="session"),
+        Event(1.0, "motion_start", {"label": "7", "wait_ms": 312.0, "compute_ms": 4.2}, mode="robot"),
+        Event(2.0, "stop", {"label": "stop", "reason": "stop: recognised in speech"}, mode="session"),
+        Event(2.1, "motion_end", {"label": "7", "completed": False, "message": "", "fault": False}, mode="robot"),
+    ]  # fmt: skip
+    lines = [describe(event) for event in events]
+    assert "7  (word 7 0.90; table 6.9: x; at once)" in lines[3] and lines[4].endswith("robot: 7.")
+    assert "after 312 ms to be decided on, 4 ms of computing" in lines[5]
+    assert "STOP stop: stop: recognised in speech" in lines[6] and "has stopped: 7" in lines[7]
+    out = io.StringIO()
+    monkeypatch.setattr(out, "isatty", lambda: True)
+    monkeypatch.setattr(sys, "stdout", out)
+    assert show_session(iter(events), False, lambda: False) == ""
+    assert "LISTENING" in out.getvalue() and "robot: 7." in out.getvalue()
+    assert show_session(iter([Event(0.0, "stall", {"message": "gone"})]), False, lambda: False) == "gone"

@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Sessions as MCAP files: what they hold, that a replay repeats them, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64decode
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import hri
+from conftest import RATE_HZ
+from drawn_hands import FPS
+from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.live import ArraySource, ClipSource, Stalled
+from hri.robot import open_robot
+from hri.session import McapRecorder, Session, SessionOptions, decisions, read_recording, replay
+from session_people import MOTIONS, signing, speech, train_signs, train_words
+
+pytest.importorskip("cv2")
+pytest.importorskip("hri._native_vision")
+reader = pytest.importorskip("mcap.reader")
+writer = pytest.importorskip("mcap.writer")
+
+
+@pytest.fixture(scope="module")
+def words() -> hri.WordRecognizer:
+    return train_words()
+
+
+@pytest.fixture(scope="module")
+def signs() -> hri.GestureRecognizer:
+    return train_signs()
+
+
+def messages(path: Path, topic: str) -> list[dict[str, Any]]:
+    with path.open("rb") as file:
+        return [json.loads(message.data) for _, _, message in reader.make_reader(file).iter_messages([topic])]
+
+
+def test_a_recorded_session_is_replayed_to_the_same_decisions(words: Any, signs: Any, tmp_path: Path) -> None:
+    path = tmp_path / "session.mcap"
+    stream = np.round(speech([("flat", 1.5), ("tall", 7.0), ("stop", 10.2)], 12.0) * 32768).astype("i2") / np.float32(
+        32768
+    )
+    frames = signing([("flat", 1.2)], 12.0)
+    with open_robot("kinematic") as robot:
+        session = Session(words, signs, robot, SessionOptions(confirm_below=0.2), motions=MOTIONS)
+        recorder = McapRecorder(path)
+        events = [
+            e.to_dict() for e in session.run(ArraySource(stream, RATE_HZ), ClipSource(frames, FPS), recorder=recorder)
+        ]
+    assert recorder.failure == "" and {e["event"] for e in events} >= {"fused", "motion_start", "halt", "stop"}
+    recording = read_recording(path)
+    assert recording.options == session.options and recording.labels == ["flat", "tall"]
+    assert recording.events == json.loads(json.dumps(events))
+    again = [e.to_dict() for e in replay(recording, words, signs)]
+    assert decisions(again) == decisions(recording.events) and len(decisions(again)) > 8
+    said = [(e["time"], e["nbest"]) for e in events if e["event"] == "decision"]
+    assert [(e["time"], e["nbest"]) for e in again if e["event"] == "decision"] == said
+
+    sound = messages(path, "/hri/sound")
+    assert {m["format"] for m in sound} == {"pcm-s16"}
+    assert np.array_equal(np.concatenate([np.frombuffer(b64decode(m["data"]), "<i2") for m in sound]), stream * 32768)
+    pictures = messages(path, "/hri/pictures")
+    assert len(pictures) == len(frames) and pictures[15]["timestamp"] == {"sec": 1, "nsec": 0}
+    assert np.array_equal(hri.media.decode_image(b64decode(pictures[20]["data"]), ""), frames[20])
+    joints, (first, _) = messages(path, "/hri/joint_states"), messages(path, "/hri/joint_trajectory")
+    assert len(joints) > 100 and len(joints[0]["name"]) == len(joints[0]["position"]) == 25
+    assert (
+        first["header"]["frame_id"] == "flat" and first["joint_names"] == ["head_joint_2"] and len(first["points"]) == 5
+    )
+
+
+def test_devices_that_come_and_go_are_replayed_as_they_came(words: Any, signs: Any, tmp_path: Path) -> None:
+    import cv2
+
+    class Unplugged(ArraySource):
+        def read(self) -> Any:
+            block = super().read()
+            if block is None:
+                raise Stalled("unplugged")
+            return block
+
+    parts = [speech([("flat", 1.0)], 2.0), speech([("tall", 0.8)], 3.0)]
+    frames = signing([("flat", 0.5)], 4.0)
+    frames = [*frames[:50], *[cv2.resize(frame, (96, 96)) for frame in frames[50:]]]
+
+    def open_sound() -> Unplugged:
+        if not parts:
+            raise IoError("away")
+        return Unplugged(parts.pop(0), RATE_HZ, paced=True)
+
+    path = tmp_path / "live.mcap"
+    events = []
+    session = Session(words, signs, options=SessionOptions(retry_s=0.1))
+    run = session.run(open_sound, ClipSource(frames, FPS, paced=True), live=True, recorder=McapRecorder(path))
+    for event in run:
+        events.append(event.to_dict())
+        if [(e["event"], e["mode"]) for e in events].count(("stall", "speech")) == 2:
+            run.close()  # type: ignore[attr-defined]
+            break
+    recording = read_recording(path)
+    kept = [e for e in recording.events if e["event"] in ("stall", "reconnected")]
+    assert [(e["event"], e["mode"]) for e in kept].count(("reconnected", "speech")) == 1
+    assert ("stall", "gesture") in [(e["event"], e["mode"]) for e in kept]
+    again = [e.to_dict() for e in replay(recording, words, signs)]
+    assert decisions(again) == decisions(recording.events)
+    assert [e["final"] for e in again if e["event"] == "fused"] == ["flat", "tall"]
+    assert {m["format"] for m in messages(path, "/hri/sound")} == {"pcm-f32"}
+
+
+def test_a_recorder_takes_one_session_at_a_time_and_a_place_that_can_be_written(words: Any, tmp_path: Path) -> None:
+    recorder = McapRecorder(tmp_path / "a.mcap")
+    one, other = Session(words), Session(words)
+    running = one.run(ArraySource(speech([], 1.0), RATE_HZ), recorder=recorder)
+    next(running)
+    with pytest.raises(InvalidArgument, match="another session is being recorded"):
+        next(other.run(ArraySource(speech([], 1.0), RATE_HZ), recorder=recorder))
+    assert len(list(running)) > 5 and read_recording(tmp_path / "a.mcap").events
+    assert list(other.run(ArraySource(speech([], 1.0), RATE_HZ), recorder=recorder))
+    with pytest.raises(IoError, match="missing"):
+        next(one.run(ArraySource(speech([], 1.0), RATE_HZ), recorder=McapRecorder(tmp_path / "missing" / "a.mcap")))
+    assert list(one.run(ArraySource(speech([], 1.0), RATE_HZ)))
+
+
+def test_a_full_disk_ends_the_recording_and_not_the_session(
+    words: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from hri.session import recording
+
+    written = recording._Counted.write
+
+    def write(self: Any, data: bytes) -> int:
+        if self.tell() > 20_000:
+            raise IoError("No space left on device")
+        return written(self, data)
+
+    monkeypatch.setattr(recording._Counted, "write", write)
+    recorder = McapRecorder(tmp_path / "a.mcap")
+    rng = np.random.default_rng(0)
+    loud = speech([("flat", 60.0)], 62.0)
+    loud[: 50 * RATE_HZ] += 1e-4 * rng.standard_normal(50 * RATE_HZ).astype("f4")
+    events = list(Session(words).run(ArraySource(loud, RATE_HZ), recorder=recorder))
+    assert [e.fields["final"] for e in events if e.event == "fused"] == ["flat"]
+    assert "No space left" in recorder.failure and list(tmp_path.iterdir()) == []
+
+
+def made(path: Path, about: dict[str, str] | None, rows: list[tuple[str, bytes]]) -> Path:
+    with path.open("wb") as file:
+        out = writer.Writer(file)
+        out.start()
+        if about is not None:
+            out.add_metadata("hri.session", about)
+        for topic, data in rows:
+            channel = out.register_channel(topic, "json", 0)
+            out.add_message(channel, 0, data, 0)
+        out.finish()
+    return path
+
+
+GOOD = {
+    name: json.dumps(value)
+    for name, value in {
+        "version": 1,
+        "options": {"fusion": {}},
+        "labels": [],
+        "models": {},
+        "endpointer": None,
+        "segmenter": None,
+    }.items()
+}
+SOUND = {"time_s": 0, "offset_s": 0, "data": "AAA=", "format": "pcm-s16", "sample_rate": 8000, "stream": 0}
+
+
+@pytest.mark.parametrize(
+    ("about", "rows", "message"),
+    [
+        (None, [], "no metadata of a session"),
+        (GOOD | {"version": "2"}, [], "version 2 is not 1"),
+        (GOOD | {"options": '{"window_s": -1, "fusion": {}}'}, [], "window_s"),
+        (GOOD | {"options": "[]"}, [], "options"),
+        (GOOD | {"labels": "{"}, [], "not a JSON file"),
+        (GOOD, [("/hri/events", b"{}")], "KeyError: 'time'"),
+        (GOOD, [("/hri/events", b"\xff")], "UnicodeDecodeError"),
+        (GOOD, [("/hri/events", b'{"time": 1e999, "event": "a", "mode": "b"}')], "is no number"),
+        (GOOD, [("/hri/sound", json.dumps(SOUND | {"format": "opus"}).encode())], "format 'opus'"),
+        (GOOD, [("/hri/sound", json.dumps(SOUND | {"sample_rate": 0}).encode())], "sample_rate 0"),
+        (GOOD, [("/hri/sound", json.dumps(SOUND | {"stream": -1}).encode())], "stream -1"),
+    ],
+)
+def test_damaged_recordings_are_refused(
+    about: dict[str, str] | None, rows: list[tuple[str, bytes]], message: str, tmp_path: Path
+) -> None:
+    path = made(tmp_path / "a.mcap", about, rows)
+    with pytest.raises(FormatError, match=r"a\.mcap.*" + message):
+        read_recording(path)
+
+
+@pytest.mark.parametrize("change", [lambda data: data[:200], lambda data: b"text", lambda data: b"", bytes.upper])
+def test_files_of_another_kind_are_refused(change: Callable[[bytes], bytes], tmp_path: Path) -> None:
+    path = made(tmp_path / "a.mcap", GOOD, [("/hri/sound", json.dumps(SOUND).encode())] * 30)
+    path.write_bytes(change(path.read_bytes()))
+    with pytest.raises(FormatError, match=r"a\.mcap"):
+        read_recording(path)
+    with pytest.raises(IoError):
+        read_recording(tmp_path / "none.mcap")
+
+
+def test_a_replay_needs_the_recognisers_and_sound_samples(words: Any, tmp_path: Path) -> None:
+    events = [{"time": 0.0, "event": "listening", "mode": "speech"}, {"time": 9.0, "event": "ended", "mode": "speech"}]
+    rows = [("/hri/events", json.dumps(event).encode()) for event in events]
+    path = made(tmp_path / "a.mcap", GOOD, [*rows, ("/hri/sound", json.dumps(SOUND | {"data": "!"}).encode())])
+    with pytest.raises(InvalidArgument, match="recogniser of words"):
+        list(replay(read_recording(path)))
+    broken = [e for e in replay(read_recording(path), words) if e.event == "stall"]
+    assert "samples at 0 s" in broken[0].fields["message"], "a stream that is damaged ends its mode"
