@@ -123,6 +123,7 @@ READERS: dict[str, Callable[[Any], object]] = {
     "words.hri": hri.WordRecognizer.load,
     "signs.hri": hri.GestureRecognizer.load,
     "connected.hri": hri.ConnectedWordRecognizer.load,
+    "sentences.hri": hri.SentenceRecognizer.load,
     "language.arpa": NGramModel.load,
     "estimator.hri": Codebook.load,
     "dataset.toml": lambda path: read_manifest(Path(path)),

@@ -8,6 +8,7 @@
 #include "hri/features/hand/hand_finder_options.hpp"
 #include "hri/features/hand/hand_pair.hpp"
 #include "hri/features/hand/hand_track.hpp"
+#include "hri/features/hand/two_hand_features.hpp"
 #include "hri/language/connected_decoder.hpp"
 #include "hri/language/ngram_model.hpp"
 #include "hri/models/adaptation/map_adaptation.hpp"
@@ -28,6 +29,7 @@
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/gesture/gesture_stream.hpp"
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
+#include "hri/recognition/sentence/sentence_recognizer.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
 #include "hri/signal/endpointer.hpp"
@@ -53,7 +55,8 @@ using All = testing::Types<
     StateChoiceOptions, SequenceModelOptions, AdaptationOptions, SpeakerAdapterOptions,
     SpeechEmbeddingOptions, WordRecognizerOptions, GestureRecognizerOptions, SilhouetteOptions,
     HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
-    GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions>;
+    GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
+    TwoHandFeatureOptions, SentenceRecognizerOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

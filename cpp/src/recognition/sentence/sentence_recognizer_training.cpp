@@ -23,8 +23,8 @@ constexpr int kMaxFolds = 4;
 constexpr int kNoFold = -1;
 constexpr int kNumPasses = 2;
 constexpr std::array kFramesPerState{2, 3, 4};
-constexpr std::array kPenalties{-80.0, -40.0, -20.0, 0.0, 20.0};
-constexpr std::array kScales{2.0, 4.0, 8.0, 12.0, 16.0};
+constexpr std::array kPenalties{-40.0, 0.0, 20.0, 40.0};
+constexpr std::array kScales{8.0, 12.0, 16.0};
 
 struct Signed {
   MatrixF frames;

@@ -25,7 +25,7 @@ namespace hri {
 
 struct HRI_API SentenceRecognizerOptions {
   TwoHandFeatureOptions features;
-  int frames_per_state = 0;
+  int frames_per_state = 3;
   int max_states = 8;
   int max_iterations = 8;
   int between_states = 2;
