@@ -25,6 +25,7 @@ KEYWORDS_OF = (
     _native.SpeakerAdapterOptions,
     _native.SpeechEmbeddingOptions,
     _native.ConnectedWordRecognizerOptions,
+    _native.SentenceRecognizerOptions,
 )
 
 KEYWORDS_HEAD = '''# SPDX-FileCopyrightText: The hri contributors

@@ -22,6 +22,7 @@ void bind_wavelet_tools(py::module_& m);
 void bind_speech_features(py::module_& m);
 void bind_hand_shapes(py::module_& m);
 void bind_hand_pair(py::module_& m);
+void bind_two_hand_features(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_hand_sources(py::module_& m);
 void bind_codebook(py::module_& m);
@@ -39,6 +40,7 @@ void bind_gesture_segments(py::module_& m);
 void bind_connected_words(py::module_& m);
 void bind_htk_files(py::module_& m);
 void bind_htk_models(py::module_& m);
+void bind_sentences(py::module_& m);
 
 namespace {
 
@@ -124,6 +126,7 @@ PYBIND11_MODULE(_native, m) {
   bind_speech_features(m);
   bind_hand_shapes(m);
   bind_hand_pair(m);
+  bind_two_hand_features(m);
   bind_hand_features(m);
   bind_hand_sources(m);
   bind_codebook(m);
@@ -141,4 +144,5 @@ PYBIND11_MODULE(_native, m) {
   bind_connected_words(m);
   bind_htk_files(m);
   bind_htk_models(m);
+  bind_sentences(m);
 }

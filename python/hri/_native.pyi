@@ -118,6 +118,10 @@ __all__: list[str] = [
     "PossibilityClassifier",
     "RbfClassifier",
     "RbfClassifierOptions",
+    "RecognisedSentence",
+    "RecognisedSign",
+    "SentenceRecognizer",
+    "SentenceRecognizerOptions",
     "SequenceModelOptions",
     "SequenceNetwork",
     "SequenceNetworkOptions",
@@ -133,10 +137,13 @@ __all__: list[str] = [
     "SpeechEmbeddingOptions",
     "StateChoice",
     "StateChoiceOptions",
+    "TWO_HAND_TRACK_COLUMNS",
     "Topology",
     "TrainingReport",
     "TranscribedWord",
     "Transcript",
+    "TwoHandFeatureComputer",
+    "TwoHandFeatureOptions",
     "UtteranceDecision",
     "Wav",
     "WaveletDescriptorComputer",
@@ -164,6 +171,7 @@ __all__: list[str] = [
     "find_speech",
     "frequency_order",
     "hand_place",
+    "hand_scale_px",
     "hu_features",
     "hu_moments",
     "idwt",
@@ -1862,6 +1870,107 @@ class HandPairTracker:
     def reset(self) -> None:
         """
         Forgets both hands.
+        """
+
+class TwoHandFeatureOptions:
+    """
+    Features of tracks of both hands.
+
+    Parameters
+    ----------
+    use_left : bool, default True
+        the left hand beside the right one
+    use_polar : bool, default False
+        distance from the reference, cosine and sine of the direction, of each hand
+    use_relation : bool, default False
+        from the left hand to the right one: x, y and distance
+    delta_orders : int, default 2
+        derivatives appended; 0..2
+    delta_window : int, default 2
+        frames on each side of the regression; 1..10
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        use_left: bool = True,
+        use_polar: bool = False,
+        use_relation: bool = False,
+        delta_orders: int = 2,
+        delta_window: int = 2,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def delta_orders(self) -> int:
+        """
+        derivatives appended
+        """
+    @delta_orders.setter
+    def delta_orders(self, arg1: typing.Any) -> None: ...
+    @property
+    def delta_window(self) -> int:
+        """
+        frames on each side of the regression
+        """
+    @delta_window.setter
+    def delta_window(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_left(self) -> bool:
+        """
+        the left hand beside the right one
+        """
+    @use_left.setter
+    def use_left(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_polar(self) -> bool:
+        """
+        distance from the reference, cosine and sine of the direction, of each hand
+        """
+    @use_polar.setter
+    def use_polar(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_relation(self) -> bool:
+        """
+        from the left hand to the right one: x, y and distance
+        """
+    @use_relation.setter
+    def use_relation(self, arg1: typing.Any) -> None: ...
+
+class TwoHandFeatureComputer:
+    """
+    Features of both hands in every frame, from tracks of the hands and the head.
+    """
+    def __init__(self, options: TwoHandFeatureOptions = ...) -> None: ...
+    def compute(
+        self,
+        tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        scale_px: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_frames, num_features). tracks: as of hand_scale_px(); scale_px: by which places are divided, 0: hand_scale_px(tracks). Raises InvalidArgument.
+        """
+    @property
+    def num_features(self) -> int:
+        """
+        Columns of the result.
+        """
+    @property
+    def options(self) -> TwoHandFeatureOptions:
+        """
+        As given.
         """
 
 class OrientationHistogramOptions:
@@ -7110,6 +7219,34 @@ class HtkFeatureOptions:
         ACCWINDOW; 1..10
     third_window : int, default 2
         THIRDWINDOW; 1..10
+class SentenceRecognizerOptions:
+    """
+    Options of SentenceRecognizer.
+
+    Parameters
+    ----------
+    features : TwoHandFeatureOptions or dict
+        what is computed of the tracks
+    frames_per_state : int, default 3
+        a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences held out; 0..100
+    max_states : int, default 8
+        left-right states of a word, at most; 1..64
+    max_iterations : int, default 8
+        iterations of Baum-Welch at most; 1..100000
+    between_states : int, default 2
+        ergodic states of what lies between words: rest and movement; 1..16
+    between_mixtures : int, default 2
+        Gaussians of each of them; 1..64
+    language_order : int, default 2
+        words of an n-gram of the sentences trained on; 0: any word may follow any; 0..2
+    choose_weights : bool, default True
+        decoder.insertion_penalty, decoder.language_scale and known_language_scale are chosen on sentences held out
+    known_language_scale : float, default 1.0
+        factor on the log probabilities of words whose frames are known; 0..1000000
+    decoder : ConnectedDecoderOptions or dict
+        how sentences are searched
+    seed : int, default 0
+        of the start of training by k-means; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -7145,6 +7282,17 @@ class HtkFeatureOptions:
         delta_window: int = 2,
         acceleration_window: int = 2,
         third_window: int = 2,
+        features: TwoHandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        frames_per_state: int = 3,
+        max_states: int = 8,
+        max_iterations: int = 8,
+        between_states: int = 2,
+        between_mixtures: int = 2,
+        language_order: int = 2,
+        choose_weights: bool = True,
+        known_language_scale: float = 1.0,
+        decoder: ConnectedDecoderOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        seed: int = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -7712,16 +7860,103 @@ class HtkWordLattice:
 class HtkRecognisedWord:
     """
     A word of a recognised sentence.
+    def between_mixtures(self) -> int:
+        """
+        Gaussians of each of them
+        """
+    @between_mixtures.setter
+    def between_mixtures(self, arg1: typing.Any) -> None: ...
+    @property
+    def between_states(self) -> int:
+        """
+        ergodic states of what lies between words: rest and movement
+        """
+    @between_states.setter
+    def between_states(self, arg1: typing.Any) -> None: ...
+    @property
+    def choose_weights(self) -> bool:
+        """
+        decoder.insertion_penalty, decoder.language_scale and known_language_scale are chosen on sentences held out
+        """
+    @choose_weights.setter
+    def choose_weights(self, arg1: typing.Any) -> None: ...
+    @property
+    def decoder(self) -> ConnectedDecoderOptions:
+        """
+        how sentences are searched
+        """
+    @decoder.setter
+    def decoder(self, arg1: typing.Any) -> None: ...
+    @property
+    def features(self) -> TwoHandFeatureOptions:
+        """
+        what is computed of the tracks
+        """
+    @features.setter
+    def features(self, arg1: typing.Any) -> None: ...
+    @property
+    def frames_per_state(self) -> int:
+        """
+        a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences held out
+        """
+    @frames_per_state.setter
+    def frames_per_state(self, arg1: typing.Any) -> None: ...
+    @property
+    def known_language_scale(self) -> float:
+        """
+        factor on the log probabilities of words whose frames are known
+        """
+    @known_language_scale.setter
+    def known_language_scale(self, arg1: typing.Any) -> None: ...
+    @property
+    def language_order(self) -> int:
+        """
+        words of an n-gram of the sentences trained on; 0: any word may follow any
+        """
+    @language_order.setter
+    def language_order(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_iterations(self) -> int:
+        """
+        iterations of Baum-Welch at most
+        """
+    @max_iterations.setter
+    def max_iterations(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_states(self) -> int:
+        """
+        left-right states of a word, at most
+        """
+    @max_states.setter
+    def max_states(self, arg1: typing.Any) -> None: ...
+    @property
+    def seed(self) -> int:
+        """
+        of the start of training by k-means
+        """
+    @seed.setter
+    def seed(self, arg1: typing.Any) -> None: ...
+
+class RecognisedSign:
+    """
+    One word of a signed sentence.
     """
     @property
     def first_frame(self) -> int:
         """
         First frame.
+        Its first frame.
+        """
+    @property
+    def label(self) -> str:
+        """
+        A word of the vocabulary.
         """
     @property
     def last_frame(self) -> int:
         """
         One past the last frame.
+        One past its last frame.
         """
     @property
     def log_score(self) -> float:
@@ -7749,12 +7984,19 @@ class HtkRecognisedSentence:
         Whether it is a whole sentence.
         """
     @property
+
+class RecognisedSentence:
+    """
+    The words of a signed sentence.
+    """
+    @property
     def log_score(self) -> float:
         """
         Of the best path.
         """
     @property
     def words(self) -> list[HtkRecognisedWord]:
+    def words(self) -> list[RecognisedSign]:
         """
         In the order of time.
         """
@@ -7773,6 +8015,51 @@ class HtkRecognizer:
     def recognise(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> HtkRecognisedSentence:
         """
         The best sentence of frames, shape (num_frames, num_columns).
+class SentenceRecognizer:
+    """
+    Sentences of signs; hri.SentenceRecognizer wraps it.
+    """
+    @staticmethod
+    def from_model_file(file: ModelFile) -> SentenceRecognizer: ...
+    @staticmethod
+    def load(path: str | bytes | os.PathLike[str]) -> SentenceRecognizer: ...
+    @staticmethod
+    def train(
+        tracks: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        words: collections.abc.Sequence[
+            collections.abc.Sequence[
+                tuple[str, typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
+            ]
+        ],
+        scales_px: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        groups: collections.abc.Sequence[str],
+        options: SentenceRecognizerOptions,
+        progress: collections.abc.Callable[[int, int], None] | None = None,
+    ) -> SentenceRecognizer: ...
+    def recognise(
+        self,
+        tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        scale_px: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> RecognisedSentence: ...
+    def recognise_spans(
+        self,
+        tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        spans: collections.abc.Sequence[
+            tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
+        ],
+        scale_px: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        with_language: bool = True,
+    ) -> RecognisedSentence: ...
+    def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
+    def to_model_file(self) -> ModelFile: ...
+    def with_decoder(self, decoder: ConnectedDecoderOptions) -> SentenceRecognizer: ...
+    def with_known_language_scale(self, scale: typing.SupportsFloat | typing.SupportsIndex) -> SentenceRecognizer: ...
+    @property
+    def labels(self) -> list[str]: ...
+    @property
+    def options(self) -> SentenceRecognizerOptions:
+        """
+        As trained, with what training chose.
         """
 
 def activity_frames(
@@ -8024,6 +8311,11 @@ def frequency_order(level: typing.SupportsInt | typing.SupportsIndex) -> list[in
 def hand_place(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> typing.Any:
     """
     x, y and area of the hand in shares of the picture; None without one.
+    """
+
+def hand_scale_px(tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
+    """
+    Root mean square distance of the hands from the reference, in pixels. tracks: float32, shape (num_frames, 6), columns TWO_HAND_TRACK_COLUMNS, NaN where a point is out of sight. Raises InvalidArgument.
     """
 
 def hu_features(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> numpy.typing.NDArray[numpy.float32]:
@@ -8646,4 +8938,5 @@ def write_wav_pcm16(
 HAND_TRACK_COLUMNS: tuple = ("x", "y", "log_area", "axis_cosine", "axis_sine", "speed", "move_cosine", "move_sine")
 LEARNED_STILL_CHANGE: float = 0.12
 NUM_LANDMARKS: int = 21
+TWO_HAND_TRACK_COLUMNS: tuple = ("left_x", "left_y", "right_x", "right_y", "reference_x", "reference_y")
 __version__: str = "0.1.0"

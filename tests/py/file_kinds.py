@@ -150,6 +150,7 @@ READERS: dict[str, Callable[[Any], object]] = {
     "words.hri": hri.WordRecognizer.load,
     "signs.hri": hri.GestureRecognizer.load,
     "connected.hri": hri.ConnectedWordRecognizer.load,
+    "sentences.hri": hri.SentenceRecognizer.load,
     "language.arpa": NGramModel.load,
     "frames.mfc": ParameterFile.read,
     "labels.lab": Transcription.read,

@@ -22,8 +22,11 @@ from hri._native import (
     PairedHand,
     SilhouetteCepstrumComputer,
     SilhouetteCepstrumOptions,
+    TwoHandFeatureComputer,
+    TwoHandFeatureOptions,
     WaveletDescriptorComputer,
     WaveletDescriptorOptions,
+    hand_scale_px,
 )
 from hri.features.frames import filter_bank, filter_edges, lpc_cepstrum, normalise_time, spectral_envelope
 from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
@@ -65,6 +68,8 @@ __all__ = [
     "PairedHand",
     "SilhouetteCepstrumComputer",
     "SilhouetteCepstrumOptions",
+    "TwoHandFeatureComputer",
+    "TwoHandFeatureOptions",
     "WaveletDescriptorComputer",
     "WaveletDescriptorOptions",
     "b_spline_wavelet",
@@ -77,6 +82,7 @@ __all__ = [
     "filter_edges",
     "hand_column_names",
     "hand_features",
+    "hand_scale_px",
     "hu_features",
     "hu_moments",
     "lpc_cepstrum",

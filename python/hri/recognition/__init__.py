@@ -14,6 +14,7 @@ from hri._native import (
     GestureSegment,
     GestureSegmenter,
     GestureSegmenterOptions,
+    SentenceRecognizerOptions,
     SequenceModelOptions,
     SpeakerAdapterOptions,
     SpeechEmbeddingOptions,
@@ -24,7 +25,14 @@ from hri.recognition.decision import Decision, NBest
 from hri.recognition.files import load
 from hri.recognition.gesture import GestureRecognizer
 from hri.recognition.held_out_report import ConfusedPair, HeldOutReport
-from hri.recognition.sentence import ConnectedWordRecognizer, TranscribedWord, Transcript
+from hri.recognition.sentence import (
+    ConnectedWordRecognizer,
+    RecognisedSentence,
+    RecognisedSign,
+    SentenceRecognizer,
+    TranscribedWord,
+    Transcript,
+)
 from hri.recognition.word import (
     FillerWord,
     SpeakerAdapter,
@@ -59,6 +67,10 @@ __all__ = [
     "GestureStreamOptions",
     "HeldOutReport",
     "NBest",
+    "RecognisedSentence",
+    "RecognisedSign",
+    "SentenceRecognizer",
+    "SentenceRecognizerOptions",
     "SequenceModelOptions",
     "SpeakerAdapter",
     "SpeakerAdapterOptions",

@@ -287,3 +287,29 @@ class ConnectedWordRecognizerKeywords(TypedDict, total=False):
     num_alignments: int
     choose_penalty: bool
     decoder: _native.ConnectedDecoderOptions | ConnectedDecoderKeywords
+
+
+class TwoHandFeatureKeywords(TypedDict, total=False):
+    """Fields of `TwoHandFeatureOptions`."""
+
+    use_left: bool
+    use_polar: bool
+    use_relation: bool
+    delta_orders: int
+    delta_window: int
+
+
+class SentenceRecognizerKeywords(TypedDict, total=False):
+    """Fields of `SentenceRecognizerOptions`."""
+
+    features: _native.TwoHandFeatureOptions | TwoHandFeatureKeywords
+    frames_per_state: int
+    max_states: int
+    max_iterations: int
+    between_states: int
+    between_mixtures: int
+    language_order: int
+    choose_weights: bool
+    known_language_scale: float
+    decoder: _native.ConnectedDecoderOptions | ConnectedDecoderKeywords
+    seed: int

@@ -8,6 +8,7 @@
 #include "hri/features/hand/hand_finder_options.hpp"
 #include "hri/features/hand/hand_pair.hpp"
 #include "hri/features/hand/hand_track.hpp"
+#include "hri/features/hand/two_hand_features.hpp"
 #include "hri/htk/feature_extractor.hpp"
 #include "hri/language/connected_decoder.hpp"
 #include "hri/language/ngram_model.hpp"
@@ -29,6 +30,7 @@
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/gesture/gesture_stream.hpp"
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
+#include "hri/recognition/sentence/sentence_recognizer.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
 #include "hri/signal/endpointer.hpp"
@@ -55,7 +57,7 @@ using All = testing::Types<
     SpeechEmbeddingOptions, WordRecognizerOptions, GestureRecognizerOptions, SilhouetteOptions,
     HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
     GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
-    htk::HtkFeatureOptions>;
+    htk::HtkFeatureOptions, TwoHandFeatureOptions, SentenceRecognizerOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

@@ -5,7 +5,6 @@
 // every word and of silence, one HMM each; the insertion penalty on strings of speakers held out.
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "hri/signal/activity.hpp"
 #include "hri/signal/resample.hpp"
+#include "recognition/sentence/sentence_training.hpp"
 #include "recognition/sentence/training_strings.hpp"
 
 namespace hri {
@@ -29,7 +29,6 @@ constexpr int kNoFold = -1;
 constexpr int kDefaultRateHz = 16000;
 constexpr int kSpeakersPerMixture = 2;
 constexpr int kMaxMixtures = 4;
-constexpr double kLongestStay = 0.98;
 constexpr std::array kPenalties{-400.0, -300.0, -200.0, -150.0, -100.0, -70.0,
                                 -50.0,  -30.0,  -15.0,  0.0,    15.0,   30.0};
 
@@ -38,36 +37,6 @@ struct TrainedWords {
   std::vector<GaussianMixtureHmm> models;
   VectorD final_stays;
 };
-
-// Fewest words substituted, deleted and inserted between two label sequences (Levenshtein).
-int num_errors(const std::vector<int>& truth, const std::vector<int>& found) {
-  std::vector<int> row(found.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j) row[j] = static_cast<int>(j);
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    int diagonal = row[0]++;
-    for (std::size_t j = 0; j < found.size(); ++j) {
-      const int substituted = diagonal + (truth[i] == found[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-// From how long the last state lasts on average along the best paths of the sequences.
-double final_stay(const GaussianMixtureHmm& model, const std::vector<MatrixF>& sequences) {
-  constexpr std::size_t kEnough = 200;
-  double frames = 0;
-  double visits = 0;
-  std::vector<int> path;
-  for (std::size_t i = 0; i < std::min(sequences.size(), kEnough); ++i) {
-    if (model.viterbi(sequences[i], &path) == -std::numeric_limits<double>::infinity()) continue;
-    const auto last = std::count(path.begin(), path.end(), model.num_states() - 1);
-    frames += static_cast<double>(last);
-    visits += last > 0 ? 1 : 0;
-  }
-  return visits > 0 ? std::min(1 - visits / frames, kLongestStay) : 0.5;
-}
 
 // Forced alignment: where words that are known lie in frames.
 class Aligner {
@@ -251,7 +220,8 @@ class SentenceTrainer {
       options.seed = options_.words.seed;
       options.should_stop = stop;
       models[c] = GaussianMixtureHmm::train(sequences[c], options);
-      trained.final_stays[static_cast<Eigen::Index>(c)] = final_stay(*models[c], sequences[c]);
+      trained.final_stays[static_cast<Eigen::Index>(c)] =
+          detail::final_stay(*models[c], sequences[c]);
     });
     for (auto& model : models) trained.models.push_back(std::move(*model));
     return trained;
@@ -278,7 +248,7 @@ class SentenceTrainer {
         found.reserve(transcript.words.size());
         for (const TranscribedWord& word : transcript.words)
           found.push_back(label_index(labels_, word.label));
-        (*errors)[p] += num_errors(string.labels, found);
+        (*errors)[p] += detail::num_word_errors(string.labels, found);
       }
     });
   }

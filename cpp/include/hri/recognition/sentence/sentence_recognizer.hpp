@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sentences of signs, from tracks of both hands: one HMM a word, one of what lies between words
+// (rest, and the movement from one sign to the next), a bigram of the sentences that were trained
+// on, decoded in one pass (ConnectedDecoder).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hri/core/export.hpp"
+#include "hri/core/options.hpp"
+#include "hri/core/types.hpp"
+#include "hri/features/hand/two_hand_features.hpp"
+#include "hri/io/model_file.hpp"
+#include "hri/language/connected_decoder.hpp"
+#include "hri/language/ngram_model.hpp"
+#include "hri/language/word_emissions.hpp"
+#include "hri/recognition/training.hpp"
+
+namespace hri {
+
+struct HRI_API SentenceRecognizerOptions {
+  TwoHandFeatureOptions features;
+  int frames_per_state = 3;
+  int max_states = 8;
+  int max_iterations = 8;
+  int between_states = 2;
+  int between_mixtures = 2;
+  int language_order = 2;
+  bool choose_weights = true;
+  double known_language_scale = 1;
+  ConnectedDecoderOptions decoder;
+  std::uint64_t seed = 0;
+
+  static constexpr const char* kName = "SentenceRecognizerOptions";
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& v) {
+    v("features", o.features, any_value, "what is computed of the tracks");
+    v("frames_per_state", o.frames_per_state, within(0, 100),
+      "a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences "
+      "held out");
+    v("max_states", o.max_states, within(1, 64), "left-right states of a word, at most");
+    v("max_iterations", o.max_iterations, within(1, 100000), "iterations of Baum-Welch at most");
+    v("between_states", o.between_states, within(1, 16),
+      "ergodic states of what lies between words: rest and movement");
+    v("between_mixtures", o.between_mixtures, within(1, 64), "Gaussians of each of them");
+    v("language_order", o.language_order, within(0, 2),
+      "words of an n-gram of the sentences trained on; 0: any word may follow any");
+    v("choose_weights", o.choose_weights, any_value,
+      "decoder.insertion_penalty, decoder.language_scale and known_language_scale are chosen on "
+      "sentences held out");
+    v("known_language_scale", o.known_language_scale, within(0, 1e6),
+      "factor on the log probabilities of words whose frames are known");
+    v("decoder", o.decoder, any_value, "how sentences are searched");
+    v("seed", o.seed, any_seed, "of the start of training by k-means");
+  }
+};
+
+/// Frames first up to last, last excluded, of a word of a sentence.
+struct SignedWordSpan {
+  std::string label;
+  std::int64_t first_frame = 0;
+  std::int64_t last_frame = 0;
+};
+
+/// A sentence to train on. Words are in the order of time; they may overlap by some frames.
+struct SignedSample {
+  MatrixF tracks;       ///< (num_frames, kNumTwoHandTrackColumns), see TwoHandFeatureComputer
+  double scale_px = 0;  ///< of the signer; 0: hand_scale_px() of the tracks
+  std::vector<SignedWordSpan> words;
+  std::string group;  ///< signer or session: never both trained on and held out
+  std::string name;   ///< what errors call it
+};
+
+struct RecognisedSign {
+  std::string label;
+  std::int64_t first_frame = 0;
+  std::int64_t last_frame = 0;  ///< one past the last
+  double log_score = 0;         ///< what it adds to the sentence's
+};
+
+struct RecognisedSentence {
+  std::vector<RecognisedSign> words;
+  double log_score = 0;  ///< natural log, of the best path
+
+  /// The words, with spaces between.
+  [[nodiscard]] std::string text() const;
+};
+
+/// Immutable; const calls are safe from several threads. Copies share their models.
+class HRI_API SentenceRecognizer {
+ public:
+  /// From trained parts: `models` are left-right ones of the sorted `labels` and behind them the
+  /// one of what lies between; `final_stays` the probability of each word to stay in its last
+  /// state, and of what lies between to go on; `language` may be null. Throws InvalidArgument for
+  /// parts that do not fit each other, and options out of range.
+  SentenceRecognizer(const SentenceRecognizerOptions& options, std::vector<std::string> labels,
+                     std::vector<GaussianMixtureHmm> models, const VectorD& final_stays,
+                     std::shared_ptr<const NGramModel> language);
+
+  /// Throws InvalidArgument (naming the sentence) for tracks that TwoHandFeatureComputer refuses,
+  /// words outside the frames, empty or not in the order of time, labels with white space in them,
+  /// and where all frames lie in words; Interrupted.
+  static SentenceRecognizer train(const std::vector<SignedSample>& samples,
+                                  const SentenceRecognizerOptions& options,
+                                  const TrainingProgress& progress = {},
+                                  const StopCheck& should_stop = {});
+
+  /// The same with other options of the decoder. Throws InvalidArgument for values out of range.
+  [[nodiscard]] SentenceRecognizer with_decoder(const ConnectedDecoderOptions& decoder) const;
+  /// The same with another scale of the language model where frames are known.
+  [[nodiscard]] SentenceRecognizer with_known_language_scale(double scale) const;
+
+  static SentenceRecognizer load(const std::string& path);
+  void save(const std::string& path) const;
+  [[nodiscard]] ModelFile to_model_file() const;
+  static SentenceRecognizer from_model_file(const ModelFile& file);
+
+  /// The sentence that tracks (num_frames, kNumTwoHandTrackColumns) show; `scale_px` as in training
+  /// (0: of the tracks). Throws InvalidArgument as TwoHandFeatureComputer does.
+  [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF tracks, double scale_px = 0) const;
+  /// The same where the frames of the words are known: one word for each of `spans`, whose labels
+  /// are not read; with_language false: each by itself. Throws InvalidArgument as train() does.
+  [[nodiscard]] RecognisedSentence recognise_spans(ConstMatrixRefF tracks,
+                                                   const std::vector<SignedWordSpan>& spans,
+                                                   double scale_px = 0,
+                                                   bool with_language = true) const;
+
+  [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
+  [[nodiscard]] const SentenceRecognizerOptions& options() const { return options_; }
+  /// nullptr: there is none.
+  [[nodiscard]] const std::shared_ptr<const NGramModel>& language() const { return language_; }
+  [[nodiscard]] const std::vector<GaussianMixtureHmm>& models() const {
+    return emissions_->models();
+  }
+  [[nodiscard]] const VectorD& final_stays() const { return final_stays_; }
+
+ private:
+  static SentenceRecognizer read(const ModelFile& file);
+  [[nodiscard]] MatrixF frames_of(ConstMatrixRefF tracks, double scale_px) const;
+  [[nodiscard]] VectorD scores_of(ConstMatrixRefF frames) const;
+  [[nodiscard]] MatrixD language_table() const;
+
+  SentenceRecognizerOptions options_;
+  std::vector<std::string> labels_;
+  VectorD final_stays_;
+  TwoHandFeatureComputer features_;
+  std::shared_ptr<const GaussianEmissions> emissions_;
+  std::vector<WordChain> chains_;
+  std::shared_ptr<const NGramModel> language_;
+  std::shared_ptr<const WordNetwork> network_;
+};
+
+}  // namespace hri

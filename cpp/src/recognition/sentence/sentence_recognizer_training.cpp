@@ -1,0 +1,374 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Training of SentenceRecognizer: the frames of every word, and those between words, one HMM each;
+// lengths of words, weights of the language and the insertion penalty on sentences held out.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/parallel_for.hpp"
+#include "hri/core/error.hpp"
+#include "hri/models/hmm/few_samples.hpp"
+#include "hri/models/sequence_scorer.hpp"
+#include "recognition/sentence/sentence_training.hpp"
+
+namespace hri {
+namespace {
+
+constexpr int kMaxFolds = 4;
+constexpr int kNoFold = -1;
+constexpr int kNumPasses = 2;
+constexpr std::array kFramesPerState{2, 3, 4};
+constexpr std::array kPenalties{-40.0, 0.0, 20.0, 40.0};
+constexpr std::array kScales{8.0, 12.0, 16.0};
+
+struct Signed {
+  MatrixF frames;
+  std::vector<int> words;
+  const SignedSample* sample = nullptr;
+  int fold = 0;
+};
+
+// Errors of one number of frames a state.
+struct WeightErrors {
+  std::array<std::array<int, kScales.size()>, kPenalties.size()> sentences{};
+  std::array<int, kScales.size()> known{};
+  int num_sentences = 0;
+
+  [[nodiscard]] std::pair<std::size_t, std::size_t> best() const {
+    std::pair<std::size_t, std::size_t> best{0, 0};
+    for (std::size_t p = 0; p < kPenalties.size(); ++p) {
+      for (std::size_t s = 0; s < kScales.size(); ++s) {
+        if (sentences[p][s] < sentences[best.first][best.second]) best = {p, s};
+      }
+    }
+    return best;
+  }
+  [[nodiscard]] int fewest() const {
+    const auto [p, s] = best();
+    return sentences[p][s];
+  }
+};
+
+template <class Read>
+void naming(const std::string& name, Read&& read) {
+#if defined(__cpp_exceptions)
+  try {
+    std::forward<Read>(read)();
+  } catch (const InvalidArgument& error) {
+    fail(ErrorKind::invalid_argument, name + ": " + error.what());
+  }
+#else
+  (void)name;
+  std::forward<Read>(read)();
+#endif
+}
+
+std::vector<int> equal_parts(Eigen::Index num_frames, int num_states) {
+  std::vector<int> states;
+  for (Eigen::Index t = 0; t < num_frames; ++t)
+    states.push_back(static_cast<int>(t * num_states / num_frames));
+  return states;
+}
+
+// The variance inside states, over all words.
+class PooledVariance {
+ public:
+  explicit PooledVariance(Eigen::Index dim) : squares_(VectorD::Zero(dim)) {}
+
+  void add(const std::vector<MatrixF>& sequences, const std::vector<std::vector<int>>& states,
+           int num_states) {
+    MatrixD sums = MatrixD::Zero(num_states, squares_.size());
+    VectorD counts = VectorD::Zero(num_states);
+    for (std::size_t i = 0; i < sequences.size(); ++i) {
+      for (std::size_t t = 0; t < states[i].size(); ++t) {
+        const VectorD row = sequences[i].row(static_cast<Eigen::Index>(t)).cast<double>();
+        sums.row(states[i][t]) += row.transpose();
+        squares_ += row.cwiseAbs2();
+        counts[states[i][t]] += 1;
+      }
+    }
+    for (Eigen::Index j = 0; j < num_states; ++j) {
+      if (counts[j] == 0) continue;
+      squares_ -= (sums.row(j).cwiseAbs2() / counts[j]).transpose();
+      free_ += counts[j] - 1;
+    }
+  }
+  [[nodiscard]] VectorD value() const { return (squares_ / std::max(free_, 1.0)).cwiseMax(1e-8); }
+
+ private:
+  VectorD squares_;
+  double free_ = 0;
+};
+
+// A model whose states have this variance: the prior of words that were seen a few times.
+GaussianMixtureHmm prior_model(int num_states, const VectorD& variance) {
+  Topology topology;
+  topology.num_states = num_states;
+  return {MarkovChain::initial(topology),
+          MixtureBank(MatrixD::Ones(num_states, 1), MatrixD::Zero(num_states, variance.size()),
+                      variance.transpose().replicate(num_states, 1))};
+}
+
+class SentenceTrainer {
+ public:
+  SentenceTrainer(const SentenceRecognizerOptions& options, StopCheck should_stop)
+      : options_(options), features_(options.features), should_stop_(std::move(should_stop)) {}
+
+  SentenceRecognizer run(const std::vector<SignedSample>& samples,
+                         const TrainingProgress& progress) {
+    read(samples);
+    const bool choose_length = options_.frames_per_state == 0;
+    std::vector<int> lengths{options_.frames_per_state};
+    if (choose_length) lengths.assign(kFramesPerState.begin(), kFramesPerState.end());
+    const bool choose = choose_length || options_.choose_weights;
+    const int num_folds = choose ? assign_folds() : 0;
+    const int num_steps = num_folds * static_cast<int>(lengths.size()) + 1;
+    int done = 0;
+    if (progress) progress(done, num_steps);
+    std::vector<WeightErrors> errors(lengths.size());
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      options_.frames_per_state = lengths[i];
+      for (int fold = 0; fold < num_folds; ++fold) {
+        if (usable(fold)) count_errors(fold, &errors[i]);
+        if (progress) progress(++done, num_steps);
+      }
+    }
+    const auto best = std::min_element(
+        errors.begin(), errors.end(),
+        [](const WeightErrors& a, const WeightErrors& b) { return a.fewest() < b.fewest(); });
+    options_.frames_per_state = lengths[static_cast<std::size_t>(best - errors.begin())];
+    if (options_.choose_weights && best->num_sentences > 0) choose_weights(*best);
+    SentenceRecognizer result = train_without(kNoFold);
+    if (progress) progress(num_steps, num_steps);
+    return result;
+  }
+
+ private:
+  void read(const std::vector<SignedSample>& samples) {
+    std::vector<std::string> labels;
+    for (const SignedSample& sample : samples) {
+      Signed one;
+      one.sample = &sample;
+      naming(sample.name, [&] {
+        one.frames = detail::sentence_frames(features_, sample.tracks, sample.scale_px);
+        detail::check_spans(sample.words, one.frames.rows());
+      });
+      for (const SignedWordSpan& word : sample.words) labels.push_back(word.label);
+      sentences_.push_back(std::move(one));
+    }
+    labels_ = sorted_labels(labels);
+    for (Signed& one : sentences_) {
+      for (const SignedWordSpan& word : one.sample->words)
+        one.words.push_back(label_index(labels_, word.label));
+    }
+  }
+
+  static Sentence words_of(const SignedSample& sample) {
+    Sentence words;
+    for (const SignedWordSpan& word : sample.words) words.push_back(word.label);
+    return words;
+  }
+
+  int assign_folds() {
+    std::vector<std::string> groups;
+    for (const Signed& one : sentences_) groups.push_back(one.sample->group);
+    const std::vector<int> folds =
+        held_out_folds(std::vector<int>(sentences_.size(), 0), groups, kMaxFolds);
+    for (std::size_t i = 0; i < folds.size(); ++i) sentences_[i].fold = folds[i];
+    return *std::max_element(folds.begin(), folds.end()) + 1;
+  }
+
+  // Of every label, and behind them of what lies between words.
+  [[nodiscard]] ClassSequences sequences_without(int fold) const {
+    ClassSequences sequences(labels_.size() + 1);
+    for (const Signed& one : sentences_) {
+      if (one.fold == fold) continue;
+      Eigen::Index end = 0;
+      const auto between_until = [&](Eigen::Index first) {
+        if (first > end) sequences.back().push_back(one.frames.middleRows(end, first - end));
+      };
+      for (std::size_t i = 0; i < one.words.size(); ++i) {
+        const SignedWordSpan& word = one.sample->words[i];
+        between_until(word.first_frame);
+        sequences[static_cast<std::size_t>(one.words[i])].push_back(
+            one.frames.middleRows(word.first_frame, word.last_frame - word.first_frame));
+        end = std::max<Eigen::Index>(end, word.last_frame);
+      }
+      between_until(one.frames.rows());
+    }
+    return sequences;
+  }
+
+  // Whether there is something to train on without the fold.
+  [[nodiscard]] bool usable(int fold) const {
+    const ClassSequences sequences = sequences_without(fold);
+    const auto num_labels = std::count_if(sequences.begin(), sequences.end() - 1,
+                                          [](const auto& words) { return !words.empty(); });
+    return num_labels > 1 && !sequences.back().empty();
+  }
+
+  // Words that stand only in the fold are left out.
+  [[nodiscard]] SentenceRecognizer train_without(int fold) const {
+    ClassSequences sequences = sequences_without(fold);
+    require(!sequences.back().empty(), "words: all frames lie in words, none before or after them");
+    const std::vector<MatrixF> between = std::move(sequences.back());
+    sequences.pop_back();
+    std::vector<std::string> labels;
+    ClassSequences known;
+    for (std::size_t c = 0; c < sequences.size(); ++c) {
+      if (sequences[c].empty()) continue;
+      labels.push_back(labels_[c]);
+      known.push_back(std::move(sequences[c]));
+    }
+    std::vector<GaussianMixtureHmm> models = train_words(known);
+    VectorD stays(static_cast<Eigen::Index>(models.size()) + 1);
+    for (std::size_t c = 0; c < models.size(); ++c)
+      stays[static_cast<Eigen::Index>(c)] = detail::final_stay(models[c], known[c]);
+    models.push_back(train_between(between));
+    double num_frames = 0;
+    for (const MatrixF& frames : between) num_frames += static_cast<double>(frames.rows());
+    const auto num_pieces = static_cast<double>(between.size());
+    stays[stays.size() - 1] = 1 - num_pieces / (num_frames + 1);
+    return {options_, std::move(labels), std::move(models), stays, language_without(fold)};
+  }
+
+  [[nodiscard]] std::shared_ptr<const NGramModel> language_without(int fold) const {
+    if (options_.language_order == 0) return nullptr;
+    std::vector<Sentence> texts;
+    for (const Signed& one : sentences_) {
+      if (one.fold != fold) texts.push_back(words_of(*one.sample));
+    }
+    NGramOptions options;
+    options.order = options_.language_order;
+    return std::make_shared<const NGramModel>(NGramModel::train(texts, options));
+  }
+
+  [[nodiscard]] int num_states(const std::vector<MatrixF>& sequences) const {
+    double frames = 0;
+    for (const MatrixF& s : sequences) frames += static_cast<double>(s.rows());
+    const double mean = frames / static_cast<double>(sequences.size());
+    return std::clamp(static_cast<int>(std::lround(mean / options_.frames_per_state)),
+                      std::min(2, options_.max_states), options_.max_states);
+  }
+
+  // The variances of all words are the prior of those of each. They are measured inside states of
+  // equal length, then inside those that the models find.
+  [[nodiscard]] std::vector<GaussianMixtureHmm> train_words(const ClassSequences& words) const {
+    std::vector<std::optional<GaussianMixtureHmm>> models(words.size());
+    for (int pass = 0; pass < kNumPasses; ++pass) {
+      PooledVariance pooled(features_.num_features());
+      for (std::size_t c = 0; c < words.size(); ++c)
+        pooled.add(words[c], states_of(words[c], models[c]), num_states(words[c]));
+      const VectorD variance = pooled.value();
+      detail::parallel_for(words.size(), should_stop_, [&](std::size_t c, const StopCheck& stop) {
+        FewSampleOptions options;
+        options.num_recordings = static_cast<int>(words[c].size());
+        options.max_iterations = options_.max_iterations;
+        options.should_stop = stop;
+        models[c] = train_few({prior_model(num_states(words[c]), variance)}, words[c], options);
+      });
+    }
+    std::vector<GaussianMixtureHmm> result;
+    for (auto& model : models) result.push_back(std::move(*model));
+    return result;
+  }
+
+  [[nodiscard]] std::vector<std::vector<int>> states_of(
+      const std::vector<MatrixF>& sequences, const std::optional<GaussianMixtureHmm>& model) const {
+    std::vector<std::vector<int>> states;
+    for (const MatrixF& frames : sequences) {
+      std::vector<int> path;
+      if (!model || model->viterbi(frames, &path) == -std::numeric_limits<double>::infinity())
+        path = equal_parts(frames.rows(), num_states(sequences));
+      states.push_back(std::move(path));
+    }
+    return states;
+  }
+
+  [[nodiscard]] GaussianMixtureHmm train_between(const std::vector<MatrixF>& sequences) const {
+    GaussianMixtureHmmOptions options;
+    options.topology.kind = Topology::Kind::ergodic;
+    options.topology.num_states = options_.between_states;
+    options.num_mixtures = options_.between_mixtures;
+    options.transition_prior = 1;
+    options.seed = options_.seed;
+    options.should_stop = should_stop_;
+    return GaussianMixtureHmm::train(sequences, options);
+  }
+
+  [[nodiscard]] std::vector<int> indices(const RecognisedSentence& sentence) const {
+    std::vector<int> result;
+    for (const RecognisedSign& word : sentence.words)
+      result.push_back(label_index(labels_, word.label));
+    return result;
+  }
+
+  // Without a language model its scale changes nothing.
+  [[nodiscard]] std::size_t num_scales() const {
+    return options_.choose_weights && options_.language_order > 0 ? kScales.size() : 1;
+  }
+  [[nodiscard]] std::size_t num_penalties() const {
+    return options_.choose_weights ? kPenalties.size() : 1;
+  }
+
+  // Of sentences of the fold, by every weight.
+  void count_errors(int fold, WeightErrors* errors) const {
+    const SentenceRecognizer trained = train_without(fold);
+    for (const Signed& one : sentences_) errors->num_sentences += one.fold == fold ? 1 : 0;
+    const std::size_t num_jobs = num_penalties() * num_scales();
+    detail::parallel_for(num_jobs, should_stop_, [&](std::size_t job, const StopCheck& stop) {
+      const std::size_t p = job / num_scales();
+      const std::size_t s = job % num_scales();
+      ConnectedDecoderOptions decoder = options_.decoder;
+      SentenceRecognizer tried = trained;
+      if (options_.choose_weights) {
+        decoder.insertion_penalty = kPenalties[p];
+        decoder.language_scale = kScales[s];
+        tried = trained.with_decoder(decoder).with_known_language_scale(kScales[s]);
+      }
+      for (const Signed& one : sentences_) {
+        if (one.fold != fold) continue;
+        poll(stop);
+        const SignedSample& sample = *one.sample;
+        errors->sentences[p][s] += detail::num_word_errors(
+            one.words, indices(tried.recognise(sample.tracks, sample.scale_px)));
+        if (p != 0) continue;
+        errors->known[s] += detail::num_word_errors(
+            one.words,
+            indices(tried.recognise_spans(sample.tracks, sample.words, sample.scale_px)));
+      }
+    });
+  }
+
+  void choose_weights(const WeightErrors& errors) {
+    const auto [p, s] = errors.best();
+    options_.decoder.insertion_penalty = kPenalties[p];
+    if (options_.language_order == 0) return;
+    options_.decoder.language_scale = kScales[s];
+    const auto known = std::min_element(errors.known.begin(), errors.known.end());
+    options_.known_language_scale = kScales[static_cast<std::size_t>(known - errors.known.begin())];
+  }
+
+  SentenceRecognizerOptions options_;
+  TwoHandFeatureComputer features_;
+  StopCheck should_stop_;
+  std::vector<std::string> labels_;
+  std::vector<Signed> sentences_;
+};
+
+}  // namespace
+
+SentenceRecognizer SentenceRecognizer::train(const std::vector<SignedSample>& samples,
+                                             const SentenceRecognizerOptions& options,
+                                             const TrainingProgress& progress,
+                                             const StopCheck& should_stop) {
+  validate(options);
+  return SentenceTrainer(options, should_stop).run(samples, progress);
+}
+
+}  // namespace hri

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the training of SentenceRecognizer and of ConnectedWordRecognizer share, and what the former
+// shares with recognition.
+#pragma once
+
+#include <vector>
+
+#include "hri/recognition/sentence/sentence_recognizer.hpp"
+
+namespace hri::detail {
+
+/// Fewest words substituted, deleted and inserted between two label sequences (Levenshtein).
+int num_word_errors(const std::vector<int>& truth, const std::vector<int>& found);
+
+/// The probability to stay in the last state, from how long this lasts on average along the best
+/// paths of the sequences.
+double final_stay(const GaussianMixtureHmm& model, const std::vector<MatrixF>& sequences);
+
+/// Features by the scale, 0: that of the tracks.
+MatrixF sentence_frames(const TwoHandFeatureComputer& features, ConstMatrixRefF tracks,
+                        double scale_px);
+
+/// Throws InvalidArgument for words that are empty, beyond the frames or not in the order of time.
+void check_spans(const std::vector<SignedWordSpan>& spans, Eigen::Index num_frames);
+
+}  // namespace hri::detail

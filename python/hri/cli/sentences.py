@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri train-sentences`` and ``hri read-sentences``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+import numpy as np
+
+from hri.cli.messages import note
+from hri.cli.output import OutputFile, json_option, say, write_json
+from hri.cli.progress import progress_bars
+from hri.cli.recognizers import default_model, naming_options, options_option, parse_options
+from hri.core.errors import FormatError, InvalidArgument
+from hri.datasets.asl_sentences import read_asl_sentences
+from hri.recognition import SentenceRecognizer
+from hri.robot.imitation import read_hand_tracks
+
+MODE = "sentences"
+"""Under which name the model is kept per user."""
+
+
+@click.command("train-sentences")
+@click.option(
+    "--data",
+    required=True,
+    type=click.Path(exists=True, file_okay=False),
+    help="Folder with hands.csv, words.csv and signers.csv.",
+)
+@click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
+@options_option
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
+@json_option
+def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: int, json_path: str | None) -> None:
+    """Train a recogniser of signed sentences on tracks of both hands with their words.
+
+    \b
+    Examples:
+      hri train-sentences --data signed/
+      hri train-sentences --data signed/ --option language_order=1 --out signs.hri
+    """
+    fields = parse_options((f"seed={seed}", *options))
+    with naming_options():
+        recognizer = SentenceRecognizer(**fields)
+    sentences = read_asl_sentences(Path(data))
+    path = default_model(MODE) if out is None else Path(out)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with progress_bars() as progress:
+        recognizer.fit(
+            [sentence.positions for sentence in sentences],
+            [[(word.label, word.first, word.last + 1) for word in sentence.words] for sentence in sentences],
+            progress=lambda done, total: progress("training", done, total),
+        )
+    recognizer.save(path)
+    labels = [str(label) for label in recognizer.classes_]
+    say(str(path), json_path)
+    note(f"{len(sentences)} sentences, {len(labels)} words: {' '.join(labels)}")
+    write_json(json_path, {"model": str(path), "labels": labels, "options": recognizer.trained_options.as_dict()})
+
+
+@click.command("read-sentences")
+@click.argument("files", nargs=-1, required=True, type=click.Path(exists=True, dir_okay=False), metavar="TRACKS...")
+@click.option(
+    "--model",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="MODEL",
+    help="A model from 'hri train-sentences'; the default is the one kept per user.",
+)
+@click.option(
+    "--frames", is_flag=True, help="Print a line a word: its first frame, the frame after its last, the word."
+)
+@json_option
+def read_sentences(files: tuple[str, ...], model: str | None, frames: bool, json_path: str | None) -> None:
+    """Recognise signed sentences in CSV files of tracks; print a line for each sentence: its name and its words.
+
+    A file has the columns left-x, left-y, right-x, right-y, nose-x, nose-y, in pixels, and may have video and frame;
+    an empty cell is a position that was not seen.
+
+    \b
+    Examples:
+      hri read-sentences hands.csv
+      hri read-sentences monday.csv tuesday.csv --frames --json -
+    """
+    path = Path(model) if model is not None else default_model(MODE)
+    if not path.is_file():
+        raise InvalidArgument("there is no model of signed sentences yet: run 'hri train-sentences --data DIR'")
+    recognizer = SentenceRecognizer.load(path)
+    found: dict[str, dict[str, object]] = {}
+    for file in files:
+        found[file] = {}
+        for name, track in read_hand_tracks(file).items():
+            if track.nose is None:
+                raise FormatError(f"{file}: row 1: no column nose-x, nose-y")
+            try:
+                sentence = recognizer.recognise(np.hstack([track.left, track.right, track.nose]))
+            except InvalidArgument as error:
+                raise FormatError(f"{file}: {name}: {error}") from error
+            found[file][name] = sentence.to_dict()
+            if frames:
+                for word in sentence.words:
+                    say(f"{name}\t{word.first_frame}\t{word.last_frame}\t{word.label}", json_path)
+            else:
+                say(f"{name}\t{sentence.text}", json_path)
+    write_json(json_path, found)

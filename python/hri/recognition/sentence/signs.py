@@ -1,0 +1,237 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Sentences of signs, from tracks of both hands."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from os import PathLike
+from typing import Any, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hri import _native
+from hri.core.errors import InvalidArgument
+from hri.language import WordErrors, count_word_errors
+from hri.recognition.base import Recognizer
+from hri.recognition.inputs import as_texts
+from hri.recognition.keywords import ConnectedDecoderKeywords, SentenceRecognizerKeywords
+from hri.recognition.loading import load_native
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class RecognisedSign:
+    """One word of a signed sentence.
+
+    Attributes
+    ----------
+    label : str
+    first_frame, last_frame : int
+        Its first frame, and the frame after its last.
+    log_score : float
+        What it adds to the sentence's.
+    """
+
+    label: str
+    first_frame: int
+    last_frame: int
+    log_score: float
+
+
+@dataclass(frozen=True)
+class RecognisedSentence:
+    """The words of a signed sentence.
+
+    Attributes
+    ----------
+    words : tuple of RecognisedSign
+        In the order of time; empty where nothing but rest was found.
+    log_score : float
+        Natural log, of the best path.
+    """
+
+    words: tuple[RecognisedSign, ...]
+    log_score: float = 0.0
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The words alone."""
+        return tuple(word.label for word in self.words)
+
+    @property
+    def text(self) -> str:
+        """The words, with spaces between."""
+        return " ".join(self.labels)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain values that can be written as JSON."""
+        return {"text": self.text, **asdict(self)}
+
+
+class SentenceRecognizer(Recognizer):
+    """Recognise the words of a signed sentence from tracks of both hands and of the head.
+
+    One HMM a word, one of what lies between words (rest, and the movement from one sign to the next), and a language
+    model of the sentences trained on. The weight of the language model and the insertion penalty are chosen on sentences
+    held out in training.
+
+    Parameters
+    ----------
+    **options
+        Fields of ``hri.recognition.SentenceRecognizerOptions``.
+
+    Attributes
+    ----------
+    classes_ : ndarray of str
+        The words, sorted; set by `fit` and `load`.
+
+    Examples
+    --------
+    >>> signs = SentenceRecognizer().fit(tracks, [[("JOHN", 8, 18), ("WRITE", 22, 51)], ...])
+    >>> signs.recognise(other_tracks).text
+    'JOHN WRITE'
+    """
+
+    mode = "signs"
+    _native_class = _native.SentenceRecognizer
+    _options_class = _native.SentenceRecognizerOptions
+    options: _native.SentenceRecognizerOptions
+
+    def __init__(self, **options: Unpack[SentenceRecognizerKeywords]) -> None:
+        super().__init__(**options)
+
+    def fit(
+        self,
+        X: Sequence[ArrayLike],
+        y: Sequence[Sequence[tuple[str, int, int]]],
+        *,
+        scales_px: Sequence[float] | None = None,
+        groups: Sequence[str] | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> SentenceRecognizer:
+        """Train on sentences whose words are known.
+
+        Parameters
+        ----------
+        X : sequence of array_like, shape (num_frames, 3, 2) or (num_frames, 6)
+            Left hand, right hand, head (such as the nose): x and y in pixels, NaN where a point is out of sight.
+        y : sequence of sequences of (label, first_frame, last_frame)
+            The words of each sentence in the order of time; the last frame is excluded.
+        scales_px : sequence of float, optional
+            By what lengths in pixels places are divided, such as `hri.features.hand_scale_px` of other recordings of
+            the signer; by default that of the recording itself.
+        groups : sequence of str, optional
+            Signers or sessions: what is chosen is chosen on groups held out; by default on every fourth sentence.
+        progress : callable, optional
+            Called with (done, total) training steps.
+
+        Raises
+        ------
+        InvalidArgument
+            Names the sentence: lengths that differ, tracks without hands or head or not finite, words beyond the frames
+            or not in the order of time; fewer than two labels, no frame outside the words.
+        Interrupted
+            When Ctrl-C is pressed; the recogniser is left as it was.
+        """
+        signers = [""] * len(X) if groups is None else as_texts(groups, "groups")
+        scales = [0.0] * len(X) if scales_px is None else [float(scale) for scale in scales_px]
+        if not len(X) == len(y) == len(signers) == len(scales):
+            lengths = f"{len(X)}, {len(y)}, {len(signers)}, {len(scales)}"
+            raise InvalidArgument(f"X, y, groups and scales_px differ in length: {lengths}")
+        tracks = [as_tracks(one, f"X[{i}]") for i, one in enumerate(X)]
+        words = [_spans(spans, f"y[{i}]") for i, spans in enumerate(y)]
+        _log.info("training on %d sentences", len(tracks))
+        self._native = self._native_class.train(tracks, words, scales, signers, self.options, progress)
+        return self
+
+    def set_decoder(self, **options: Unpack[ConnectedDecoderKeywords]) -> SentenceRecognizer:
+        """Change options of the decoder after training, such as ``insertion_penalty`` or ``language_scale``."""
+        current = self._trained.options.decoder.as_dict()
+        self._native = self._trained.with_decoder(_native.ConnectedDecoderOptions(**{**current, **options}))
+        return self
+
+    @property
+    def trained_options(self) -> _native.SentenceRecognizerOptions:
+        """The options with what training chose: ``frames_per_state``, weights and the insertion penalty."""
+        options: _native.SentenceRecognizerOptions = self._trained.options
+        return options
+
+    def recognise(self, tracks: ArrayLike, *, scale_px: float = 0.0) -> RecognisedSentence:
+        """Recognise a sentence.
+
+        Parameters
+        ----------
+        tracks : array_like, shape (num_frames, 3, 2) or (num_frames, 6)
+        scale_px : float
+            As in training; 0: that of the recording.
+
+        Raises
+        ------
+        InvalidArgument
+            As in training.
+        """
+        return _as_sentence(self._trained.recognise(as_tracks(tracks, "tracks"), scale_px))
+
+    def recognise_spans(
+        self,
+        tracks: ArrayLike,
+        spans: Sequence[tuple[int, int]],
+        *,
+        scale_px: float = 0.0,
+        use_language: bool = True,
+    ) -> RecognisedSentence:
+        """Recognise words whose frames are known.
+
+        Parameters
+        ----------
+        tracks : array_like, shape (num_frames, 3, 2) or (num_frames, 6)
+        spans : sequence of (first_frame, last_frame)
+            Of each word in the order of time; the last frame is excluded.
+        scale_px : float
+            As in training; 0: that of the recording.
+        use_language : bool
+            False: each word by itself.
+
+        Raises
+        ------
+        InvalidArgument
+            For spans beyond the frames or not in the order of time, and as in training.
+        """
+        pairs = [(int(first), int(last)) for first, last in spans]
+        return _as_sentence(self._trained.recognise_spans(as_tracks(tracks, "tracks"), pairs, scale_px, use_language))
+
+    def count_errors(
+        self, X: Sequence[ArrayLike], y: Sequence[Sequence[str]], scales_px: Sequence[float] | None = None
+    ) -> WordErrors:
+        """Word errors over sentences whose words are known."""
+        scales = [0.0] * len(X) if scales_px is None else scales_px
+        found = [self.recognise(one, scale_px=scale).labels for one, scale in zip(X, scales, strict=True)]
+        return count_word_errors(y, found)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> SentenceRecognizer:
+        """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
+        return cls._wrap(load_native(_native.SentenceRecognizer.from_model_file, path, "sentence_recognizer"))
+
+
+def as_tracks(values: ArrayLike, name: str) -> NDArray[np.float32]:
+    """Tracks as the core takes them, shape (num_frames, 6); InvalidArgument names what has another shape."""
+    array = np.asarray(values, np.float32)
+    if array.shape[1:] not in ((6,), (3, 2)):
+        raise InvalidArgument(f"{name} has shape {array.shape}, must be (num_frames, 3, 2) or (num_frames, 6)")
+    return np.ascontiguousarray(array.reshape(len(array), 6))
+
+
+def _spans(words: Sequence[tuple[str, int, int]], name: str) -> list[tuple[str, int, int]]:
+    labels = as_texts([label for label, _, _ in words], name)
+    return [(label, int(first), int(last)) for label, (_, first, last) in zip(labels, words, strict=True)]
+
+
+def _as_sentence(found: Any) -> RecognisedSentence:
+    words = tuple(RecognisedSign(w.label, w.first_frame, w.last_frame, w.log_score) for w in found.words)
+    return RecognisedSentence(words, found.log_score)

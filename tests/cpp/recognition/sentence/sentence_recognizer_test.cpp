@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/sentence/sentence_recognizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "hri/core/error.hpp"
+#include "recognition/sentence/signing.hpp"
+
+namespace hri {
+namespace {
+
+using testing_data::signed_sentence;
+using testing_data::signed_sentences;
+
+const std::vector<SignedSample>& samples() {
+  static const std::vector<SignedSample> made = signed_sentences(24, 1);
+  return made;
+}
+
+const SentenceRecognizer& trained() {
+  static const SentenceRecognizer recognizer =
+      SentenceRecognizer::train(samples(), SentenceRecognizerOptions());
+  return recognizer;
+}
+
+SentenceRecognizerOptions quick_options() {
+  SentenceRecognizerOptions options;
+  options.frames_per_state = 4;
+  options.choose_weights = false;
+  return options;
+}
+
+TEST(SentenceRecognizer, FindsWordsAndTheirFrames) {
+  const SignedSample sample = signed_sentence({"dog", "cat", "cat", "ball"}, 99);
+  const RecognisedSentence found = trained().recognise(sample.tracks);
+  ASSERT_EQ(found.text(), "dog cat cat ball");
+  double sum = 0;
+  for (std::size_t i = 0; i < sample.words.size(); ++i) {
+    EXPECT_NEAR(found.words[i].first_frame, sample.words[i].first_frame, 3);
+    EXPECT_NEAR(found.words[i].last_frame, sample.words[i].last_frame, 3);
+    sum += found.words[i].log_score;
+  }
+  EXPECT_NE(sum, 0);
+}
+
+TEST(SentenceRecognizer, DoesNotDependOnThePictureOfTheSigner) {
+  for (const double size : {0.5, 3.0}) {
+    const SignedSample sample = signed_sentence({"ball", "dog", "cat"}, 7, size);
+    EXPECT_EQ(trained().recognise(sample.tracks).text(), "ball dog cat");
+    EXPECT_EQ(trained().recognise(sample.tracks, hand_scale_px(sample.tracks)).text(),
+              "ball dog cat");
+  }
+}
+
+TEST(SentenceRecognizer, FindsNoWordInRest) {
+  const SignedSample rest = signed_sentence({}, 5);
+  const double scale_px = hand_scale_px(samples().front().tracks);
+  EXPECT_TRUE(trained().recognise(rest.tracks, scale_px).words.empty());
+}
+
+TEST(SentenceRecognizer, ChoosesWhatIsToBeChosen) {
+  SentenceRecognizerOptions chosen;
+  chosen.frames_per_state = 0;
+  const SentenceRecognizerOptions options = SentenceRecognizer::train(samples(), chosen).options();
+  EXPECT_GE(options.frames_per_state, 2);
+  EXPECT_LE(options.frames_per_state, 4);
+  const SentenceRecognizer as_given = SentenceRecognizer::train(samples(), quick_options());
+  EXPECT_EQ(as_given.options().decoder.insertion_penalty, 0);
+  EXPECT_EQ(as_given.options().frames_per_state, 4);
+  EXPECT_EQ(as_given.models().front().num_states(), 3);
+}
+
+TEST(SentenceRecognizer, WordsWithKnownFramesNeedNoSearch) {
+  const SignedSample sample = signed_sentence({"dog", "cat", "ball"}, 98);
+  for (const bool with_language : {false, true}) {
+    const RecognisedSentence found =
+        trained().recognise_spans(sample.tracks, sample.words, 0, with_language);
+    ASSERT_EQ(found.text(), "dog cat ball");
+    EXPECT_EQ(found.words[1].first_frame, sample.words[1].first_frame);
+  }
+  EXPECT_TRUE(trained().recognise_spans(sample.tracks, {}).words.empty());
+}
+
+TEST(SentenceRecognizer, LanguageWeighsWordsWithKnownFrames) {
+  // "cat" never begins a sentence.
+  const SignedSample sample = signed_sentence({"cat"}, 97);
+  EXPECT_EQ(trained().recognise_spans(sample.tracks, sample.words, 0, false).text(), "cat");
+  EXPECT_NE(
+      trained().with_known_language_scale(1e5).recognise_spans(sample.tracks, sample.words).text(),
+      "cat");
+  EXPECT_EQ(
+      trained().with_known_language_scale(0).recognise_spans(sample.tracks, sample.words).text(),
+      "cat");
+}
+
+TEST(SentenceRecognizer, WordShorterThanItsStatesIsStillNamed) {
+  const SignedSample sample = signed_sentence({"dog"}, 96);
+  SignedWordSpan frame = sample.words[0];
+  frame.last_frame = frame.first_frame + 1;
+  EXPECT_EQ(trained().recognise_spans(sample.tracks, {frame}, 0, false).text(), "dog");
+}
+
+TEST(SentenceRecognizer, GoesThroughAFile) {
+  const SignedSample sample = signed_sentence({"dog", "cat"}, 95);
+  for (const int order : {0, 1, 2}) {
+    SentenceRecognizerOptions options = quick_options();
+    options.language_order = order;
+    const SentenceRecognizer recognizer = SentenceRecognizer::train(samples(), options);
+    const SentenceRecognizer loaded =
+        SentenceRecognizer::from_model_file(recognizer.to_model_file());
+    const RecognisedSentence found = recognizer.recognise(sample.tracks);
+    EXPECT_EQ(loaded.recognise(sample.tracks).log_score, found.log_score);
+    EXPECT_EQ(loaded.recognise(sample.tracks).text(), found.text());
+    EXPECT_EQ(loaded.language() == nullptr, order == 0);
+  }
+  ModelFile other = trained().to_model_file();
+  other.set_kind("word_recognizer");
+  EXPECT_THROW(SentenceRecognizer::from_model_file(other), FormatError);
+}
+
+TEST(SentenceRecognizer, TrainsTheSameAgain) {
+  const SignedSample sample = signed_sentence({"ball", "cat"}, 94);
+  EXPECT_EQ(
+      SentenceRecognizer::train(samples(), quick_options()).recognise(sample.tracks).log_score,
+      SentenceRecognizer::train(samples(), quick_options()).recognise(sample.tracks).log_score);
+}
+
+TEST(SentenceRecognizer, HandsMayVanishForAWhile) {
+  SignedSample sample = signed_sentence({"dog", "ball"}, 93);
+  sample.tracks.block(0, 0, 12, 2).setConstant(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(trained().recognise(sample.tracks).text(), "dog ball");
+}
+
+TEST(SentenceRecognizer, RefusesSentencesThatContradictThemselves) {
+  const auto refused = [](const std::vector<SignedSample>& bad) {
+    EXPECT_THROW(SentenceRecognizer::train(bad, quick_options()), InvalidArgument);
+  };
+  refused({});
+  refused({signed_sentence({"dog", "dog"}, 1)});  // one label
+  std::vector<SignedSample> bad = samples();
+  bad[3].words[0].last_frame = bad[3].tracks.rows() + 1;
+  refused(bad);
+  try {
+    SentenceRecognizer::train(bad, quick_options());
+  } catch (const InvalidArgument& error) {
+    EXPECT_NE(std::string(error.what()).find(bad[3].name), std::string::npos);
+  }
+  bad = samples();
+  bad[0].words[0].first_frame = bad[0].words[0].last_frame;
+  refused(bad);
+  bad = samples();
+  bad[2].words[0].label = "two words";
+  refused(bad);
+  bad = samples();
+  bad[2].tracks(0, 0) = std::numeric_limits<float>::infinity();
+  refused(bad);
+  SignedSample all_word = signed_sentence({"dog", "cat"}, 2);
+  const std::int64_t half = all_word.tracks.rows() / 2;
+  all_word.words = {{"cat", 0, half}, {"dog", half, all_word.tracks.rows()}};
+  refused({all_word, all_word});
+  EXPECT_THROW(trained().recognise(MatrixF(0, 6)), InvalidArgument);
+  EXPECT_THROW(trained().recognise(samples()[0].tracks, -1), InvalidArgument);
+  EXPECT_THROW(trained().recognise_spans(samples()[0].tracks, {{"", -1, 4}}), InvalidArgument);
+  EXPECT_THROW(trained().recognise_spans(samples()[0].tracks, {{"", 5, 9}, {"", 2, 12}}),
+               InvalidArgument);
+}
+
+TEST(SentenceRecognizer, NeedsPartsThatFit) {
+  const SentenceRecognizer& r = trained();
+  EXPECT_THROW(
+      SentenceRecognizer(r.options(), {"a", "b"}, r.models(), r.final_stays(), r.language()),
+      InvalidArgument);
+  EXPECT_THROW(SentenceRecognizer(r.options(), r.labels(), r.models(), r.final_stays(), nullptr),
+               InvalidArgument);
+  SentenceRecognizerOptions options = r.options();
+  options.features.use_left = false;
+  EXPECT_THROW(SentenceRecognizer(options, r.labels(), r.models(), r.final_stays(), r.language()),
+               InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hri

@@ -1,0 +1,194 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Signed sentences from Python and from the command line, on synthetic tracks."""
+
+from __future__ import annotations
+
+import copy
+import json
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hri as package
+from hri.core.errors import FormatError, InvalidArgument, NotFittedError
+from hri.datasets.asl_sentences import (
+    HANDS_COLUMNS,
+    SIGNERS_COLUMNS,
+    WORDS_COLUMNS,
+    SignedSentence,
+    SignedWord,
+)
+from hri.features import TwoHandFeatureComputer, TwoHandFeatureOptions, hand_scale_px
+from hri.recognition import SentenceRecognizer
+from hri.studies import get_study, run_study
+from hri.studies import sentences as sentence_studies
+
+STROKES = {
+    "BALL": [[(-40, 40), (40, 40)], [(-10, 60), (10, 60)]],
+    "CAT": [[(-30, 120), (20, 10)], [(-30, 120), (60, 10)]],
+    "DOG": [[(-30, 120), (50, 60)], [(-30, 120), (20, 110)]],
+}
+REST = [(-30, 120), (30, 120)]
+OPTIONS = {"frames_per_state": 4, "choose_weights": False}
+Sentence = tuple[np.ndarray, list[tuple[str, int, int]]]
+
+
+def signed(words: list[str], seed: int) -> Sentence:
+    """Tracks of shape (num_frames, 3, 2) in whole pixels, and the frames of the words."""
+    rng = np.random.default_rng(seed)
+    places, spans = [np.array(REST)] * 8, []
+    for word in words:
+        for stroke, frames in zip(STROKES[word], (5, 12), strict=True):
+            before, first = places[-1], len(places)
+            places += [before + (np.array(stroke) - before) * t / frames for t in range(1, frames + 1)]
+        spans.append((word, first, len(places)))
+    places += [np.array(REST)] * 8
+    points = np.concatenate([np.array(places), np.zeros((len(places), 1, 2))], axis=1)
+    return np.round(points + np.array([160, 60]) + rng.normal(size=points.shape)), spans
+
+
+def make_sentences(count: int) -> list[Sentence]:
+    rng = np.random.default_rng(3)
+    return [signed([str(w) for w in rng.choice(list(STROKES), rng.integers(1, 5))], 100 + i) for i in range(count)]
+
+
+@pytest.fixture(scope="module")
+def sentences() -> list[Sentence]:
+    return make_sentences(20)
+
+
+@pytest.fixture(scope="module")
+def signs(sentences: list[Sentence]) -> SentenceRecognizer:
+    return SentenceRecognizer().fit([tracks for tracks, _ in sentences], [words for _, words in sentences])
+
+
+def test_features_are_those_of_numpy() -> None:
+    tracks, _ = signed(["BALL", "CAT"], 1)
+    left, right, nose = np.moveaxis(tracks, 1, 0)
+    scale = np.sqrt(np.mean(np.sum((np.stack([left, right]) - nose) ** 2, axis=2)))
+    assert hand_scale_px(tracks.reshape(-1, 6)) == pytest.approx(scale, rel=1e-6)
+    places = np.hstack([right - nose, left - nose]) / scale
+    computer = TwoHandFeatureComputer(TwoHandFeatureOptions(delta_orders=1))
+    features = computer.compute(tracks.reshape(-1, 6))
+    assert features.shape == (len(tracks), computer.num_features) and features.dtype == np.float32
+    np.testing.assert_allclose(features[:, :4], places, atol=1e-5)
+    padded = np.pad(places, ((2, 2), (0, 0)), mode="edge")
+    slopes = (padded[3:-1] - padded[1:-3] + 2 * (padded[4:] - padded[:-4])) / 10
+    np.testing.assert_allclose(features[:, 4:], slopes, atol=1e-5)
+
+
+def test_words_and_their_frames_are_found(signs: SentenceRecognizer) -> None:
+    tracks, words = signed(["DOG", "CAT", "CAT", "BALL"], 7)
+    found = signs.recognise(tracks)
+    assert found.text == "DOG CAT CAT BALL"
+    for word, (_, first, last) in zip(found.words, words, strict=True):
+        assert abs(word.first_frame - first) <= 3 and abs(word.last_frame - last) <= 3
+    assert signs.recognise(tracks.reshape(-1, 6)) == found
+    assert json.loads(json.dumps(found.to_dict()))["words"][0]["label"] == "DOG"
+    spans = [(first, last) for _, first, last in words]
+    for use_language in (True, False):
+        known = signs.recognise_spans(tracks, spans, use_language=use_language)
+        assert known.labels == found.labels
+        assert [(w.first_frame, w.last_frame) for w in known.words] == spans
+    assert signs.count_errors([tracks], [["DOG", "CAT", "BALL"]]).insertions == 1
+
+
+def test_a_model_goes_through_a_file_a_copy_and_a_pickle(signs: SentenceRecognizer, tmp_path: Path) -> None:
+    tracks, _ = signed(["CAT", "DOG"], 8)
+    found = signs.recognise(tracks)
+    signs.save(tmp_path / "signs.hri")
+    loaded = SentenceRecognizer.load(tmp_path / "signs.hri")
+    for same in (loaded, copy.deepcopy(signs), pickle.loads(pickle.dumps(signs))):
+        assert same.recognise(tracks) == found
+        assert list(same.classes_) == ["BALL", "CAT", "DOG"]
+    with pytest.raises(FormatError, match=r"is a recogniser of signed sentences, and a word recogniser is needed here"):
+        package.WordRecognizer.load(tmp_path / "signs.hri")
+
+
+def test_the_decoder_changes_after_training(signs: SentenceRecognizer) -> None:
+    tracks, _ = signed(["CAT", "DOG"], 9)
+    changed = copy.deepcopy(signs).set_decoder(insertion_penalty=-1e6)
+    assert len(changed.recognise(tracks).words) < 2
+    assert signs.trained_options.decoder.insertion_penalty in (-40, 0, 20, 40)
+
+
+def test_what_cannot_be_done_is_refused(signs: SentenceRecognizer, sentences: list[Sentence]) -> None:
+    tracks, words = sentences[0]
+    with pytest.raises(NotFittedError):
+        SentenceRecognizer().recognise(tracks)
+    with pytest.raises(InvalidArgument, match="differ in length"):
+        SentenceRecognizer().fit([tracks], [words, words])
+    with pytest.raises(InvalidArgument, match=r"X\[0\] has shape"):
+        SentenceRecognizer().fit([tracks[:, :2]], [words])
+    with pytest.raises(InvalidArgument, match=r"X\[1\]: words: 0 has frames"):
+        SentenceRecognizer().fit([tracks, tracks], [words, [("CAT", 5, 1000)]])
+    unseen = np.full_like(tracks, np.nan)
+    with pytest.raises(InvalidArgument, match="no frame shows the reference"):
+        signs.recognise(unseen)
+    with pytest.raises(InvalidArgument, match="must have at least one row"):
+        signs.recognise(np.zeros((0, 6)))
+    with pytest.raises(InvalidArgument, match="words: 1 has frames 2"):
+        signs.recognise_spans(tracks, [(5, 9), (2, 12)])
+
+
+def write_folder(folder: Path, sentences: list[Sentence]) -> None:
+    hands, words, signers = [HANDS_COLUMNS], [WORDS_COLUMNS], [SIGNERS_COLUMNS]
+    for number, (tracks, spans) in enumerate(sentences):
+        signers.append((str(number), "ann"))
+        for frame, row in enumerate(tracks.reshape(-1, 6).astype(int)):
+            hands.append((str(number), str(frame), *map(str, row)))
+        words += [(str(number), "ann", label, str(first), str(last - 1)) for label, first, last in spans]
+    folder.mkdir()
+    for name, rows in {"hands.csv": hands, "words.csv": words, "signers.csv": signers}.items():
+        (folder / name).write_text("".join(",".join(row) + "\n" for row in rows))
+
+
+def test_command_line_trains_and_reads(hri, sentences: list[Sentence], tmp_path: Path) -> None:
+    write_folder(tmp_path / "signed", sentences)
+    options = [word for name, value in OPTIONS.items() for word in ("--option", f"{name}={str(value).lower()}")]
+    trained = hri("train-sentences", "--data", tmp_path / "signed", *options)
+    assert (trained.code, trained.out) == (0, f"{tmp_path / 'data' / 'hri' / 'sentences.hri'}\n")
+    assert "20 sentences, 3 words: BALL CAT DOG" in trained.err
+    write_folder(tmp_path / "new", [signed(["CAT", "DOG"], 55), signed(["BALL"], 56)])
+    file = tmp_path / "new" / "hands.csv"
+    assert hri("read-sentences", file).out == "0\tCAT DOG\n1\tBALL\n"
+    lines = hri("read-sentences", file, "--frames").out.splitlines()
+    assert [line.split("\t")[3] for line in lines] == ["CAT", "DOG", "BALL"]
+    found = json.loads(hri("read-sentences", file, "--json", "-").out)
+    assert found[str(file)]["1"]["text"] == "BALL"
+
+
+def test_command_line_says_what_is_missing(hri, signs: SentenceRecognizer, tmp_path: Path) -> None:
+    write_folder(tmp_path / "new", [signed(["CAT"], 57)])
+    file = tmp_path / "new" / "hands.csv"
+    refused = hri("read-sentences", file)
+    assert refused.code == 3 and "run 'hri train-sentences --data DIR'" in refused.err
+    signs.save(tmp_path / "signs.hri")
+    (tmp_path / "empty.csv").write_text("left-x,left-y,right-x,right-y,nose-x,nose-y\n,,,,1,2\n")
+    blind = hri("read-sentences", tmp_path / "empty.csv", "--model", tmp_path / "signs.hri")
+    assert blind.code == 3 and "empty: tracks: no frame shows a hand" in blind.err
+
+
+def test_the_studies_hold_sentences_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sentence_studies, "NUM_GROUPS", 2)
+    write_folder(tmp_path / "asl_sentences", make_sentences(8))
+    result = run_study(get_study("asl-sentences"), tmp_path, lambda *_: None, {})
+    rows = {(row["held_out"], row["hands"], row["frames"], row["words"]): row for row in result["rows"]}
+    assert len(rows) == 12 and result["unseen_words"] == {"recordings": 0.0, "texts": 0.0}
+    assert rows["recordings", "both hands", "known", "words alone"]["word_error_mean"] == 0
+    assert result["passed"] == (max(result["more_than_known_frames"].values()) <= 0.1)
+    kept = result["counts"]["texts, both hands, found, bigram"]
+    errors = kept["substitutions"] + kept["deletions"] + kept["insertions"]
+    assert errors / kept["num_words"] <= 0.5
+
+
+def test_groups_hold_out_every_recording_of_a_text() -> None:
+    words = [SignedWord("GO", 0, 1)], [SignedWord("STOP", 0, 1)], [SignedWord("GO", 0, 1), SignedWord("STOP", 0, 1)]
+    sentences = [SignedSentence(str(i), "ann", np.zeros((3, 3, 2), np.float32), tuple(words[i % 3])) for i in range(30)]
+    texts = sentence_studies.groups_of(sentences, "texts")
+    assert all(len({texts[i] for i in range(first, 30, 3)}) == 1 for first in range(3))
+    recordings = sentence_studies.groups_of(sentences, "recordings")
+    assert sorted(np.bincount(recordings)) == [6] * 5
