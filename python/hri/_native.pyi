@@ -7219,34 +7219,6 @@ class HtkFeatureOptions:
         ACCWINDOW; 1..10
     third_window : int, default 2
         THIRDWINDOW; 1..10
-class SentenceRecognizerOptions:
-    """
-    Options of SentenceRecognizer.
-
-    Parameters
-    ----------
-    features : TwoHandFeatureOptions or dict
-        what is computed of the tracks
-    frames_per_state : int, default 3
-        a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences held out; 0..100
-    max_states : int, default 8
-        left-right states of a word, at most; 1..64
-    max_iterations : int, default 8
-        iterations of Baum-Welch at most; 1..100000
-    between_states : int, default 2
-        ergodic states of what lies between words: rest and movement; 1..16
-    between_mixtures : int, default 2
-        Gaussians of each of them; 1..64
-    language_order : int, default 2
-        words of an n-gram of the sentences trained on; 0: any word may follow any; 0..2
-    choose_weights : bool, default True
-        decoder.insertion_penalty, decoder.language_scale and known_language_scale are chosen on sentences held out
-    known_language_scale : float, default 1.0
-        factor on the log probabilities of words whose frames are known; 0..1000000
-    decoder : ConnectedDecoderOptions or dict
-        how sentences are searched
-    seed : int, default 0
-        of the start of training by k-means; 0..2^64 - 1
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -7282,17 +7254,6 @@ class SentenceRecognizerOptions:
         delta_window: int = 2,
         acceleration_window: int = 2,
         third_window: int = 2,
-        features: TwoHandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
-        frames_per_state: int = 3,
-        max_states: int = 8,
-        max_iterations: int = 8,
-        between_states: int = 2,
-        between_mixtures: int = 2,
-        language_order: int = 2,
-        choose_weights: bool = True,
-        known_language_scale: float = 1.0,
-        decoder: ConnectedDecoderOptions | collections.abc.Mapping[str, typing.Any] = ...,
-        seed: int = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -7860,6 +7821,129 @@ class HtkWordLattice:
 class HtkRecognisedWord:
     """
     A word of a recognised sentence.
+    """
+    @property
+    def first_frame(self) -> int:
+        """
+        First frame.
+        """
+    @property
+    def last_frame(self) -> int:
+        """
+        One past the last frame.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        What it adds to the sentence's.
+        """
+    @property
+    def output(self) -> str:
+        """
+        What is printed for it; empty: nothing.
+        """
+    @property
+    def word(self) -> str:
+        """
+        As the network has it.
+        """
+
+class HtkRecognisedSentence:
+    """
+    What a recogniser found.
+    """
+    @property
+    def complete(self) -> bool:
+        """
+        Whether it is a whole sentence.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        Of the best path.
+        """
+    @property
+    def words(self) -> list[HtkRecognisedWord]:
+        """
+        In the order of time.
+        """
+
+class HtkRecognizer:
+    """
+    HVite: models, dictionary and network of words.
+    """
+    def __init__(
+        self,
+        models: HtkModelSet,
+        dictionary: HtkDictionary,
+        lattice: HtkWordLattice,
+        options: ConnectedDecoderOptions = ...,
+    ) -> None: ...
+    def recognise(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> HtkRecognisedSentence:
+        """
+        The best sentence of frames, shape (num_frames, num_columns).
+        """
+
+class SentenceRecognizerOptions:
+    """
+    Options of SentenceRecognizer.
+
+    Parameters
+    ----------
+    features : TwoHandFeatureOptions or dict
+        what is computed of the tracks
+    frames_per_state : int, default 3
+        a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences held out; 0..100
+    max_states : int, default 8
+        left-right states of a word, at most; 1..64
+    max_iterations : int, default 8
+        iterations of Baum-Welch at most; 1..100000
+    between_states : int, default 2
+        ergodic states of what lies between words: rest and movement; 1..16
+    between_mixtures : int, default 2
+        Gaussians of each of them; 1..64
+    language_order : int, default 2
+        words of an n-gram of the sentences trained on; 0: any word may follow any; 0..2
+    choose_weights : bool, default True
+        decoder.insertion_penalty, decoder.language_scale and known_language_scale are chosen on sentences held out
+    known_language_scale : float, default 1.0
+        factor on the log probabilities of words whose frames are known; 0..1000000
+    decoder : ConnectedDecoderOptions or dict
+        how sentences are searched
+    seed : int, default 0
+        of the start of training by k-means; 0..2^64 - 1
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        features: TwoHandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        frames_per_state: int = 3,
+        max_states: int = 8,
+        max_iterations: int = 8,
+        between_states: int = 2,
+        between_mixtures: int = 2,
+        language_order: int = 2,
+        choose_weights: bool = True,
+        known_language_scale: float = 1.0,
+        decoder: ConnectedDecoderOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        seed: int = 0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
     def between_mixtures(self) -> int:
         """
         Gaussians of each of them
@@ -7944,7 +8028,6 @@ class RecognisedSign:
     @property
     def first_frame(self) -> int:
         """
-        First frame.
         Its first frame.
         """
     @property
@@ -7955,7 +8038,6 @@ class RecognisedSign:
     @property
     def last_frame(self) -> int:
         """
-        One past the last frame.
         One past its last frame.
         """
     @property
@@ -7963,27 +8045,6 @@ class RecognisedSign:
         """
         What it adds to the sentence's.
         """
-    @property
-    def output(self) -> str:
-        """
-        What is printed for it; empty: nothing.
-        """
-    @property
-    def word(self) -> str:
-        """
-        As the network has it.
-        """
-
-class HtkRecognisedSentence:
-    """
-    What a recogniser found.
-    """
-    @property
-    def complete(self) -> bool:
-        """
-        Whether it is a whole sentence.
-        """
-    @property
 
 class RecognisedSentence:
     """
@@ -7995,26 +8056,11 @@ class RecognisedSentence:
         Of the best path.
         """
     @property
-    def words(self) -> list[HtkRecognisedWord]:
     def words(self) -> list[RecognisedSign]:
         """
         In the order of time.
         """
 
-class HtkRecognizer:
-    """
-    HVite: models, dictionary and network of words.
-    """
-    def __init__(
-        self,
-        models: HtkModelSet,
-        dictionary: HtkDictionary,
-        lattice: HtkWordLattice,
-        options: ConnectedDecoderOptions = ...,
-    ) -> None: ...
-    def recognise(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> HtkRecognisedSentence:
-        """
-        The best sentence of frames, shape (num_frames, num_columns).
 class SentenceRecognizer:
     """
     Sentences of signs; hri.SentenceRecognizer wraps it.
