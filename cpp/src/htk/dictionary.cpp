@@ -50,7 +50,7 @@ std::string field_text(const std::string& name, const std::string& what) {
   double value = 0;
   const bool special =
       in_brackets(name) || name.front() == '#' || detail::parse_number(name, &value);
-  return special ? "\"" + name + "\"" : detail::quoted(name);
+  return special ? detail::in_quotes(name) : detail::quoted(name);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ std::string name_text(const std::string& name) {
   detail::require_name(name, "the label");
   const bool special = is_number(name) || name == kEnd || name == kAlternative ||
                        name.front() == '#' || name == kHeader;
-  return special ? "\"" + name + "\"" : detail::quoted(name);
+  return special ? detail::in_quotes(name) : detail::quoted(name);
 }
 
 void add_score(bool has_score, double score, std::string* text) {
@@ -192,12 +192,7 @@ std::string MasterLabelFile::to_text() const {
   std::string text = std::string(kHeader) + "\n";
   for (const Entry& entry : entries) {
     detail::require_name(entry.pattern, "the pattern");
-    std::string pattern;
-    for (const char c : entry.pattern) {
-      if (c == '"' || c == '\\') pattern += '\\';
-      pattern += c;
-    }
-    text += "\"" + pattern + "\"\n" + entry.transcription.to_text() + kEnd + "\n";
+    text += detail::in_quotes(entry.pattern) + "\n" + entry.transcription.to_text() + kEnd + "\n";
   }
   return text;
 }

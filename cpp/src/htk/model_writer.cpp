@@ -51,12 +51,7 @@ class ModelWriter {
  private:
   static std::string name_text(const std::string& name) {
     detail::require_name(name, "the name of a macro");
-    std::string text = "\"";
-    for (const char c : name) {
-      if (c == '"' || c == '\\') text += '\\';
-      text += c;
-    }
-    return text + "\"";
+    return detail::in_quotes(name);
   }
 
   void add_use(char type, const std::string& name) {

@@ -124,15 +124,18 @@ bool split_fields(const std::string& line, std::vector<std::string>* fields,
   return true;
 }
 
-std::string quoted(const std::string& name) {
-  const bool plain = !name.empty() && name.find_first_of(" \t\"'\\") == std::string::npos;
-  if (plain) return name;
+std::string in_quotes(const std::string& name) {
   std::string result = "\"";
   for (const char c : name) {
     if (c == '"' || c == '\\') result += '\\';
     result += c;
   }
   return result + "\"";
+}
+
+std::string quoted(const std::string& name) {
+  const bool plain = !name.empty() && name.find_first_of(" \t\"'\\") == std::string::npos;
+  return plain ? name : in_quotes(name);
 }
 
 bool parse_number(const std::string& text, double* value) {

@@ -46,7 +46,9 @@ class TextLines {
 bool split_fields(const std::string& line, std::vector<std::string>* fields,
                   std::vector<bool>* marked = nullptr);
 
-/// A name as split_fields() reads it: in quotation marks where it needs them.
+/// A name in quotation marks, as split_fields() reads it.
+std::string in_quotes(const std::string& name);
+/// The same where it needs them: not for a name without blanks, marks and backslashes.
 std::string quoted(const std::string& name);
 
 /// Whether `text` is a finite decimal number, whatever the locale.

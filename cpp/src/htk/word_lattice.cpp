@@ -173,8 +173,7 @@ bool has_null_cycle(const WordLattice& lattice) {
 // A word as the reader above takes it.
 std::string word_text(const std::string& word) {
   detail::require_name(word, "the word");
-  const std::string text = detail::quoted(word);
-  return text == word && word.find('=') != std::string::npos ? "\"" + word + "\"" : text;
+  return word.find('=') == std::string::npos ? detail::quoted(word) : detail::in_quotes(word);
 }
 
 std::string padded(const std::string& text, std::size_t width) {

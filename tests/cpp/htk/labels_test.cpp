@@ -44,7 +44,7 @@ TEST(Transcription, ReadsTimesNamesScoresAndLevels) {
 TEST(Transcription, IsReadAsItWasWritten) {
   Transcription t;
   for (const char* name : {"one", "7", "two words", "it's", "a\"b", "a\\b", ".", "///", "#!MLF!#",
-                           "#x", "1e5", "\xe0\xa4\x8f\xe0\xa4\x95", "'"}) {
+                           "#x", "#\"x", "1e5", "\xe0\xa4\x8f\xe0\xa4\x95", "'"}) {
     Label label;
     label.name = name;
     t.alternatives[0].push_back(label);

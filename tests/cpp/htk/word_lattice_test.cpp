@@ -95,7 +95,7 @@ TEST(WordLattice, RefusesGrammarsByNameAndLine) {
 TEST(WordLattice, IsReadAsItWasWritten) {
   WordLattice lattice = WordLattice::of_grammar("$d = one | two; ( sil { $d } sil )", "grammar");
   lattice.arcs[1].log_weight = -1.0 / 3;
-  for (const char* word : {"a=b", "two words", "x\"y", "b\\c", "=", "#"}) {
+  for (const char* word : {"a=b", "two words", "x\"y", "b\\c", "=", "#", "\"="}) {
     lattice.words[1] = word;
     const std::string text = lattice.to_text();
     const WordLattice read = WordLattice::parse(text, "again");
@@ -144,7 +144,8 @@ TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
 
 TEST(Dictionary, ReadsOutputsAndProbabilities) {
   const Dictionary d = Dictionary::parse(
-      "# words\none w ah n\none [1] 0.25 hh w ah n\nSENT-START [] sil\n7 7\n\"8\" \"[x]\" ey t\n",
+      "# words\none w ah n\none [1] 0.25 hh w ah n\nSENT-START [] sil\n7 7\n\"8\" \"[x]\" "
+      "\"#\\\"\" t\n",
       "words.dic");
   ASSERT_EQ(d.entries.size(), 5U);
   EXPECT_FALSE(d.entries[0].has_output);
