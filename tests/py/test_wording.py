@@ -12,7 +12,8 @@ ROOTS = ("benchmarks", "bindings", "cmake", "cpp", "docs", "examples", "fuzz", "
 SUFFIXES = {".py", ".md", ".hpp", ".cpp", ".inc", ".toml", ".sh", ".pyi", ".txt", ".cmake"}
 # What was written, and what the field says.
 REPLACED = {
-    r"tells?|told": "report, return, print; separate; metadata",
+    # Files have a method tell().
+    r"tells?(?!\()|told": "report, return, print; separate; metadata",
     r"taught": "trained, in the vocabulary",
     r"turn(s|ed)? down": "rejected",
     r"(is|are|was|were|be|not) taken for": "misrecognised as, mistaken for, counted as",

@@ -35,7 +35,7 @@ PAUSE_S = (2.5, 4.0)
 """From the end of a turn to the beginning of the next."""
 FPS = 15.0
 SLIDE_S, HOLD_S = 0.4, 1.2
-"""A still is slid into view, held and slid away: nobody was filmed."""
+"""A still is slid into view, held and slid away: no signer was filmed."""
 FLOOR_DB = -60.0
 PEAK_DB = (-12.0, -3.0)
 MAX_GAP, MAX_WRONG = 0.01, 0.01

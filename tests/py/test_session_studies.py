@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The studies of sessions: what they play, and that they would see what goes wrong."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hri.robot import HOAP2, rest_positions
+from hri.session.logic import session_event
+from hri.studies.session import APART_S, FPS, PAUSE_S, Turn, judge, pictures_of, plan, sound_of
+from hri.studies.session_stop import Commands, within_limits
+
+WORDS = [(str(digit), 0.4) for digit in range(10)]
+SIGNS = [str(digit) for digit in range(10)] * 2
+
+
+def test_turns_are_up_to_a_second_apart_with_pauses_between_them():
+    turns = plan(WORDS, SIGNS, 300, 0)
+    assert turns == plan(WORDS, SIGNS, 300, 0) != plan(WORDS, SIGNS, 300, 1)
+    both = [turn for turn in turns if all(turn.modes)]
+    assert 150 < len(both) < 210 and sum(turn.modes == (True, False) for turn in turns) > 40
+    apart = [turn.sign_s[0] - turn.word_s[0] for turn in both]
+    assert -APART_S <= min(apart) < -0.9 and 0.9 < max(apart) <= APART_S
+    assert all(SIGNS[turn.sign] == turn.label == WORDS[turn.word][0] for turn in both)
+    pauses = [after.span_s[0] - before.span_s[1] for before, after in pairwise(turns)]
+    assert PAUSE_S[0] <= min(pauses) and max(pauses) <= PAUSE_S[1]
+
+
+def test_streams_hold_words_and_signs_at_their_times():
+    turns = [Turn("1", 0, 0, (1.0, 1.5), (1.2, 3.2)), Turn("2", -1, 1, (6.0, 6.5), (6.0, 8.0))]
+    sound = sound_of(turns, [np.full(4000, 0.5, "f4")], 8000, 0)
+    assert np.abs(sound[8000:12000]).min() > 0.15 > 0.02 > np.abs(sound[12000:]).max()
+    stills = [np.full((50, 50, 3), 40, np.uint8), np.full((50, 50, 3), 200, np.uint8)]
+    for still, inside in zip(stills, (90, 220), strict=True):
+        still[20:40, 20:40] = inside
+    frames = list(pictures_of(turns, stills, 0))
+    means = [float(frame[20:40, 20:40].mean()) for frame in frames]
+    shown = [i / FPS for i, mean in enumerate(means) if abs(mean - 90) < 2]
+    assert 1.5 <= shown[0] <= 1.7 and 2.7 <= shown[-1] <= 2.9
+    assert abs(means[round(7.0 * FPS)] - 220) < 2 and abs(means[0] - 40) < 2 and abs(means[round(5.0 * FPS)] - 200) < 2
+
+
+def fused(first_s: float, last_s: float, label: str, modes: str, status: str = "recognised") -> Any:
+    said, shown = ({"label": label} if mode in modes else None for mode in "sg")
+    final = label if status == "recognised" else ""
+    fields = {"first_s": first_s, "last_s": last_s, "final": final, "status": status, "speech": said, "gesture": shown}
+    return session_event(last_s, "fused", **fields)
+
+
+def test_what_is_joined_taken_apart_and_missed_is_seen():
+    pair = Turn("1", 0, 0, (1.0, 1.5), (1.2, 3.2))
+    word = Turn("2", 1, -1, (6.0, 6.5), (6.0, 8.0))
+    right = [fused(1.0, 2.4, "1", "sg"), fused(6.0, 6.5, "2", "s")]
+    assert [j["label"] for j in judge([pair, word], right)] == ["1", "2"]
+    assert not any(j[fault] for j in judge([pair, word], right) for fault in ("joined", "apart", "missed"))
+    apart = judge([pair, word], [fused(1.0, 1.5, "1", "s"), fused(1.2, 2.4, "1", "g"), right[1]])
+    assert [j["apart"] for j in apart] == [True, False] and not any(j["joined"] or j["missed"] for j in apart)
+    joined = judge([pair, word], [fused(1.2, 6.5, "2", "sg")])
+    assert [j["joined"] for j in joined] == [True, True]
+    assert [j["joined"] for j in judge([pair, word], [right[0], fused(6.0, 6.5, "2", "sg")])] == [False, True]
+    missed = judge([pair, word], [fused(1.0, 1.5, "1", "s"), fused(6.0, 6.5, "2", "s", "unknown")])
+    assert [(j["missed"], j["label"]) for j in missed] == [(True, "1"), (False, "")]
+    assert judge([word], [fused(6.0, 6.5, "", "g", "no_input")])[0]["missed"]
+
+
+def test_commands_beyond_the_limits_are_seen():
+    def sent(course: Any) -> list[list[float]]:
+        kept = Commands()
+        for step, angle in enumerate(course):
+            kept.joints(0.01 * step, dict.fromkeys(HOAP2.names, 0.0) | rest_positions() | {"head_joint_1": angle})
+        return kept.rows
+
+    calm = 0.2 * (1 - np.cos(np.linspace(0, np.pi, 100)))
+    assert within_limits(sent(calm.tolist() + [0.4] * 3), 0.01)
+    assert not within_limits(sent(calm[:60]), 0.01), "does not end at rest"
+    assert not within_limits(sent([0.0, 0.0, 0.04, 0.04, 0.04]), 0.01), "400 rad/s2"
+    assert not within_limits(sent([1.2, 1.2, 1.2, 1.2]), 0.01), "beyond the joint's limit"
+
+
+@pytest.mark.parametrize("name", ["session-digits", "session-stop"])
+def test_the_studies_are_listed(name: str):
+    from hri.studies import get_study
+
+    assert get_study(name).folds
