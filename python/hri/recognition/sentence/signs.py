@@ -77,8 +77,8 @@ class SentenceRecognizer(Recognizer):
     """Recognise the words of a signed sentence from tracks of both hands and of the head.
 
     One HMM a word, one of what lies between words (rest, and the movement from one sign to the next), and a language
-    model of the sentences trained on. The weight of the language model and the insertion penalty are chosen on sentences
-    held out in training.
+    model of the sentences trained on. The weight of the language model and the insertion penalty are chosen on
+    sentences held out in training.
 
     Parameters
     ----------
@@ -89,12 +89,6 @@ class SentenceRecognizer(Recognizer):
     ----------
     classes_ : ndarray of str
         The words, sorted; set by `fit` and `load`.
-
-    Examples
-    --------
-    >>> signs = SentenceRecognizer().fit(tracks, [[("JOHN", 8, 18), ("WRITE", 22, 51)], ...])
-    >>> signs.recognise(other_tracks).text
-    'JOHN WRITE'
     """
 
     mode = "signs"
