@@ -27,7 +27,7 @@ MODE = "sentences"
     "--data",
     required=True,
     type=click.Path(exists=True, file_okay=False),
-    help="Folder with hands.csv, words.csv and signers.csv.",
+    help="Folder of the files hands.csv, words.csv, signers.csv: tracks and their words.",
 )
 @click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
 @options_option

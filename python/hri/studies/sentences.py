@@ -123,7 +123,7 @@ def _run(data_dir: Path, progress: Progress, whole: bool) -> dict[str, Any]:
                     alone = _trained(train, scales, part, features=features, language_order=0)
                     ways |= {(FOUND, ALONE): _whole(alone, scales), (FOUND, BIGRAM): _whole(recognizer, scales)}
                 for (frames, words), recognise in ways.items():
-                    errors = count_word_errors([_labels(s) for s in test], [recognise(s) for s in test])
+                    errors = sum((_errors(s, recognise(s), frames) for s in test), start=WordErrors())
                     counts.setdefault((held_out, hands, frames, words), _Counts()).add(str(number + 1), errors)
         unseen[held_out] = num_unseen / sum(len(s.words) for s in sentences)
     rows: list[Row] = [
@@ -138,6 +138,15 @@ def _run(data_dir: Path, progress: Progress, whole: bool) -> dict[str, Any]:
         "counts": {", ".join(key): vars(count.total) for key, count in counts.items()},
         "rows": rows,
     }
+
+
+def _errors(sentence: SignedSentence, found: list[str], frames: str) -> WordErrors:
+    """Where frames are known, every word stands for one: no word is deleted or inserted."""
+    labels = _labels(sentence)
+    if frames == FOUND:
+        return count_word_errors([labels], [found])
+    wrong = sum(a != b for a, b in zip(labels, found, strict=True))
+    return WordErrors(num_words=len(labels), substitutions=wrong)
 
 
 def _choices(recognizer: SentenceRecognizer) -> dict[str, Any]:

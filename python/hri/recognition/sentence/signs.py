@@ -89,12 +89,6 @@ class SentenceRecognizer(Recognizer):
     ----------
     classes_ : ndarray of str
         The words, sorted; set by `fit` and `load`.
-
-    Examples
-    --------
-    >>> signs = SentenceRecognizer().fit(tracks, [[("JOHN", 8, 18), ("WRITE", 22, 51)], ...])
-    >>> signs.recognise(other_tracks).text
-    'JOHN WRITE'
     """
 
     mode = "signs"
