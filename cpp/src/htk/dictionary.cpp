@@ -85,7 +85,7 @@ std::string Dictionary::to_text() const {
     }
     if (entry.probability != 1) text += " " + detail::shortest(entry.probability);
     for (const std::string& model : entry.models) text += " " + field_text(model, "the model");
-    text += "\n";
+    text += '\n';
   }
   return text;
 }

@@ -126,7 +126,7 @@ class ModelWriter {
     }
     text_ += std::string("<") + keyword + "> " + std::to_string(vector.values.size()) + "\n";
     for (Eigen::Index i = 0; i < vector.values.size(); ++i) text_ += " " + number(vector.values[i]);
-    text_ += "\n";
+    text_ += '\n';
   }
 
   void add_transitions(const TransitionDefinition& transitions) {
@@ -138,7 +138,7 @@ class ModelWriter {
     for (Eigen::Index i = 0; i < transitions.values.rows(); ++i) {
       for (Eigen::Index j = 0; j < transitions.values.cols(); ++j)
         text_ += " " + number(transitions.values(i, j));
-      text_ += "\n";
+      text_ += '\n';
     }
   }
 

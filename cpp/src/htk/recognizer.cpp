@@ -166,6 +166,7 @@ Recognizer::Recognizer(const ModelSet& models, const Dictionary& dictionary,
     for (const int number : found->second) {
       const Pronunciation& entry = dictionary.entries[static_cast<std::size_t>(number)];
       std::vector<const Unit*> units;
+      units.reserve(entry.models.size());
       for (const std::string& model : entry.models) units.push_back(table.unit(model, word));
       numbers[word].push_back(static_cast<int>(chains_.size()));
       chains_.push_back(joined(units, std::log(entry.probability), word));

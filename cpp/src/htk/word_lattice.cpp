@@ -233,7 +233,7 @@ std::string WordLattice::to_text() const {
     text += "J=" + padded(std::to_string(a), 5) + " S=" + padded(std::to_string(arcs[a].from), 4) +
             " E=" + std::to_string(arcs[a].to);
     if (arcs[a].log_weight != 0) text += " l=" + detail::shortest(arcs[a].log_weight);
-    text += "\n";
+    text += '\n';
   }
   return text;
 }
