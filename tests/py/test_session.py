@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+import gc
 import time
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,7 +20,8 @@ from hri.core.errors import InvalidArgument, IoError, NotFittedError
 from hri.live import ArraySource, ClipSource, Event, Stalled
 from hri.robot import HOAP2, Robot, open_robot
 from hri.session import EventQueue, Session, SessionOptions
-from session_people import MOTIONS, TURN, signing, speech, train_signs, train_words
+from hri.studies.endurance import RepeatedPictures, RepeatedSound, memory_bytes
+from session_people import MOTIONS, NOD, TURN, signing, speech, train_signs, train_words
 
 pytest.importorskip("cv2")
 pytest.importorskip("hri._native_vision")
@@ -270,6 +273,25 @@ def test_a_device_that_is_missing_ends_its_mode_alone(words: Any, signs: Any, st
     events = list(session.run(lambda: ArraySource(stream[: 4 * RATE_HZ], RATE_HZ), no_camera, live=True))
     assert [e.fields["message"] for e in of(events, "stall")] == ["camera 0 cannot be opened"]
     assert [e.fields["final"] for e in of(events, "fused")] == ["flat"]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is measured on Linux only")
+def test_half_an_hour_holds_no_more_memory_and_decides_alike(words: Any, signs: Any, frames: Any, robot: Robot) -> None:
+    stream = speech([("flat", 1.5), ("tall", 7.0)], LENGTH_S)
+    timed = [(frame, i / FPS) for i, frame in enumerate(frames)]
+    rounds = round(1800 / LENGTH_S)
+    sound, pictures = RepeatedSound(stream, RATE_HZ, rounds), RepeatedPictures(timed, LENGTH_S, rounds)
+    found: list[list[str]] = [[] for _ in range(rounds)]
+    held = []
+    for event in Session(words, signs, robot, motions={"flat": NOD, "tall": NOD}).run(sound, pictures):
+        if event.event == "fused":
+            found[int(event.fields["first_s"] // LENGTH_S)].append(event.fields["final"])
+        if event.event == "level" and event.time >= (len(held) + 1) * 300:
+            gc.collect()
+            held.append(memory_bytes())
+    assert all(said == ["flat", "tall"] for said in found)
+    assert len(held) == 5 and held[-1] <= 1.05 * held[0]
 
 
 def test_a_queue_misses_first_what_passes() -> None:
