@@ -72,7 +72,7 @@ void bind_models(py::module_& m) {
 void bind_words(py::module_& m) {
   py::class_<Pronunciation>(m, "HtkPronunciation", "A word and the models that it is made of.")
       .def(py::init([](std::string word, std::vector<std::string> models,
-                       std::optional<std::string> output, double probability) {
+                       const std::optional<std::string>& output, double probability) {
              return Pronunciation{std::move(word), output.has_value(), output.value_or(""),
                                   probability, std::move(models)};
            }),
@@ -131,6 +131,7 @@ void bind_words(py::module_& m) {
           "arcs",
           [](const WordLattice& self) {
             std::vector<std::tuple<int, int, double>> arcs;
+            arcs.reserve(self.arcs.size());
             for (const auto& arc : self.arcs) arcs.emplace_back(arc.from, arc.to, arc.log_weight);
             return arcs;
           },

@@ -136,6 +136,7 @@ VectorD SentenceRecognizer::scores_of(ConstMatrixRefF frames) const {
 MatrixD SentenceRecognizer::language_table() const {
   const auto n = static_cast<Eigen::Index>(labels_.size());
   std::vector<int> words;
+  words.reserve(labels_.size());
   for (const std::string& label : labels_) words.push_back(language_->index_of(label));
   MatrixD table(n + 1, n + 1);
   for (Eigen::Index i = 0; i <= n; ++i) {

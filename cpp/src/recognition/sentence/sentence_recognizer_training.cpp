@@ -70,6 +70,7 @@ void naming(const std::string& name, Read&& read) {
 
 std::vector<int> equal_parts(Eigen::Index num_frames, int num_states) {
   std::vector<int> states;
+  states.reserve(static_cast<std::size_t>(num_frames));
   for (Eigen::Index t = 0; t < num_frames; ++t)
     states.push_back(static_cast<int>(t * num_states / num_frames));
   return states;
@@ -176,6 +177,7 @@ class SentenceTrainer {
 
   int assign_folds() {
     std::vector<std::string> groups;
+    groups.reserve(sentences_.size());
     for (const Signed& one : sentences_) groups.push_back(one.sample->group);
     const std::vector<int> folds =
         held_out_folds(std::vector<int>(sentences_.size(), 0), groups, kMaxFolds);
@@ -274,6 +276,7 @@ class SentenceTrainer {
       });
     }
     std::vector<GaussianMixtureHmm> result;
+    result.reserve(models.size());
     for (auto& model : models) result.push_back(std::move(*model));
     return result;
   }
@@ -303,6 +306,7 @@ class SentenceTrainer {
 
   [[nodiscard]] std::vector<int> indices(const RecognisedSentence& sentence) const {
     std::vector<int> result;
+    result.reserve(sentence.words.size());
     for (const RecognisedSign& word : sentence.words)
       result.push_back(label_index(labels_, word.label));
     return result;
