@@ -45,14 +45,30 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   hri::fuzzing::expect_typed_errors([&] {
     const std::string text(data + 1, data + size);
     switch (data[0] % 8) {
-      case 0: read_parameters(data + 1, size - 1); break;
-      case 1: check_text(hri::htk::MasterLabelFile::parse(text, "input")); break;
-      case 2: check_text(hri::htk::Transcription::parse(text, "input")); break;
-      case 3: check_text(hri::htk::Dictionary::parse(text, "input")); break;
-      case 4: check_text(hri::htk::WordLattice::parse(text, "input")); break;
-      case 5: check_text(hri::htk::WordLattice::of_grammar(text, "input")); break;
-      case 6: read_models(text); break;
-      default: hri::htk::Configuration().parse(text, "input"); break;
+      case 0:
+        read_parameters(data + 1, size - 1);
+        break;
+      case 1:
+        check_text(hri::htk::MasterLabelFile::parse(text, "input"));
+        break;
+      case 2:
+        check_text(hri::htk::Transcription::parse(text, "input"));
+        break;
+      case 3:
+        check_text(hri::htk::Dictionary::parse(text, "input"));
+        break;
+      case 4:
+        check_text(hri::htk::WordLattice::parse(text, "input"));
+        break;
+      case 5:
+        check_text(hri::htk::WordLattice::of_grammar(text, "input"));
+        break;
+      case 6:
+        read_models(text);
+        break;
+      default:
+        hri::htk::Configuration().parse(text, "input");
+        break;
     }
   });
   return 0;
