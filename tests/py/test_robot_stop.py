@@ -79,6 +79,25 @@ def test_a_stop_released_at_once_still_ends_the_motion_under_way(robot):
     assert robot.perform(NOD)
 
 
+def test_the_end_of_a_motion_does_not_latch(robot):
+    def on_frame(image, time_s):
+        if time_s > 0.2:
+            robot.end_motion()
+
+    assert robot.perform(LONG, on_frame, fps=10, size=(16, 16)) is False and robot.time_s < 2.0
+    assert not robot.stopped and robot.perform(NOD)
+
+
+def test_the_end_of_a_motion_releases_no_stop(robot):
+    def on_frame(image, time_s):
+        if time_s > 0.2:
+            robot.stop()
+            robot.end_motion()
+
+    assert robot.perform(LONG, on_frame, fps=10, size=(16, 16)) is False
+    assert robot.stopped and robot.perform(NOD) is False
+
+
 def test_stops_of_many_threads_are_all_kept(robot):
     def press():
         time.sleep(0.05)

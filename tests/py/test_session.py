@@ -20,12 +20,14 @@ from hri.core.errors import InvalidArgument, IoError, NotFittedError
 from hri.live import ArraySource, ClipSource, Event, Stalled
 from hri.robot import HOAP2, Robot, open_robot
 from hri.session import EventQueue, Session, SessionOptions
+from hri.session.mover import Cause, Mover
 from hri.studies.endurance import RepeatedPictures, RepeatedSound, memory_bytes
 from session_people import MOTIONS, NOD, TURN, signing, speech, train_signs, train_words
 
 pytest.importorskip("cv2")
 pytest.importorskip("hri._native_vision")
 
+CAUSE = Cause(0.0, 0.0, 0.0)
 SAID = [("flat", 1.5), ("tall", 7.0), ("stop", 10.2)]
 SHOWN = [("flat", 1.2)]
 LENGTH_S = 13.0
@@ -61,6 +63,38 @@ def shape(events: Iterable[Event]) -> list[tuple[Any, ...]]:
     """What may not differ from one run to the next."""
     timed = ("compute_ms", "wait_ms")
     return [(e.time, e.event, e.mode, {k: v for k, v in e.fields.items() if k not in timed}) for e in events]
+
+
+@pytest.mark.parametrize("stop_first", [True, False])
+def test_a_question_in_mid_motion_releases_no_stop(robot: Robot, stop_first: bool) -> None:
+    mover = Mover(robot, MOTIONS)
+    try:
+        mover.begin("tall", CAUSE)
+        mover.advance(0.5)
+        if stop_first:
+            robot.stop()  # as by a button, in another thread
+        mover.rest(CAUSE)
+        if not stop_first:
+            robot.stop()
+        mover.advance(5.0)
+        assert robot.stopped
+        mover.resume()
+        mover.begin("flat", CAUSE)
+        assert [moved.completed for moved in mover.advance(20.0) if moved.kind == "motion_end"] == [True]
+    finally:
+        mover.close()
+
+
+def test_a_question_in_mid_motion_ends_that_motion_alone(robot: Robot) -> None:
+    mover = Mover(robot, MOTIONS)
+    try:
+        mover.begin("tall", CAUSE)
+        mover.advance(0.5)
+        mover.rest(CAUSE)
+        (ended,) = [moved for moved in mover.advance(5.0) if moved.kind == "motion_end"]
+        assert not ended.completed and ended.time_s < 1.5 and not robot.stopped
+    finally:
+        mover.close()
 
 
 def of(events: Iterable[Event], *kinds: str) -> list[Event]:

@@ -226,8 +226,7 @@ class Mover:
         self._wait(at_s)
         if job.rest:
             job.rest = False
-            self._robot.stop()
-            self._robot.resume()
+            self._robot.end_motion()
         if job.steps == 0:
             self._note("motion_start", job, at_s, job.cause)
         elif not job.halting and len(self._robot.events) > job.num_events:

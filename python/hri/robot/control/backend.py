@@ -189,6 +189,10 @@ class Robot(ABC):
         """
         self._stop.engage()
 
+    def end_motion(self) -> None:
+        """End the motion under way as `stop` does; others may begin, unless the robot is stopped. By any thread."""
+        self._stop.interrupt()
+
     def resume(self) -> None:
         """Allow new motions; the one that `stop` ended does not go on. May be called by any thread."""
         self._stop.release()

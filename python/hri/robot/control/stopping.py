@@ -38,6 +38,10 @@ class StopLatch:
         self._last = object()
         self._engaged = True
 
+    def interrupt(self) -> None:
+        """End the motion under way as a stop does; the latch stays as it is."""
+        self._last = object()
+
     def release(self) -> None:
         """Allow motions that begin from now on."""
         self._engaged = False
