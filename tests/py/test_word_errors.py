@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 
 from hri.core.errors import InvalidArgument
+from hri.htk import HTK_COSTS
 from hri.language import WordErrors, align_words, count_word_errors
-from hri.language.word_errors import DELETION, INSERTION, SUBSTITUTION
+from hri.language.word_errors import NIST_COSTS
 
 Pair = tuple[str | None, str | None]
 
@@ -39,19 +40,21 @@ def all_alignments(reference: list[str], hypothesis: list[str]) -> Iterator[list
             yield [(None, hypothesis[0]), *rest]
 
 
-def cost(pairs: list[Pair]) -> int:
+def cost(pairs: list[Pair], costs: tuple[int, int, int]) -> int:
+    substitution, deletion, insertion = costs
     return sum(
-        DELETION if found is None else INSERTION if said is None else SUBSTITUTION * (said != found)
+        deletion if found is None else insertion if said is None else substitution * (said != found)
         for said, found in pairs
     )
 
 
-def test_alignments_cost_the_least_of_all() -> None:
+@pytest.mark.parametrize("costs", [NIST_COSTS, HTK_COSTS, (1, 2, 5)])
+def test_alignments_cost_the_least_of_all(costs: tuple[int, int, int]) -> None:
     for reference, hypothesis in zip(sentences(60, 5, 1), sentences(60, 5, 2), strict=True):
-        found: list[Pair] = [(p.reference, p.hypothesis) for p in align_words(reference, hypothesis)]
+        found: list[Pair] = [(p.reference, p.hypothesis) for p in align_words(reference, hypothesis, costs)]
         assert [said for said, _ in found if said is not None] == reference
         assert [word for _, word in found if word is not None] == hypothesis
-        assert cost(found) == min(cost(pairs) for pairs in all_alignments(reference, hypothesis))
+        assert cost(found, costs) == min(cost(pairs, costs) for pairs in all_alignments(reference, hypothesis))
 
 
 def test_errors_are_counted_by_kind() -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from hri.language.word_errors import AlignedWord, WordErrors
+from hri.language.word_errors import AlignedWord, WordErrors, align_words
 
 HTK_COSTS = (10, 7, 7)
 """Of a substitution, a deletion and an insertion; NIST's are 4, 3 and 3."""
@@ -74,40 +74,8 @@ def compare(
     reference: Sequence[str], found: Sequence[str], costs: tuple[int, int, int] = HTK_COSTS
 ) -> tuple[WordErrors, list[AlignedWord]]:
     """The errors of one sentence, and how its words were aligned at these costs."""
-    pairs = _align(reference, found, costs)
-    errors = WordErrors(
-        len(reference),
-        sum(None not in (p.reference, p.hypothesis) and p.reference != p.hypothesis for p in pairs),
-        sum(p.hypothesis is None for p in pairs),
-        sum(p.reference is None for p in pairs),
-    )
-    return errors, pairs
-
-
-def _align(reference: Sequence[str], found: Sequence[str], costs: tuple[int, int, int]) -> list[AlignedWord]:
-    """The cheapest pairs; of those that cost the same a word on both sides first, then a deletion, from the end."""
-    substitution, deletion, insertion = costs
-    rows = [[j * insertion for j in range(len(found) + 1)]]
-    for i, said in enumerate(reference, 1):
-        row = [i * deletion]
-        for j, heard in enumerate(found, 1):
-            both = rows[i - 1][j - 1] + (0 if said == heard else substitution)
-            row.append(min(both, rows[i - 1][j] + deletion, row[j - 1] + insertion))
-        rows.append(row)
-    pairs = []
-    i, j = len(reference), len(found)
-    while i or j:
-        both = 0 if i and j and reference[i - 1] == found[j - 1] else substitution
-        if i and j and rows[i][j] == rows[i - 1][j - 1] + both:
-            i, j = i - 1, j - 1
-            pairs.append(AlignedWord(reference[i], found[j]))
-        elif i and rows[i][j] == rows[i - 1][j] + deletion:
-            i -= 1
-            pairs.append(AlignedWord(reference[i], None))
-        else:
-            j -= 1
-            pairs.append(AlignedWord(None, found[j]))
-    return pairs[::-1]
+    pairs = align_words(reference, found, costs)
+    return WordErrors.of(pairs), pairs
 
 
 def aligned_lines(pairs: Sequence[AlignedWord]) -> list[str]:

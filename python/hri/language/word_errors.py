@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 from hri.core.errors import InvalidArgument
 
-SUBSTITUTION, DELETION, INSERTION = 4, 3, 3
-"""Costs by which sclite aligns."""
+NIST_COSTS = (4, 3, 3)
+"""Of a substitution, a deletion and an insertion, by which sclite aligns."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,16 @@ class WordErrors:
             raise InvalidArgument("a word error rate needs a reference with a word")
         return self.total / self.num_words
 
+    @classmethod
+    def of(cls, pairs: Sequence[AlignedWord]) -> WordErrors:
+        """The errors of one aligned sentence."""
+        return cls(
+            sum(p.reference is not None for p in pairs),
+            sum(None not in (p.reference, p.hypothesis) and p.reference != p.hypothesis for p in pairs),
+            sum(p.hypothesis is None for p in pairs),
+            sum(p.reference is None for p in pairs),
+        )
+
     def __add__(self, other: WordErrors) -> WordErrors:
         return WordErrors(
             self.num_words + other.num_words,
@@ -64,26 +74,29 @@ class WordErrors:
         )
 
 
-def align_words(reference: Sequence[str], hypothesis: Sequence[str]) -> list[AlignedWord]:
-    """Align two sentences at the least cost: 4 for a substitution, 3 for a deletion or an insertion, as sclite does.
+def align_words(
+    reference: Sequence[str], hypothesis: Sequence[str], costs: tuple[int, int, int] = NIST_COSTS
+) -> list[AlignedWord]:
+    """Align two sentences at the least cost of substitutions, deletions and insertions, by default as sclite does.
 
     Of alignments that cost the same, one with a word on both sides as late as possible.
     """
-    rows = [[j * INSERTION for j in range(len(hypothesis) + 1)]]
+    substitution, deletion, insertion = costs
+    rows = [[j * insertion for j in range(len(hypothesis) + 1)]]
     for i, said in enumerate(reference, 1):
-        row = [i * DELETION]
+        row = [i * deletion]
         for j, found in enumerate(hypothesis, 1):
-            both = rows[i - 1][j - 1] + (0 if said == found else SUBSTITUTION)
-            row.append(min(both, rows[i - 1][j] + DELETION, row[j - 1] + INSERTION))
+            both = rows[i - 1][j - 1] + (0 if said == found else substitution)
+            row.append(min(both, rows[i - 1][j] + deletion, row[j - 1] + insertion))
         rows.append(row)
     aligned = []
     i, j = len(reference), len(hypothesis)
     while i or j:
         cost = rows[i][j]
-        if i and j and cost == rows[i - 1][j - 1] + (0 if reference[i - 1] == hypothesis[j - 1] else SUBSTITUTION):
+        if i and j and cost == rows[i - 1][j - 1] + (0 if reference[i - 1] == hypothesis[j - 1] else substitution):
             i, j = i - 1, j - 1
             aligned.append(AlignedWord(reference[i], hypothesis[j]))
-        elif i and cost == rows[i - 1][j] + DELETION:
+        elif i and cost == rows[i - 1][j] + deletion:
             i -= 1
             aligned.append(AlignedWord(reference[i], None))
         else:
@@ -106,11 +119,5 @@ def count_word_errors(references: Sequence[Sequence[str]], hypotheses: Sequence[
     for reference, hypothesis in zip(references, hypotheses, strict=True):
         if isinstance(reference, str) or isinstance(hypothesis, str):
             raise InvalidArgument("a sentence is a sequence of words: split it")
-        pairs = align_words(reference, hypothesis)
-        errors += WordErrors(
-            len(reference),
-            sum(None not in (p.reference, p.hypothesis) and p.reference != p.hypothesis for p in pairs),
-            sum(p.hypothesis is None for p in pairs),
-            sum(p.reference is None for p in pairs),
-        )
+        errors += WordErrors.of(align_words(reference, hypothesis))
     return errors

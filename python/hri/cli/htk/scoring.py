@@ -22,7 +22,7 @@ from hri.core.errors import FormatError
 from hri.core.files import read_text
 from hri.htk import MasterLabelFile, Results, Transcription, compare, read_list
 from hri.htk.results import HTK_COSTS, WIDTH, aligned_lines
-from hri.language.word_errors import DELETION, INSERTION, SUBSTITUTION
+from hri.language.word_errors import NIST_COSTS
 
 MASTER = "#!MLF!#"
 NULL_CLASS = "???"
@@ -63,7 +63,7 @@ def results(
     known = set(read_list(label_list)) | {name for pair in equal for name in pair}
     references = References(masters, label_folder, suffix)
     classes = {member: name for name, member in equal}
-    costs = (SUBSTITUTION, DELETION, INSERTION) if nist else HTK_COSTS
+    costs = NIST_COSTS if nist else HTK_COSTS
     total = Results()
     lines = []
     for name, transcription in _recognised(names):
