@@ -216,6 +216,7 @@ void bind_labels(py::module_& m) {
           "entries",
           [](const MasterLabelFile& self) {
             std::vector<std::pair<std::string, Transcription>> entries;
+            entries.reserve(self.entries.size());
             for (const auto& entry : self.entries)
               entries.emplace_back(entry.pattern, entry.transcription);
             return entries;

@@ -37,8 +37,8 @@ class Reader {
   ParameterFile read() {
     ParameterFile file;
     if (bytes_.size() < kHeader) refuse("the header takes 12 bytes");
-    const std::uint32_t count = word() * 65536U + word();
-    const std::uint32_t period = word() * 65536U + word();
+    const std::uint32_t count = long_word();
+    const std::uint32_t period = long_word();
     const std::uint16_t sample_bytes = word();
     const std::uint16_t code = word();
     at_ = 0;
@@ -66,9 +66,13 @@ class Reader {
     return value;
   }
 
+  std::uint32_t long_word() {
+    const std::uint32_t high = word();  // before the other, which an expression need not be
+    return high << 16U | word();
+  }
+
   float number() {
-    const std::uint32_t high = word();
-    const std::uint32_t bits = high << 16U | word();
+    const std::uint32_t bits = long_word();
     float value = 0;
     std::memcpy(&value, &bits, sizeof value);
     if (!std::isfinite(value)) {

@@ -79,25 +79,32 @@ void WordNetwork::check() const {
 // Null nodes in topological order, by the longest way of null nodes to each.
 void WordNetwork::sort_arcs() {
   std::vector<int> rank(models_.size(), 0);
+  std::vector<std::vector<int>> next(models_.size());
+  std::vector<int> num_before(models_.size(), 0);
   const auto is_null = [this](int n) { return models_[static_cast<std::size_t>(n)] == kNull; };
-  std::vector<Arc> between;
   for (const Arc& arc : arcs_) {
-    if (is_null(arc.from) && is_null(arc.to)) between.push_back(arc);
     if (is_null(arc.from)) rank[static_cast<std::size_t>(arc.from)] = 1;
     if (is_null(arc.to)) rank[static_cast<std::size_t>(arc.to)] = 1;
+    if (!is_null(arc.from) || !is_null(arc.to)) continue;
+    next[static_cast<std::size_t>(arc.from)].push_back(arc.to);
+    ++num_before[static_cast<std::size_t>(arc.to)];
   }
-  bool changed = true;
-  for (int round = 0; changed; ++round) {
-    require(round <= num_nodes(), "null nodes make a cycle");
-    changed = false;
-    for (const Arc& arc : between) {
-      int& to = rank[static_cast<std::size_t>(arc.to)];
-      const int from = rank[static_cast<std::size_t>(arc.from)];
-      if (to > from) continue;
-      to = from + 1;
-      changed = true;
+  std::vector<std::size_t> open;
+  for (std::size_t n = 0; n < models_.size(); ++n) {
+    if (num_before[n] == 0) open.push_back(n);
+  }
+  std::size_t num_ranked = 0;
+  for (; !open.empty(); ++num_ranked) {
+    const std::size_t from = open.back();
+    open.pop_back();
+    for (const int to : next[from]) {
+      int& longest = rank[static_cast<std::size_t>(to)];
+      longest = std::max(longest, rank[from] + 1);
+      if (--num_before[static_cast<std::size_t>(to)] == 0)
+        open.push_back(static_cast<std::size_t>(to));
     }
   }
+  require(num_ranked == models_.size(), "null nodes make a cycle");
   std::stable_sort(arcs_.begin(), arcs_.end(), [&rank](const Arc& a, const Arc& b) {
     const int rank_a = rank[static_cast<std::size_t>(a.from)];
     const int rank_b = rank[static_cast<std::size_t>(b.from)];
