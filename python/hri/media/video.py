@@ -68,6 +68,7 @@ def read_image(path: str | PathLike[str]) -> Frame:
     IoError
         For a file that cannot be opened.
     """
+    import_opencv("to read pictures")  # what is missing is named before the file is looked for
     return decode_image(read_bytes(path), str(path))
 
 
