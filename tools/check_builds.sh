@@ -5,9 +5,8 @@
 #             of which GTEST_FILTER may leave out the training of words, as .ci/run does
 #   python    Clang, with the same sanitizers: Python's tests of signals, features and models
 #   tsan      thread sanitizer: the tests that start threads
-#   shared    shared libraries: what they export, and a program that uses them
-#   small     no exceptions, no training: a program that only recognises, and its size
-#   minimum   the oldest CMake, pybind11 and NumPy that are promised
+#   wheel     the package as pip builds and installs it, see tools/check_fresh_install.sh
+#   small     no exceptions, no training: programs that only recognise, the size of one, and how errors are reported
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -16,13 +15,6 @@ max_small_bytes=400000
 sanitized_tests=(cepstra.py codebook.py signal.py wavelet_packets.py spectrograms.py lda.py hmm.py possibility_models.py
   models.py)
 mkdir -p "$logs"
-
-# configure NAME OPTIONS...: into build/NAME.
-configure() {
-  local name=$1
-  shift
-  cmake -S . -B "build/$name" -G Ninja -DHRI_BUILD_VISION=OFF "$@"
-}
 
 # tests_of NAME TARGET...: builds test programs and runs them, each in two halves side by side.
 tests_of() {
@@ -41,19 +33,9 @@ tests_of() {
   done
 }
 
-# install_and_use NAME: what is installed from build/NAME builds the example project.
-install_and_use() {
-  local name=$1
-  rm -rf "build/$name/installed" "build/$name/consumer"
-  cmake --install "build/$name" --component development --prefix "build/$name/installed"
-  cmake -S examples/consumer -B "build/$name/consumer" -G Ninja -DCMAKE_BUILD_TYPE=MinSizeRel \
-    -DCMAKE_PREFIX_PATH="$PWD/build/$name/installed"
-  cmake --build "build/$name/consumer"
-}
-
 check_asan() {
   cmake --preset asan
-  tests_of asan core_tests io_tests signal_tests features_tests models_tests recognition_tests
+  tests_of asan core_tests io_tests signal_tests features_tests models_tests language_tests htk_tests recognition_tests
 }
 
 # The runtime of the sanitizers comes before Python, which was built without them. -S: no editable install is seen.
@@ -66,9 +48,13 @@ check_python() {
   mkdir -p "$site"
   cp -r python/hri "$site"
   cmake --install build/asan --component python --prefix "$site"
-  PYTHONPATH=$site:$packages PYTHONMALLOC=malloc ASAN_OPTIONS=detect_leaks=0 \
-    LD_PRELOAD=$(clang++ -print-file-name="libclang_rt.asan-$(uname -m).so") \
-    "$python" -S -m pytest -q -p no:cacheprovider "${sanitized_tests[@]/#/tests/py/test_}"
+  sanitized() {
+    PYTHONPATH=$site:$packages PYTHONMALLOC=malloc ASAN_OPTIONS=detect_leaks=0 \
+      LD_PRELOAD=$(clang++ -print-file-name="libclang_rt.asan-$(uname -m).so") "$python" -S "$@"
+  }
+  # It is built without vision, which an error has to say.
+  { sanitized -c 'from hri import _native_vision' 2>&1 || true; } | grep HRI_BUILD_VISION
+  sanitized -m pytest -q -p no:cacheprovider "${sanitized_tests[@]/#/tests/py/test_}"
 }
 
 check_tsan() {
@@ -77,51 +63,32 @@ check_tsan() {
   build/tsan/tests/cpp/thread_tests --gtest_brief=1 --gtest_filter='*Thread*'
 }
 
-check_shared() {
-  configure shared -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON
-  cmake --build build/shared
-  tools/check_exports.sh build/shared
-  install_and_use shared
+check_wheel() {
+  CXX=clang++ tools/check_fresh_install.sh
 }
 
 check_small() {
-  configure small -DCMAKE_BUILD_TYPE=Release -DHRI_EXCEPTIONS=OFF -DHRI_INFERENCE_ONLY=ON -DHRI_SIMD=OFF
+  local prefix=$PWD/build/small/installed program=build/small/consumer/recognise_word size status=0
+  cmake -S . -B build/small -G Ninja -DCMAKE_BUILD_TYPE=Release -DHRI_BUILD_VISION=OFF -DHRI_EXCEPTIONS=OFF \
+    -DHRI_INFERENCE_ONLY=ON -DHRI_SIMD=OFF
   cmake --build build/small
-  install_and_use small
-  local program=build/small/consumer/recognise_word size
+  rm -rf "$prefix" build/small/consumer
+  cmake --install build/small --component development --prefix "$prefix"
+  cmake -S examples/consumer -B build/small/consumer -G Ninja -DCMAKE_BUILD_TYPE=MinSizeRel -DCMAKE_PREFIX_PATH="$prefix"
+  cmake --build build/small/consumer
   strip -o "$program.stripped" "$program"
   size=$(stat -c %s "$program.stripped")
   echo "a program that recognises words has $size bytes"
   ((size <= max_small_bytes)) || { echo "more than $max_small_bytes" >&2; return 1; }
+  # Without exceptions, errors reach the handler: this one ends the program with 3.
+  build/small/consumer/stream_words missing.hri missing.wav 2>build/small/error.log || status=$?
+  if [[ $status != 3 ]] || ! grep -q missing.hri build/small/error.log; then
+    echo "no error was reported" >&2
+    return 1
+  fi
 }
 
-check_minimum() {
-  local venv=$PWD/build/minimum
-  rm -rf "$venv"
-  "${HRI_PYTHON:-python3}" -m venv "$venv"
-  "$venv/bin/pip" install --quiet --disable-pip-version-check "cmake==3.22.*" "pybind11==2.12.*" "numpy==1.24.*" \
-    "scikit-build-core==0.11.*" pathspec
-  PATH=$venv/bin:$PATH "$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation --no-deps . \
-    --config-settings build-dir=build/minimum/build --config-settings cmake.define.HRI_BUILD_VISION=OFF \
-    --config-settings cmake.build-type=Debug --config-settings cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0
-  (cd "$venv" && bin/python - <<'PYTHON')
-import numpy as np
-import hri
-
-pause = np.zeros(4000, "f4")
-tones = [np.concatenate([pause, 0.3 * np.sin(np.arange(8000, dtype="f4") * f), pause]) for f in (0.2, 0.21, 0.6, 0.62)]
-words = hri.WordRecognizer().fit(tones, ["low", "low", "high", "high"], sample_rate_hz=16000)
-assert words.predict(tones, 16000).tolist() == ["low", "low", "high", "high"]
-try:
-    from hri import _native_vision
-except ImportError as error:
-    assert "HRI_BUILD_VISION" in str(error), error
-else:
-    raise AssertionError("built without vision, and has it")
-PYTHON
-}
-
-all=(asan python tsan shared small minimum)
+all=(asan python tsan wheel small)
 (($#)) || set -- "${all[@]}"
 failed=()
 for variant in "$@"; do

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the wheel from a copy of the sources, installs it into an environment of its own, and uses it away from the sources.
+# Builds the wheel from a copy of the sources with the oldest tools that are promised, installs it into an environment of
+# its own, first beside the oldest NumPy, and uses it away from the sources.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -9,11 +10,14 @@ mkdir "$work/source"
 tar --exclude=./.venv --exclude=./build --exclude=./hri_demo --exclude=./.git -cf - . | tar -xf - -C "$work/source"
 
 python=$PWD/.venv/bin/python
+pip=(-m pip --quiet --disable-pip-version-check)
+"$python" -m venv "$work/tools"
+"$work/tools/bin/python" "${pip[@]}" install "cmake==3.22.*" "pybind11==2.12.*" "scikit-build-core==0.11.*" pathspec
 # What is packed and how it installs does not depend on how fast it is.
-"$python" -m pip wheel --quiet --disable-pip-version-check --no-build-isolation --no-deps \
+PATH=$work/tools/bin:$PATH "$work/tools/bin/python" "${pip[@]}" wheel --no-build-isolation --no-deps \
   --config-settings cmake.build-type=Debug --config-settings cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 --wheel-dir "$work/wheels" "$work/source"
 "$python" -m venv "$work/venv"
-"$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check "$work"/wheels/libhri-*.whl
+"$work/venv/bin/python" "${pip[@]}" install "numpy==1.24.*" "$work"/wheels/libhri-*.whl
 
 cd "$work"
 # The base install needs NumPy only; what is missing is named with its extra.
@@ -37,7 +41,7 @@ else:
     raise AssertionError("a picture was read without OpenCV")
 PYTHON
 
-"$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check "$(echo wheels/libhri-*.whl)[all]"
+"$work/venv/bin/python" "${pip[@]}" install --upgrade "$(echo wheels/libhri-*.whl)[all]"
 venv/bin/hri --version
 venv/bin/hri study list >/dev/null
 venv/bin/hri robot play --help >/dev/null

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -148,21 +149,41 @@ install(TARGETS app)
 """
 
 
-def test_a_subproject_installs_nothing_of_its_own_unless_asked(tmp_path: Path) -> None:
-    (tmp_path / "CMakeLists.txt").write_text(SUBPROJECT)
-    build = tmp_path / "build"
-    configure = ("cmake", "-S", tmp_path, "-B", build, "-G", "Ninja", *UNOPTIMISED, "-DHRI_SIMD=OFF")
-    run(*configure, "-DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON")
-    run("cmake", "--build", build, "--parallel", "2")
+@pytest.fixture(scope="module")
+def subproject(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Path], Path]:
+    """Gives the build folder of a project that has libhri, shared, as a part of it, installed with an option."""
+    source = tmp_path_factory.mktemp("subproject")
+    (source / "CMakeLists.txt").write_text(SUBPROJECT)
+    build = source / "build"
 
-    def installed_by(prefix: Path) -> set[str]:
+    def install(option: str, prefix: Path) -> Path:
+        run(
+            *("cmake", "-S", source, "-B", build, "-G", "Ninja", *UNOPTIMISED, "-DHRI_SIMD=OFF", option),
+            *("-DBUILD_SHARED_LIBS=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON"),
+        )
+        run("cmake", "--build", build, "--parallel", "2")
         run("cmake", "--install", build, "--prefix", prefix)
-        return {path.relative_to(prefix).as_posix() for path in prefix.rglob("*") if path.is_file()}
+        return build
 
-    assert installed_by(tmp_path / "plain") == {"bin/app"}
-    run(*configure, "-DHRI_INSTALL=ON")
-    assert installed_by(tmp_path / "asked") > {"bin/app", "include/hri/core/error.hpp", "lib/pkgconfig/hri-core.pc"}
-    done = subprocess.run([str(tmp_path / "plain/bin/app"), "missing.hri", "x.wav"], capture_output=True, text=True)
+    return install
+
+
+def test_a_subproject_installs_nothing_of_its_own(subproject: Callable[[str, Path], Path], tmp_path: Path) -> None:
+    build = subproject("-DHRI_INSTALL=OFF", tmp_path)
+    assert [path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()] == ["bin/app"]
+    done = subprocess.run([str(build / "app"), "missing.hri", "x.wav"], capture_output=True, text=True)
+    assert done.returncode != 0 and "missing.hri" in done.stderr
+
+
+def test_shared_libraries_export_the_interface_alone(subproject: Callable[[str, Path], Path], tmp_path: Path) -> None:
+    build = subproject("-DHRI_INSTALL=ON", tmp_path / "prefix")
+    run(ROOT / "tools" / "check_exports.sh", build / "_deps" / "hri-build")
+    assert (tmp_path / "prefix" / "lib" / "pkgconfig" / "hri-core.pc").exists()
+    consumer = ("-S", ROOT / "examples" / "consumer", "-B", tmp_path / "build")
+    run("cmake", *consumer, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={tmp_path / 'prefix'}")
+    run("cmake", "--build", tmp_path / "build")
+    program = tmp_path / "build" / "recognise_word"
+    done = subprocess.run([str(program), "missing.hri", "x.wav"], capture_output=True, text=True)
     assert done.returncode != 0 and "missing.hri" in done.stderr
 
 
@@ -178,31 +199,3 @@ def test_missing_component_is_named(installed: Path, tmp_path: Path) -> None:
     )
     assert done.returncode != 0
     assert "language" in done.stderr
-
-
-def test_core_reports_errors_without_exceptions(tmp_path: Path) -> None:
-    """Built with -fno-exceptions -fno-rtti, the core calls the handler that was installed."""
-    build = tmp_path / "build"
-    off = [f"-DHRI_{name}=OFF" for name in ("BUILD_VISION", "BUILD_TESTS", "BUILD_PYTHON", "EXCEPTIONS")]
-    run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *UNOPTIMISED, *off)
-    run("cmake", "--build", build)
-    run("cmake", "--install", build, "--component", "development", "--prefix", tmp_path / "prefix")
-    source = tmp_path / "handler.cpp"
-    source.write_text(
-        "#include <hri/core/error.hpp>\n#include <hri/io/model_file.hpp>\n#include <cstdio>\n#include <cstdlib>\n"
-        "int main() {\n"
-        "  hri::set_failure_handler([](hri::ErrorKind, const char* m) { std::fputs(m, stderr); std::_Exit(7); });\n"
-        '  hri::ModelFile::parse({}, "empty.hri");\n}\n'
-    )
-    flags = run(
-        *("pkg-config", "--cflags", "--libs", "hri-core"),
-        PKG_CONFIG_PATH=str(tmp_path / "prefix" / "lib" / "pkgconfig"),
-    ).split()
-    program = tmp_path / "handler"
-    run("g++", "-std=c++17", "-fno-exceptions", "-fno-rtti", source, "-o", program, *flags)
-    done = subprocess.run([str(program)], capture_output=True, text=True)
-    assert done.returncode == 7 and "empty.hri" in done.stderr
-    stream_words = ROOT / "examples" / "consumer" / "stream_words.cpp"
-    run("g++", "-std=c++17", "-fno-exceptions", "-fno-rtti", stream_words, "-o", program, *flags)
-    done = subprocess.run([str(program), "missing.hri", "missing.wav"], capture_output=True, text=True)
-    assert done.returncode == 3 and "missing.hri" in done.stderr

@@ -37,8 +37,8 @@ def test_scenes_succeed(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(1, 10))
-def test_scenes_succeed_with_each_of_ten_seeds(tmp_path: Path, seed: int) -> None:
+@pytest.mark.parametrize("seed", range(1, 5))
+def test_scenes_succeed_with_other_seeds(tmp_path: Path, seed: int) -> None:
     require_success(played(tmp_path, seed), seed)
 
 
