@@ -19,7 +19,7 @@ from hri.core.errors import FormatError, InvalidArgument
 from hri.fusion import KINDS, FusionOptions, LearnedFusion, fuse
 from hri.fusion.anfis import Anfis
 from hri.fusion.learned import MODES, _rows
-from hri.fusion.logistic import stacked
+from hri.fusion.logistic import LogisticStacking, comparisons
 from hri.fusion.network import Network
 from hri.fusion.reliability import Reliability
 from hri.fusion.tree import DecisionTree
@@ -147,12 +147,21 @@ def test_margins_by_hand() -> None:
 
 def test_logistic_stacking_is_that_of_scikit_learn() -> None:
     rows, yes = training_rows()
-    columns = stacked(rows).astype(np.float32).astype(float)
-    mean, deviation = columns.mean(axis=0), columns.std(axis=0)
-    reference = ReferenceRegression(C=1.0, tol=1e-10, max_iter=1000).fit((columns - mean) / deviation, yes)
-    expected = reference.predict_proba((columns - mean) / deviation)[:, 1]
-    found = FITTED["logistic"]._learner.scores(rows)
-    assert found == pytest.approx(expected, abs=1e-4)
+    columns, first = comparisons(rows, yes, len(LABELS))
+    assert columns.shape == (2 * 600 * 4, 4) and columns[first] == pytest.approx(-columns[~first])
+    deviation = columns.std(axis=0)
+    reference = ReferenceRegression(C=1.0, tol=1e-10, max_iter=1000).fit(columns / deviation, first)
+    expected = reference.coef_ / deviation
+    assert reference.intercept_ == pytest.approx(0, abs=1e-6)
+    assert FITTED["logistic"]._learner.weights == pytest.approx(expected, rel=1e-3)
+
+
+def test_logistic_stacking_is_a_product_with_exponents_linear_in_the_reliabilities() -> None:
+    speech, gesture = np.array([[0.6, 0.3, 0.1]]), np.array([[0.2, 0.5, 0.3]])
+    model = LogisticStacking(np.array([[0.5, 0.1, 2.0, 3.0]]) * math.log(1e4))
+    found = model.scores(_rows(speech, gesture, np.array([0.9]), np.array([0.4])))
+    expected = (speech ** (0.5 + 2.0 * 0.9) * gesture ** (0.1 + 3.0 * 0.4))[0]
+    assert found / found.sum() == pytest.approx(expected / expected.sum())
 
 
 def test_tree_splits_as_scikit_learn_does() -> None:
@@ -160,7 +169,7 @@ def test_tree_splits_as_scikit_learn_does() -> None:
     rng = np.random.default_rng(0)
     rows = rng.integers(0, 8, (500, 3)).astype(float)
     yes = ((rows[:, 0] > 3) ^ (rows[:, 2] > 5) ^ (rng.random(500) < 0.1)).astype(float)
-    tree = DecisionTree.fit(rows, yes, 0)
+    tree = DecisionTree.fit(rows, yes, 2, 0)
     reference = DecisionTreeClassifier(max_depth=6, min_samples_leaf=20).fit(rows, yes)
     agree = (tree.scores(rows) > 0.5) == (reference.predict(rows) > 0.5)
     assert agree.mean() > 0.97
@@ -170,14 +179,14 @@ def test_tree_splits_as_scikit_learn_does() -> None:
 def test_network_descends_by_its_true_gradient() -> None:
     rows, yes = training_rows()
     rows, yes = np.column_stack([rows, np.ones(len(rows))])[:200], yes[:200]
-    model = Network(*(np.random.default_rng(0).normal(size=shape) for shape in ((8, 5), (1, 9))))
+    model = Network(*(np.random.default_rng(0).normal(size=shape) for shape in ((8, 5), (1, 8))))
 
     def loss(hidden: Any, output: Any) -> float:
-        p = Network(hidden, output)._forward(rows)[1]
+        p = Network(hidden, output)._forward(rows)[1].reshape(-1, 5)
         decay = 1e-4 * (np.square(hidden).sum() + np.square(output).sum()) / 2
-        return float(-np.mean(yes * np.log(p) + (1 - yes) * np.log(1 - p)) + decay)
+        return float(-np.mean(np.log(p / p.sum(axis=1, keepdims=True))[yes.reshape(-1, 5) > 0]) + decay)
 
-    slope = model._gradient(rows, yes)[0]
+    slope = model._gradient(rows, yes, 5)[0]
     step = np.zeros_like(model.hidden)
     step[2, 1] = 1e-6
     numeric = (loss(model.hidden + step, model.output) - loss(model.hidden - step, model.output)) / 2e-6
@@ -188,7 +197,7 @@ def test_anfis_learns_what_neither_a_line_nor_least_squares_alone_can() -> None:
     rng = np.random.default_rng(0)
     rows = rng.uniform(-1, 1, (800, 2))
     yes = (rows[:, 0] * rows[:, 1] > 0).astype(float)
-    model = Anfis.fit(rows, yes, 0)
+    model = Anfis.fit(rows, yes, 2, 0)
     found = model.scores(rows)
     assert ((found > 0.5) == (yes > 0.5)).mean() > 0.95 and found.min() >= 0 and found.max() <= 1
     strengths = model._strengths(rows)
@@ -298,7 +307,7 @@ def changed(kind: str, name: str, value: Any) -> ModelFile:
     return file
 
 
-NODES = DecisionTree.fit(*training_rows(), 0).nodes
+NODES = DecisionTree.fit(*training_rows(), 5, 0).nodes
 
 
 def with_cell(row: int, column: int, value: float) -> NDArray[np.float64]:
@@ -318,7 +327,7 @@ def with_cell(row: int, column: int, value: float) -> NDArray[np.float64]:
         ("logistic", "gesture.rejection", "2", "gesture.rejection is 2.0"),
         ("logistic", "gesture.prior", "nan", "gesture.prior"),
         ("logistic", "surplus", "1", "surplus"),
-        ("logistic", "learner.weights", np.zeros((1, 4)), r"learner.weights has shape \(1, 4\)"),
+        ("logistic", "learner.weights", np.zeros((1, 3)), r"learner.weights has shape \(1, 3\)"),
         ("network", "learner.hidden", np.zeros((8, 4)), "learner.hidden has shape"),
         ("network", "learner.output", np.zeros((1, 3)), "learner.output has shape"),
         ("anfis", "learner.centres", np.zeros((3, 2)), "learner.centres has shape"),

@@ -16,7 +16,8 @@ Rows = NDArray[np.float64]
 
 _NUM_EPOCHS = 8
 _RIDGE = 1e-3
-_RATE = 0.1
+_STEP = 0.02
+"""Length of a step of all centres and widths together."""
 _LEAST_WIDTH, _MOST_WIDTH = 0.05, 5.0
 
 
@@ -39,10 +40,11 @@ class Anfis:
         self.centres, self.widths, self.consequents = centres, widths, consequents
 
     @classmethod
-    def fit(cls, rows: Rows, yes: Rows, seed: int) -> Anfis:
+    def fit(cls, rows: Rows, yes: Rows, num_classes: int, seed: int) -> Anfis:
         """Jang's hybrid rule: in every epoch least squares for the consequents, a gradient step for the sets.
 
-        Nothing is random, `seed` is not used. Of all epochs the one with the least squared error is kept.
+        Of all epochs the one with the least squared error is kept. Nothing is random, `seed` is not used; nor is
+        `num_classes`, as every row counts by itself.
         """
         low, high = np.quantile(rows, (0.05, 0.95), axis=0)
         centres = np.stack([low, np.maximum(high, low + 0.1)], axis=1)
@@ -92,7 +94,7 @@ class Anfis:
                 by_centre[i, s] = np.mean(of_set * z / self.widths[i, s])
                 by_width[i, s] = np.mean(of_set * z * z / self.widths[i, s])
         size = np.sqrt(np.sum(np.square(by_centre)) + np.sum(np.square(by_width)))
-        step = _RATE / max(float(size), 1e-12) * 0.2
+        step = _STEP / max(float(size), 1e-12)
         widths = np.clip(self.widths - step * by_width, _LEAST_WIDTH, _MOST_WIDTH)
         return self.centres - step * by_centre, widths
 

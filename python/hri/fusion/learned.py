@@ -53,9 +53,9 @@ class LearnedFusion:
 
     The quality of each mode's signal (`Decision.quality`), and whether the mode rejected it, become a reliability: the
     probability that the mode's best class is right. "product" raises the probabilities of each mode to its reliability,
-    "dempster_shafer" discounts them by it; the others learn P(c is right) for every class c from its margin in each
-    mode (log probability less that of the best other class) and the reliabilities, the same function for all classes:
-    the vocabulary may grow afterwards.
+    "dempster_shafer" discounts them by it; the others learn how likely every class c is from its margin in each mode
+    (log probability less that of the best other class) and the reliabilities, the same function for all classes: the
+    vocabulary may grow afterwards.
 
     STOP, a missing mode and two rejected modes are decided as by `hri.fuse`.
 
@@ -134,7 +134,7 @@ class LearnedFusion:
             rows = _rows(found["speech"], found["gesture"], *trust)
             yes = np.zeros(shape)
             yes[np.arange(shape[0]), truth] = 1.0
-            self._learner = _LEARNERS[self.kind].fit(rows, yes.ravel(), self.seed)
+            self._learner = _LEARNERS[self.kind].fit(rows, yes.ravel(), shape[1], self.seed)
         self._reliability = reliability
         return self
 

@@ -15,12 +15,14 @@ Rows = NDArray[np.float64]
 
 
 class LogisticStacking:
-    """P(yes) = sigmoid(w x + b) with the margins of both modes, by themselves and times the reliabilities, in x.
+    """P(c) in proportion to exp(w x(c)), the same w for all classes.
+
+    x(c) holds log P(c) in each mode, by itself and times the mode's reliability, against its best class: a product
+    whose exponents are linear in the reliabilities.
 
     Parameters
     ----------
-    weights : float64 array, shape (1, num_columns + 1)
-        w and b, in the units of the columns.
+    weights : float64 array, shape (1, num_columns)
     """
 
     kind = "logistic"
@@ -29,15 +31,17 @@ class LogisticStacking:
         self.weights = weights
 
     @classmethod
-    def fit(cls, rows: Rows, yes: Rows, seed: int) -> LogisticStacking:
-        """Newton's method on the penalised log-likelihood; nothing is random, `seed` is not used."""
-        model = LogisticRegression().fit(stacked(rows), yes > 0)
-        return cls(np.concatenate([model.coef_[0], model.intercept_])[None, :])
+    def fit(cls, rows: Rows, yes: Rows, num_classes: int, seed: int) -> LogisticStacking:
+        """A regression of which of two classes is right, the right one against each other, on what parts their x.
+
+        Nothing is random, `seed` is not used.
+        """
+        model = LogisticRegression().fit(*comparisons(rows, yes, num_classes))
+        return cls(model.coef_)
 
     def scores(self, rows: Rows) -> Rows:
-        """P(yes) of every row."""
-        log_odds = stacked(rows) @ self.weights[0, :-1] + self.weights[0, -1]
-        return np.asarray(1 / (1 + np.exp(-np.clip(log_odds, -30, 30))))
+        """exp(w x) of every row."""
+        return np.asarray(np.exp(np.clip(stacked(rows) @ self.weights[0], -300, 300)))
 
     def write(self, file: ModelFile, prefix: str) -> None:
         """Add it to a model file."""
@@ -47,12 +51,21 @@ class LogisticStacking:
     def read(cls, file: ModelFile, prefix: str, num_inputs: int) -> LogisticStacking:
         """The inverse of `write`. Raises FormatError where the sizes do not fit."""
         weights = np.asarray(file.matrix_d(prefix + "weights"))
-        shape = (1, stacked(np.zeros((1, num_inputs))).shape[1] + 1)
+        shape = (1, stacked(np.zeros((1, num_inputs))).shape[1])
         if weights.shape != shape:
             raise FormatError(f"{prefix}weights has shape {weights.shape}, must have {shape}")
         return cls(weights)
 
 
 def stacked(rows: Rows) -> Rows:
-    """Margins of both modes (columns 0 and 1), the same times their reliabilities (columns 2 and 3)."""
-    return np.column_stack([rows[:, :2], rows[:, :2] * rows[:, 2:4]])
+    """x of every row, scaled as the margins are: log P of both modes, and the same times their reliabilities."""
+    logs = np.minimum(rows[:, :2], 0.0)  # but for the best class, the margin is the distance to the best
+    return np.column_stack([logs, logs * rows[:, 2:4]])
+
+
+def comparisons(rows: Rows, yes: Rows, num_classes: int) -> tuple[Rows, NDArray[np.bool_]]:
+    """x of the right class less x of each other class of its sample, "yes", and the negative of it, "no"."""
+    columns = stacked(rows).reshape(-1, num_classes, 2 * 2)
+    right = yes.reshape(-1, num_classes) > 0
+    parts = (columns[right][:, None, :] - columns)[~right]
+    return np.concatenate([parts, -parts]), np.repeat([True, False], len(parts))

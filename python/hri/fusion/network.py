@@ -20,14 +20,14 @@ _DECAY = 1e-4
 
 
 class Network:
-    """sigmoid(v tanh(W x + b) + c).
+    """P(c) in proportion to exp(v tanh(W x(c) + b)), the same for all classes.
 
     Parameters
     ----------
     hidden : float64 array, shape (num_hidden, num_inputs + 1)
         W and b.
-    output : float64 array, shape (1, num_hidden + 1)
-        v and c.
+    output : float64 array, shape (1, num_hidden)
+        v.
     """
 
     kind = "network"
@@ -36,19 +36,20 @@ class Network:
         self.hidden, self.output = hidden, output
 
     @classmethod
-    def fit(cls, rows: Rows, yes: Rows, seed: int) -> Network:
-        """Cross-entropy and weight decay by Adam (Kingma and Ba, 2015) on all rows at once; `seed` starts it."""
+    def fit(cls, rows: Rows, yes: Rows, num_classes: int, seed: int) -> Network:
+        """Cross-entropy over the classes of each sample, and weight decay, by Adam (Kingma and Ba, 2015).
+
+        All rows are used at once; `seed` gives the first weights.
+        """
         rng = np.random.default_rng(seed)
         hidden = rng.normal(0, 1 / np.sqrt(rows.shape[1]), (_NUM_HIDDEN, rows.shape[1] + 1))
-        output = np.zeros((1, _NUM_HIDDEN + 1))
-        output[0, -1] = np.log(max(float(yes.mean()), 1e-6) / max(1 - float(yes.mean()), 1e-6))
-        output[0, :-1] = rng.normal(0, 1 / np.sqrt(_NUM_HIDDEN), _NUM_HIDDEN)
+        output = rng.normal(0, 1 / np.sqrt(_NUM_HIDDEN), (1, _NUM_HIDDEN))
         model = cls(hidden, output)
         inputs = _with_constant(rows)
         moments = [(np.zeros_like(w), np.zeros_like(w)) for w in (hidden, output)]
         for step in range(1, _NUM_STEPS + 1):
             for weights, slope, (mean, square) in zip(
-                (model.hidden, model.output), model._gradient(inputs, yes), moments, strict=True
+                (model.hidden, model.output), model._gradient(inputs, yes, num_classes), moments, strict=True
             ):
                 mean += 0.1 * (slope - mean)
                 square += 0.001 * (slope * slope - square)
@@ -57,17 +58,19 @@ class Network:
         return model
 
     def scores(self, rows: Rows) -> Rows:
-        """P(yes) of every row."""
+        """exp(v tanh(W x + b)) of every row."""
         return self._forward(_with_constant(rows))[1]
 
     def _forward(self, inputs: Rows) -> tuple[Rows, Rows]:
-        active = _with_constant(np.tanh(inputs @ self.hidden.T))
-        return active, 1 / (1 + np.exp(-np.clip(active @ self.output[0], -30, 30)))
+        active = np.tanh(inputs @ self.hidden.T)
+        return active, np.exp(np.clip(active @ self.output[0], -300, 300))
 
-    def _gradient(self, inputs: Rows, yes: Rows) -> tuple[Rows, Rows]:
+    def _gradient(self, inputs: Rows, yes: Rows, num_classes: int) -> tuple[Rows, Rows]:
         active, found = self._forward(inputs)
-        error = (found - yes) / len(yes)
-        back = error[:, None] * self.output[0, :-1] * (1 - np.square(active[:, :-1]))
+        shares = found.reshape(-1, num_classes)
+        shares = shares / shares.sum(axis=1, keepdims=True)
+        error = (shares.ravel() - yes) * num_classes / len(yes)
+        back = error[:, None] * self.output[0] * (1 - np.square(active))
         return back.T @ inputs + _DECAY * self.hidden, (error @ active)[None, :] + _DECAY * self.output
 
     def write(self, file: ModelFile, prefix: str) -> None:
@@ -81,8 +84,8 @@ class Network:
         hidden, output = (np.asarray(file.matrix_d(prefix + name)) for name in ("hidden", "output"))
         if hidden.ndim != 2 or hidden.shape[1] != num_inputs + 1 or not 1 <= len(hidden) <= _MAX_HIDDEN:
             raise FormatError(f"{prefix}hidden has shape {hidden.shape}, must have 1..{_MAX_HIDDEN} x {num_inputs + 1}")
-        if output.shape != (1, len(hidden) + 1):
-            raise FormatError(f"{prefix}output has shape {output.shape}, must have (1, {len(hidden) + 1})")
+        if output.shape != (1, len(hidden)):
+            raise FormatError(f"{prefix}output has shape {output.shape}, must have (1, {len(hidden)})")
         return cls(hidden, output)
 
 

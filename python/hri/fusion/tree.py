@@ -35,8 +35,11 @@ class DecisionTree:
         self.nodes = nodes
 
     @classmethod
-    def fit(cls, rows: Rows, yes: Rows, seed: int) -> DecisionTree:
-        """Grow to depth 6, of no leaf with fewer than 20 rows; nothing is random, `seed` is not used."""
+    def fit(cls, rows: Rows, yes: Rows, num_classes: int, seed: int) -> DecisionTree:
+        """Grow to depth 6, of no leaf with fewer than 20 rows.
+
+        Nothing is random, `seed` is not used; nor is `num_classes`, as every row counts by itself.
+        """
         nodes: list[list[float]] = []
         _grow(nodes, rows, yes, 0)
         return cls(np.array(nodes))

@@ -160,6 +160,11 @@ def _verdict(rows: Sequence[Row]) -> dict[str, Any]:
     return result
 
 
+def _recommended(inner: Sequence[dict[str, float]]) -> str:
+    """The rule that is right most often in the inner folds of all folds and numbers of signers."""
+    return max(inner[0], key=lambda name: sum(shares[name] for shares in inner))
+
+
 def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dict[str, Any]:
     speech, signs = Speech(data_dir, progress), Signs(data_dir, SEED, progress)
     said = split_by_person([s.person for s in speech.samples], NUM_FOLDS, SEED)
@@ -190,6 +195,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         "test_exposure": TEST_EXPOSURE,
         "rows": rows,
         "rules": verdict,
+        "recommended": _recommended([fold[s]["inner"] for fold in found for s in SIGNERS]),
         "chosen": {s: [fold[s]["chosen"] for fold in found] for s in SIGNERS},
         "inner": {s: [fold[s]["inner"] for fold in found] for s in SIGNERS},
         "passed": verdict[CHOSEN]["passed"],
