@@ -37,7 +37,8 @@ if TYPE_CHECKING:
     from hri.evaluation import cross_validate
     from hri.evaluation.training import train
     from hri.features import CepstraOptions, HandFeatureOptions
-    from hri.fusion import FusedDecision, fuse
+    from hri.fusion import FusedDecision
+    from hri.fusion.fuse import fuse
     from hri.media import Audio, Clip, read_audio, read_frames
     from hri.recognition import (
         ConnectedWordRecognizer,

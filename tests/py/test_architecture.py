@@ -40,7 +40,7 @@ PYTHON = {
     "recognition": {"core", "io", "media", "vision", "language"},
     "live": {"core", "io", "signal", "media", "datasets", "vision", "recognition"},
     "evaluation": {"core", "signal", "media", "datasets", "recognition"},
-    "fusion": {"core", "recognition.decision"},
+    "fusion": {"core", "io", "models", "recognition.decision"},
     "robot": {"core", "media"},
     "session": {"core", "media", "signal", "recognition", "live", "fusion", "robot"},
 }

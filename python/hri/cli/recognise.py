@@ -16,7 +16,7 @@ from hri.cli.progress import progress_bars
 from hri.cli.recognizers import kept_model
 from hri.core.errors import Error, InvalidArgument
 from hri.core.suggest import did_you_mean
-from hri.fusion import RULES, FusedDecision, FusionOptions, fuse
+from hri.fusion import RULES, FusedDecision, FusionOptions, LearnedFusion, fuse
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, kind_of_file, write_image
 from hri.recognition import Decision, GestureRecognizer, WordRecognizer
 from hri.recognition.decision import RECOGNISED
@@ -33,6 +33,7 @@ _file = click.Path(exists=True, dir_okay=False)
 )
 @click.option("--gesture-model", type=_file, help="The same for gestures.")
 @click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
+@click.option("--fusion", "fusion_path", type=_file, metavar="FILE", help="A learned fusion, in place of --rule.")
 @click.option(
     "--robot",
     "robot_path",
@@ -57,6 +58,7 @@ def recognise(
     speech_model: str | None,
     gesture_model: str | None,
     rule: str,
+    fusion_path: str | None,
     robot_path: str | None,
     backend: str,
     gui: bool,
@@ -86,6 +88,7 @@ def recognise(
         raise click.UsageError("give a recording: --speech FILE, --gesture FILE, or both")
     if gui and backend != "pybullet":
         raise click.UsageError("--gui needs --backend pybullet")
+    learned = None if fusion_path is None else LearnedFusion.load(fusion_path)
     heard = seen = None
     if speech is not None:
         words = WordRecognizer.load(speech_model or kept_model("speech"))
@@ -95,7 +98,7 @@ def recognise(
         signs = GestureRecognizer.load(gesture_model or kept_model("gesture"))
         seen = signs.recognise(gesture)
         _describe(seen, gesture, top)
-    decision = fuse(heard, seen, rule=rule)
+    decision = fuse(heard, seen, rule=learned or rule)
     say(f"{decision.label}\t{decision.confidence:.3f}\t{decision.rule}", json_path)
     answer = None
     try:

@@ -19,7 +19,7 @@ from hri.cli.recognizers import kept_model
 from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
-from hri.fusion import RULES, FusionOptions
+from hri.fusion import RULES, FusionOptions, LearnedFusion
 from hri.live import FileSource, VideoSource
 from hri.media import kind_of_file
 from hri.recognition import GestureRecognizer, WordRecognizer
@@ -50,6 +50,7 @@ _NO_ROBOT = "none"
 )
 @click.option("--window", "window_s", type=float, default=1.0, show_default=True, help="Seconds between word and sign.")
 @click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
+@click.option("--fusion", "fusion_path", type=_MODEL, metavar="FILE", help="A learned fusion, in place of --rule.")
 @click.option(
     "--backend",
     type=click.Choice((*BACKENDS, _NO_ROBOT)),
@@ -85,6 +86,7 @@ def session(
     confirm_below: float,
     window_s: float,
     rule: str,
+    fusion_path: Path | None,
     backend: str,
     gui: bool,
     table: JointTable,
@@ -106,7 +108,7 @@ def session(
       hri session --replay class.mcap
     """
     if replay_path is not None:
-        _replay(replay_path, speech_model, gesture_model, as_json)
+        _replay(replay_path, speech_model, gesture_model, fusion_path, as_json)
         return
     sound, video = _files(files)
     live = not files
@@ -120,12 +122,13 @@ def session(
     ids: dict[str, str] = {}
     words = _load(WordRecognizer, "speech", speech_model, ids) if with_speech else None
     signs = _load(GestureRecognizer, "gesture", gesture_model, ids) if with_gesture else None
+    learned = None if fusion_path is None else _load(LearnedFusion, "fusion", fusion_path, ids)
     with ExitStack() as stack:
         robot = None
         if backend != _NO_ROBOT:
             robot = stack.enter_context(open_robot(backend, gui=gui, table=table))
         note("preparing the robot's motions")
-        made = Session(words, signs, robot, options, model_ids=ids)
+        made = Session(words, signs, robot, options, model_ids=ids, fusion=learned)
         for label, why in made.refused.items():
             note(f"no motion for {label}: {why}")
         hear: Any = None
@@ -145,19 +148,22 @@ def session(
         raise InvalidArgument(failed)
 
 
-def _replay(path: Path, speech_model: Path | None, gesture_model: Path | None, as_json: bool) -> None:
+def _replay(
+    path: Path, speech_model: Path | None, gesture_model: Path | None, fusion_path: Path | None, as_json: bool
+) -> None:
     """Decide once more; exit code 1 where a decision differs."""
     recording = read_recording(path)
     ids: dict[str, str] = {}
     words = _load(WordRecognizer, "speech", speech_model, ids) if recording.sound else None
     signs = _load(GestureRecognizer, "gesture", gesture_model, ids) if recording.pictures else None
+    learned = None if fusion_path is None else _load(LearnedFusion, "fusion", fusion_path, ids)
     for mode, name in ids.items():
         if name != recording.models.get(mode):
             note(f"{mode}: recorded with {recording.models.get(mode) or 'another model'}, replayed with {name}")
     again: list[dict[str, Any]] = []
 
     def kept() -> Any:
-        for event in replay(recording, words, signs):
+        for event in replay(recording, words, signs, learned):
             again.append(event.to_dict())
             yield event
 
@@ -186,7 +192,7 @@ def _files(files: tuple[Path, ...]) -> tuple[Path | None, Path | None]:
 
 
 def _load(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
-    """The recogniser in a model file; its name and hash go into `ids`."""
+    """The recogniser or fusion in a model file; its name and hash go into `ids`."""
     chosen = path or kept_model(mode)
     ids[mode] = f"{chosen.name}:{hashlib.sha256(read_bytes(chosen, MAX_MODEL_BYTES)).hexdigest()[:12]}"
     return kind.load(chosen)

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Fusion of speech and gesture; knows decisions only."""
+"""Fusion of speech and gesture; of recognition it knows decisions only."""
 
-from hri.fusion.fuse import fuse
+from hri.fusion.fuse import CombiningRule, fuse
+from hri.fusion.learned import KINDS, LearnedFusion
 from hri.fusion.options import ASK, RULES, FusedDecision, FusionOptions
 
-__all__ = ["ASK", "RULES", "FusedDecision", "FusionOptions", "fuse"]
+__all__ = ["ASK", "KINDS", "RULES", "CombiningRule", "FusedDecision", "FusionOptions", "LearnedFusion", "fuse"]

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.fusion import vectors
@@ -18,11 +20,24 @@ _VECTOR_RULES = {
 }
 
 
+class CombiningRule(Protocol):
+    """A rule on whole score vectors: `hri.fusion.LearnedFusion`."""
+
+    @property
+    def rule(self) -> str:
+        """Its name in `FusedDecision.rule`."""
+        ...
+
+    def combine(self, speech: Decision, gesture: Decision, options: FusionOptions) -> vectors.Probabilities:
+        """Fused probability of every label that either mode knows; both have input."""
+        ...
+
+
 def fuse(
     speech: Decision | None,
     gesture: Decision | None,
     *,
-    rule: str = "table_6_9",
+    rule: str | CombiningRule = "table_6_9",
     options: FusionOptions | None = None,
 ) -> FusedDecision:
     """Fuse the decisions of both modes.
@@ -32,7 +47,7 @@ def fuse(
     speech, gesture : Decision or None
         What a `WordRecognizer` and what a `GestureRecognizer` decided. None, or a decision without input, leaves the
         other mode alone.
-    rule : {"table_6_9", "weighted_sum", "product", "dempster_shafer"}
+    rule : {"table_6_9", "weighted_sum", "product", "dempster_shafer"} or LearnedFusion
         Table 6.9 takes the class of the surer mode; the others combine the whole score vectors.
     options : FusionOptions, optional
 
@@ -49,8 +64,10 @@ def fuse(
     TypeError
         For an argument that is no decision; names it, and says what would work.
     """
-    if rule not in RULES:
+    if isinstance(rule, str) and rule not in RULES:
         raise InvalidArgument(f"no rule {rule!r}; {did_you_mean(rule, RULES)}")
+    if not isinstance(rule, str) and not hasattr(rule, "combine"):
+        raise TypeError(f"rule must be a name or a LearnedFusion, got {type(rule).__name__}")
     _require_mode(speech, "speech")
     _require_mode(gesture, "gesture")
     if options is not None and not isinstance(options, FusionOptions):
@@ -129,9 +146,15 @@ def _table_6_9(speech: Decision, gesture: Decision, options: FusionOptions) -> F
     return _winner(speech, "both below, weighted speech surer", speech, gesture)
 
 
-def _by_vectors(speech: Decision, gesture: Decision, rule: str, options: FusionOptions) -> FusedDecision:
-    labels = sorted({n.label for n in speech.nbest} | {n.label for n in gesture.nbest})
-    fused = _VECTOR_RULES[rule](vectors.probabilities(speech, labels), vectors.probabilities(gesture, labels), options)
+def _by_vectors(
+    speech: Decision, gesture: Decision, rule: str | CombiningRule, options: FusionOptions
+) -> FusedDecision:
+    if isinstance(rule, str):
+        labels = sorted({n.label for n in speech.nbest} | {n.label for n in gesture.nbest})
+        both = vectors.probabilities(speech, labels), vectors.probabilities(gesture, labels)
+        fused, name = _VECTOR_RULES[rule](*both, options), rule.replace("_", " ")
+    else:
+        fused, name = rule.combine(speech, gesture, options), rule.rule
     nbest = vectors.ranked(fused)
-    name = rule.replace("_", " ") + " of both score vectors"
+    name += " of both score vectors"
     return FusedDecision(nbest[0].label, RECOGNISED, nbest[0].probability, name, nbest, speech, gesture)

@@ -5,9 +5,11 @@
 from __future__ import annotations
 
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 from hri.live import events
 from hri.live.events import Event, decision_fields
@@ -15,10 +17,15 @@ from hri.live.frame_results import FrameResult, frame_results, gesture_event, se
 from hri.live.frames import Frame, FrameSource
 from hri.live.sources import require_positive
 from hri.recognition import Decision, GestureRecognizer, GestureSegmenterOptions
+from hri.recognition.quality import mask_quality
 from hri.vision.landmarks import LandmarkTracker
 
 if TYPE_CHECKING:
     from hri.recognition import GestureEvent, GestureStreamOptions
+
+
+_MAX_HANDS = 1024
+"""Pictures over which the quality of a gesture's masks is averaged, at most."""
 
 
 class Watcher:
@@ -102,6 +109,12 @@ class Watcher:
                 yield from result.events
 
 
+@dataclass(frozen=True)
+class _SeenHand:
+    time_s: float
+    quality: float
+
+
 class _DecidingStream:
     """A native stream of decisions, as events."""
 
@@ -118,11 +131,18 @@ class _DecidingStream:
         self._locale = locale
         self._model_id = model_id
         self._time_s = 0.0
+        self._hands: deque[_SeenHand] = deque(maxlen=_MAX_HANDS)
 
     def push(self, frame: Frame, time_s: float) -> list[Event]:
         self._time_s = time_s
         points = None if self._landmarks is None else self._landmarks.find(frame)
-        return self._events(lambda: self.spotter.push(frame, time_s, points))
+        return self._events(lambda: self._pushed(frame, time_s, points))
+
+    def _pushed(self, frame: Frame, time_s: float, points: Any) -> list[GestureEvent]:
+        happened = self.spotter.push(frame, time_s, points)
+        if self._landmarks is None:
+            self._hands.append(_SeenHand(time_s, float(self.spotter.hand.quality)))
+        return happened
 
     def finish(self) -> list[Event]:
         return self._events(self.spotter.finish)
@@ -139,11 +159,13 @@ class _DecidingStream:
     def _event(self, native: GestureEvent, compute_ms: float) -> Event:
         if native.kind == "segment":
             return segment_event(native.segment, self._time_s)
-        decision = Decision.from_native("gesture", native.decision)
+        segment = native.segment
+        hands = [hand for hand in self._hands if segment.first_s <= hand.time_s <= segment.last_s]
+        decision = replace(Decision.from_native("gesture", native.decision), quality=mask_quality(hands))
         fields = decision_fields(decision, self._locale, self._model_id)
         if native.kind != events.DECISION:  # for the eye, and not to act on
             fields |= {"incremental": fields["final"], "final": ""}
         if native.kind != events.PARTIAL:
-            segment = {"first_s": round(native.segment.first_s, 4), "last_s": round(native.segment.last_s, 4)}
-            fields = {**segment, **fields, "compute_ms": compute_ms}
+            span = {"first_s": round(segment.first_s, 4), "last_s": round(segment.last_s, 4)}
+            fields = {**span, **fields, "compute_ms": compute_ms}
         return gesture_event(self._time_s, native.kind, fields, decision)

@@ -47,6 +47,9 @@ class Decision:
     class_threshold : float
         Confidence from which the best class is sure, by its false alarms and misses on held-out people in training;
         0 where there were none.
+    quality : float, optional
+        How good the signal was, measured on it alone: of speech the estimated ratio of speech to noise in dB, of a
+        gesture the mean quality of the masks of the hand, 0..1. None where it was not measured.
     """
 
     mode: str
@@ -57,6 +60,7 @@ class Decision:
     nbest: tuple[NBest, ...] = ()
     notes: tuple[str, ...] = ()
     class_threshold: float = 0.0
+    quality: float | None = None
 
     def __repr__(self) -> str:
         return summary(

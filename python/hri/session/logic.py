@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import Any, Protocol
 
+from hri.fusion import LearnedFusion
 from hri.live import Event
 from hri.live import events as kinds
 from hri.recognition.decision import RECOGNISED, plain
@@ -89,6 +90,8 @@ class SessionLogic:
         Those that are commands: what the body has motions for.
     on_say : callable of str, optional
         Gets what the robot says.
+    fusion : LearnedFusion, optional
+        In place of ``options.rule``.
     """
 
     def __init__(
@@ -97,10 +100,11 @@ class SessionLogic:
         body: Body,
         labels: Collection[str],
         on_say: Callable[[str], None] | None = None,
+        fusion: LearnedFusion | None = None,
     ) -> None:
         self._body = body
         self._on_say = on_say
-        self.pairer = Pairer(options)
+        self.pairer = Pairer(options, fusion)
         self.dialogue = Dialogue(options, labels)
         self._unsettled: set[str] = set()
         self._state = self.dialogue.state

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from hri.core.errors import InvalidArgument
-from hri.fusion import FusedDecision, fuse
+from hri.fusion import FusedDecision, LearnedFusion, fuse
 from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
 from hri.session.options import SessionOptions
 
@@ -93,12 +93,15 @@ class Pairer:
     alone is decided on as soon as nothing that belongs to it can come any more: at once where the other mode has no
     source.
 
+    Where a learned fusion is given it decides in place of `SessionOptions.rule`.
+
     A sure STOP and labels that lead the dialogue wait for nothing. An unsure STOP while the robot moves waits for what
     has begun in the other mode, and never for what may come.
     """
 
-    def __init__(self, options: SessionOptions | None = None) -> None:
+    def __init__(self, options: SessionOptions | None = None, fusion: LearnedFusion | None = None) -> None:
         self._options = options or SessionOptions()
+        self._fusion = fusion
         self._streams = {mode: _Stream() for mode in MODES}
         self._now_s = 0.0
         self.hurried = False
@@ -150,11 +153,11 @@ class Pairer:
         decision = self._strict(observation.decision)
         observation = replace(observation, decision=decision)
         if self._is_sure_stop(decision):
-            return [_alone(observation, self._options, "STOP waits for nothing")]
+            return [self._alone(observation, "STOP waits for nothing")]
         if decision.status == RECOGNISED and decision.label in self._options.control_labels:
-            return [*self._resolve(), _alone(observation, self._options, "it leads the dialogue")]
+            return [*self._resolve(), self._alone(observation, "it leads the dialogue")]
         if decision.status == NO_INPUT:  # belongs to nothing, and must not take the place of what does
-            return [*self._resolve(), _alone(observation, self._options, "no input")]
+            return [*self._resolve(), self._alone(observation, "no input")]
         stream.waiting.append(observation)
         return list(self._resolve())
 
@@ -190,16 +193,16 @@ class Pairer:
                 for mode, partner in (("speech", word), ("gesture", sign)):
                     waiting = self._streams[mode].waiting
                     for earlier in waiting[: waiting.index(partner)]:
-                        yield _alone(earlier, self._options, "another one was nearer")
+                        yield self._alone(earlier, "another one was nearer")
                     del waiting[: waiting.index(partner) + 1]
-                yield _together(word, sign, self._options)
+                yield self._together(word, sign)
                 continue
             alone = self._due()
             if alone is None:
                 return
             observation, why = alone
             self._streams[observation.mode].waiting.remove(observation)
-            yield _alone(observation, self._options, why)
+            yield self._alone(observation, why)
 
     def _nearest(self) -> tuple[Observation, Observation] | None:
         words, signs = (self._streams[mode].waiting for mode in MODES)
@@ -237,19 +240,19 @@ class Pairer:
     def _too_late(self, observation: Observation) -> bool:
         return self._now_s >= observation.last_s + self._options.max_wait_s
 
+    def _fused(self, speech: Decision | None, gesture: Decision | None) -> FusedDecision:
+        return fuse(speech, gesture, rule=self._fusion or self._options.rule, options=self._options.fusion)
+
+    def _alone(self, observation: Observation, why: str) -> Pair:
+        fused = self._fused(*(observation.decision if mode == observation.mode else None for mode in MODES))
+        return Pair(fused, observation.first_s, observation.last_s, 0.0, f"alone: {why}")
+
+    def _together(self, word: Observation, sign: Observation) -> Pair:
+        fused = self._fused(word.decision, sign.decision)
+        apart = _apart(word, sign)
+        why = f"a word and a sign {apart:.2f} s apart" if apart else "a word and a sign at once"
+        return Pair(fused, min(word.first_s, sign.first_s), max(word.last_s, sign.last_s), apart, why)
+
 
 def _apart(one: Observation, other: Observation) -> float:
     return max(0.0, one.first_s - other.last_s, other.first_s - one.last_s)
-
-
-def _alone(observation: Observation, options: SessionOptions, why: str) -> Pair:
-    modes = {mode: observation.decision if mode == observation.mode else None for mode in MODES}
-    fused = fuse(**modes, rule=options.rule, options=options.fusion)
-    return Pair(fused, observation.first_s, observation.last_s, 0.0, f"alone: {why}")
-
-
-def _together(word: Observation, sign: Observation, options: SessionOptions) -> Pair:
-    fused = fuse(word.decision, sign.decision, rule=options.rule, options=options.fusion)
-    apart = _apart(word, sign)
-    why = f"a word and a sign {apart:.2f} s apart" if apart else "a word and a sign at once"
-    return Pair(fused, min(word.first_s, sign.first_s), max(word.last_s, sign.last_s), apart, why)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.fusion import LearnedFusion
 from hri.live import Event, Listener, Watcher
 from hri.live.events import OVERFLOW
 from hri.live.frames import TimedFrame
@@ -39,7 +40,10 @@ def decisions(events: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def replay(
-    recording: Recording, words: WordRecognizer | None = None, signs: GestureRecognizer | None = None
+    recording: Recording,
+    words: WordRecognizer | None = None,
+    signs: GestureRecognizer | None = None,
+    fusion: LearnedFusion | None = None,
 ) -> Iterator[Event]:
     """The events of a recorded session, recognised and decided on anew; no robot moves.
 
@@ -50,15 +54,20 @@ def replay(
     recording : Recording
     words, signs : recogniser, optional
         Needed where sound or pictures were recorded.
+    fusion : LearnedFusion, optional
+        Needed where one decided.
 
     Raises
     ------
     InvalidArgument
-        For a recogniser that is missing.
+        For a recogniser or a fusion that is missing, or a fusion where none decided.
     FormatError
         For samples or pictures that are damaged.
     """
     feeds: dict[str, Feed[Any]] = {}
+    if (fusion is None) != ("fusion" not in recording.models):
+        needs = "was recorded with a learned fusion, and needs it" if fusion is None else "was recorded without one"
+        raise InvalidArgument(f"{recording.path}: {needs}")
     if recording.sound:
         if words is None:
             raise InvalidArgument(f"{recording.path}: sound was recorded, and needs a recogniser of words")
@@ -71,7 +80,7 @@ def replay(
         segmenter = None if recording.segmenter is None else GestureSegmenterOptions(**recording.segmenter)
         seen = Watcher(signs, segmenter, model_id=recording.models.get("gesture", ""))
         feeds["gesture"] = Feed("gesture", _Streams(recording, "gesture"), seen.watch)
-    logic = SessionLogic(recording.options, NoRobot(reports=False), recording.labels)
+    logic = SessionLogic(recording.options, NoRobot(reports=False), recording.labels, fusion=fusion)
     streams = {mode: feed.events() for mode, feed in feeds.items()}
     for given in recording.events:
         if given["mode"] in ("session", "robot") and given["event"] not in _GIVEN:

@@ -14,6 +14,7 @@ from dataclasses import asdict, replace
 from typing import Any, Protocol
 
 from hri.core.errors import Error, FormatError, InvalidArgument
+from hri.fusion import LearnedFusion
 from hri.live import AudioSource, Event, FrameSource, Listener, Watcher
 from hri.recognition import GestureRecognizer, GestureSegmenterOptions, WordRecognizer
 from hri.robot import NAO, Robot, Trajectory, gesture_trajectory, load_gestures, with_nao_arms
@@ -79,7 +80,9 @@ class Session:
     on_say : callable of str, optional
         Gets what the robot says, in the thread that decides; it must not wait.
     model_ids : mapping of mode to str, optional
-        Which models decide; passed on with decisions.
+        Which models decide, and which learned fusion ("fusion"); passed on with decisions.
+    fusion : LearnedFusion, optional
+        Fuses words and signs in place of ``options.rule``.
 
     Attributes
     ----------
@@ -91,7 +94,7 @@ class Session:
     InvalidArgument
         Without any recogniser, or for a label of the options that neither knows.
     NotFittedError
-        For a recogniser that is not trained.
+        For a recogniser or a fusion that is not trained.
     """
 
     def __init__(
@@ -106,6 +109,7 @@ class Session:
         segmenter: GestureSegmenterOptions | None = None,
         on_say: Callable[[str], None] | None = None,
         model_ids: Mapping[str, str] | None = None,
+        fusion: LearnedFusion | None = None,
     ) -> None:
         if words is None and signs is None:
             raise InvalidArgument("a session needs a recogniser of words or of gestures")
@@ -116,7 +120,11 @@ class Session:
         for label in self.options.wake_labels + self.options.resume_labels:
             if label not in self._labels:
                 raise InvalidArgument(f"{label!r} is in no vocabulary: {', '.join(sorted(self._labels))}")
+        self._fusion = fusion
         self._model_ids = ids = dict(model_ids or {})
+        if fusion is not None:
+            _ = fusion.reliability_  # refuses one that is not trained now
+            ids.setdefault("fusion", fusion.kind)
         self._endpointer, self._segmenter = endpointer, segmenter
         self._listener = None if words is None else Listener(words, endpointer, model_id=ids.get("speech", ""))
         self._watcher = None if signs is None else Watcher(signs, segmenter, model_id=ids.get("gesture", ""))
@@ -233,7 +241,7 @@ class Session:
         return self._labels if self._robot is None else self._motions.keys()
 
     def _logic(self, body: Body) -> SessionLogic:
-        return SessionLogic(self.options, body, self._commands(), self._on_say)
+        return SessionLogic(self.options, body, self._commands(), self._on_say, self._fusion)
 
     @contextmanager
     def _begun(self, clock: Clock | None, recorder: SessionRecorder | None) -> Iterator[Body]:

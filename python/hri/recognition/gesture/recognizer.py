@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -19,6 +20,7 @@ from hri.recognition.decision import Decision
 from hri.recognition.inputs import ClipInput, as_clips, as_frames, as_texts
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
+from hri.recognition.quality import mask_quality
 from hri.vision.landmarks import find_landmarks, landmark_features
 
 if TYPE_CHECKING:
@@ -189,8 +191,11 @@ class GestureRecognizer(Recognizer):
             return self.recognise_features(self.features(clip))
         from hri import _native_vision
 
+        options = self._trained.options
         frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
-        return Decision.from_native(self.mode, _native_vision.recognise_gesture(self._trained, frames))
+        hands = _native_vision.HandFinder(options.hands).find(frames)
+        rows = _native.GestureFeatureComputer(options.features, options.min_quality).compute(hands)
+        return replace(self.recognise_features(rows), quality=mask_quality(hands))
 
     def recognise_features(self, rows: NDArray[np.float32]) -> Decision:
         """Recognise what `features` returned."""

@@ -17,13 +17,14 @@ from hri import _native
 from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.io import ModelFile
-from hri.media import naming_file, naming_files
+from hri.media import Audio, naming_file, naming_files
 from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
 from hri.recognition.held_out_report import HeldOutReport
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
 from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.loading import load_native
+from hri.recognition.quality import speech_snr_db
 from hri.recognition.word.embedding import SpeechEmbedding
 from hri.recognition.word.fillers import FillerWord, filler_words
 
@@ -216,7 +217,8 @@ class WordRecognizer(Recognizer):
         words = self._trained
         with naming_file(clip.path):
             decision = Decision.from_native(self.mode, words.recognise(clip.samples, clip.sample_rate_hz))
-        return replace(decision, notes=(*clip.notes, *decision.notes)) if clip.notes else decision
+        quality = speech_snr_db(clip.samples, clip.sample_rate_hz)
+        return replace(decision, notes=(*clip.notes, *decision.notes), quality=quality)
 
     def recognise_utterances(self, audio: AudioInput, sample_rate_hz: int | None = None) -> list[Utterance]:
         """Recognise every utterance of a recording by itself, as `hri listen` does with a stream.
@@ -241,7 +243,13 @@ class WordRecognizer(Recognizer):
         words = self._trained
         with naming_file(clip.path):
             found = words.recognise_utterances(clip.samples, clip.sample_rate_hz)
-        return [Utterance(u.first_s, u.last_s, Decision.from_native(self.mode, u.decision)) for u in found]
+        return [self._utterance(u, clip) for u in found]
+
+    def _utterance(self, found: Any, clip: Audio) -> Utterance:
+        first, last = (round(time_s * clip.sample_rate_hz) for time_s in (found.first_s, found.last_s))
+        quality = speech_snr_db(clip.samples[first:last], clip.sample_rate_hz)
+        decision = replace(Decision.from_native(self.mode, found.decision), quality=quality)
+        return Utterance(found.first_s, found.last_s, decision)
 
     def scores(self, audio: AudioInput, sample_rate_hz: int | None = None) -> NDArray[np.float32]:
         """Raw score of every class (natural log), shape (num_classes,), in the order of `classes_`."""
