@@ -53,6 +53,7 @@ WITHIN = {
     "robot/model": set(),
     "robot/motion": {"model"},
     "robot/control": {"model", "motion"},
+    "robot/naoqi": {"model", "motion", "control"},
     "robot/simulation": {"model", "motion", "control"},
     "robot/imitation": {"model", "motion", "control", "simulation"},
 }

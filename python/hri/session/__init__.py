@@ -4,6 +4,7 @@
 
 from hri.session.dialogue import STATES, Action, Dialogue
 from hri.session.live import EventQueue
+from hri.session.nao_camera import NaoCamera
 from hri.session.options import SessionOptions
 from hri.session.pairing import Observation, Pair, Pairer
 from hri.session.reading import Recording, read_recording
@@ -17,6 +18,7 @@ __all__ = [
     "Dialogue",
     "EventQueue",
     "McapRecorder",
+    "NaoCamera",
     "Observation",
     "Pair",
     "Pairer",
