@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 
+import numpy as np
 import qi
 
 from hri.robot import NAO
@@ -142,7 +143,7 @@ class TextToSpeech:
 
 @qi.multiThreaded()
 class VideoDevice:
-    """ALVideoDevice: dark pictures with a dot that moves, 30 a second by their times."""
+    """ALVideoDevice: dark pictures with a dot that moves, or `frames`, the last of which stays."""
 
     SIZES = ((160, 120), (320, 240), (640, 480))
 
@@ -150,6 +151,7 @@ class VideoDevice:
         self.subscribers = {}
         self.frozen = False
         self.broken = False
+        self.frames = []
         self.number = 0
 
     def subscribeCamera(self, name, camera, resolution, colours, fps):
@@ -158,7 +160,7 @@ class VideoDevice:
         if len(self.subscribers) >= 8:
             raise RuntimeError("ALVideoDevice: too many subscribers")
         handle = f"{name}_{len(self.subscribers)}"
-        self.subscribers[handle] = (camera, self.SIZES[resolution])
+        self.subscribers[handle] = (camera, fps, self.SIZES[resolution])
         return handle
 
     # Width, height, layers, colours, s, us, pixels, camera, angles of view.
@@ -166,16 +168,15 @@ class VideoDevice:
     def get_image(self, handle):
         if handle not in self.subscribers:
             raise RuntimeError(f"ALVideoDevice: {handle} is not subscribed")
-        camera, (width, height) = self.subscribers[handle]
-        self.number += not self.frozen
-        picture = bytearray([30 + camera]) * (3 * width * height)
-        place = 3 * (self.number % width)
-        picture[place : place + 3] = b"\x01\x80\xff"
-        if self.broken:
-            picture = picture[:-5]
-        seconds, fraction = divmod(self.number, 30)
-        time_s = (1000 + seconds, 33333 * fraction)
-        return (width, height, 3, 13, *time_s, bytes(picture), camera, 0.53, 0.42, -0.53, -0.42)
+        camera, fps, (width, height) = self.subscribers[handle]
+        self.number += not (self.frozen or self.number == len(self.frames) - 1)
+        picture = np.full((height, width, 3), 30 + camera, dtype=np.uint8)
+        picture[0, self.number % width] = (1, 128, 255)
+        if self.frames:
+            picture = self.frames[self.number]
+        pixels = picture.tobytes()[: -5 if self.broken else None]
+        seconds, part_s = divmod(1000 + self.number / fps, 1.0)
+        return (width, height, 3, 13, int(seconds), int(1e6 * part_s), pixels, camera, 0.53, 0.42, -0.53, -0.42)
 
     def releaseImage(self, handle):
         return handle in self.subscribers

@@ -223,6 +223,16 @@ def test_a_robot_whose_process_dies_in_mid_motion_and_one_that_hangs():
         NaoqiRobot(url)
 
 
+def test_a_program_that_dies_in_mid_motion_leaves_the_joints_where_they_were_sent_last(nao):
+    program = "import sys; from hri.robot import *; robot = NaoqiRobot(sys.argv[1]);" \
+        "robot.perform(Trajectory(['HeadYaw'], 2.0, [[0.0], [1.0], [0.0]]))"  # fmt: skip
+    with subprocess.Popen([sys.executable, "-c", program, nao.url]) as process:
+        in_mid_motion(nao, process.kill).join()
+    time.sleep(0.1)
+    last = sent(nao)[-1]
+    assert 0.0 < last < 0.5 and nao.motion.getAngles("HeadYaw", True) == [last]
+
+
 @pytest.mark.parametrize(
     "url",
     ["", "nao.local", "http://nao.local", "tcp://", "tcp://:9559", "tcp://nao:0", "tcp://nao:99999", "tcp://nao:x",

@@ -159,6 +159,8 @@ def play(
       hri robot play wave --robot nao --url tcp://nao.local --wake-up --rest
     """
     stand = stand or posture != "standing"
+    if url is not None and table is not NAO:
+        raise click.UsageError("--url is of a real NAO: add --robot nao")
     if url is None and (wake_up or rest):
         raise click.UsageError("--wake-up and --rest are of a real NAO: name its --url")
     if url is not None and (gui or stand):
@@ -171,7 +173,7 @@ def play(
         opened = stack.enter_context(
             open_robot(backend, gui=gui, fixed_base=not stand, locked=idle, table=table)
             if url is None
-            else open_nao(url, table)
+            else NaoqiRobot(url)
         )
         if stand:
             first = trajectory.positions_rad[0].tolist()
@@ -329,13 +331,6 @@ def gestures(table: JointTable) -> None:
             own = nao_gesture(gesture.name)
             fields = (gesture.name, f"{own.trajectory.duration_s:.1f}", gesture.meaning, f"{100 * own.hand_m:.1f}")
             click.echo("\t".join((*fields, own.why_not)))
-
-
-def open_nao(url: str, table: JointTable) -> NaoqiRobot:
-    """The real NAO that `--url` names, where `--robot` names NAO."""
-    if table is not NAO:
-        raise click.UsageError("--url is of a real NAO: add --robot nao")
-    return NaoqiRobot(url)
 
 
 def _is_file(motion: str) -> bool:

@@ -16,7 +16,7 @@ from hri.cli.live_screen import camera, events_json_option, microphone, stall_op
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
 from hri.cli.recognizers import kept_model
-from hri.cli.robot import nao_url_option, open_nao
+from hri.cli.robot import nao_url_option
 from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
@@ -24,13 +24,14 @@ from hri.fusion import RULES, FusionOptions
 from hri.live import CameraSource, FileSource, VideoSource
 from hri.media import kind_of_file
 from hri.recognition import GestureRecognizer, WordRecognizer
-from hri.robot import BACKENDS, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot, stopped_by_signals
+from hri.robot import BACKENDS, NAO, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot, stopped_by_signals
 from hri.session import McapRecorder, NaoCamera, Session, SessionOptions, decisions, read_recording, replay
 
 EXIT_DIFFERENT = 1
 EXIT_SIGNAL = 128
 _MODEL = click.Path(exists=True, dir_okay=False, path_type=Path)
 _NO_ROBOT = "none"
+_NAO_CAMERA = "nao"
 
 
 @click.command()
@@ -114,6 +115,10 @@ def session(
     if replay_path is not None:
         _replay(replay_path, speech_model, gesture_model, as_json)
         return
+    if url is not None and table is not NAO:
+        raise click.UsageError("--url is of a real NAO: add --robot nao")
+    if url is None and camera_name == _NAO_CAMERA:
+        raise click.UsageError("--camera nao is of a real NAO: name its --url")
     sound, video = _files(files)
     live = not files
     with_speech, with_gesture = (not no_speech, not no_gesture) if live else (sound is not None, video is not None)
@@ -129,7 +134,7 @@ def session(
     with ExitStack() as stack:
         robot: Robot | None = None
         if url is not None:
-            robot = stack.enter_context(open_nao(url, table))
+            robot = stack.enter_context(NaoqiRobot(url))
         elif backend != _NO_ROBOT:
             robot = stack.enter_context(open_robot(backend, gui=gui, table=table))
         note("preparing the robot's motions")
@@ -156,11 +161,7 @@ def session(
 
 def _camera(name: str, stall_s: float, url: str | None) -> CameraSource | NaoCamera:
     """A camera of this computer, or NAO's."""
-    if name != "nao":
-        return camera(name, stall_s)
-    if url is None:
-        raise InvalidArgument("--camera nao is the camera of a real NAO: name its --url")
-    return NaoCamera(url, stall_s=stall_s)
+    return NaoCamera(url, stall_s=stall_s) if url is not None and name == _NAO_CAMERA else camera(name, stall_s)
 
 
 def _replay(path: Path, speech_model: Path | None, gesture_model: Path | None, as_json: bool) -> None:
