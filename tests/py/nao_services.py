@@ -185,13 +185,53 @@ class VideoDevice:
         self.subscribers.pop(handle, None)
 
 
+@qi.multiThreaded()
+class AudioDevice:
+    """ALAudioDevice: calls its subscribers' processRemote 20 times faster than sound is."""
+
+    def __init__(self):
+        self.session = None
+        self.preferences = {}
+        self.subscribers = set()
+        self.samples = np.zeros(0, dtype="<i2")  # what is heard; then nothing comes
+        self.num_channels = 1
+
+    def setClientPreferences(self, name, rate_hz, channels, deinterleaved):
+        if (rate_hz, channels) not in ((48000, 0), (16000, 1), (16000, 2), (16000, 3), (16000, 4)):
+            raise RuntimeError("ALAudioDevice: these preferences are not supported")
+        self.preferences[name] = (rate_hz, channels, deinterleaved)
+
+    def subscribe(self, name):
+        client = self.session.service(name)
+        self.subscribers.add(name)
+        threading.Thread(target=self._play, args=(name, client), daemon=True).start()
+
+    def _play(self, name, client):
+        for begin in range(0, len(self.samples), 1365):
+            if name not in self.subscribers:
+                return
+            block = self.samples[begin : begin + 1365]
+            client.processRemote(self.num_channels, len(block), [1000, begin], block.tobytes())
+            time.sleep(len(block) / 16000 / 20)
+
+    def unsubscribe(self, name):
+        self.subscribers.discard(name)
+
+
 class Nao:
     """A service directory with the services named; `close` switches it off."""
 
-    def __init__(self, services=("ALMotion", "ALTextToSpeech", "ALVideoDevice"), url="tcp://127.0.0.1:0"):
-        self.motion, self.voice, self.video = Motion(), TextToSpeech(), VideoDevice()
-        known = {"ALMotion": self.motion, "ALTextToSpeech": self.voice, "ALVideoDevice": self.video}
-        self.session = qi.Session()
+    def __init__(
+        self, services=("ALMotion", "ALTextToSpeech", "ALVideoDevice", "ALAudioDevice"), url="tcp://127.0.0.1:0"
+    ):
+        self.motion, self.voice, self.video, self.audio = Motion(), TextToSpeech(), VideoDevice(), AudioDevice()
+        known = {
+            "ALMotion": self.motion,
+            "ALTextToSpeech": self.voice,
+            "ALVideoDevice": self.video,
+            "ALAudioDevice": self.audio,
+        }
+        self.session = self.audio.session = qi.Session()
         self.session.listenStandalone(url)
         self.url = self.session.endpoints()[0]
         for name in services:

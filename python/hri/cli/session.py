@@ -21,17 +21,26 @@ from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.fusion import RULES, FusionOptions
-from hri.live import CameraSource, FileSource, VideoSource
+from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
 from hri.media import kind_of_file
 from hri.recognition import GestureRecognizer, WordRecognizer
 from hri.robot import BACKENDS, NAO, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot, stopped_by_signals
-from hri.session import McapRecorder, NaoCamera, Session, SessionOptions, decisions, read_recording, replay
+from hri.session import (
+    McapRecorder,
+    NaoCamera,
+    NaoMicrophone,
+    Session,
+    SessionOptions,
+    decisions,
+    read_recording,
+    replay,
+)
 
 EXIT_DIFFERENT = 1
 EXIT_SIGNAL = 128
 _MODEL = click.Path(exists=True, dir_okay=False, path_type=Path)
 _NO_ROBOT = "none"
-_NAO_CAMERA = "nao"
+_NAO = "nao"
 
 
 @click.command()
@@ -110,15 +119,15 @@ def session(
       hri session --wake robot --resume start --record class.mcap
       hri session --backend kinematic --json words.wav signs.mp4
       hri session --replay class.mcap
-      hri session --robot nao --url tcp://nao.local --camera nao
+      hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
     if replay_path is not None:
         _replay(replay_path, speech_model, gesture_model, as_json)
         return
     if url is not None and table is not NAO:
         raise click.UsageError("--url is of a real NAO: add --robot nao")
-    if url is None and camera_name == _NAO_CAMERA:
-        raise click.UsageError("--camera nao is of a real NAO: name its --url")
+    if url is None and _NAO in (camera_name, microphone_name):
+        raise click.UsageError("--camera nao and --microphone nao are of a real NAO: name its --url")
     sound, video = _files(files)
     live = not files
     with_speech, with_gesture = (not no_speech, not no_gesture) if live else (sound is not None, video is not None)
@@ -138,14 +147,15 @@ def session(
         elif backend != _NO_ROBOT:
             robot = stack.enter_context(open_robot(backend, gui=gui, table=table))
         note("preparing the robot's motions")
-        say = robot.say_later if isinstance(robot, NaoqiRobot) else None
+        # NAO hears itself: a question that names a word would be answered by it.
+        say = robot.say_later if isinstance(robot, NaoqiRobot) and microphone_name != _NAO else None
         made = Session(words, signs, robot, options, on_say=say, model_ids=ids)
         for label, why in made.refused.items():
             note(f"no motion for {label}: {why}")
         hear: Any = None
         see: Any = None
         if with_speech:
-            hear = (lambda: microphone(microphone_name, stall_s)) if live else FileSource(sound or "")
+            hear = (lambda: _microphone(microphone_name, stall_s, url)) if live else FileSource(sound or "")
         if with_gesture:
             see = (lambda: _camera(camera_name, stall_s, url)) if live else VideoSource(video or "")
         recorder = None if record_path is None else McapRecorder(record_path)
@@ -161,7 +171,12 @@ def session(
 
 def _camera(name: str, stall_s: float, url: str | None) -> CameraSource | NaoCamera:
     """A camera of this computer, or NAO's."""
-    return NaoCamera(url, stall_s=stall_s) if url is not None and name == _NAO_CAMERA else camera(name, stall_s)
+    return NaoCamera(url, stall_s=stall_s) if url is not None and name == _NAO else camera(name, stall_s)
+
+
+def _microphone(name: str | None, stall_s: float, url: str | None) -> MicrophoneSource | NaoMicrophone:
+    """A microphone of this computer, or NAO's."""
+    return NaoMicrophone(url, stall_s=stall_s) if url is not None and name == _NAO else microphone(name, stall_s)
 
 
 def _replay(path: Path, speech_model: Path | None, gesture_model: Path | None, as_json: bool) -> None:

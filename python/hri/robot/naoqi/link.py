@@ -5,8 +5,10 @@
 from __future__ import annotations
 
 import math
+import socket
 import threading
 import time
+from collections.abc import Callable
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -137,6 +139,40 @@ class NaoqiLink:
     def call(self, service: str, method: str, *arguments: Any) -> Any:
         """`start` and `finish`."""
         return self.finish(self.start(service, method, *arguments), f"{service}.{method}")
+
+    def serve_buffers(self, name: str, method: str, take: Callable[[int, int, bytes], None]) -> None:
+        """Offer a service with one method that NAO calls with two counts, a time and a buffer, in threads of qi.
+
+        This computer then listens, at the address by which it reaches NAO.
+
+        Raises
+        ------
+        IoError, Error
+            When this computer cannot listen, or NAO does not answer or takes no service of this name.
+        """
+        qi = self._qi
+
+        def receive(_: object, first: int, second: int, time: object, buffer: bytes) -> None:
+            take(first, second, bytes(buffer))
+
+        bound = qi.bind(qi.Void, [qi.Int32, qi.Int32, qi.Dynamic, qi.Buffer], method)(receive)
+        receiver = type("Receiver", (), {method: bound})()
+        with self._lock:
+            session = self._session
+        self.finish(session.listen(f"tcp://{self._own_host()}:0", _async=True), "listening")
+        self.finish(session.registerService(name, receiver, _async=True), f"registering {name}")
+
+    def _own_host(self) -> str:
+        """The address of this computer on the way to NAO; nothing is sent to find it."""
+        parts = urlsplit(self.url)
+        try:
+            kind, _, _, _, address = socket.getaddrinfo(parts.hostname, parts.port, type=socket.SOCK_DGRAM)[0]
+            with socket.socket(kind, socket.SOCK_DGRAM) as probe:
+                probe.connect(address)
+                host = str(probe.getsockname()[0])
+        except OSError as error:
+            raise IoError(f"this computer has no way to {self.url}: {error}") from error
+        return f"[{host}]" if ":" in host else host
 
     def close(self) -> None:
         """Hang up; returns at once, also when the robot is gone."""
