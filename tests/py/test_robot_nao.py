@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """NAO from its own table: it has the maker's numbers, stands, makes gestures that its arms allow, and is drawn."""
 
+import sys
 from importlib.util import find_spec
 
 import numpy as np
@@ -12,6 +13,7 @@ from hri.robot import (
     GESTURE_JOINTS,
     HOAP2,
     NAO,
+    NaoqiRobot,
     Trajectory,
     check_trajectory,
     gesture_trajectory,
@@ -167,6 +169,12 @@ def test_lying_is_no_fall():
     with open_robot("pybullet", fixed_base=False, locked=["head_joint_1", "head_joint_2"]) as robot:
         robot.reset(HOAP2.rest_rad, "back")
         assert robot.hold(1.0) and robot.events == []
+
+
+def test_without_qi_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "qi", None)
+    with pytest.raises(ImportError, match=r"pip install libhri\[nao\]"):
+        NaoqiRobot("tcp://127.0.0.1:1")
 
 
 def test_commands_know_nao(tmp_path):

@@ -17,6 +17,7 @@ from hri.core.optional import import_optional
 
 NAOQI_PORT = 9559
 _MAX_TIMEOUT_S = 600.0
+_SLICE_S = 0.1
 
 
 def require_nao_url(url: str) -> str:
@@ -125,7 +126,10 @@ class NaoqiLink:
             When NAO refuses.
         """
         within_s = self.timeout_s if timeout_s is None else timeout_s
-        if not self.wait(future, within_s):
+        ends_s = time.monotonic() + within_s
+        while not self.wait(future, min(_SLICE_S, within_s)) and time.monotonic() < ends_s:
+            pass  # in slices, between which Ctrl-C is heeded
+        if not self.wait(future, 0.0):
             raise IoError(f"NAO at {self.url} does not answer {what} within {within_s:g} s")
         try:
             return future.value(0)

@@ -217,13 +217,16 @@ class NaoqiRobot(Robot):
         if self._link_lost or not self._link.connected:
             self._link.reconnect()
             self._stiff.clear()  # it may have been switched off meanwhile
+        return self._angles()
+
+    def _angles(self) -> dict[str, float]:
         names = list(self.table.names)
         angles = self._link.call("ALMotion", "getAngles", names, True)
         return dict(zip(names, _numbers(angles, len(names), "ALMotion.getAngles"), strict=True))
 
     def _state(self) -> RobotState:
         nowhere = (0.0, 0.0, 0.0)  # NAO does not know where it is
-        return RobotState(self.time_s, nowhere, nowhere, self._joint_positions())
+        return RobotState(self.time_s, nowhere, nowhere, self._angles())
 
     def _place(self, positions_rad: Mapping[str, float], posture: str | None) -> None:
         raise Error("a real robot cannot be put anywhere at once; use perform")
