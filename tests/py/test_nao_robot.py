@@ -17,7 +17,7 @@ pytest.importorskip("qi")
 
 from hri.core.errors import Error, InvalidArgument, IoError
 from hri.robot import NAO, NaoqiRobot, Trajectory, TrajectoryError
-from hri.robot.naoqi.link import NaoqiLink, require_nao_url
+from hri.robot.nao.link import NaoqiLink, require_nao_url
 from hri.session.mover import Cause, Mover
 from nao_services import Nao
 
@@ -117,10 +117,12 @@ def test_the_robots_own_limits_count_where_they_are_stricter(nao):
 
 
 def test_stop_in_mid_motion_brakes_and_latches(nao, robot):
-    thread = in_mid_motion(nao, robot.stop)
+    asked_s = []
+    thread = in_mid_motion(nao, lambda: (asked_s.append(time.monotonic()), robot.stop()))
     assert robot.perform(LONG) is False and robot.stopped
     thread.join()
     count = len(nao.motion.sent)
+    assert sum(at_s > asked_s[0] for at_s, _ in nao.motion.sent) <= 9, "within two steps and the 0.13 s of braking"
     way = sent(nao)
     speeds = np.diff(way) / robot.step_s
     assert abs(speeds[-1]) < 1e-6 and count < 60

@@ -28,9 +28,9 @@ from hri.robot import (
     with_nao_arms,
 )
 from hri.robot.model.arm import HAND_M, arm_of
-from hri.robot.motion import nao_gestures
-from hri.robot.motion.nao_couplings import coupling_findings
-from hri.robot.motion.nao_gestures import HAND_TOLERANCE_M, HEAD_TOLERANCE_DEG
+from hri.robot.nao import gestures as nao_gestures
+from hri.robot.nao.couplings import coupling_findings
+from hri.robot.nao.gestures import HAND_TOLERANCE_M, HEAD_TOLERANCE_DEG
 
 NAO_REACH_M = float(np.hypot(0.105, 0.015) + 0.05595 + 0.05775)
 needs_pybullet = pytest.mark.skipif(find_spec("pybullet") is None, reason="no pybullet")

@@ -21,7 +21,6 @@ from hri.robot.model.joints import HOAP2, NAO, ROBOTS, JointTable
 from hri.robot.model.postures import POSTURES
 from hri.robot.motion.checks import check_pulse_csv, require_safe
 from hri.robot.motion.gestures import gesture_trajectory, load_gestures
-from hri.robot.motion.nao_gestures import nao_gesture, nao_gesture_trajectory
 from hri.robot.motion.plots import plot_trajectory
 from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.motion.repair import repair_pulse_csv
@@ -34,7 +33,8 @@ from hri.robot.motion.short_csv import (
     write_short_csv,
 )
 from hri.robot.motion.trajectory import Trajectory
-from hri.robot.naoqi.robot import NaoqiRobot
+from hri.robot.nao.gestures import nao_gesture, nao_gesture_trajectory
+from hri.robot.nao.robot import NaoqiRobot
 from hri.robot.simulation.gallery import write_gallery
 from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
 

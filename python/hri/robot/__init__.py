@@ -19,7 +19,6 @@ from hri.robot.motion.gestures import (
     rest_positions,
 )
 from hri.robot.motion.nao_arms import with_nao_arms
-from hri.robot.motion.nao_gestures import NaoGesture, nao_gesture, nao_gesture_trajectory
 from hri.robot.motion.plots import plot_trajectory
 from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.motion.repair import Change, repair_pulse_csv
@@ -27,7 +26,8 @@ from hri.robot.motion.self_collision import Touch, self_collisions
 from hri.robot.motion.shaping import concatenate, resample, slow_to_limits, smooth, spline
 from hri.robot.motion.short_csv import read_short_csv, write_short_csv
 from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
-from hri.robot.naoqi.robot import NaoqiRobot
+from hri.robot.nao.gestures import NaoGesture, nao_gesture, nao_gesture_trajectory
+from hri.robot.nao.robot import NaoqiRobot
 from hri.robot.simulation.gallery import write_gallery
 from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
 

@@ -13,7 +13,7 @@ from hri.core.errors import Error, InvalidArgument
 from hri.live.frames import Frame, TimedFrame
 from hri.live.sources import Stalled, require_positive
 from hri.robot import NAO
-from hri.robot.naoqi.link import NaoqiLink
+from hri.robot.nao.link import NaoqiLink
 
 _RESOLUTIONS = {(160, 120): 0, (320, 240): 1, (640, 480): 2}
 _BGR = 13

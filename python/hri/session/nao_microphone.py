@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hri.core.errors import Error
 from hri.live.ring import SampleRing
 from hri.live.sources import BLOCK_S, Stalled, require_positive
-from hri.robot.naoqi.link import NaoqiLink
+from hri.robot.nao.link import NaoqiLink
 
 _RATE_HZ = 16000
 _FRONT = 3

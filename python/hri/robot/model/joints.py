@@ -136,11 +136,7 @@ class Camera:
 
 @dataclass(frozen=True)
 class JointTable:
-    """A robot: base, joints (each parent before its children), limits of motors, links it stands on, cameras.
-
-    `head_pitch_limits_rad`: where the head's yaw leaves its pitch less room, rows of the yaw and of the least and
-    greatest pitch there, with straight lines between them.
-    """
+    """A robot: base, joints (each parent before its children), limits of motors, links it stands on, cameras."""
 
     name: str
     max_speed_rad_s: float
@@ -152,7 +148,6 @@ class JointTable:
     base: Link
     joints: tuple[Joint, ...]
     cameras: tuple[Camera, ...] = ()
-    head_pitch_limits_rad: tuple[Vector, ...] = ()
 
     def __repr__(self) -> str:
         return summary("JointTable", repr(self.name), f"{len(self.joints)} joints", f"base {self.base.name!r}")
@@ -231,7 +226,6 @@ def load_joint_table(resource: str = "hoap2.toml") -> JointTable:
         base=_link(table["base"]["name"], table["base"], colours),
         joints=joints,
         cameras=tuple(_camera(entry) for entry in table.get("camera", ())),
-        head_pitch_limits_rad=tuple(_vector(np.radians(row)) for row in table.get("head_pitch_limits_deg", ())),
     )
 
 

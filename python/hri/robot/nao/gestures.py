@@ -25,8 +25,8 @@ from hri.robot.model.arm import SIDES, arm_of, arm_points
 from hri.robot.model.joints import NAO
 from hri.robot.motion.checks import check_trajectory
 from hri.robot.motion.gestures import Gesture, load_gestures, minimum_jerk
-from hri.robot.motion.nao_couplings import coupling_findings, head_pitch_range
 from hri.robot.motion.trajectory import Trajectory
+from hri.robot.nao.couplings import coupling_findings, head_pitch_range
 
 Floats = NDArray[np.float64]
 

@@ -19,9 +19,9 @@ from hri.robot.control.filming import Image
 from hri.robot.control.state import RobotState
 from hri.robot.model.joints import NAO, Joint, JointTable
 from hri.robot.motion.checks import LIMIT_TOLERANCE_RAD
-from hri.robot.motion.nao_couplings import coupling_findings
 from hri.robot.motion.trajectory import Trajectory, TrajectoryError
-from hri.robot.naoqi.link import NaoqiLink
+from hri.robot.nao.couplings import coupling_findings
+from hri.robot.nao.link import NaoqiLink
 
 MAX_TEXT_LENGTH = 1000
 _POSTURE_S = 60.0  # NAO stands up within 20 s

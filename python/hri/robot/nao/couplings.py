@@ -5,11 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
+from importlib import resources
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.model.joints import NAO
+from hri.core.files import parse_toml
 from hri.robot.motion.checks import LIMIT_TOLERANCE_RAD
 from hri.robot.motion.trajectory import Finding, Trajectory
 
@@ -18,8 +20,14 @@ _HIPS = ("LHipYawPitch", "RHipYawPitch")
 
 def head_pitch_range(yaw_rad: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The least and the greatest HeadPitch where HeadYaw is this."""
-    yaws, least, most = zip(*NAO.head_pitch_limits_rad, strict=True)
+    yaws, least, most = _head_limits_rad().T
     return np.interp(yaw_rad, yaws, least), np.interp(yaw_rad, yaws, most)
+
+
+@lru_cache(maxsize=1)
+def _head_limits_rad() -> NDArray[np.float64]:
+    text = resources.files("hri.robot.nao").joinpath("head.toml").read_text(encoding="utf-8")
+    return np.radians(np.array(parse_toml(text, "head.toml")["pitch_limits_deg"], dtype=np.float64))
 
 
 def coupling_findings(trajectory: Trajectory, others_rad: Mapping[str, float]) -> list[Finding]:
