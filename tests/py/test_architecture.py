@@ -53,6 +53,7 @@ WITHIN = {
     "robot/model": set(),
     "robot/motion": {"model"},
     "robot/control": {"model", "motion"},
+    "robot/nao": {"model", "motion", "control"},
     "robot/simulation": {"model", "motion", "control"},
     "robot/imitation": {"model", "motion", "control", "simulation"},
 }
@@ -181,6 +182,7 @@ MAY_OPEN = {
     "cli/output.py": r"files\.write_",
     "recognition/word/fillers.py": r"np\.load\(data|files\(.*read_bytes",
     "robot/model/joints.py": r"tomllib|resources\.files\(.*read_text",
+    "robot/nao/couplings.py": r"resources\.files\(.*read_text",
     "robot/motion/gestures.py": r"resources\.files\(.*read_text",
     "studies/endurance.py": r"/proc/self/status",
     "studies/tables.py": r"csv\.DictWriter\(text",

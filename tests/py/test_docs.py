@@ -24,7 +24,9 @@ def blocks(page: Path, language: str) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    "page", [page for page in PAGES if page.name != "README.md" and blocks(page, "python")], ids=lambda page: page.name
+    "page",
+    [page for page in PAGES if page.name not in ("README.md", "nao.md") and blocks(page, "python")],
+    ids=lambda page: page.name,
 )
 def test_python_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The blocks of a page follow on one another, in an empty folder."""
@@ -32,6 +34,20 @@ def test_python_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.Monke
     names: dict[str, object] = {}
     for block in blocks(page, "python"):
         exec(compile(block, str(page), "exec"), names)
+
+
+def test_blocks_about_nao_run_against_services_like_naos(capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("qi")
+    from nao_services import Nao
+
+    nao = Nao()
+    names: dict[str, object] = {}
+    for block in blocks(ROOT / "docs" / "nao.md", "python"):
+        exec(compile(block.replace("tcp://nao.local", nao.url), "nao.md", "exec"), names)
+    nao.close()
+    out = capsys.readouterr().out
+    assert "LElbowRoll" in out and "(240, 320, 3) 0.0" in out
+    assert nao.motion.postures == ["wakeUp", "rest"] and nao.voice.said == [("Hello.", "English")]
 
 
 def test_readme_runs_on_folders_as_it_names_them(

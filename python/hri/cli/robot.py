@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 
 import click
@@ -16,11 +17,10 @@ from hri.cli.messages import note
 from hri.core.errors import InvalidArgument
 from hri.robot.control.state import MotionLog
 from hri.robot.control.stopping import stopped_by_signals
-from hri.robot.model.joints import HOAP2, ROBOTS, JointTable
+from hri.robot.model.joints import HOAP2, NAO, ROBOTS, JointTable
 from hri.robot.model.postures import POSTURES
 from hri.robot.motion.checks import check_pulse_csv, require_safe
 from hri.robot.motion.gestures import gesture_trajectory, load_gestures
-from hri.robot.motion.nao_arms import with_nao_arms
 from hri.robot.motion.plots import plot_trajectory
 from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.motion.repair import repair_pulse_csv
@@ -33,6 +33,8 @@ from hri.robot.motion.short_csv import (
     write_short_csv,
 )
 from hri.robot.motion.trajectory import Trajectory
+from hri.robot.nao.gestures import nao_gesture, nao_gesture_trajectory
+from hri.robot.nao.robot import NaoqiRobot
 from hri.robot.simulation.gallery import write_gallery
 from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
 
@@ -54,8 +56,9 @@ _robot = click.option(
     default="hoap2",
     show_default=True,
     callback=lambda context, option, name: ROBOTS[name],
-    help="NAO makes gestures that its arms allow, and motions in the short form.",
+    help="NAO makes the gestures with its own arms, and motions in the short form.",
 )
+nao_url_option = click.option("--url", metavar="tcp://HOST", help="A real NAO at this address instead of a simulation.")
 
 
 @click.group(cls=SuggestingGroup)
@@ -128,8 +131,20 @@ def plot(motion: str, out: Path) -> None:
 @click.option("--posture", type=click.Choice(POSTURES), default="standing", show_default=True, help="To begin in.")
 @click.option("--log", "log_path", type=click.Path(dir_okay=False, path_type=Path), help="Write states as JSON.")
 @_robot
+@nao_url_option
+@click.option("--wake-up", is_flag=True, help="Let the real NAO stand up first.")
+@click.option("--rest", is_flag=True, help="Let the real NAO crouch and switch its motors off afterwards.")
 def play(
-    motion: str, backend: str, gui: bool, stand: bool, posture: str, log_path: Path | None, table: JointTable
+    motion: str,
+    backend: str,
+    gui: bool,
+    stand: bool,
+    posture: str,
+    log_path: Path | None,
+    table: JointTable,
+    url: str | None,
+    wake_up: bool,
+    rest: bool,
 ) -> None:
     """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
 
@@ -141,18 +156,34 @@ def play(
     Example:
       hri robot play namaste --gui
       hri robot play walk.csv --stand --log walk.json
+      hri robot play wave --robot nao --url tcp://nao.local --wake-up --rest
     """
+    stand = stand or posture != "standing"
+    if url is not None and table is not NAO:
+        raise click.UsageError("--url is of a real NAO: add --robot nao")
+    if url is None and (wake_up or rest):
+        raise click.UsageError("--wake-up and --rest are of a real NAO: name its --url")
+    if url is not None and (gui or stand):
+        raise click.UsageError("--gui, --stand and --posture are of a simulation, --url of a real robot")
     trajectory = _motion(motion, table)
     _require_safe(trajectory, table, motion)
-    stand = stand or posture != "standing"
     idle = [name for name in table.names if name not in trajectory.joint_names] if stand and table is HOAP2 else []
     log = MotionLog()
-    with open_robot(backend, gui=gui, fixed_base=not stand, locked=idle, table=table) as opened:
+    with ExitStack() as stack:
+        opened = stack.enter_context(
+            open_robot(backend, gui=gui, fixed_base=not stand, locked=idle, table=table)
+            if url is None
+            else NaoqiRobot(url)
+        )
         if stand:
             first = trajectory.positions_rad[0].tolist()
             opened.reset(dict(zip(trajectory.joint_names, first, strict=True)), posture)
         with stopped_by_signals(opened) as signals:
+            if isinstance(opened, NaoqiRobot) and wake_up:
+                opened.wake_up()
             opened.perform(trajectory, log=log)
+            if isinstance(opened, NaoqiRobot) and rest:
+                opened.rest()
         for name, position in opened.joint_positions_rad().items():
             click.echo(f"{name}\t{position:.4f}")
         for event in opened.events:
@@ -281,15 +312,25 @@ def gallery(directory: Path, videos: bool, backend: str) -> None:
 
 
 @robot.command(short_help="List the gestures by name.")
-def gestures() -> None:
+@_robot
+def gestures(table: JointTable) -> None:
     """List the gestures: name, seconds and what it looks like.
 
+    For NAO two more columns: by how many cm a hand is elsewhere than HOAP-2's would be, in proportion to the arm, and
+    why NAO cannot make it, if so.
+
     \b
-    Example:
+    Examples:
       hri robot gestures
+      hri robot gestures --robot nao
     """
     for gesture in load_gestures().values():
-        click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
+        if table is HOAP2:
+            click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
+        else:
+            own = nao_gesture(gesture.name)
+            fields = (gesture.name, f"{own.trajectory.duration_s:.1f}", gesture.meaning, f"{100 * own.hand_m:.1f}")
+            click.echo("\t".join((*fields, own.why_not)))
 
 
 def _is_file(motion: str) -> bool:
@@ -303,8 +344,7 @@ def _motion(motion: str, table: JointTable) -> Trajectory:
         if table is not HOAP2:
             raise InvalidArgument(f"{motion}: pulses are HOAP-2's, {table.name} has the short form")
         return read_pulse_csv(motion)
-    found = gesture_trajectory(motion)  # its error names the gestures
-    return found if table is HOAP2 else with_nao_arms(found)
+    return gesture_trajectory(motion) if table is HOAP2 else nao_gesture_trajectory(motion)  # errors name the gestures
 
 
 def _require_safe(trajectory: Trajectory, table: JointTable, motion: str) -> None:

@@ -16,20 +16,31 @@ from hri.cli.live_screen import camera, events_json_option, microphone, stall_op
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
 from hri.cli.recognizers import kept_model
+from hri.cli.robot import nao_url_option
 from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.fusion import RULES, FusionOptions, LearnedFusion
-from hri.live import FileSource, VideoSource
+from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
 from hri.media import kind_of_file
 from hri.recognition import GestureRecognizer, WordRecognizer
-from hri.robot import BACKENDS, ROBOTS, JointTable, open_robot, stopped_by_signals
-from hri.session import McapRecorder, Session, SessionOptions, decisions, read_recording, replay
+from hri.robot import BACKENDS, NAO, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot, stopped_by_signals
+from hri.session import (
+    McapRecorder,
+    NaoCamera,
+    NaoMicrophone,
+    Session,
+    SessionOptions,
+    decisions,
+    read_recording,
+    replay,
+)
 
 EXIT_DIFFERENT = 1
 EXIT_SIGNAL = 128
 _MODEL = click.Path(exists=True, dir_okay=False, path_type=Path)
 _NO_ROBOT = "none"
+_NAO = "nao"
 
 
 @click.command()
@@ -39,7 +50,9 @@ _NO_ROBOT = "none"
 @click.option("--no-speech", is_flag=True, help="Signs only: use no microphone.")
 @click.option("--no-gesture", is_flag=True, help="Words only: use no camera.")
 @click.option("--microphone", "microphone_name", metavar="NAME", help="Number or part of the name of the microphone.")
-@click.option("--camera", "camera_name", default="0", show_default=True, help="Number or address of the camera.")
+@click.option(
+    "--camera", "camera_name", default="0", show_default=True, help="Number or address; nao: NAO's, at --url."
+)
 @stall_option
 @click.option("--wake", multiple=True, metavar="LABEL", help="Take commands only after this word or sign.")
 @click.option("--stop", "stops", multiple=True, default=("stop",), show_default=True, help="A label that stops.")
@@ -67,6 +80,7 @@ _NO_ROBOT = "none"
     show_default=True,
     callback=lambda context, option, name: ROBOTS[name],
 )
+@nao_url_option
 @click.option("--record", "record_path", type=OutputFile((".mcap",)), metavar="FILE", help="Keep everything (.mcap).")
 @click.option("--replay", "replay_path", type=_MODEL, metavar="FILE", help="Decide once more on what --record kept.")
 @events_json_option
@@ -90,6 +104,7 @@ def session(
     backend: str,
     gui: bool,
     table: JointTable,
+    url: str | None,
     record_path: str | None,
     replay_path: Path | None,
     as_json: bool,
@@ -106,10 +121,15 @@ def session(
       hri session --wake robot --resume start --record class.mcap
       hri session --backend kinematic --json words.wav signs.mp4
       hri session --replay class.mcap
+      hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
     if replay_path is not None:
         _replay(replay_path, speech_model, gesture_model, fusion_path, as_json)
         return
+    if url is not None and table is not NAO:
+        raise click.UsageError("--url is of a real NAO: add --robot nao")
+    if url is None and _NAO in (camera_name, microphone_name):
+        raise click.UsageError("--camera nao and --microphone nao are of a real NAO: name its --url")
     sound, video = _files(files)
     live = not files
     with_speech, with_gesture = (not no_speech, not no_gesture) if live else (sound is not None, video is not None)
@@ -124,19 +144,23 @@ def session(
     signs = _load(GestureRecognizer, "gesture", gesture_model, ids) if with_gesture else None
     learned = None if fusion_path is None else _load(LearnedFusion, "fusion", fusion_path, ids)
     with ExitStack() as stack:
-        robot = None
-        if backend != _NO_ROBOT:
+        robot: Robot | None = None
+        if url is not None:
+            robot = stack.enter_context(NaoqiRobot(url))
+        elif backend != _NO_ROBOT:
             robot = stack.enter_context(open_robot(backend, gui=gui, table=table))
         note("preparing the robot's motions")
-        made = Session(words, signs, robot, options, model_ids=ids, fusion=learned)
+        # NAO hears itself: a question that names a word would be answered by it.
+        say = robot.say_later if isinstance(robot, NaoqiRobot) and microphone_name != _NAO else None
+        made = Session(words, signs, robot, options, on_say=say, model_ids=ids, fusion=learned)
         for label, why in made.refused.items():
             note(f"no motion for {label}: {why}")
         hear: Any = None
         see: Any = None
         if with_speech:
-            hear = (lambda: microphone(microphone_name, stall_s)) if live else FileSource(sound or "")
+            hear = (lambda: _microphone(microphone_name, stall_s, url)) if live else FileSource(sound or "")
         if with_gesture:
-            see = (lambda: camera(camera_name, stall_s)) if live else VideoSource(video or "")
+            see = (lambda: _camera(camera_name, stall_s, url)) if live else VideoSource(video or "")
         recorder = None if record_path is None else McapRecorder(record_path)
         signals = stack.enter_context(stopped_by_signals(made))
         failed = show_session(made.run(hear, see, live=live, recorder=recorder), as_json, lambda: bool(signals))
@@ -146,6 +170,16 @@ def session(
         sys.exit(EXIT_SIGNAL + signals[0])
     if failed:
         raise InvalidArgument(failed)
+
+
+def _camera(name: str, stall_s: float, url: str | None) -> CameraSource | NaoCamera:
+    """A camera of this computer, or NAO's."""
+    return NaoCamera(url, stall_s=stall_s) if url is not None and name == _NAO else camera(name, stall_s)
+
+
+def _microphone(name: str | None, stall_s: float, url: str | None) -> MicrophoneSource | NaoMicrophone:
+    """A microphone of this computer, or NAO's."""
+    return NaoMicrophone(url, stall_s=stall_s) if url is not None and name == _NAO else microphone(name, stall_s)
 
 
 def _replay(

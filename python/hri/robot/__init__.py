@@ -26,6 +26,8 @@ from hri.robot.motion.self_collision import Touch, self_collisions
 from hri.robot.motion.shaping import concatenate, resample, slow_to_limits, smooth, spline
 from hri.robot.motion.short_csv import read_short_csv, write_short_csv
 from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
+from hri.robot.nao.gestures import NaoGesture, nao_gesture, nao_gesture_trajectory
+from hri.robot.nao.robot import NaoqiRobot
 from hri.robot.simulation.gallery import write_gallery
 from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
 
@@ -45,6 +47,8 @@ __all__ = [
     "Joint",
     "JointTable",
     "MotionLog",
+    "NaoGesture",
+    "NaoqiRobot",
     "Physics",
     "Robot",
     "RobotState",
@@ -58,6 +62,8 @@ __all__ = [
     "gesture_trajectory",
     "link_poses",
     "load_gestures",
+    "nao_gesture",
+    "nao_gesture_trajectory",
     "open_robot",
     "plot_trajectory",
     "read_pulse_csv",

@@ -4,6 +4,8 @@
 
 from hri.session.dialogue import STATES, Action, Dialogue
 from hri.session.live import EventQueue
+from hri.session.nao_camera import NaoCamera
+from hri.session.nao_microphone import NaoMicrophone
 from hri.session.options import SessionOptions
 from hri.session.pairing import Observation, Pair, Pairer
 from hri.session.reading import Recording, read_recording
@@ -17,6 +19,8 @@ __all__ = [
     "Dialogue",
     "EventQueue",
     "McapRecorder",
+    "NaoCamera",
+    "NaoMicrophone",
     "Observation",
     "Pair",
     "Pairer",

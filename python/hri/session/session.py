@@ -17,7 +17,7 @@ from hri.core.errors import Error, FormatError, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.live import AudioSource, Event, FrameSource, Listener, Watcher
 from hri.recognition import GestureRecognizer, GestureSegmenterOptions, WordRecognizer
-from hri.robot import NAO, Robot, Trajectory, gesture_trajectory, load_gestures, with_nao_arms
+from hri.robot import NAO, Robot, Trajectory, gesture_trajectory, load_gestures, nao_gesture_trajectory
 from hri.session.feeds import Arrival, Clock, Feed, merge
 from hri.session.feeds import Recorder as StreamRecorder
 from hri.session.live import EventQueue, LiveFeeds
@@ -218,10 +218,9 @@ class Session:
             elif motions is not None and label not in motions:
                 self.refused[label] = "it is in no motion"
             else:
-                trajectory = motions[label] if motions is not None else gesture_trajectory(label)
-                if motions is None and self._robot.table is NAO:
-                    trajectory = with_nao_arms(trajectory)
+                own = nao_gesture_trajectory if self._robot.table.name == NAO.name else gesture_trajectory
                 try:
+                    trajectory = motions[label] if motions is not None else own(label)
                     self._robot.prepare(trajectory)
                     found[label] = trajectory
                 except (FormatError, InvalidArgument) as error:
