@@ -43,7 +43,7 @@ PYTHON = {
     "fusion": {"core", "recognition.decision"},
     "robot": {"core", "media"},
     "session": {"core", "media", "signal", "recognition", "live", "fusion", "robot"},
-    "serve": {"core", "media", "recognition", "live", "robot", "session"},
+    "serve": {"core", "media", "signal", "recognition", "live", "robot", "session"},
 }
 PYTHON["studies"] = {*PYTHON}
 PYTHON["demo"] = {*PYTHON, "cli"} - {"studies"}

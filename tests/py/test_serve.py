@@ -5,9 +5,13 @@
 from __future__ import annotations
 
 import contextlib
+import http.client
 import json
 import logging
+import signal
 import socket as sockets
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -26,7 +30,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 import hri
 from drawn_hands import HIDDEN, picture
 from hri.core.errors import InvalidArgument, IoError
-from hri.robot import Robot, open_robot
+from hri.robot import HOAP2, Robot, open_robot
 from hri.serve import PageServer, ServeLimits, Stage
 from hri.serve.limits import RateLimit
 from page_people import PICTURE, RATE_HZ, SOUND, connected, enter, framed, jpeg, open_socket, request, sound_messages
@@ -282,6 +286,44 @@ def test_a_microphone_that_falls_silent_is_reported_and_comes_back(server: PageS
         assert page.await_event("decision")["final"] == "flat"
 
 
+def test_a_word_is_added_by_three_samples_and_undone(
+    server: PageServer, cookie: str, stage: Stage, tmp_path: Any
+) -> None:
+    def answer(page: Any, text: str) -> None:
+        page.await_message(lambda m: m["type"] == "teach" and text in m["text"])
+
+    rng = np.random.default_rng(2)
+    with connected(server, cookie) as page:
+        for command, text in (
+            ({"type": "undo"}, "nothing to undo"),
+            ({"type": "sample"}, "first give the word a name"),
+            ({"type": "teach", "label": "flat"}, "is a word already"),
+            ({"type": "teach", "label": " hum "}, "3 times"),
+        ):
+            page.say(**command)
+            answer(page, text)
+            time.sleep(0.1)
+        for number in range(4):
+            page.say(type="sample")
+            answer(page, "Speak now")
+            said = 0.001 * rng.standard_normal(5 * RATE_HZ + 640).astype("f4")
+            if number:  # the first time nothing is said
+                said = said[: 2 * RATE_HZ]
+                at = slice(RATE_HZ // 2, RATE_HZ)
+                said[at] += 0.2 * np.sin(2 * np.pi * (1500 + 20 * number) * np.arange(RATE_HZ // 2) / RATE_HZ)
+            page.perform(said)
+            answer(page, ("I heard nothing", "Sample 1 of 3", "Sample 2 of 3", "is added")[number])
+            time.sleep(0.1)
+        assert "hum" in [m for m in page.messages if m["type"] == "welcome"][-1]["words"]
+        assert not any(m.get("event") == "fused" for m in page.messages)  # what is recorded is no command
+        (tmp_path / "words.hri").write_bytes(request(server, "/words.hri", cookie)[2])
+        assert "hum" in hri.WordRecognizer.load(tmp_path / "words.hri").classes_
+        assert request(server, "/words.hri")[0] == 403
+        page.say(type="undo")
+        answer(page, "“hum” is removed")
+        assert stage.words is not None and [str(label) for label in stage.words.classes_] == ["flat", "stop", "tall"]
+
+
 def test_another_rate_of_sound_is_converted(server: PageServer, cookie: str) -> None:
     samples = np.repeat(speech([("flat", 0.8)], 3.2), 3)  # 48 kHz
     with connected(server, cookie, rate=3 * RATE_HZ) as page:
@@ -322,3 +364,38 @@ def test_the_command_line_reports_what_is_missing(hri, words: Any, tmp_path: Any
         ):
             result = hri("serve", "--backend", "none", *arguments)
             assert result.code == code and message in result.err, (arguments, result.err)
+
+
+def test_ctrl_c_ends_the_command_and_the_robot_rests(words: Any, tmp_path: Any) -> None:
+    model = tmp_path / "words.hri"
+    words.save(model)
+    arguments = ("--no-gesture", "--speech-model", str(model), "--backend", "kinematic", "--port", "0")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "hri", "serve", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        assert process.stdout is not None
+        address = process.stdout.readline().split()[-1]
+        port = int(address.partition("127.0.0.1:")[2].partition("/")[0])
+        link = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
+        link.request("GET", address.partition(str(port))[2])
+        assert link.getresponse().status == 303
+        link.close()
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+        assert process.returncode == 130 and "Traceback" not in errors and "lets in one visitor" in errors
+    finally:
+        process.kill()
+
+
+def test_the_figure_is_the_robot_from_the_front() -> None:
+    from hri.serve.figure import figure
+
+    rest = figure(HOAP2.rest_rad, HOAP2)
+    xs = [x for stroke in rest["strokes"] for x in (stroke[0], stroke[2])]
+    ys = [y for stroke in rest["strokes"] for y in (stroke[1], stroke[3])]
+    assert abs(min(xs) + max(xs)) < 0.02 and min(ys) > -0.01 and 0.4 < max(ys) < rest["height"] < 0.8
+    raised = figure({**HOAP2.rest_rad, "larm_joint_1": -np.pi / 2}, HOAP2)
+    assert rest["height"] == raised["height"] and raised["joints"]["larm_joint_1"] == -90.0
+    assert rest["strokes"] != raised["strokes"]
+    assert len(json.dumps(rest)) < 10_000

@@ -22,11 +22,11 @@ pytest.importorskip("playwright")
 
 import hri
 from conftest import RATE_HZ
-from drawn_hands import FPS, Frame
+from drawn_hands import FPS, Frame, stills
 from hri.io import write_wav_pcm16
 from hri.robot import Robot, open_robot
 from hri.serve import PageServer, ServeLimits, Stage
-from session_people import MOTIONS, signing, speech, train_signs, train_words
+from session_people import MOTIONS, signing, speech, train_words
 
 api: Any = importlib.import_module("playwright.sync_api")
 CHROMIUM = shutil.which("chromium")
@@ -45,7 +45,20 @@ def words() -> hri.WordRecognizer:
 
 @pytest.fixture(scope="module")
 def signs() -> hri.GestureRecognizer:
-    return train_signs()
+    """Trained on pictures as they are, and as they come from the browser."""
+    rows = [(stills(sign, seed), sign, f"p{seed % 3}") for seed in range(8) for sign in ("flat", "tall")]
+    rows += [([coded(frame) for frame in clip], sign, person) for clip, sign, person in rows]
+    x, y, persons = map(list, zip(*rows, strict=True))
+    return hri.GestureRecognizer(false_reject_rate=0.0).fit(x, y, groups=persons)
+
+
+def coded(frame: Frame) -> Frame:
+    """As raw video and as JPEG."""
+    import cv2
+
+    video = cv2.cvtColor(cv2.cvtColor(frame, cv2.COLOR_BGR2YUV_I420), cv2.COLOR_YUV2BGR_I420)
+    picture = cv2.imdecode(cv2.imencode(".jpg", video, [cv2.IMWRITE_JPEG_QUALITY, 85])[1], cv2.IMREAD_COLOR)
+    return np.asarray(picture, dtype=np.uint8)
 
 
 @pytest.fixture(scope="module")
@@ -129,17 +142,17 @@ def test_a_word_and_a_sign_move_the_robot_and_stop_stops_it(visit: Any, robot: R
     expect(page, "#camera-line").to_have_text("Camera: on", timeout=WAIT_MS)
     expect(page, "#level-label").to_have_text("Microphone: on", timeout=WAIT_MS)
     expect(page, "#state").to_have_text("acting", timeout=WAIT_MS)
-    expect(page, "#bars-speech li:first-child span:first-child").to_have_text("tall")
-    expect(page, "#bars-fused li:first-child span:first-child").to_have_text("tall")
+    for mode in ("speech", "gesture", "fused"):
+        expect(page, f"#bars-{mode} li:first-child span:first-child").to_have_text("tall")
     expect(page, "#rule").to_contain_text("tall: ")
+    expect(page, "#log").to_contain_text("and sign tall")
     expect(page, "#log").to_contain_text("The robot moves: tall")
+    if picture := os.environ.get("HRI_SCREENSHOT"):  # the one in the documentation
+        page.screenshot(path=picture, full_page=True)
     page.click("#stop")
     expect(page, "#log").to_contain_text("The robot has stopped: tall")
     expect(page, "#state").to_have_text("stopped")
     assert robot.stopped
-    if picture := os.environ.get("HRI_SCREENSHOT"):
-        page.screenshot(path=picture, full_page=True)
-    expect(page, "#bars-gesture li:first-child span:first-child").to_have_text("tall", timeout=WAIT_MS)
     page.click("#resume")
     expect(page, "#state").not_to_have_text("stopped")
     assert page.failures == []
@@ -153,18 +166,17 @@ def test_bars_follow_a_picture_at_once(visit: Any, capsys: pytest.CaptureFixture
     page = visit(shown=frames)
     page.click("#start")
     expect(page, "#latency").to_contain_text("From picture to bars", timeout=WAIT_MS)
-    page.wait_for_timeout(8000)
+    page.wait_for_timeout(6000)
     taken = page.evaluate("performance.getEntriesByName('picture to bars').map((entry) => entry.duration)")
+    median = statistics.median(taken)
     with capsys.disabled():
-        print(
-            f"\npicture to bars: median {statistics.median(taken):.0f} ms, worst {max(taken):.0f} ms, {len(taken)} times"
-        )
+        print(f"\npicture to bars: median {median:.0f} ms, worst {max(taken):.0f} ms, {len(taken)} times")
     assert len(taken) >= 4 and min(taken) > 0
-    assert statistics.median(taken) < 500  # 150 ms where nothing else runs
+    assert median < 500  # 150 ms where nothing else runs
 
 
 def test_a_word_that_is_added_by_button_is_recognised_and_removed(visit: Any, stage: Stage) -> None:
-    page = visit(speech([("flat", 0.9)], 2.0))
+    page = visit(speech([("flat", 0.9)], 2.5))
     page.click("#start")
     expect(page, "#level-label").not_to_have_text("Microphone: off", timeout=WAIT_MS)
     page.fill("#word", "flat")
@@ -174,11 +186,11 @@ def test_a_word_that_is_added_by_button_is_recognised_and_removed(visit: Any, st
     page.press("#word", "Enter")
     expect(page, "#teach-line").to_contain_text("3 times")
     for number in (1, 2, 3):
+        expect(page, "#level-label").to_have_text("Microphone: a word")
+        expect(page, "#level-label").to_have_text("Microphone: on")
         page.click("#sample")
-        expect(page, "#teach-line").not_to_contain_text("Speak now")
-        said = page.inner_text("#teach-line")
         if number < 3:
-            assert f"Sample {number} of 3" in said and "sounds like “flat”" in said
+            expect(page, "#teach-line").to_contain_text(f"Sample {number} of 3.")
     expect(page, "#teach-line").to_contain_text("“fall” is added", timeout=WAIT_MS)
     expect(page, "#vocabulary").to_contain_text("Words: fall, flat, stop, tall.")
     with page.expect_download() as download:
@@ -192,7 +204,7 @@ def test_a_word_that_is_added_by_button_is_recognised_and_removed(visit: Any, st
 
 
 def test_a_lost_connection_comes_back(visit: Any, server: PageServer, robot: Robot) -> None:
-    page = visit(speech([("flat", 1.6)], 6.0))
+    page = visit(speech([("flat", 0.8)], 3.6))
     page.click("#start")
     expect(page, "#log").to_contain_text("You: flat", timeout=WAIT_MS)
     for connection in list(server._server.server_state.connections):
@@ -219,13 +231,17 @@ def test_what_is_not_allowed_is_said_in_plain_words(visit: Any, server: PageServ
     assert stranger.goto(server.address).status == 403
 
 
-def test_it_is_used_by_keyboard_on_a_narrow_screen_and_in_the_dark(visit: Any, robot: Robot) -> None:
+def test_it_is_used_by_keyboard_on_a_narrow_screen_and_in_the_dark(
+    visit: Any, robot: Robot, capsys: pytest.CaptureFixture[str]
+) -> None:
     page = visit(viewport={"width": 360, "height": 740}, color_scheme="dark")
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
     red, green, blue = page.evaluate("getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number)")
     assert max(red, green, blue) < 60
     first = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
-    assert first < 1000, first
+    with capsys.disabled():
+        print(f"\nfirst paint: {first:.0f} ms")
+    assert first < 1000
     focused = []
     for _ in range(12):
         page.keyboard.press("Tab")

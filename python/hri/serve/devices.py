@@ -156,9 +156,8 @@ class PageCamera(_Device):
             self._ready.notify()
 
     def sent_ms(self, at_s: float) -> float | None:
-        """The page's time of the picture that came nearest to this time of the monotonic clock."""
-        known = list(self._known)
-        return min(known, key=lambda one: abs(one[0] - at_s))[1] if known else None
+        """The page's time of the last picture that had come by this time of the monotonic clock."""
+        return next((sent_ms for came_s, sent_ms in reversed(self._known.copy()) if came_s <= at_s), None)
 
     def open(self) -> PagePictures:
         """A source for a session. Raises IoError while nothing comes, except after `expect`."""

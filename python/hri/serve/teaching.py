@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from hri.core.errors import Error
 from hri.robot import load_gestures
 from hri.serve.stage import Stage
+from hri.signal import Endpointer, EndpointerOptions
 
 NUM_SAMPLES = 3
-SAMPLE_S = 2.0
+LONGEST_S = 5.0
 
 
 class Teacher:
@@ -33,7 +34,8 @@ class Teacher:
         self._clips: list[NDArray[np.float32]] = []
         self._rate_hz = 16000
         self._parts: list[NDArray[np.float32]] | None = None
-        self._num_wanted = 0
+        self._num_heard = 0
+        self._endpointer: Endpointer | None = None
         self._added: list[str] = []
         self._busy = threading.Lock()
 
@@ -52,14 +54,20 @@ class Teacher:
 
     def hear(self, samples: NDArray[np.float32], sample_rate_hz: int) -> bool:
         """Sound of the page; False where it is part of a sample, which is no command."""
-        if self._parts is None:
+        if self._parts is None or self._endpointer is None:
             return True
         self._rate_hz = sample_rate_hz
         self._parts.append(samples)
-        self._num_wanted -= len(samples)
-        if self._num_wanted <= 0:
-            clip, self._parts = np.concatenate(self._parts), None
+        self._num_heard += len(samples)
+        ends = [end for end in self._endpointer.push(samples) if end.kind == "speech_end"]
+        if not ends and self._num_heard < LONGEST_S * sample_rate_hz:
+            return False
+        heard, self._parts = np.concatenate(self._parts), None
+        if ends:
+            clip = heard[max(0, ends[0].segment_first) : ends[0].segment_last].copy()
             self._in_background(lambda: self._keep(clip))
+        else:
+            self._answer("I heard nothing: press Record once more.", self._label)
         return False
 
     def _begin(self, label: str) -> None:
@@ -75,20 +83,20 @@ class Teacher:
         if not self._label:
             self._answer("first give the word a name", "")
         elif self._parts is None:
-            self._parts = []
-            self._num_wanted = round(SAMPLE_S * self._stage.microphone.sample_rate_hz)
+            assert self._stage.words is not None
+            options = EndpointerOptions(activity=self._stage.words.options.activity)
+            self._endpointer = Endpointer(self._stage.microphone.sample_rate_hz, options)
+            self._parts, self._num_heard = [], 0
             self._answer("Speak now.", self._label, recording=True)
 
     def _keep(self, clip: NDArray[np.float32]) -> None:
         words = self._stage.words
         assert words is not None
-        said = words.recognise_utterances(clip, self._rate_hz)
-        if len(said) != 1:
-            heard = "nothing" if not said else "more than one word"
-            self._answer(f"I heard {heard}: press Record once more.", self._label)
+        decision = words.recognise(clip, self._rate_hz)
+        if decision.status == "no_input":
+            self._answer("I heard nothing: press Record once more.", self._label)
             return
         self._clips.append(clip)
-        decision = said[0].decision
         known = (
             f" It sounds like “{decision.label}”: another word may be safer." if decision.status == "recognised" else ""
         )

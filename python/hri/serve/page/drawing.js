@@ -23,13 +23,16 @@ export function drawRobot(canvas, list, robot) {
   names.forEach((name, i) => (list.children[i].textContent = `${name}: ${robot.joints[name].toFixed(1)}°`));
 }
 
-export function drawPlace(canvas, hand) {
+export function drawPlace(canvas, video, hand) {
   [canvas.width, canvas.height] = [canvas.clientWidth, canvas.clientHeight];
-  if (hand.x === null) return;
+  if (hand.x === null || !video.videoWidth) return;
+  const scale = Math.min(canvas.width / video.videoWidth, canvas.height / video.videoHeight);
+  const [width, height] = [scale * video.videoWidth, scale * video.videoHeight];
   const context = canvas.getContext("2d");
+  context.translate((canvas.width - width) / 2, (canvas.height - height) / 2);
   context.lineWidth = 3;
   context.strokeStyle = hand.in_gesture ? "#39d353" : "#f2cc60";
   context.beginPath();
-  context.arc(hand.x * canvas.width, hand.y * canvas.height, 6 + 0.5 * canvas.width * Math.sqrt(hand.area), 0, 2 * Math.PI);
+  context.arc(hand.x * width, hand.y * height, 6 + Math.sqrt((hand.area * width * height) / Math.PI), 0, 2 * Math.PI);
   context.stroke();
 }

@@ -46,8 +46,8 @@ function connection(is, why) {
 }
 
 function write(text, kind = "") {
-  if (!text) return;
   const log = at("log");
+  if (!text || log.lastChild?.textContent === text) return; // STOP comes by two ways
   const line = document.createElement("li");
   line.textContent = text;
   line.className = kind;
@@ -91,7 +91,7 @@ function heedEvent(event) {
     at("level").textContent = `${event.level_db} dB`;
     at("level-label").textContent = event.in_speech ? "Microphone: a word" : "Microphone: on";
   }
-  if (event.event === "hand") drawPlace(at("place"), event);
+  if (event.event === "hand") drawPlace(at("place"), at("camera"), event);
   if (event.event === "say") at("said").textContent = event.text;
   if (event.nbest && event.event !== "fused") {
     bars(`bars-${event.mode}`, event.nbest);

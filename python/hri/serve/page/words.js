@@ -14,7 +14,7 @@ const LINES = {
   fused: understood,
   say: (event) => `Robot: ${event.text}`,
   ignored: (event) => `Ignored ${event.label}: ${event.reason}.`,
-  stop: (event) => `STOP ${event.label}: ${event.reason}.`,
+  stop: (event) => `STOP${event.label && ` ${event.label}`}: ${event.reason}.`,
   rest: (event) => `Rest: ${event.reason}.`,
   resumed: () => "Motions may begin again.",
   motion_start: (event) =>
