@@ -179,6 +179,7 @@ MAY_OPEN = {
     "core/plotting.py": r"savefig\(drawn",
     "demo/plots.py": r"savefig\(buffer",
     "demo/page.py": r"wave\.open\(buffer|files\(.*read_text",
+    "cli/serve.py": r"webbrowser\.open\(",
     "cli/output.py": r"files\.write_",
     "recognition/word/fillers.py": r"np\.load\(data|files\(.*read_bytes",
     "robot/model/joints.py": r"tomllib|resources\.files\(.*read_text",

@@ -173,6 +173,23 @@ def test_a_page_that_goes_stops_the_robot_and_comes_back(server: PageServer, coo
         page.await_event("motion_start", label="flat")
 
 
+@pytest.mark.parametrize("spoken", [True, False])
+def test_stop_outlives_a_page_that_goes_at_once(server: PageServer, cookie: str, robot: Robot, spoken: bool) -> None:
+    with connected(server, cookie) as page:
+        if spoken:
+            page.perform(speech([("stop", 0.8)], 2.6))
+            page.await_event("stop")
+        else:
+            page.say(type="stop")
+    time.sleep(0.4)
+    with connected(server, cookie, "b") as page:
+        with pytest.raises(TimeoutError):
+            page.await_event("resumed", timeout_s=0.7)
+        assert robot.stopped
+        page.say(type="resume")
+        page.await_event("resumed")
+
+
 def test_a_second_page_is_refused_and_the_same_page_takes_over(
     server: PageServer, cookie: str, notes: pytest.LogCaptureFixture
 ) -> None:
@@ -287,7 +304,7 @@ def test_a_microphone_that_falls_silent_is_reported_and_comes_back(server: PageS
 
 
 def test_a_word_is_added_by_three_samples_and_undone(
-    server: PageServer, cookie: str, stage: Stage, tmp_path: Any
+    server: PageServer, cookie: str, stage: Stage, robot: Robot, tmp_path: Any
 ) -> None:
     def answer(page: Any, text: str) -> None:
         page.await_message(lambda m: m["type"] == "teach" and text in m["text"])
@@ -319,8 +336,14 @@ def test_a_word_is_added_by_three_samples_and_undone(
         (tmp_path / "words.hri").write_bytes(request(server, "/words.hri", cookie)[2])
         assert "hum" in hri.WordRecognizer.load(tmp_path / "words.hri").classes_
         assert request(server, "/words.hri")[0] == 403
+        page.say(type="stop")
+        page.await_event("state", state="stopped")
         page.say(type="undo")
         answer(page, "“hum” is removed")
+        page.await_event("state", state="stopped")  # the new session is stopped, too
+        page.say(type="resume")
+        page.await_event("state", state="idle")
+        assert not robot.stopped
         assert stage.words is not None and [str(label) for label in stage.words.classes_] == ["flat", "stop", "tall"]
 
 

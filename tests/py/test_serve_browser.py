@@ -176,7 +176,7 @@ def test_bars_follow_a_picture_at_once(visit: Any, capsys: pytest.CaptureFixture
 
 
 def test_a_word_that_is_added_by_button_is_recognised_and_removed(visit: Any, stage: Stage) -> None:
-    page = visit(speech([("flat", 0.9)], 2.5))
+    page = visit(speech([("flat", 0.7)], 2.0))
     page.click("#start")
     expect(page, "#level-label").not_to_have_text("Microphone: off", timeout=WAIT_MS)
     page.fill("#word", "flat")
@@ -258,3 +258,20 @@ def test_it_is_used_by_keyboard_on_a_narrow_screen_and_in_the_dark(
     assert robot.stopped
     page.press("#resume", "Enter")
     expect(page, "#state").to_have_text("idle")
+
+
+def test_axe_finds_no_serious_fault(visit: Any) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    page = visit(speech([("flat", 0.8)], 3.6))
+    page.click("#start")
+    expect(page, "#log").to_contain_text("You: flat", timeout=WAIT_MS)
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)
+        for state in ("idle", "stopped"):
+            if state == "stopped":
+                page.click("#stop")
+            page.wait_for_timeout(200)
+            faults = axe.run(page).response["violations"]
+            assert [(f["id"], f["nodes"][0]["html"]) for f in faults if f["impact"] in ("serious", "critical")] == []
+        page.click("#resume")
+        expect(page, "#state").not_to_have_text("stopped")

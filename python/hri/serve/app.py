@@ -25,7 +25,8 @@ _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".
 _USED = "This address has been used, or is not the one that hri serve printed. Start hri serve again for a new one."
 _HEADERS = {
     "Cache-Control": "no-store",
-    "Content-Security-Policy": "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'; form-action 'none'; "
+    "Content-Security-Policy": "default-src 'self'; connect-src 'self' ws://127.0.0.1:* "
+    "ws://localhost:*; img-src 'self' data:; frame-ancestors 'none'; form-action 'none'; "
     "base-uri 'none'",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(self), microphone=(self)",

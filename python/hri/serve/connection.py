@@ -70,14 +70,16 @@ class Reception:
 
     def publish(self, message: dict[str, Any]) -> None:
         """Send a message to the page that is there, if any; by any thread."""
-        if message["type"] in ("note", "error"):
+        if message["type"] == "note":
             log.warning("%s", message["text"])
         loop = self._loop
         if loop is not None and not loop.is_closed():
             loop.call_soon_threadsafe(self._put, message)
 
     def _put(self, message: dict[str, Any]) -> None:
-        if self.current is not None:
+        if self.current is not None and message["type"] == "error":
+            self.current.complain(message["text"])
+        elif self.current is not None:
             self.current.outbox.put(message)
 
     async def meet(self, socket: WebSocket) -> None:
@@ -111,6 +113,7 @@ class Reception:
         finally:
             if self.current is connection:
                 self.current = None
+                self.teacher.forget()
                 self.stage.leave()
 
 
@@ -160,6 +163,17 @@ class Connection:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
+    def complain(self, text: str) -> None:
+        """On the page and on the terminal, the same at most every two seconds."""
+        now_s = time.monotonic()
+        if now_s - self._complained.get(text, -math.inf) < _REPEAT_S:
+            return
+        if len(self._complained) >= _MOST_KNOWN:
+            self._complained.clear()
+        self._complained[text] = now_s
+        log.warning("%s", text)
+        self.outbox.put({"type": "error", "text": text, "passing": True})
+
     async def _hear(self) -> None:
         while True:
             message = await self._socket.receive()
@@ -172,7 +186,7 @@ class Connection:
                 command = read_command(text, self._stage.limits) if text is not None else None
             except FormatError as error:
                 command = None
-                self._complain(str(error))
+                self.complain(str(error))
             if command is not None and command["type"] == "stop":  # before any limit
                 self._stage.stop()
                 continue
@@ -195,7 +209,7 @@ class Connection:
         try:
             media = read_media(data, self._stage.limits)
         except FormatError as error:
-            self._complain(str(error))
+            self.complain(str(error))
             return
         if media.kind == SOUND:
             samples = media.samples()
@@ -205,23 +219,12 @@ class Connection:
                 heard = self._teacher.hear(samples, self._rate_hz)
                 self._stage.microphone.put(samples, heard)
             else:
-                self._complain("more sound than a microphone gives was ignored")
+                self.complain("more sound than a microphone gives was ignored")
         elif self._stage.signs is not None:
             if self._pictures.take():
                 self._stage.camera.put(media)
             else:
-                self._complain(f"more than {self._stage.limits.pictures_per_s:g} pictures a second: some were left out")
-
-    def _complain(self, text: str) -> None:
-        """On the page and on the terminal, the same at most every two seconds."""
-        now_s = time.monotonic()
-        if now_s - self._complained.get(text, -math.inf) < _REPEAT_S:
-            return
-        if len(self._complained) >= _MOST_KNOWN:
-            self._complained.clear()
-        self._complained[text] = now_s
-        log.warning("%s", text)
-        self.outbox.put({"type": "error", "text": text, "passing": True})
+                self.complain(f"more than {self._stage.limits.pictures_per_s:g} pictures a second: some were left out")
 
     async def _send(self) -> None:
         while True:

@@ -92,7 +92,7 @@ class PageMicrophone(_Device):
         if ring is not None:
             ring.write(samples if heard else np.zeros_like(samples))
 
-    def open(self) -> PageSound:
+    def stream(self) -> PageSound:
         """A source for a session. Raises IoError while nothing comes, except after `expect`."""
         self._open()
         self._ring = SampleRing(round(_BUFFER_S * self.sample_rate_hz))
@@ -159,7 +159,7 @@ class PageCamera(_Device):
         """The page's time of the last picture that had come by this time of the monotonic clock."""
         return next((sent_ms for came_s, sent_ms in reversed(self._known.copy()) if came_s <= at_s), None)
 
-    def open(self) -> PagePictures:
+    def stream(self) -> PagePictures:
         """A source for a session. Raises IoError while nothing comes, except after `expect`."""
         self._open()
         with self._ready:

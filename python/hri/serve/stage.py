@@ -24,6 +24,7 @@ from hri.serve.limits import ServeLimits
 from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
+from hri.session.logic import BY_BUTTON
 
 _MOST_KEPT = 60
 _CLOSE_S = 8.0
@@ -80,7 +81,7 @@ class Stage:
         self._begun_s = 0.0
         self._joints: dict[str, float] = {}
         self._figure: dict[str, Any] | None = None
-        self._paused = False
+        self._paused = self._held = False
         self._closed = threading.Event()
         self._wanted = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True, name="hri-stage")
@@ -98,8 +99,7 @@ class Stage:
 
     def arrive(self) -> None:
         """A page takes its place: what was stopped only because there was none goes on."""
-        if self._paused:
-            self._paused = False
+        if self._paused and not self._held:
             self.resume()
         self._wanted.set()
 
@@ -110,16 +110,18 @@ class Stage:
         if self.moving:
             self.stop()
             self._report("The page was gone in mid-motion, so the robot stopped. Press Resume to go on.")
-        elif self._state != STOPPED:
+        else:
             self._paused = True
-            self.stop()
+            self._session.stop()
 
     def stop(self) -> None:
-        """STOP, at once; by any thread."""
+        """STOP, at once, until a person ends it; by any thread."""
+        self._held = True
         self._session.stop()
 
     def resume(self) -> None:
         """End STOP; by any thread."""
+        self._held = self._paused = False
         if not self._wanted.is_set() and self._robot is not None:
             self._robot.resume()
         self._session.resume()
@@ -209,29 +211,37 @@ class Stage:
                 if self._closed.is_set():
                     return
                 self._wanted.clear()
-                self._state = STOPPED
                 stopped = self._robot is not None and self._robot.stopped
                 if not (isinstance(error, InvalidArgument) and stopped):
                     self.stop()
                     self._report(f"The session has ended: {error}. Press Resume to begin another.")
-                self.publish({"type": "event", "event": "state", "state": STOPPED})
+                self._show_state(STOPPED)
 
     def _play(self, session: Session) -> None:
         self.microphone.expect()
         self.camera.expect()
-        hear: Any = self.microphone.open if self.words is not None else None
-        see: Any = self.camera.open if self.signs is not None else None
+        hear: Any = self.microphone.stream if self.words is not None else None
+        see: Any = self.camera.stream if self.signs is not None else None
         with closing(session.run(hear, see, live=True)) as events:  # type: ignore[type-var]
             self._begun_s = time.monotonic()
+            self._show_state(IDLE)
             for event in events:
                 self._heed(event)
                 if self._closed.is_set() or session is not self._session:
                     return
 
+    def _show_state(self, state: str) -> None:
+        self._state = state
+        self.publish({"type": "event", "event": "state", "state": state})
+
     def _heed(self, event: Event) -> None:
         message = {"type": "event", "passing": event.event in PASSING, **event.to_dict()}
         if event.event == "state":
             self._state = event.fields["state"]
+        elif event.event == "stop" and event.fields["reason"] != BY_BUTTON:  # said, shown, or a fault
+            self._held = True
+        elif event.event == "resumed":
+            self._held = self._paused = False
         if event.mode == "gesture" and "nbest" in event.fields:
             sent_ms = self.camera.sent_ms(self._begun_s + event.time)
             if sent_ms is not None:

@@ -52,6 +52,10 @@ class Teacher:
         elif command["type"] == "undo":
             self._in_background(self._undo)
 
+    def forget(self) -> None:
+        """The page is gone: the samples of a word that is not added yet are dropped."""
+        self._label, self._clips, self._parts = "", [], None
+
     def hear(self, samples: NDArray[np.float32], sample_rate_hz: int) -> bool:
         """Sound of the page; False where it is part of a sample, which is no command."""
         if self._parts is None or self._endpointer is None:

@@ -48,7 +48,7 @@ function connection(is, why) {
 function write(text, kind = "") {
   const log = at("log");
   if (!text || log.lastChild?.textContent === text) return; // STOP comes by two ways
-  const line = document.createElement("li");
+  const line = document.createElement("p");
   line.textContent = text;
   line.className = kind;
   log.append(line);
