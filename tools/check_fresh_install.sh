@@ -46,4 +46,5 @@ venv/bin/hri --version
 venv/bin/hri study list >/dev/null
 venv/bin/hri robot play --help >/dev/null
 venv/bin/python -c 'import hri.robot; assert len(hri.robot.load_gestures()) >= 10'
+venv/bin/python -c 'import hri.serve.app as app; assert b"page.js" in app.page_files()["index.html"]'
 echo "fresh install: fine"

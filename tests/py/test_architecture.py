@@ -43,6 +43,7 @@ PYTHON = {
     "fusion": {"core", "io", "models", "recognition.decision"},
     "robot": {"core", "media"},
     "session": {"core", "media", "signal", "recognition", "live", "fusion", "robot"},
+    "serve": {"core", "media", "signal", "recognition", "live", "robot", "session"},
 }
 PYTHON["studies"] = {*PYTHON}
 PYTHON["demo"] = {*PYTHON, "cli"} - {"studies"}
@@ -179,11 +180,13 @@ MAY_OPEN = {
     "core/plotting.py": r"savefig\(drawn",
     "demo/plots.py": r"savefig\(buffer",
     "demo/page.py": r"wave\.open\(buffer|files\(.*read_text",
+    "cli/serve.py": r"webbrowser\.open\(",
     "cli/output.py": r"files\.write_",
     "recognition/word/fillers.py": r"np\.load\(data|files\(.*read_bytes",
     "robot/model/joints.py": r"tomllib|resources\.files\(.*read_text",
     "robot/nao/couplings.py": r"resources\.files\(.*read_text",
     "robot/motion/gestures.py": r"resources\.files\(.*read_text",
+    "serve/app.py": r"files\(.*read_bytes",
     "studies/endurance.py": r"/proc/self/status",
     "studies/tables.py": r"csv\.DictWriter\(text",
     "studies/webcam.py": r"files\(.*read_text",

@@ -140,9 +140,9 @@ def session(
         window_s, rule=rule, fusion=fusion, wake_labels=wake, resume_labels=resume, confirm_below=confirm_below
     )
     ids: dict[str, str] = {}
-    words = _load(WordRecognizer, "speech", speech_model, ids) if with_speech else None
-    signs = _load(GestureRecognizer, "gesture", gesture_model, ids) if with_gesture else None
-    learned = None if fusion_path is None else _load(LearnedFusion, "fusion", fusion_path, ids)
+    words = load_model(WordRecognizer, "speech", speech_model, ids) if with_speech else None
+    signs = load_model(GestureRecognizer, "gesture", gesture_model, ids) if with_gesture else None
+    learned = None if fusion_path is None else load_model(LearnedFusion, "fusion", fusion_path, ids)
     with ExitStack() as stack:
         robot: Robot | None = None
         if url is not None:
@@ -188,9 +188,9 @@ def _replay(
     """Decide once more; exit code 1 where a decision differs."""
     recording = read_recording(path)
     ids: dict[str, str] = {}
-    words = _load(WordRecognizer, "speech", speech_model, ids) if recording.sound else None
-    signs = _load(GestureRecognizer, "gesture", gesture_model, ids) if recording.pictures else None
-    learned = None if fusion_path is None else _load(LearnedFusion, "fusion", fusion_path, ids)
+    words = load_model(WordRecognizer, "speech", speech_model, ids) if recording.sound else None
+    signs = load_model(GestureRecognizer, "gesture", gesture_model, ids) if recording.pictures else None
+    learned = None if fusion_path is None else load_model(LearnedFusion, "fusion", fusion_path, ids)
     for mode, name in ids.items():
         if name != recording.models.get(mode):
             note(f"{mode}: recorded with {recording.models.get(mode) or 'another model'}, replayed with {name}")
@@ -225,8 +225,13 @@ def _files(files: tuple[Path, ...]) -> tuple[Path | None, Path | None]:
     return found.get("a sound file"), found.get("a video")
 
 
+<<<<<<< HEAD
 def _load(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
     """The recogniser or fusion in a model file; its name and hash go into `ids`."""
+=======
+def load_model(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
+    """The recogniser in a model file; its name and hash go into `ids`."""
+>>>>>>> serve
     chosen = path or kept_model(mode)
     ids[mode] = f"{chosen.name}:{hashlib.sha256(read_bytes(chosen, MAX_MODEL_BYTES)).hexdigest()[:12]}"
     return kind.load(chosen)

@@ -4,6 +4,7 @@
 
 from hri.media.audio import Audio, naming_file, naming_files, read_audio
 from hri.media.order import natural_key
+from hri.media.picture_size import picture_size
 from hri.media.suffixes import AUDIO_SUFFIXES, IMAGE_SUFFIXES, MODEL_SUFFIX, VIDEO_SUFFIXES, kind_of_file
 from hri.media.video import (
     DEFAULT_FPS,
@@ -36,6 +37,7 @@ __all__ = [
     "naming_file",
     "naming_files",
     "natural_key",
+    "picture_size",
     "read_audio",
     "read_frames",
     "read_image",

@@ -27,6 +27,7 @@ REST = "rest"
 RESUMED = "resumed"
 ASKED = "asked"
 TICK = "tick"
+BY_BUTTON = "asked for"
 MOTION_START = "motion_start"
 MOTION_END = "motion_end"
 HALT = "halt"
@@ -168,7 +169,7 @@ class SessionLogic:
 
     def _asked(self, event: Event, cause: Cause, out: list[Event]) -> None:
         if event.event == ASKED and event.fields["command"] == STOP:
-            self._do(self.dialogue.halt("asked for"), cause, out)
+            self._do(self.dialogue.halt(BY_BUTTON), cause, out)
         elif event.event == ASKED:
             self._do(self.dialogue.resume(), cause, out)
         self._time_passes(event.time, cause, out)

@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The web application: who is let in, and what is served."""
+
+from __future__ import annotations
+
+import secrets
+from importlib.resources import files
+
+from starlette.applications import Starlette
+from starlette.middleware import Middleware
+from starlette.middleware.trustedhost import TrustedHostMiddleware
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.websockets import WebSocket
+
+from hri.serve.connection import Reception, log
+from hri.serve.stage import Stage
+from hri.serve.teaching import Teacher
+
+_PAGE = ("index.html", "page.css", "page.js", "link.js", "devices.js", "drawing.js", "words.js", "sound.js")
+HOSTS = ("127.0.0.1", "localhost")
+_KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+_USED = "This address has been used, or is not the one that hri serve printed. Start hri serve again for a new one."
+_HEADERS = {
+    "Cache-Control": "no-store",
+    "Content-Security-Policy": "default-src 'self'; connect-src 'self' ws://127.0.0.1:* "
+    "ws://localhost:*; img-src 'self' data:; frame-ancestors 'none'; form-action 'none'; "
+    "base-uri 'none'",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Permissions-Policy": "camera=(self), microphone=(self)",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+}
+
+
+class Door:
+    """Lets in who has the token of the printed address, once, and then who has the cookie that was given for it.
+
+    Parameters
+    ----------
+    token : str
+    port : int
+        Of the server: part of the origins that are allowed, and of the cookie's name.
+    """
+
+    def __init__(self, token: str, port: int) -> None:
+        self._token: str | None = token
+        self._key = secrets.token_urlsafe(32)
+        self._cookie = f"hri_{port}"
+        self._origins = {f"http://{host}:{port}" for host in HOSTS}
+
+    def exchange(self, token: str, response: Response) -> bool:
+        """Whether this is the token; it is spent then, and the response sets the cookie."""
+        if self._token is None or not secrets.compare_digest(token.encode(), self._token.encode()):
+            return False
+        self._token = None
+        response.set_cookie(self._cookie, self._key, httponly=True, samesite="strict")
+        return True
+
+    def knows(self, connection: HTTPConnection) -> bool:
+        """Whether the cookie is there."""
+        given = connection.cookies.get(self._cookie, "")
+        return secrets.compare_digest(given.encode(), self._key.encode())
+
+    def is_own_page(self, connection: HTTPConnection) -> bool:
+        """Whether the request comes from the page that this server has served."""
+        return connection.headers.get("origin") in self._origins
+
+
+def page_files() -> dict[str, bytes]:
+    """What the page is made of, by name."""
+    return {name: files("hri.serve").joinpath("page", name).read_bytes() for name in _PAGE}
+
+
+def make_app(stage: Stage, token: str, port: int) -> Starlette:
+    """The application.
+
+    Parameters
+    ----------
+    stage : Stage
+    token : str
+        Of the printed address.
+    port : int
+        On which it is served.
+    """
+    door = Door(token, port)
+    teacher = Teacher(stage)
+    reception = Reception(stage, teacher)
+    page = page_files()
+
+    def refused(why: str) -> Response:
+        log.warning("a visitor was refused: %s", why)
+        return PlainTextResponse(_USED, 403, _HEADERS)
+
+    async def index(request: Request) -> Response:
+        token = request.query_params.get("token")
+        if token is not None and not door.knows(request):
+            response = RedirectResponse("/", 303, _HEADERS)
+            return response if door.exchange(token, response) else refused("the token is spent or wrong")
+        if token is not None:
+            return RedirectResponse("/", 303, _HEADERS)
+        return serve(request, "index.html")
+
+    async def file(request: Request) -> Response:
+        return serve(request, request.path_params["name"])
+
+    def serve(request: Request, name: str) -> Response:
+        if not door.knows(request):
+            return refused("without the token")
+        if name not in page:
+            return PlainTextResponse("There is no such page.", 404, _HEADERS)
+        kind = _KINDS.get(name[name.rfind(".") :], "application/octet-stream")
+        return Response(page[name], media_type=kind, headers=_HEADERS)
+
+    async def stop(request: Request) -> Response:
+        """STOP beside the web socket, which may be lost or full."""
+        if not door.knows(request) or not door.is_own_page(request):
+            return refused("without the token, or from another page")
+        stage.stop()
+        return Response(status_code=204)
+
+    async def model(request: Request) -> Response:
+        if not door.knows(request):
+            return refused("without the token")
+        if stage.words is None:
+            return PlainTextResponse("There is no recogniser of words.", 404, _HEADERS)
+        name = {"Content-Disposition": 'attachment; filename="words.hri"'}
+        return Response(stage.words_file(), media_type="application/octet-stream", headers=_HEADERS | name)
+
+    async def talk(socket: WebSocket) -> None:
+        if not door.knows(socket) or not door.is_own_page(socket):
+            log.warning("a visitor was refused: without the token, or from another page")
+            await socket.close()
+            return
+        await reception.meet(socket)
+
+    routes = [
+        Route("/", index),
+        Route("/stop", stop, methods=["POST"]),
+        Route("/words.hri", model),
+        WebSocketRoute("/talk", talk),
+        Route("/{name}", file),
+    ]
+    return Starlette(routes=routes, middleware=[Middleware(TrustedHostMiddleware, allowed_hosts=list(HOSTS))])

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+// The browser's camera and microphone, each by itself: one that is missing leaves the other.
+const RATE_HZ = 16000;
+const FPS = 15;
+const WIDTH_PX = 480;
+const QUALITY = 0.85;
+
+const WORDS = {
+  NotAllowedError: (what) => `The browser may not use the ${what}. Click the sign beside the address, allow it, and press Start again.`,
+  NotFoundError: (what) => `No ${what} was found. Plug one in and press Start again.`,
+  NotReadableError: (what) => `Another program uses the ${what}. Close that program and press Start again.`,
+  OverconstrainedError: (what) => `The ${what} does not give what is needed. Try another one.`,
+};
+
+export function inWords(error, what) {
+  return (WORDS[error.name] ?? (() => `The ${what} does not work: ${error.message}`))(what);
+}
+
+async function media(constraints) {
+  if (!navigator.mediaDevices) throw new Error("this browser gives no page a camera or a microphone");
+  return navigator.mediaDevices.getUserMedia(constraints);
+}
+
+// The rate at which samples will come; onSamples gets an ArrayBuffer of 16-bit samples, onEnd is called when the
+// microphone is unplugged.
+export async function openMicrophone(onSamples, onEnd) {
+  const processing = { echoCancellation: false, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
+  const stream = await media({ audio: processing });
+  let context = new AudioContext({ sampleRate: RATE_HZ });
+  let source;
+  try {
+    source = context.createMediaStreamSource(stream);
+  } catch { // a browser that does not convert rates: the server does
+    await context.close();
+    context = new AudioContext();
+    source = context.createMediaStreamSource(stream);
+  }
+  await context.audioWorklet.addModule("sound.js");
+  const sender = new AudioWorkletNode(context, "sender", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
+  sender.port.onmessage = (message) => onSamples(message.data);
+  source.connect(sender);
+  await context.resume();
+  stream.getAudioTracks()[0].onended = onEnd;
+  return { rate: context.sampleRate, name: stream.getAudioTracks()[0].label, keep: [stream, source, sender] };
+}
+
+// onPicture gets a JPEG and when it was taken; a picture that is still being made makes the next one wait.
+export async function openCamera(video, onPicture, onEnd) {
+  const stream = await media({ video: { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 30 } } });
+  video.srcObject = stream;
+  await video.play();
+  const canvas = document.createElement("canvas");
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  let busy = false;
+  let next = 0;
+  const timer = setInterval(() => {
+    const now = performance.now();
+    if (busy || now < next || video.readyState < 2 || !video.videoWidth) return;
+    next = Math.max(next + 1000 / FPS, now - 500 / FPS);
+    const scale = Math.min(1, WIDTH_PX / video.videoWidth);
+    const [width, height] = [Math.round(scale * video.videoWidth), Math.round(scale * video.videoHeight)];
+    if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+    context.drawImage(video, 0, 0, width, height);
+    busy = true;
+    canvas.toBlob((blob) => { busy = false; if (blob) onPicture(blob, now); }, "image/jpeg", QUALITY);
+  }, 10);
+  stream.getVideoTracks()[0].onended = () => { clearInterval(timer); onEnd(); };
+  return { name: stream.getVideoTracks()[0].label };
+}

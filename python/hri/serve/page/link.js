@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+// The web socket: sound is always sent, pictures only while the line is free; a lost line is opened again.
+const SOUND = 1;
+const PICTURE = 2;
+const MOST_WAITING_BYTES = 200000;
+const SENT_AWAY = new Set([1008, 4409]);
+const LONGEST_PAUSE_MS = 5000;
+
+export class Link {
+  constructor(onMessage, onState) {
+    this.page = crypto.randomUUID();
+    this.rate = 16000;
+    this.onMessage = onMessage;
+    this.onState = onState;
+    this.pause = 250;
+    this.socket = null;
+  }
+
+  open() {
+    clearTimeout(this.timer);
+    this.onState("connecting", "");
+    const socket = (this.socket = new WebSocket(`ws://${location.host}/talk`));
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => this.say({ type: "hello", page: this.page, rate: this.rate });
+    socket.onmessage = (message) => {
+      this.pause = 250;
+      this.onMessage(JSON.parse(message.data));
+    };
+    socket.onclose = (closed) => {
+      if (socket !== this.socket) return;
+      if (SENT_AWAY.has(closed.code)) return this.onState("refused", closed.reason);
+      this.onState("lost", closed.code === 1009 ? "A message was too large." : "");
+      this.timer = setTimeout(() => this.open(), this.pause);
+      this.pause = Math.min(2 * this.pause, LONGEST_PAUSE_MS);
+    };
+  }
+
+  get isOpen() {
+    return this.socket?.readyState === WebSocket.OPEN;
+  }
+
+  say(command) {
+    if (this.isOpen) this.socket.send(JSON.stringify(command));
+  }
+
+  // STOP goes by two ways: the line may be lost, or full.
+  stop() {
+    this.say({ type: "stop" });
+    return fetch("stop", { method: "POST" }).then((answer) => answer.ok, () => false);
+  }
+
+  sound(samples) {
+    if (this.isOpen) this.socket.send(framed(SOUND, performance.now(), samples));
+  }
+
+  async picture(blob, takenMs) {
+    const jpeg = await blob.arrayBuffer();
+    if (this.isOpen && this.socket.bufferedAmount < MOST_WAITING_BYTES) this.socket.send(framed(PICTURE, takenMs, jpeg));
+  }
+}
+
+function framed(kind, timeMs, data) {
+  const message = new Uint8Array(9 + data.byteLength);
+  const view = new DataView(message.buffer);
+  view.setUint8(0, kind);
+  view.setFloat64(1, timeMs, true);
+  message.set(new Uint8Array(data), 9);
+  return message;
+}

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+// What the page shows and what its buttons do.
+import { inWords, openCamera, openMicrophone } from "./devices.js";
+import { Link } from "./link.js";
+import { describe } from "./words.js";
+import { drawPlace, drawRobot } from "./drawing.js";
+
+const TOP = 5;
+const MOST_LINES = 200;
+const SHOWN_MS = 6000;
+const MEASURE = "picture to bars";
+const at = (id) => document.getElementById(id);
+const link = new Link(heed, connection);
+const knows = { speech: false, gesture: false };
+let state = "";
+let measured = [];
+
+function showState(text) {
+  state = text;
+  at("state").textContent = text;
+  at("state").dataset.state = text;
+  at("resume").disabled = text !== "stopped";
+}
+
+// Problems stay until they are over or, without a key, for some seconds.
+function problem(text, key = "") {
+  const name = key || text;
+  [...at("problems").children].filter((line) => line.dataset.key === name).forEach((line) => line.remove());
+  if (!text) return;
+  const line = document.createElement("p");
+  line.dataset.key = name;
+  line.textContent = text;
+  at("problems").append(line);
+  if (!key) setTimeout(() => line.remove(), SHOWN_MS);
+}
+
+function connection(is, why) {
+  if (is === "lost") {
+    showState("not connected");
+    problem(`${why} The connection to hri serve is lost; the robot rests. Trying again …`.trim(), "line");
+  } else if (is === "refused") {
+    showState("not connected");
+    problem(`${why} Reload this page to try again.`, "line");
+  }
+}
+
+function write(text, kind = "") {
+  const log = at("log");
+  if (!text || log.lastChild?.textContent === text) return; // STOP comes by two ways
+  const line = document.createElement("p");
+  line.textContent = text;
+  line.className = kind;
+  log.append(line);
+  while (log.children.length > MOST_LINES) log.firstChild.remove();
+  log.scrollTop = log.scrollHeight;
+}
+
+function bars(id, entries) {
+  at(id).replaceChildren(
+    ...entries.slice(0, TOP).map(({ label, probability }) => {
+      const row = document.createElement("li");
+      const [name, number] = [document.createElement("span"), document.createElement("span")];
+      row.style.setProperty("--p", probability.toFixed(3));
+      name.textContent = label;
+      number.textContent = `${Math.round(100 * probability)} %`;
+      row.append(name, number);
+      return row;
+    }),
+  );
+}
+
+// From taking the picture that a decision rests on to the next picture of this page that shows it.
+function measure(sentMs) {
+  requestAnimationFrame(() => {
+    const entry = performance.measure(MEASURE, { start: sentMs, end: performance.now() });
+    measured.push(entry.duration);
+    if (measured.length > 500) {
+      measured = measured.slice(-100);
+      performance.clearMeasures(MEASURE);
+    }
+    const median = [...measured].sort((a, b) => a - b)[measured.length >> 1];
+    at("latency").textContent = `From picture to bars: ${median.toFixed(0)} ms (median of ${measured.length})`;
+  });
+}
+
+function heedEvent(event) {
+  if (event.event === "state") showState(event.state);
+  if (event.event === "level") {
+    at("level").value = event.level_db;
+    at("level").textContent = `${event.level_db} dB`;
+    at("level-label").textContent = event.in_speech ? "Microphone: a word" : "Microphone: on";
+  }
+  if (event.event === "hand") drawPlace(at("place"), at("camera"), event);
+  if (event.event === "say") at("said").textContent = event.text;
+  if (event.nbest && event.event !== "fused") {
+    bars(`bars-${event.mode}`, event.nbest);
+    if (event.sent_ms !== undefined) measure(event.sent_ms);
+  }
+  if (event.event === "fused") {
+    bars("bars-fused", event.nbest);
+    at("rule").textContent = `${event.final || event.status}: ${event.rule}; ${event.why}`;
+  }
+  write(describe(event), event.event);
+}
+
+function heedWelcome(message) {
+  Object.assign(knows, { speech: message.speech, gesture: message.gesture });
+  problem("", "line");
+  showState(message.state);
+  at("teaching").hidden = !message.speech;
+  at("log").replaceChildren();
+  message.log.forEach((one) => write(one.type === "event" ? describe(one) : one.text, one.event ?? "note"));
+  const words = message.words.length ? `Words: ${message.words.join(", ")}. ` : "";
+  const signs = message.signs.length ? `Signs: ${message.signs.join(", ")}. ` : "";
+  const moves = message.robot ? `${message.robot} moves for: ${message.motions.join(", ") || "none of them"}.` : "There is no robot.";
+  at("vocabulary").textContent = words + signs + moves;
+}
+
+function heed(message) {
+  if (message.type === "welcome") heedWelcome(message);
+  else if (message.type === "event") heedEvent(message);
+  else if (message.type === "robot") drawRobot(at("robot"), at("joints"), message);
+  else if (message.type === "teach") heedTeaching(message);
+  else {
+    problem(message.text);
+    write(message.text, message.type);
+  }
+}
+
+function heedTeaching(message) {
+  at("teach-line").textContent = message.text;
+  at("sample").disabled = !message.label || message.recording;
+  at("sample").textContent = message.label ? `Record “${message.label}” (${message.samples} of 3)` : "Record";
+  if (message.added) at("undo").disabled = message.added.length === 0;
+}
+
+async function start() {
+  at("start").disabled = true;
+  const missing = [];
+  if (knows.speech) {
+    try {
+      const microphone = await openMicrophone((samples) => link.sound(samples), () => lost("microphone"));
+      problem("", "microphone");
+      at("level-label").textContent = "Microphone: on";
+      if (microphone.rate !== link.rate) {
+        link.rate = microphone.rate;
+        link.open();
+      }
+    } catch (error) {
+      missing.push(["microphone", error]);
+    }
+  }
+  if (knows.gesture) {
+    try {
+      await openCamera(at("camera"), (blob, takenMs) => link.picture(blob, takenMs), () => lost("camera"));
+      problem("", "camera");
+      at("camera-line").textContent = "Camera: on";
+    } catch (error) {
+      missing.push(["camera", error]);
+    }
+  }
+  missing.forEach(([what, error]) => problem(inWords(error, what), what));
+  at("start").disabled = missing.length === 0;
+}
+
+function lost(what) {
+  problem(`The ${what} was unplugged. Plug it in and press Start again.`, what);
+  at("start").disabled = false;
+}
+
+async function stop() {
+  showState("stopped");
+  const heard = await link.stop();
+  problem(heard ? "" : "STOP did not reach hri serve. Press Ctrl-C in its window.", "stop");
+}
+
+at("start").addEventListener("click", start);
+at("stop").addEventListener("click", stop);
+at("resume").addEventListener("click", () => link.say({ type: "resume" }));
+at("sample").addEventListener("click", () => link.say({ type: "sample" }));
+at("undo").addEventListener("click", () => link.say({ type: "undo" }));
+at("teach").addEventListener("submit", (submitted) => {
+  submitted.preventDefault();
+  link.say({ type: "teach", label: at("word").value });
+});
+document.addEventListener("keydown", (pressed) => {
+  if (pressed.key === "Escape") stop();
+});
+link.open();

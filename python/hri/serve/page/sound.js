@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+// In the browser's thread of sound: samples as 16-bit numbers, 40 ms at a time.
+class Sender extends AudioWorkletProcessor {
+  constructor() {
+    super();
+    this.block = new Int16Array(Math.round(sampleRate / 25));
+    this.filled = 0;
+  }
+
+  process(inputs) {
+    const channel = inputs[0][0];
+    if (!channel) return true; // the microphone gives nothing for now
+    for (const sample of channel) {
+      this.block[this.filled++] = Math.max(-32768, Math.min(32767, Math.round(32768 * sample)));
+      if (this.filled === this.block.length) {
+        this.port.postMessage(this.block.slice().buffer);
+        this.filled = 0;
+      }
+    }
+    return true;
+  }
+}
+
+registerProcessor("sender", Sender);

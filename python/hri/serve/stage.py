@@ -1,0 +1,251 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The session behind the page, in a thread of its own: it outlives connections, and begins anew with a new word."""
+
+from __future__ import annotations
+
+import tempfile
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+from hri.core.errors import Error, InvalidArgument
+from hri.core.files import MAX_MODEL_BYTES, read_bytes
+from hri.live import Event
+from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.robot import Robot, Trajectory
+from hri.serve.devices import PageCamera, PageMicrophone
+from hri.serve.figure import figure
+from hri.serve.limits import ServeLimits
+from hri.session import Session, SessionOptions
+from hri.session.dialogue import ACTING, IDLE, STOPPED
+from hri.session.live import PASSING
+from hri.session.logic import BY_BUTTON
+
+_MOST_KEPT = 60
+_CLOSE_S = 8.0
+_LOGGED = frozenset(
+    ("fused", "say", "ignored", "stop", "rest", "resumed", "motion_start", "motion_end", "halt", "stall")
+)
+
+Publish = Callable[[dict[str, Any]], None]
+
+
+class Stage:
+    """A session that is fed by a page.
+
+    Parameters
+    ----------
+    words : WordRecognizer, optional
+    signs : GestureRecognizer, optional
+    robot : Robot, optional
+        Left open.
+    options : SessionOptions, optional
+    motions : mapping of str to Trajectory, optional
+        As of `Session`.
+    limits : ServeLimits, optional
+    model_ids : mapping of mode to str, optional
+
+    Attributes
+    ----------
+    publish : callable
+        Gets messages for the page, by several threads; it must not wait.
+    """
+
+    def __init__(
+        self,
+        words: WordRecognizer | None = None,
+        signs: GestureRecognizer | None = None,
+        robot: Robot | None = None,
+        options: SessionOptions | None = None,
+        *,
+        motions: Mapping[str, Trajectory] | None = None,
+        limits: ServeLimits | None = None,
+        model_ids: Mapping[str, str] | None = None,
+    ) -> None:
+        self.words, self.signs = words, signs
+        self.limits = limits or ServeLimits()
+        self.microphone = PageMicrophone(self.limits.stall_s)
+        self.camera = PageCamera(self.limits.stall_s, self._refused)
+        self.publish: Publish = lambda message: None
+        self._robot = robot
+        self._options = options or SessionOptions(retry_s=0.2)
+        self._model_ids = dict(model_ids or {})
+        self._session = self._made(motions)
+        self._log: deque[dict[str, Any]] = deque(maxlen=_MOST_KEPT)
+        self._state = IDLE
+        self._begun_s = 0.0
+        self._joints: dict[str, float] = {}
+        self._figure: dict[str, Any] | None = None
+        self._paused = self._held = False
+        self._closed = threading.Event()
+        self._wanted = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True, name="hri-stage")
+        self._thread.start()
+
+    @property
+    def session(self) -> Session:
+        """The session that runs, or the next one."""
+        return self._session
+
+    @property
+    def moving(self) -> bool:
+        """Whether the robot carries out a command."""
+        return self._state == ACTING
+
+    def arrive(self) -> None:
+        """A page takes its place: what was stopped only because there was none goes on."""
+        if self._paused and not self._held:
+            self.resume()
+        self._wanted.set()
+
+    def leave(self) -> None:
+        """The page is gone: nothing moves without one. A motion that this ended keeps the robot stopped."""
+        self.microphone.lose()
+        self.camera.lose()
+        if self.moving:
+            self.stop()
+            self._report("The page was gone in mid-motion, so the robot stopped. Press Resume to go on.")
+        else:
+            self._paused = True
+            self._session.stop()
+
+    def stop(self) -> None:
+        """STOP, at once, until a person ends it; by any thread."""
+        self._held = True
+        self._session.stop()
+
+    def resume(self) -> None:
+        """End STOP; by any thread."""
+        self._held = self._paused = False
+        if not self._wanted.is_set() and self._robot is not None:
+            self._robot.resume()
+        self._session.resume()
+        self._wanted.set()
+
+    def close(self) -> None:
+        """The robot rests, and the session ends; returns in bounded time."""
+        self._closed.set()
+        self._session.stop()
+        self.microphone.lose()
+        self.camera.lose()
+        self._wanted.set()
+        self._thread.join(_CLOSE_S)
+
+    def welcome(self) -> dict[str, Any]:
+        """What a page that comes needs to know."""
+        return {
+            "type": "welcome",
+            "state": self._state,
+            "speech": self.words is not None,
+            "gesture": self.signs is not None,
+            "robot": self._robot.table.name if self._robot is not None else "",
+            "words": [] if self.words is None else [str(label) for label in self.words.classes_],
+            "signs": [] if self.signs is None else [str(label) for label in self.signs.classes_],
+            "motions": sorted(self._session.motions),
+            "log": list(self._log),
+        }
+
+    def figure(self) -> dict[str, Any] | None:
+        """The robot as a page draws it, the same object while it rests; None without one."""
+        if self._robot is None:
+            return None
+        joints = self._robot.joint_positions_rad()
+        if self._figure is None or joints != self._joints:
+            self._joints, self._figure = joints, {"type": "robot", **figure(joints, self._robot.table)}
+        return self._figure
+
+    def words_file(self) -> bytes:
+        """The recogniser of words as a model file."""
+        if self.words is None:
+            raise InvalidArgument("there is no recogniser of words")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "words.hri"
+            self.words.save(path)
+            return read_bytes(path, MAX_MODEL_BYTES)
+
+    def renew(self, motions: Mapping[str, Trajectory] | None = None) -> None:
+        """Begin a new session, as the vocabulary has changed.
+
+        Parameters
+        ----------
+        motions : mapping of str to Trajectory, optional
+            For labels beside those that have one.
+
+        Raises
+        ------
+        InvalidArgument
+            While the robot moves.
+        """
+        if self.moving:
+            raise InvalidArgument("wait until the robot rests")
+        if self._robot is not None:
+            motions = {**self._session.motions, **(motions or {})}
+        self._session = self._made(motions)
+        self.publish(self.welcome())
+
+    def _made(self, motions: Mapping[str, Trajectory] | None) -> Session:
+        return Session(self.words, self.signs, self._robot, self._options, motions=motions, model_ids=self._model_ids)
+
+    def _refused(self, text: str) -> None:
+        self.publish({"type": "error", "text": text})
+
+    def _report(self, text: str) -> None:
+        message = {"type": "note", "text": text}
+        self._log.append(message)
+        self.publish(message)
+
+    def _run(self) -> None:
+        while not self._closed.is_set():
+            self._wanted.wait()
+            if self._closed.is_set():
+                return
+            session = self._session
+            try:
+                self._play(session)
+            except Error as error:
+                if self._closed.is_set():
+                    return
+                self._wanted.clear()
+                stopped = self._robot is not None and self._robot.stopped
+                if not (isinstance(error, InvalidArgument) and stopped):
+                    self.stop()
+                    self._report(f"The session has ended: {error}. Press Resume to begin another.")
+                self._show_state(STOPPED)
+
+    def _play(self, session: Session) -> None:
+        self.microphone.expect()
+        self.camera.expect()
+        hear: Any = self.microphone.stream if self.words is not None else None
+        see: Any = self.camera.stream if self.signs is not None else None
+        with closing(session.run(hear, see, live=True)) as events:  # type: ignore[type-var]
+            self._begun_s = time.monotonic()
+            self._show_state(IDLE)
+            for event in events:
+                self._heed(event)
+                if self._closed.is_set() or session is not self._session:
+                    return
+
+    def _show_state(self, state: str) -> None:
+        self._state = state
+        self.publish({"type": "event", "event": "state", "state": state})
+
+    def _heed(self, event: Event) -> None:
+        message = {"type": "event", "passing": event.event in PASSING, **event.to_dict()}
+        if event.event == "state":
+            self._state = event.fields["state"]
+        elif event.event == "stop" and event.fields["reason"] != BY_BUTTON:  # said, shown, or a fault
+            self._held = True
+        elif event.event == "resumed":
+            self._held = self._paused = False
+        if event.mode == "gesture" and "nbest" in event.fields:
+            sent_ms = self.camera.sent_ms(self._begun_s + event.time)
+            if sent_ms is not None:
+                message["sent_ms"] = sent_ms
+        if event.event in _LOGGED:
+            self._log.append(message)
+        self.publish(message)

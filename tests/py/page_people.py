@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A page without a browser: what it sends and gets over a real socket of the loopback."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import struct
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import cv2
+import numpy as np
+from websockets.sync.client import ClientConnection, connect
+
+from drawn_hands import FPS, Frame
+from hri.serve import PageServer
+
+SOUND, PICTURE = 1, 2
+RATE_HZ = 16000
+
+
+def request(
+    server: PageServer, path: str, cookie: str = "", method: str = "GET", **headers: str
+) -> tuple[int, dict[str, str], bytes]:
+    """Status, headers and body of one request."""
+    link = http.client.HTTPConnection("127.0.0.1", server.port, timeout=5)
+    try:
+        link.request(method, path, headers={"Cookie": cookie, **{k.replace("_", "-"): v for k, v in headers.items()}})
+        answer = link.getresponse()
+        return answer.status, {name.lower(): value for name, value in answer.getheaders()}, answer.read()
+    finally:
+        link.close()
+
+
+def enter(server: PageServer) -> str:
+    """The cookie that the printed address gives; once."""
+    status, headers, _ = request(server, server.address.partition(str(server.port))[2])
+    assert status == 303 and headers["location"] == "/"
+    return headers["set-cookie"].partition(";")[0]
+
+
+def framed(kind: int, data: bytes, sent_ms: float = 0.0) -> bytes:
+    return struct.pack("<Bd", kind, sent_ms) + data
+
+
+def jpeg(frame: Frame) -> bytes:
+    return bytes(cv2.imencode(".jpg", frame)[1])
+
+
+def sound_messages(samples: np.ndarray) -> Iterator[bytes]:
+    """40 ms each."""
+    numbers = np.clip(np.round(32768 * samples), -32768, 32767).astype("<i2")
+    for begin in range(0, len(numbers), RATE_HZ // 25):
+        yield framed(SOUND, numbers[begin : begin + RATE_HZ // 25].tobytes())
+
+
+class Page:
+    """A connection of a page."""
+
+    def __init__(self, socket: ClientConnection) -> None:
+        self.socket = socket
+        self.messages: list[dict[str, Any]] = []
+
+    def say(self, **command: Any) -> None:
+        self.socket.send(json.dumps(command))
+
+    def await_message(self, fits: Callable[[dict[str, Any]], bool], timeout_s: float = 10.0) -> dict[str, Any]:
+        """The next message that fits; those before it are kept, too."""
+        until_s = time.monotonic() + timeout_s
+        while True:
+            message = json.loads(self.socket.recv(timeout=max(0.0, until_s - time.monotonic())))
+            self.messages.append(message)
+            if fits(message):
+                return message
+
+    def await_event(self, kind: str, timeout_s: float = 10.0, **fields: Any) -> dict[str, Any]:
+        return self.await_message(
+            lambda m: m.get("event") == kind and all(m.get(name) == value for name, value in fields.items()), timeout_s
+        )
+
+    def error(self, text: str) -> None:
+        self.await_message(lambda m: m["type"] == "error" and text in m["text"])
+
+    def perform(self, samples: np.ndarray | None = None, frames: list[Frame] | None = None) -> None:
+        """Say and show as fast as people do."""
+        parts: list[tuple[float, bytes]] = []
+        if samples is not None:
+            parts += [(i / 25, message) for i, message in enumerate(sound_messages(samples))]
+        if frames is not None:
+            parts += [(i / FPS, framed(PICTURE, jpeg(frame), 1000 * i / FPS)) for i, frame in enumerate(frames)]
+        begun_s = time.monotonic()
+        for at_s, message in sorted(parts, key=lambda part: part[0]):
+            time.sleep(max(0.0, begun_s + at_s - time.monotonic()))
+            self.socket.send(message)
+
+
+@contextmanager
+def connected(server: PageServer, cookie: str, page: str = "a", rate: int = RATE_HZ) -> Iterator[Page]:
+    """A page that has been welcomed."""
+    with open_socket(server, cookie) as socket:
+        made = Page(socket)
+        made.say(type="hello", page=page, rate=rate)
+        made.await_message(lambda m: m["type"] == "welcome")
+        yield made
+
+
+def open_socket(server: PageServer, cookie: str, origin: str | None = None) -> ClientConnection:
+    own = f"http://127.0.0.1:{server.port}"
+    return connect(
+        f"ws://127.0.0.1:{server.port}/talk",
+        origin=own if origin is None else origin,  # type: ignore[arg-type]
+        additional_headers={"Cookie": cookie},
+        compression=None,
+        max_size=None,
+        max_queue=None,
+    )

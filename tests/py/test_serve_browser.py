@@ -1,0 +1,277 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The page in a real browser, which is shown synthetic signs and hears synthetic words."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import shutil
+import statistics
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cv2")
+pytest.importorskip("hri._native_vision")
+pytest.importorskip("starlette")
+pytest.importorskip("playwright")
+
+import hri
+from conftest import RATE_HZ
+from drawn_hands import FPS, Frame, stills
+from hri.io import write_wav_pcm16
+from hri.robot import Robot, open_robot
+from hri.serve import PageServer, ServeLimits, Stage
+from session_people import MOTIONS, signing, speech, train_words
+
+api: Any = importlib.import_module("playwright.sync_api")
+CHROMIUM = shutil.which("chromium")
+WAIT_MS = 20_000
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed: apt-get install chromium"),
+]
+
+
+@pytest.fixture(scope="module")
+def words() -> hri.WordRecognizer:
+    return train_words()
+
+
+@pytest.fixture(scope="module")
+def signs() -> hri.GestureRecognizer:
+    """Trained on pictures as they are, and as they come from the browser."""
+    rows = [(stills(sign, seed), sign, f"p{seed % 3}") for seed in range(8) for sign in ("flat", "tall")]
+    rows += [([coded(frame) for frame in clip], sign, person) for clip, sign, person in rows]
+    x, y, persons = map(list, zip(*rows, strict=True))
+    return hri.GestureRecognizer(false_reject_rate=0.0).fit(x, y, groups=persons)
+
+
+def coded(frame: Frame) -> Frame:
+    """As raw video and as JPEG."""
+    import cv2
+
+    video = cv2.cvtColor(cv2.cvtColor(frame, cv2.COLOR_BGR2YUV_I420), cv2.COLOR_YUV2BGR_I420)
+    picture = cv2.imdecode(cv2.imencode(".jpg", video, [cv2.IMWRITE_JPEG_QUALITY, 85])[1], cv2.IMREAD_COLOR)
+    return np.asarray(picture, dtype=np.uint8)
+
+
+@pytest.fixture(scope="module")
+def playwright() -> Iterator[Any]:
+    with api.sync_playwright() as started:
+        yield started
+
+
+@pytest.fixture
+def robot() -> Iterator[Robot]:
+    with open_robot("kinematic") as opened:
+        yield opened
+
+
+@pytest.fixture
+def stage(words: Any, signs: Any, robot: Robot) -> Iterator[Stage]:
+    made = Stage(words, signs, robot, motions=MOTIONS, limits=ServeLimits(stall_s=1.0))
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def server(stage: Stage) -> Iterator[PageServer]:
+    with PageServer(stage) as made:
+        yield made
+
+
+@pytest.fixture
+def visit(playwright: Any, server: PageServer, tmp_path: Path) -> Iterator[Callable[..., Any]]:
+    """Opens the page in a browser whose microphone and camera play, over and over, what is given."""
+    opened = []
+
+    def open_page(
+        said: np.ndarray | None = None,
+        shown: list[Frame] | None = None,
+        fake_permission: bool = True,
+        **context: Any,
+    ) -> Any:
+        arguments = ["--no-sandbox", "--use-fake-device-for-media-stream"]
+        if fake_permission:
+            arguments.append("--use-fake-ui-for-media-stream")
+        samples = np.zeros(RATE_HZ, np.float32) if said is None else said
+        write_wav_pcm16(str(tmp_path / "said.wav"), samples, RATE_HZ)
+        arguments.append(f"--use-file-for-fake-audio-capture={tmp_path / 'said.wav'}")
+        if shown is not None:
+            write_y4m(tmp_path / "shown.y4m", shown)
+            arguments.append(f"--use-file-for-fake-video-capture={tmp_path / 'shown.y4m'}")
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=arguments)
+        opened.append(browser)
+        page = browser.new_context(**context).new_page()
+        page.set_default_timeout(WAIT_MS)
+        page.failures = []
+        page.on("pageerror", lambda error: page.failures.append(str(error)))
+        page.goto(server.address)
+        api.expect(page.locator("#state")).not_to_have_text("not connected")
+        return page
+
+    yield open_page
+    for browser in opened:
+        browser.close()
+
+
+def write_y4m(path: Path, frames: list[Frame]) -> None:
+    """Frames as raw video, which Chromium's camera plays."""
+    import cv2
+
+    height, width = frames[0].shape[:2]
+    parts = [f"YUV4MPEG2 W{width} H{height} F{FPS:.0f}:1 Ip A1:1 C420jpeg\n".encode()]
+    for frame in frames:
+        parts += [b"FRAME\n", cv2.cvtColor(frame, cv2.COLOR_BGR2YUV_I420).tobytes()]
+    path.write_bytes(b"".join(parts))
+
+
+def expect(page: Any, selector: str) -> Any:
+    return api.expect(page.locator(selector))
+
+
+def test_a_word_and_a_sign_move_the_robot_and_stop_stops_it(visit: Any, robot: Robot) -> None:
+    page = visit(speech([("tall", 1.6)], 12.0), signing([("tall", 1.2)], 12.0))
+    page.click("#start")
+    expect(page, "#camera-line").to_have_text("Camera: on", timeout=WAIT_MS)
+    expect(page, "#level-label").to_have_text("Microphone: on", timeout=WAIT_MS)
+    expect(page, "#state").to_have_text("acting", timeout=WAIT_MS)
+    for mode in ("speech", "gesture", "fused"):
+        expect(page, f"#bars-{mode} li:first-child span:first-child").to_have_text("tall")
+    expect(page, "#rule").to_contain_text("tall: ")
+    expect(page, "#log").to_contain_text("and sign tall")
+    expect(page, "#log").to_contain_text("The robot moves: tall")
+    if picture := os.environ.get("HRI_SCREENSHOT"):  # the one in the documentation
+        page.screenshot(path=picture, full_page=True)
+    page.click("#stop")
+    expect(page, "#log").to_contain_text("The robot has stopped: tall")
+    expect(page, "#state").to_have_text("stopped")
+    assert robot.stopped
+    page.click("#resume")
+    expect(page, "#state").not_to_have_text("stopped")
+    assert page.failures == []
+
+
+def test_bars_follow_a_picture_at_once(visit: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    """Time from taking a picture to drawing what is recognised in it; `pytest -s` prints it."""
+    import cv2
+
+    frames = [cv2.resize(frame, (640, 480)) for frame in signing([("flat", 0.4)], 4.0)]
+    page = visit(shown=frames)
+    page.click("#start")
+    expect(page, "#latency").to_contain_text("From picture to bars", timeout=WAIT_MS)
+    page.wait_for_timeout(6000)
+    taken = page.evaluate("performance.getEntriesByName('picture to bars').map((entry) => entry.duration)")
+    median = statistics.median(taken)
+    with capsys.disabled():
+        print(f"\npicture to bars: median {median:.0f} ms, worst {max(taken):.0f} ms, {len(taken)} times")
+    assert len(taken) >= 4 and min(taken) > 0
+    assert median < 500  # 150 ms where nothing else runs
+
+
+def test_a_word_that_is_added_by_button_is_recognised_and_removed(visit: Any, stage: Stage) -> None:
+    page = visit(speech([("flat", 0.7)], 2.0))
+    page.click("#start")
+    expect(page, "#level-label").not_to_have_text("Microphone: off", timeout=WAIT_MS)
+    page.fill("#word", "flat")
+    page.press("#word", "Enter")
+    expect(page, "#teach-line").to_contain_text("is a word already")
+    page.fill("#word", "fall")
+    page.press("#word", "Enter")
+    expect(page, "#teach-line").to_contain_text("3 times")
+    for number in (1, 2, 3):
+        expect(page, "#level-label").to_have_text("Microphone: a word")
+        expect(page, "#level-label").to_have_text("Microphone: on")
+        page.click("#sample")
+        if number < 3:
+            expect(page, "#teach-line").to_contain_text(f"Sample {number} of 3.")
+    expect(page, "#teach-line").to_contain_text("“fall” is added", timeout=WAIT_MS)
+    expect(page, "#vocabulary").to_contain_text("Words: fall, flat, stop, tall.")
+    with page.expect_download() as download:
+        page.click("#download")
+    kept = hri.WordRecognizer.load(download.value.path())
+    assert [str(label) for label in kept.classes_] == ["fall", "flat", "stop", "tall"]
+    expect(page, "#bars-speech").to_contain_text("fall", timeout=WAIT_MS)  # the session that began anew knows it
+    page.click("#undo")
+    expect(page, "#vocabulary").to_contain_text("Words: flat, stop, tall.")
+    assert page.failures == []
+
+
+def test_a_lost_connection_comes_back(visit: Any, server: PageServer, robot: Robot) -> None:
+    page = visit(speech([("flat", 0.8)], 3.6))
+    page.click("#start")
+    expect(page, "#log").to_contain_text("You: flat", timeout=WAIT_MS)
+    for connection in list(server._server.server_state.connections):
+        connection.transport.abort()
+    expect(page, "#problems").to_contain_text("is lost")
+    expect(page, "#state").to_have_text("not connected")
+    expect(page, "#problems").not_to_contain_text("is lost")
+    expect(page, "#state").not_to_have_text("not connected")
+    api.expect(page.locator("#log .fused").nth(1)).to_be_attached(timeout=WAIT_MS)
+    assert page.failures == []
+
+
+def test_what_is_not_allowed_is_said_in_plain_words(visit: Any, server: PageServer) -> None:
+    page = visit(fake_permission=False)
+    page.click("#start")
+    expect(page, "#problems").to_contain_text("The browser may not use the microphone")
+    expect(page, "#problems").to_contain_text("The browser may not use the camera")
+    expect(page, "#start").to_be_enabled()
+    second = page.context.new_page()
+    second.goto(f"http://127.0.0.1:{server.port}/")
+    expect(second, "#problems").to_contain_text("Another page uses the robot now")
+    expect(page, "#state").to_have_text("idle")
+    stranger = page.context.browser.new_context().new_page()
+    assert stranger.goto(server.address).status == 403
+
+
+def test_it_is_used_by_keyboard_on_a_narrow_screen_and_in_the_dark(
+    visit: Any, robot: Robot, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = visit(viewport={"width": 360, "height": 740}, color_scheme="dark")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    red, green, blue = page.evaluate("getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number)")
+    assert max(red, green, blue) < 60
+    first = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+    with capsys.disabled():
+        print(f"\nfirst paint: {first:.0f} ms")
+    assert first < 1000
+    focused = []
+    for _ in range(12):
+        page.keyboard.press("Tab")
+        focused.append(page.evaluate("document.activeElement.id"))
+    assert [name for name in focused if name in ("start", "stop", "resume")][:2] == ["start", "stop"]
+    assert {"word", "download", "log"} <= set(focused)
+    unnamed = page.evaluate(
+        """[...document.querySelectorAll('button, input, a, meter, video, [role=img], [role=log]')].filter(
+            (e) => !(e.textContent.trim() || e.labels?.length || e.getAttribute('aria-label'))).map((e) => e.id)"""
+    )
+    assert unnamed == []
+    page.keyboard.press("Escape")
+    expect(page, "#state").to_have_text("stopped")
+    assert robot.stopped
+    page.press("#resume", "Enter")
+    expect(page, "#state").to_have_text("idle")
+
+
+def test_axe_finds_no_serious_fault(visit: Any) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    page = visit(speech([("flat", 0.8)], 3.6))
+    page.click("#start")
+    expect(page, "#log").to_contain_text("You: flat", timeout=WAIT_MS)
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)
+        for state in ("idle", "stopped"):
+            if state == "stopped":
+                page.click("#stop")
+            page.wait_for_timeout(200)
+            faults = axe.run(page).response["violations"]
+            assert [(f["id"], f["nodes"][0]["html"]) for f in faults if f["impact"] in ("serious", "critical")] == []
+        page.click("#resume")
+        expect(page, "#state").not_to_have_text("stopped")
