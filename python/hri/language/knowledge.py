@@ -74,9 +74,9 @@ class KnowledgeBase:
             raise InvalidArgument(f"max_distance is {max_distance}, must lie in 0..1")
         if len(costs) != 3 or min(costs) < 1 or max(costs[1:]) > costs[0]:
             raise InvalidArgument(f"costs are {costs}, must be three numbers from 1 on, the first the largest")
-        if any(isinstance(s.words, str) or not s.words for s in sentences):
-            raise InvalidArgument("sentences: each needs words, as a sequence of str")
-        distinct = {tuple(s.words) for s in sentences}
+        if any(not s.words for s in sentences):
+            raise InvalidArgument("sentences: each needs words")
+        distinct = {s.words for s in sentences}
         if len(distinct) < len(sentences):
             raise InvalidArgument("sentences: one is stored twice")
         self.sentences = tuple(sentences)
@@ -99,7 +99,7 @@ class KnowledgeBase:
         header = rows[0] if rows else []
         if SIGNS_COLUMN not in header or len(set(header)) < len(header) or "" in header:
             raise FormatError(f"{name}: row 1: the columns must be '{SIGNS_COLUMN}' and codes of languages")
-        sentences = []
+        sentences: list[StoredSentence] = []
         for number, row in enumerate(rows[1:], 2):
             cells = dict(zip(header, row, strict=False))
             words = tuple(cells.get(SIGNS_COLUMN, "").split())

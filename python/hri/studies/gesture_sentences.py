@@ -129,7 +129,7 @@ def _read(data_dir: Path, progress: Progress) -> list[GestureClip]:
     return clips
 
 
-def _train(clips: Sequence[GestureClip], shapes: _Shapes, model: str) -> SentenceRecognizer:
+def _train(clips: Sequence[GestureClip], shapes: _Shapes, model: Any) -> SentenceRecognizer:
     """On joined clips of one condition each; the insertion penalty is chosen on conditions held out."""
     sentences, groups = [], []
     for number, condition in enumerate(sorted({clip.condition for clip in clips})):
