@@ -121,7 +121,8 @@ def _read(data_dir: Path, progress: Progress) -> list[GestureClip]:
     recognizer = GestureRecognizer(source="silhouettes")
     clips = []
     for sample, condition in zip(dataset.samples, conditions, strict=True):
-        found = [recognizer.observation_features([hand]) for hand in find_silhouettes(read_frames(sample.path).frames)]
+        hands = find_silhouettes(read_frames(sample.path).frames, faces="never")
+        found = [recognizer.observation_features([hand]) for hand in hands]
         width = max(rows.shape[1] for rows in found)
         rows = [row[0] if len(row) else np.full(width, np.nan, np.float32) for row in found]
         clips.append(GestureClip(sample.label, condition, np.asarray(rows, np.float32)))
