@@ -7890,8 +7890,14 @@ class SentenceRecognizerOptions:
 
     Parameters
     ----------
+    input : {'tracks', 'rows'}, default 'tracks'
+        what sentences are given as
     features : TwoHandFeatureOptions or dict
-        what is computed of the tracks
+        what is computed of the tracks; of rows, only deltas are appended
+    model : {'hmm', 'ptbhmm'}, default 'hmm'
+        kind of the models; ptbhmm: the same densities as possibilities over codewords
+    num_codewords : int, default 32
+        codewords of every column of the features (ptbhmm); 2..4096
     frames_per_state : int, default 3
         a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences held out; 0..100
     max_states : int, default 8
@@ -7925,7 +7931,10 @@ class SentenceRecognizerOptions:
     def __init__(
         self,
         *,
+        input: typing.Literal["tracks", "rows"] = "tracks",
         features: TwoHandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        model: typing.Literal["hmm", "ptbhmm"] = "hmm",
+        num_codewords: int = 32,
         frames_per_state: int = 3,
         max_states: int = 8,
         max_iterations: int = 8,
@@ -7974,7 +7983,7 @@ class SentenceRecognizerOptions:
     @property
     def features(self) -> TwoHandFeatureOptions:
         """
-        what is computed of the tracks
+        what is computed of the tracks; of rows, only deltas are appended
         """
     @features.setter
     def features(self, arg1: typing.Any) -> None: ...
@@ -7985,6 +7994,13 @@ class SentenceRecognizerOptions:
         """
     @frames_per_state.setter
     def frames_per_state(self, arg1: typing.Any) -> None: ...
+    @property
+    def input(self) -> typing.Literal["tracks", "rows"]:
+        """
+        what sentences are given as
+        """
+    @input.setter
+    def input(self, arg1: typing.Any) -> None: ...
     @property
     def known_language_scale(self) -> float:
         """
@@ -8013,6 +8029,20 @@ class SentenceRecognizerOptions:
         """
     @max_states.setter
     def max_states(self, arg1: typing.Any) -> None: ...
+    @property
+    def model(self) -> typing.Literal["hmm", "ptbhmm"]:
+        """
+        kind of the models; ptbhmm: the same densities as possibilities over codewords
+        """
+    @model.setter
+    def model(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_codewords(self) -> int:
+        """
+        codewords of every column of the features (ptbhmm)
+        """
+    @num_codewords.setter
+    def num_codewords(self, arg1: typing.Any) -> None: ...
     @property
     def seed(self) -> int:
         """

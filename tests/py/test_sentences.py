@@ -7,6 +7,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -134,6 +135,56 @@ def test_what_cannot_be_done_is_refused(signs: SentenceRecognizer, sentences: li
         signs.recognise_spans(tracks, [(5, 9), (2, 12)])
 
 
+def test_hands_that_vanish_for_a_second_leave_the_words(signs: SentenceRecognizer) -> None:
+    tracks, words = signed(["DOG", "BALL", "CAT"], 10)
+    after_first = words[0][2] + 1
+    gone = np.full((30, 3, 2), np.nan)
+    gone[:, 2] = tracks[after_first, 2]
+    found = signs.recognise(np.concatenate([tracks[:after_first], gone, tracks[after_first:]]))
+    assert found.text == "DOG BALL CAT"
+    nobody = np.concatenate([tracks[:after_first], np.full((30, 3, 2), np.nan), tracks[after_first:]])
+    assert signs.recognise(nobody).text == "DOG BALL CAT"
+
+
+def test_possibility_theory_models_read_the_same_words(sentences: list[Sentence], tmp_path: Path) -> None:
+    signs = SentenceRecognizer(model="ptbhmm").fit(
+        [tracks for tracks, _ in sentences], [words for _, words in sentences]
+    )
+    signs.save(tmp_path / "signs.hri")
+    loaded = SentenceRecognizer.load(tmp_path / "signs.hri")
+    assert (loaded.options.model, loaded.options.num_codewords) == ("ptbhmm", 32)
+    for seed, words in enumerate((["CAT", "DOG"], ["BALL", "BALL", "DOG", "CAT"]), 20):
+        tracks, spans = signed(words, seed)
+        assert list(loaded.recognise(tracks).labels) == words
+        assert loaded.recognise(tracks) == signs.recognise(tracks)
+        frames = [(first, last) for _, first, last in spans]
+        assert list(loaded.recognise_spans(tracks, frames, use_language=False).labels) == words
+
+
+def test_rows_of_features_take_the_place_of_tracks(sentences: list[Sentence]) -> None:
+    def rows(tracks: np.ndarray) -> np.ndarray:
+        return (tracks[:, 1] - tracks[:, 2]) / 100
+
+    signs = SentenceRecognizer(input="rows", **OPTIONS)
+    signs.fit([rows(tracks) for tracks, _ in sentences], [words for _, words in sentences])
+    tracks, _ = signed(["DOG", "CAT"], 31)
+    assert signs.recognise(rows(tracks)).text == "DOG CAT"
+    with pytest.raises(InvalidArgument, match="tracks has shape"):
+        signs.recognise(tracks)
+    with pytest.raises(InvalidArgument, match="as many columns as those that were trained on"):
+        signs.recognise(tracks[:, 0, :1])
+    with pytest.raises(InvalidArgument, match="no frame shows a hand"):
+        signs.recognise(np.full((9, 2), np.nan))
+    with pytest.raises(InvalidArgument, match="at least one row"):
+        signs.recognise(np.zeros((0, 2)))
+    half = rows(tracks)
+    half[4, 1] = np.nan
+    with pytest.raises(InvalidArgument, match="column 1 of frame 4 is nan"):
+        signs.recognise(half)
+    with pytest.raises(InvalidArgument, match="rows have none"):
+        signs.recognise(rows(tracks), scale_px=10)
+
+
 def write_folder(folder: Path, sentences: list[Sentence]) -> None:
     hands, words, signers = [HANDS_COLUMNS], [WORDS_COLUMNS], [SIGNERS_COLUMNS]
     for number, (tracks, spans) in enumerate(sentences):
@@ -161,6 +212,31 @@ def test_command_line_trains_and_reads(hri, sentences: list[Sentence], tmp_path:
     assert found[str(file)]["1"]["text"] == "BALL"
 
 
+def test_command_line_reads_stored_sentences_and_speaks(hri, signs: SentenceRecognizer, tmp_path: Path) -> None:
+    signs.save(tmp_path / "signs.hri")
+    write_folder(tmp_path / "new", [signed(["CAT", "DOG"], 55), signed(["BALL"], 56)])
+    stored = tmp_path / "stored.csv"
+    stored.write_text("signs,en,hi\nCAT CAT DOG,The cat sees the dog,बिल्ली कुत्ते को देखती है\n", "utf-8")
+    read = "read-sentences", tmp_path / "new" / "hands.csv", "--model", tmp_path / "signs.hri", "--knowledge", stored
+    english = hri(*read)
+    assert english.out == "0\tThe cat sees the dog\n1\tBALL\n"
+    assert "1: none of the stored sentences" in english.err
+    assert hri(*read, "--language", "hi").out.startswith("0\tबिल्ली कुत्ते को देखती है\n")
+    assert hri(*read, "--max-distance", "0").out == "0\tCAT DOG\n1\tBALL\n"
+    found = json.loads(hri(*read, "--json", "-").out)[str(read[1])]
+    assert found["0"]["stored"]["words"] == ["CAT", "CAT", "DOG"] and found["1"]["stored"] is None
+    if shutil.which("espeak-ng") is not None:
+        hri(*read, "--language", "hi", "--speak", tmp_path / "voice")
+        audio = package.read_audio(tmp_path / "voice" / "001.wav")
+        assert len(audio.samples) > audio.sample_rate_hz and np.abs(audio.samples).max() > 0.1
+        assert (tmp_path / "voice" / "002.wav").exists()
+    refused = hri(*read, "--language", "de")
+    assert refused.code == 3 and "no stored sentence has a text in 'de'" in refused.err
+    (tmp_path / "bad.csv").write_text("words\nCAT\n")
+    bad = hri(*read[:-1], tmp_path / "bad.csv")
+    assert bad.code == 3 and "bad.csv: row 1: the columns must be 'signs'" in bad.err
+
+
 def test_command_line_says_what_is_missing(hri, signs: SentenceRecognizer, tmp_path: Path) -> None:
     write_folder(tmp_path / "new", [signed(["CAT"], 57)])
     file = tmp_path / "new" / "hands.csv"
@@ -183,6 +259,22 @@ def test_the_studies_hold_sentences_out(tmp_path: Path, monkeypatch: pytest.Monk
     kept = result["counts"]["texts, both hands, found, bigram"]
     errors = kept["substitutions"] + kept["deletions"] + kept["insertions"]
     assert errors / kept["num_words"] <= 0.5
+
+
+def test_the_studies_of_models_and_of_knowledge(tmp_path: Path) -> None:
+    write_folder(tmp_path / "asl_sentences", make_sentences(15))
+    models = run_study(get_study("asl-ptbhmm"), tmp_path, lambda *_: None, {}, folds=1)
+    assert {row["model"]: row["word_error_mean"] for row in models["rows"]} == {"hmm": 0, "ptbhmm": 0}
+    assert models["passed"] and set(models["ms_a_frame"]) == {"hmm", "ptbhmm"}
+    knowledge = run_study(get_study("asl-knowledge"), tmp_path, lambda *_: None, {}, folds=1)
+    share = {(r["signed"], r["meaning"], r["outcome"]): r["share_mean"] for r in knowledge["rows"]}
+    within = "nearest within the distance"
+    assert share["stored", within, "right"] == share["stored", "nearest", "right"] == 1
+    assert share["not stored", "nearest", "wrong"] == 1 and share["not stored", within, "none"] > 0.5
+    for signed_as in ("stored", "not stored"):
+        for way in ("words as recognised", "nearest", within):
+            right, wrong = share[signed_as, way, "right"], share[signed_as, way, "wrong"]
+            assert right + wrong == pytest.approx(1) and right == pytest.approx(1 - wrong)
 
 
 def test_groups_hold_out_every_recording_of_a_text() -> None:

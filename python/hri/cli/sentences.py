@@ -15,6 +15,9 @@ from hri.cli.progress import progress_bars
 from hri.cli.recognizers import default_model, naming_options, options_option, parse_options
 from hri.core.errors import FormatError, InvalidArgument
 from hri.datasets.asl_sentences import read_asl_sentences
+from hri.io import write_wav_pcm16
+from hri.language import KnowledgeBase, StoredMatch
+from hri.language.knowledge import MAX_DISTANCE
 from hri.recognition import SentenceRecognizer
 from hri.robot.imitation import read_hand_tracks
 
@@ -71,8 +74,38 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
 @click.option(
     "--frames", is_flag=True, help="Print a line a word: its first frame, the frame after its last, the word."
 )
+@click.option(
+    "--knowledge",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="CSV",
+    help="Stored sentences: a column 'signs' with their words, and columns 'en', 'hi', ... with what they say. The "
+    "nearest is printed in place of the words.",
+)
+@click.option(
+    "--max-distance",
+    type=click.FloatRange(0, 1),
+    default=MAX_DISTANCE,
+    show_default=True,
+    help="Words farther from every stored sentence are none of them.",
+)
+@click.option("--language", default="en", show_default=True, help="Of the text and of the voice.")
+@click.option(
+    "--speak",
+    type=click.Path(file_okay=False),
+    metavar="FOLDER",
+    help="Write each sentence as speech, 001.wav and so on (by espeak-ng).",
+)
 @json_option
-def read_sentences(files: tuple[str, ...], model: str | None, frames: bool, json_path: str | None) -> None:
+def read_sentences(
+    files: tuple[str, ...],
+    model: str | None,
+    frames: bool,
+    knowledge: str | None,
+    max_distance: float,
+    language: str,
+    speak: str | None,
+    json_path: str | None,
+) -> None:
     """Recognise signed sentences in CSV files of tracks; print a line for each sentence: its name and its words.
 
     A file has the columns left-x, left-y, right-x, right-y, nose-x, nose-y, in pixels, and may have video and frame;
@@ -82,12 +115,17 @@ def read_sentences(files: tuple[str, ...], model: str | None, frames: bool, json
     Examples:
       hri read-sentences hands.csv
       hri read-sentences monday.csv tuesday.csv --frames --json -
+      hri read-sentences hands.csv --knowledge sentences.csv --language hi --speak voice/
     """
     path = Path(model) if model is not None else default_model(MODE)
     if not path.is_file():
         raise InvalidArgument("there is no model of signed sentences yet: run 'hri train-sentences --data DIR'")
     recognizer = SentenceRecognizer.load(path)
+    stored = None if knowledge is None else KnowledgeBase.read(knowledge, max_distance)
+    if stored is not None and language != "en" and not any(language in s.texts for s in stored.sentences):
+        raise InvalidArgument(f"{knowledge}: no stored sentence has a text in '{language}'")
     found: dict[str, dict[str, object]] = {}
+    spoken: list[str] = []
     for file in files:
         found[file] = {}
         for name, track in read_hand_tracks(file).items():
@@ -97,10 +135,35 @@ def read_sentences(files: tuple[str, ...], model: str | None, frames: bool, json
                 sentence = recognizer.recognise(np.hstack([track.left, track.right, track.nose]))
             except InvalidArgument as error:
                 raise FormatError(f"{file}: {name}: {error}") from error
+            match = None if stored is None else stored.match(sentence.labels)
+            text = sentence.text if match is None else match.sentence.text(language)
             found[file][name] = sentence.to_dict()
+            if stored is not None:
+                found[file][name] = {**sentence.to_dict(), "stored": None if match is None else _as_dict(match, text)}
             if frames:
                 for word in sentence.words:
                     say(f"{name}\t{word.first_frame}\t{word.last_frame}\t{word.label}", json_path)
             else:
-                say(f"{name}\t{sentence.text}", json_path)
+                say(f"{name}\t{text}", json_path)
+            if stored is not None and match is None:
+                note(f"{file}: {name}: none of the stored sentences")
+            if speak is not None and text:
+                _write_speech(text, language, Path(speak) / f"{len(spoken) + 1:03}.wav")
+                spoken.append(name)
     write_json(json_path, found)
+
+
+def _as_dict(match: StoredMatch, text: str) -> dict[str, object]:
+    return {"words": list(match.sentence.words), "text": text, "distance": match.distance}
+
+
+def _write_speech(text: str, language: str, path: Path) -> None:
+    from hri.synthetic.speech import Speaker, speak
+
+    if not text.isprintable():
+        raise InvalidArgument(f"{text!r} cannot be spoken: it holds control characters")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    voice = Speaker("voice", variant="f2", accent=0, pitch=50, rate=155, noise_db=-96.0)
+    audio = speak(text, language, voice)
+    write_wav_pcm16(path, audio.samples, audio.sample_rate_hz)
+    note(f"{path}: {text}")

@@ -226,7 +226,7 @@ def _files(files: tuple[Path, ...]) -> tuple[Path | None, Path | None]:
 
 
 <<<<<<< HEAD
-def _load(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
+def load_model(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
     """The recogniser or fusion in a model file; its name and hash go into `ids`."""
 =======
 def load_model(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:

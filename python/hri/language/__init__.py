@@ -19,6 +19,7 @@ from hri._native import (
     WordChain,
     WordNetwork,
 )
+from hri.language.knowledge import KnowledgeBase, StoredMatch, StoredSentence, choose_max_distance
 from hri.language.word_errors import AlignedWord, WordErrors, align_words, count_word_errors
 
 __all__ = [
@@ -28,13 +29,17 @@ __all__ = [
     "DecodedSentence",
     "DecodedWord",
     "GaussianEmissions",
+    "KnowledgeBase",
     "NGramFit",
     "NGramModel",
     "NGramOptions",
     "PossibilisticEmissions",
+    "StoredMatch",
+    "StoredSentence",
     "WordChain",
     "WordErrors",
     "WordNetwork",
     "align_words",
+    "choose_max_distance",
     "count_word_errors",
 ]

@@ -302,7 +302,10 @@ class TwoHandFeatureKeywords(TypedDict, total=False):
 class SentenceRecognizerKeywords(TypedDict, total=False):
     """Fields of `SentenceRecognizerOptions`."""
 
+    input: Literal["tracks", "rows"]
     features: _native.TwoHandFeatureOptions | TwoHandFeatureKeywords
+    model: Literal["hmm", "ptbhmm"]
+    num_codewords: int
     frames_per_state: int
     max_states: int
     max_iterations: int

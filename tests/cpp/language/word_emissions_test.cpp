@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "hri/core/error.hpp"
@@ -91,6 +92,58 @@ TEST(PossibilisticEmissions, GiveTheDecoderThePossibilityOfEveryModel) {
   options.rule.conjunction = Conjunction::min;
   EXPECT_THROW(PossibilisticEmissions(PossibilisticHmmSet::train(per_class, options)),
                InvalidArgument);
+}
+
+TEST(CodedPossibilities, AreDensitiesOfCodewordsByTheLargestInEveryColumn) {
+  std::vector<GaussianMixtureHmm> models;
+  for (const std::uint64_t seed : {1U, 2U}) {
+    GaussianMixtureHmmOptions options;
+    options.num_mixtures = 2;
+    options.topology.num_states = 2 + static_cast<int>(seed);
+    models.push_back(GaussianMixtureHmm::train({testing_data::noise(80, 3, seed)}, options));
+  }
+  const GaussianEmissions emissions(models);
+  const MatrixF frames = testing_data::noise(50, 3, 7);
+  CodebookOptions options;
+  options.num_codewords = 8;
+  const std::vector<int> widths{1, 1, 1};
+  const auto codebook = MultiStreamCodebook::train_lbg(frames, widths, options);
+  const CodedPossibilities possibilities(emissions, codebook);
+  ASSERT_EQ(possibilities.num_states(), 3 + 4);
+  ASSERT_EQ(possibilities.dim(), 3);
+  MatrixF found(50, 7);
+  possibilities.compute(frames, found);
+  const Matrix<std::int32_t> symbols = codebook.quantise(frames);
+  for (Eigen::Index t = 0; t < frames.rows(); ++t) {
+    VectorD expected = VectorD::Zero(7);
+    for (int c = 0; c < 3; ++c) {
+      const double codeword = codebook.stream(c).centroids()(symbols(t, c), 0);
+      VectorD densities(7);
+      Eigen::Index state = 0;
+      for (const GaussianMixtureHmm& model : models) {
+        const MixtureBank& bank = model.bank();
+        for (int j = 0; j < model.num_states(); ++j, ++state) {
+          double density = 0;
+          for (int k = 0; k < 2; ++k) {
+            const double variance = bank.variances()(2 * j + k, c);
+            const double away = codeword - bank.means()(2 * j + k, c);
+            density += bank.weights()(j, k) * std::exp(-0.5 * away * away / variance) /
+                       std::sqrt(2 * M_PI * variance);
+          }
+          densities[state] = density;
+        }
+      }
+      expected.array() += (densities / densities.maxCoeff()).array().log();
+    }
+    EXPECT_LT((found.row(t).transpose().cast<double>() - expected).cwiseAbs().maxCoeff(), 1e-3);
+  }
+  EXPECT_LE(found.maxCoeff(), 0);
+  MatrixF narrow(50, 3);
+  EXPECT_THROW(possibilities.compute(frames, narrow), InvalidArgument);
+  EXPECT_THROW(possibilities.compute(testing_data::noise(50, 4, 7), found), InvalidArgument);
+  const std::vector<int> two{1, 2};
+  const auto wider = MultiStreamCodebook::train_lbg(frames, two, options);
+  EXPECT_THROW(CodedPossibilities(emissions, wider), InvalidArgument);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
+#include "hri/models/codebook/multi_stream_codebook.hpp"
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
 #include "hri/models/possibility/possibilistic_hmm.hpp"
 
@@ -50,6 +51,32 @@ class HRI_API PossibilisticEmissions {
 
  private:
   MatrixF table_;  // by symbol
+};
+
+/// Log possibilities (thesis eq. 5.14) of Gaussian-mixture HMMs over the symbols of codebooks, one
+/// a column: the density of a state at the codeword, divided by the largest of all models and
+/// states; columns are joined by the product. Immutable; const calls are safe from several threads.
+class HRI_API CodedPossibilities {
+ public:
+  /// Throws InvalidArgument unless the codebook has a stream for every column of the models.
+  CodedPossibilities(const GaussianEmissions& models, MultiStreamCodebook codebook);
+
+  /// Of `frames` (num_frames, dim()) into `out` (num_frames, num_states()), natural log, model by
+  /// model. Allocates nothing. Throws InvalidArgument for other shapes and values not finite.
+  void compute(ConstMatrixRefF frames, MatrixRefF out) const;
+
+  [[nodiscard]] int dim() const { return codebook_.dim(); }
+  [[nodiscard]] int num_states() const { return static_cast<int>(columns_.front().table.cols()); }
+  [[nodiscard]] const MultiStreamCodebook& codebook() const { return codebook_; }
+
+ private:
+  struct Column {
+    std::vector<float> borders;  // between codewords, rising
+    MatrixF table;               // by codeword, rising, and state
+  };
+
+  MultiStreamCodebook codebook_;
+  std::vector<Column> columns_;
 };
 
 }  // namespace hri

@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kKind = "sentence_recognizer";
 constexpr const char* kLanguage = "language";
+constexpr const char* kCodebook = "codebook.";
 
 std::string prefix_of(std::size_t model) { return "hmm." + std::to_string(model) + "."; }
 
@@ -26,6 +27,7 @@ ModelFile SentenceRecognizer::to_model_file() const {
   detail::write_options(options_, file);
   for (std::size_t m = 0; m < models().size(); ++m) models()[m].write(file, prefix_of(m));
   file.set_vector("final_stays", final_stays_);
+  if (possibilities_ != nullptr) possibilities_->codebook().write(file, kCodebook);
   if (language_ != nullptr) file.set_text(kLanguage, language_->to_arpa());
   return file;
 }
@@ -57,8 +59,11 @@ SentenceRecognizer SentenceRecognizer::read(const ModelFile& file) {
     language = std::make_shared<const NGramModel>(
         NGramModel::parse(file.text(kLanguage), file.name() + ": language"));
   }
+  std::optional<MultiStreamCodebook> codebook;
+  if (options.model == SequenceModelKind::ptbhmm)
+    codebook = MultiStreamCodebook::read(file, kCodebook);
   SentenceRecognizer result(options, std::move(labels), std::move(models), final_stays,
-                            std::move(language));
+                            std::move(language), std::move(codebook));
   file.require_all_read();
   return result;
 }

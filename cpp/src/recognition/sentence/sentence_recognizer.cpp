@@ -29,6 +29,17 @@ WordChain between_chain(const MarkovChain& chain, double stay) {
   return result;
 }
 
+// What may follow a state, its exit among it, as possibilities: the largest is 1.
+WordChain possibilities(WordChain chain) {
+  chain.log_start.array() -= chain.log_start.maxCoeff();
+  for (Eigen::Index i = 0; i < chain.log_exit.size(); ++i) {
+    const double largest = std::max(chain.log_transition.row(i).maxCoeff(), chain.log_exit[i]);
+    chain.log_transition.row(i).array() -= largest;
+    chain.log_exit[i] -= largest;
+  }
+  return chain;
+}
+
 // The best path of a word through frames whose states have the scores from `column` on.
 double best_path(const WordChain& chain, ConstMatrixRefF log_emissions, Eigen::Index column) {
   const Eigen::Index n = chain.log_start.size();
@@ -56,11 +67,11 @@ SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
                                        std::vector<std::string> labels,
                                        std::vector<GaussianMixtureHmm> models,
                                        const VectorD& final_stays,
-                                       std::shared_ptr<const NGramModel> language)
+                                       std::shared_ptr<const NGramModel> language,
+                                       std::optional<MultiStreamCodebook> codebook)
     : options_(validated(options)),
       labels_(std::move(labels)),
       final_stays_(final_stays),
-      features_(options.features),
       emissions_(std::make_shared<const GaussianEmissions>(std::move(models))),
       language_(std::move(language)) {
   require(labels_ == sorted_labels(labels_), "labels are not sorted");
@@ -69,14 +80,23 @@ SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
           "models must be one a label, and one of what lies between");
   require(static_cast<std::size_t>(final_stays_.size()) == num_models,
           "final_stays must have a value for each model");
-  require(emissions_->dim() == features_.num_features(),
+  const bool are_tracks = options_.input == SentenceInput::tracks;
+  require(are_tracks ? emissions_->dim() == TwoHandFeatureComputer(options_.features).num_features()
+                     : emissions_->dim() % (1 + options_.features.delta_orders) == 0,
           "the models and the options differ in their features");
+  const bool is_possibilistic = options_.model == SequenceModelKind::ptbhmm;
+  require(codebook.has_value() == is_possibilistic,
+          "there must be a codebook exactly where model is ptbhmm");
+  if (is_possibilistic) {
+    possibilities_ = std::make_shared<const CodedPossibilities>(*emissions_, std::move(*codebook));
+  }
   require((language_ == nullptr) == (options_.language_order == 0),
           "there must be a language model exactly where language_order is not 0");
   for (std::size_t m = 0; m < num_models; ++m) {
     const MarkovChain& chain = this->models()[m].chain();
     const double stay = final_stays_[static_cast<Eigen::Index>(m)];
-    chains_.push_back(m + 1 < num_models ? WordChain::of(chain, stay) : between_chain(chain, stay));
+    WordChain states = m + 1 < num_models ? WordChain::of(chain, stay) : between_chain(chain, stay);
+    chains_.push_back(is_possibilistic ? possibilities(std::move(states)) : std::move(states));
   }
   const auto between = static_cast<int>(labels_.size());
   network_ = std::make_shared<const WordNetwork>(
@@ -98,15 +118,26 @@ SentenceRecognizer SentenceRecognizer::with_known_language_scale(double scale) c
 }
 
 MatrixF SentenceRecognizer::frames_of(ConstMatrixRefF tracks, double scale_px) const {
-  return detail::sentence_frames(features_, tracks, scale_px);
+  MatrixF frames = detail::sentence_frames(options_, tracks, scale_px);
+  require(frames.cols() == emissions_->dim(),
+          "rows do not have as many columns as those that were trained on");
+  return frames;
+}
+
+MatrixF SentenceRecognizer::log_emissions(ConstMatrixRefF frames) const {
+  MatrixF result(frames.rows(), emissions_->num_states());
+  if (possibilities_ != nullptr) {
+    possibilities_->compute(frames, result);
+  } else {
+    emissions_->compute(frames, result);
+  }
+  return result;
 }
 
 RecognisedSentence SentenceRecognizer::recognise(ConstMatrixRefF tracks, double scale_px) const {
-  const MatrixF frames = frames_of(tracks, scale_px);
-  MatrixF log_emissions(frames.rows(), emissions_->num_states());
-  emissions_->compute(frames, log_emissions);
+  const MatrixF scores = log_emissions(frames_of(tracks, scale_px));
   ConnectedDecoder decoder(chains_, *network_, options_.decoder);
-  for (Eigen::Index t = 0; t < frames.rows(); ++t) decoder.push(row_span(log_emissions, t));
+  for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
   const DecodedSentence decoded = decoder.finish();
   RecognisedSentence sentence;
   sentence.log_score = decoded.log_score;
@@ -120,13 +151,12 @@ RecognisedSentence SentenceRecognizer::recognise(ConstMatrixRefF tracks, double 
 
 // Of every label.
 VectorD SentenceRecognizer::scores_of(ConstMatrixRefF frames) const {
-  MatrixF log_emissions(frames.rows(), emissions_->num_states());
-  emissions_->compute(frames, log_emissions);
+  const MatrixF of_states = log_emissions(frames);
   VectorD scores(static_cast<Eigen::Index>(labels_.size()));
   Eigen::Index column = 0;
   for (Eigen::Index m = 0; m < scores.size(); ++m) {
     const WordChain& chain = chains_[static_cast<std::size_t>(m)];
-    scores[m] = best_path(chain, log_emissions, column);
+    scores[m] = best_path(chain, of_states, column);
     column += chain.log_start.size();
   }
   return scores;

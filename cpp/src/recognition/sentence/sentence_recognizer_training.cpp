@@ -24,6 +24,8 @@ constexpr int kNoFold = -1;
 constexpr int kNumPasses = 2;
 constexpr std::array kFramesPerState{2, 3, 4};
 constexpr std::array kPenalties{-40.0, 0.0, 20.0, 40.0};
+// Of rows: these have any number of columns, and gestures last longer than words of a sentence.
+constexpr std::array<double, kPenalties.size()> kPenaltiesOfRows{-1000.0, -300.0, -100.0, 0.0};
 constexpr std::array kScales{8.0, 12.0, 16.0};
 
 struct Signed {
@@ -38,11 +40,12 @@ struct WeightErrors {
   std::array<std::array<int, kScales.size()>, kPenalties.size()> sentences{};
   std::array<int, kScales.size()> known{};
   int num_sentences = 0;
+  std::size_t num_scales = kScales.size();
 
   [[nodiscard]] std::pair<std::size_t, std::size_t> best() const {
     std::pair<std::size_t, std::size_t> best{0, 0};
     for (std::size_t p = 0; p < kPenalties.size(); ++p) {
-      for (std::size_t s = 0; s < kScales.size(); ++s) {
+      for (std::size_t s = 0; s < num_scales; ++s) {
         if (sentences[p][s] < sentences[best.first][best.second]) best = {p, s};
       }
     }
@@ -118,7 +121,7 @@ GaussianMixtureHmm prior_model(int num_states, const VectorD& variance) {
 class SentenceTrainer {
  public:
   SentenceTrainer(const SentenceRecognizerOptions& options, StopCheck should_stop)
-      : options_(options), features_(options.features), should_stop_(std::move(should_stop)) {}
+      : options_(options), should_stop_(std::move(should_stop)) {}
 
   SentenceRecognizer run(const std::vector<SignedSample>& samples,
                          const TrainingProgress& progress) {
@@ -132,6 +135,11 @@ class SentenceTrainer {
     int done = 0;
     if (progress) progress(done, num_steps);
     std::vector<WeightErrors> errors(lengths.size());
+    // Of tracks, scales that were not tried count as free of errors: without a language model the
+    // first penalty is chosen. Kept results rest on it.
+    if (options_.input == SentenceInput::rows) {
+      for (WeightErrors& e : errors) e.num_scales = num_scales();
+    }
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       options_.frames_per_state = lengths[i];
       for (int fold = 0; fold < num_folds; ++fold) {
@@ -156,7 +164,9 @@ class SentenceTrainer {
       Signed one;
       one.sample = &sample;
       naming(sample.name, [&] {
-        one.frames = detail::sentence_frames(features_, sample.tracks, sample.scale_px);
+        one.frames = detail::sentence_frames(options_, sample.tracks, sample.scale_px);
+        require(sentences_.empty() || one.frames.cols() == sentences_.front().frames.cols(),
+                "rows do not have as many columns as those of the first sentence");
         detail::check_spans(sample.words, one.frames.rows());
       });
       for (const SignedWordSpan& word : sample.words) labels.push_back(word.label);
@@ -236,7 +246,27 @@ class SentenceTrainer {
     for (const MatrixF& frames : between) num_frames += static_cast<double>(frames.rows());
     const auto num_pieces = static_cast<double>(between.size());
     stays[stays.size() - 1] = 1 - num_pieces / (num_frames + 1);
-    return {options_, std::move(labels), std::move(models), stays, language_without(fold)};
+    return {options_, std::move(labels),      std::move(models),
+            stays,    language_without(fold), codebook_without(fold)};
+  }
+
+  // One codebook a column.
+  [[nodiscard]] std::optional<MultiStreamCodebook> codebook_without(int fold) const {
+    if (options_.model != SequenceModelKind::ptbhmm) return std::nullopt;
+    Eigen::Index num_frames = 0;
+    for (const Signed& one : sentences_) num_frames += one.fold == fold ? 0 : one.frames.rows();
+    MatrixF frames(num_frames, sentences_.front().frames.cols());
+    Eigen::Index next = 0;
+    for (const Signed& one : sentences_) {
+      if (one.fold == fold) continue;
+      frames.middleRows(next, one.frames.rows()) = one.frames;
+      next += one.frames.rows();
+    }
+    CodebookOptions options;
+    options.num_codewords = options_.num_codewords;
+    options.should_stop = should_stop_;
+    const std::vector<int> widths(static_cast<std::size_t>(frames.cols()), 1);
+    return MultiStreamCodebook::train_lbg(frames, widths, options);
   }
 
   [[nodiscard]] std::shared_ptr<const NGramModel> language_without(int fold) const {
@@ -263,7 +293,7 @@ class SentenceTrainer {
   [[nodiscard]] std::vector<GaussianMixtureHmm> train_words(const ClassSequences& words) const {
     std::vector<std::optional<GaussianMixtureHmm>> models(words.size());
     for (int pass = 0; pass < kNumPasses; ++pass) {
-      PooledVariance pooled(features_.num_features());
+      PooledVariance pooled(sentences_.front().frames.cols());
       for (std::size_t c = 0; c < words.size(); ++c)
         pooled.add(words[c], states_of(words[c], models[c]), num_states(words[c]));
       const VectorD variance = pooled.value();
@@ -320,6 +350,10 @@ class SentenceTrainer {
     return options_.choose_weights ? kPenalties.size() : 1;
   }
 
+  [[nodiscard]] double penalty(std::size_t p) const {
+    return options_.input == SentenceInput::rows ? kPenaltiesOfRows[p] : kPenalties[p];
+  }
+
   // Of sentences of the fold, by every weight.
   void count_errors(int fold, WeightErrors* errors) const {
     const SentenceRecognizer trained = train_without(fold);
@@ -331,7 +365,7 @@ class SentenceTrainer {
       ConnectedDecoderOptions decoder = options_.decoder;
       SentenceRecognizer tried = trained;
       if (options_.choose_weights) {
-        decoder.insertion_penalty = kPenalties[p];
+        decoder.insertion_penalty = penalty(p);
         decoder.language_scale = kScales[s];
         tried = trained.with_decoder(decoder).with_known_language_scale(kScales[s]);
       }
@@ -351,7 +385,7 @@ class SentenceTrainer {
 
   void choose_weights(const WeightErrors& errors) {
     const auto [p, s] = errors.best();
-    options_.decoder.insertion_penalty = kPenalties[p];
+    options_.decoder.insertion_penalty = penalty(p);
     if (options_.language_order == 0) return;
     options_.decoder.language_scale = kScales[s];
     const auto known = std::min_element(errors.known.begin(), errors.known.end());
@@ -359,7 +393,6 @@ class SentenceTrainer {
   }
 
   SentenceRecognizerOptions options_;
-  TwoHandFeatureComputer features_;
   StopCheck should_stop_;
   std::vector<std::string> labels_;
   std::vector<Signed> sentences_;

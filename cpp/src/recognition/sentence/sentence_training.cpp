@@ -3,16 +3,51 @@
 #include "recognition/sentence/sentence_training.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
 #include "hri/core/error.hpp"
+#include "hri/features/speech/dynamics.hpp"
 
 namespace hri::detail {
 namespace {
 
 constexpr double kLongestStay = 0.98;
 constexpr std::size_t kEnough = 200;
+
+// Whether the row shows a hand. Throws InvalidArgument for a value that is infinite, or NaN beside
+// others that are not.
+bool shows_hand(ConstMatrixRefF rows, Eigen::Index t) {
+  const bool shown = !std::isnan(rows(t, 0));
+  for (Eigen::Index c = 0; c < rows.cols(); ++c) {
+    if (shown ? std::isfinite(rows(t, c)) : std::isnan(rows(t, c))) continue;
+    fail(ErrorKind::invalid_argument, "rows: column " + std::to_string(c) + " of frame " +
+                                          std::to_string(t) + " is " + std::to_string(rows(t, c)) +
+                                          ", must be finite, or the whole frame NaN");
+  }
+  return shown;
+}
+
+MatrixF frames_of_rows(const TwoHandFeatureOptions& options, ConstMatrixRefF rows) {
+  require(rows.rows() > 0 && rows.cols() > 0, "rows must have at least one row and one column");
+  const Eigen::Index width = rows.cols();
+  MatrixF frames(rows.rows(), width * (1 + options.delta_orders));
+  Eigen::Index last = -1;
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
+    if (!shows_hand(rows, t)) {
+      if (last >= 0) frames.row(t).head(width) = rows.row(last);
+      continue;
+    }
+    if (last < 0) frames.topLeftCorner(t, width).rowwise() = rows.row(t);
+    frames.row(t).head(width) = rows.row(t);
+    last = t;
+  }
+  require(last >= 0, "rows: no frame shows a hand");
+  for (int order = 0; order < options.delta_orders; ++order)
+    append_deltas(frames, order * width, width, options.delta_window);
+  return frames;
+}
 
 }  // namespace
 
@@ -43,9 +78,14 @@ double final_stay(const GaussianMixtureHmm& model, const std::vector<MatrixF>& s
   return visits > 0 ? std::min(1 - visits / frames, kLongestStay) : 0.5;
 }
 
-MatrixF sentence_frames(const TwoHandFeatureComputer& features, ConstMatrixRefF tracks,
+MatrixF sentence_frames(const SentenceRecognizerOptions& options, ConstMatrixRefF input,
                         double scale_px) {
-  return scale_px == 0 ? features.compute(tracks) : features.compute(tracks, scale_px);
+  if (options.input == SentenceInput::rows) {
+    require(scale_px == 0, "scale_px is of tracks, rows have none");
+    return frames_of_rows(options.features, input);
+  }
+  const TwoHandFeatureComputer features(options.features);
+  return scale_px == 0 ? features.compute(input) : features.compute(input, scale_px);
 }
 
 void check_spans(const std::vector<SignedWordSpan>& spans, Eigen::Index num_frames) {

@@ -18,8 +18,9 @@ int num_word_errors(const std::vector<int>& truth, const std::vector<int>& found
 /// paths of the sequences.
 double final_stay(const GaussianMixtureHmm& model, const std::vector<MatrixF>& sequences);
 
-/// Features by the scale, 0: that of the tracks.
-MatrixF sentence_frames(const TwoHandFeatureComputer& features, ConstMatrixRefF tracks,
+/// Features of tracks by the scale, 0: that of the tracks; or rows with their deltas. Throws
+/// InvalidArgument as SentenceRecognizer::train() does.
+MatrixF sentence_frames(const SentenceRecognizerOptions& options, ConstMatrixRefF input,
                         double scale_px);
 
 /// Throws InvalidArgument for words that are empty, beyond the frames or not in the order of time.

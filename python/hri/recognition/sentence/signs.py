@@ -74,11 +74,11 @@ class RecognisedSentence:
 
 
 class SentenceRecognizer(Recognizer):
-    """Recognise the words of a signed sentence from tracks of both hands and of the head.
+    """Recognise the words of a signed sentence from tracks of both hands and of the head, or from rows of features.
 
-    One HMM a word, one of what lies between words (rest, and the movement from one sign to the next), and a language
-    model of the sentences trained on. The weight of the language model and the insertion penalty are chosen on
-    sentences held out in training.
+    One HMM, or possibility-theory HMM (``model="ptbhmm"``), a word, one of what lies between words (rest, and the
+    movement from one sign to the next), and a language model of the sentences trained on. The weight of the language
+    model and the insertion penalty are chosen on sentences held out in training.
 
     Parameters
     ----------
@@ -113,7 +113,8 @@ class SentenceRecognizer(Recognizer):
         Parameters
         ----------
         X : sequence of array_like, shape (num_frames, 3, 2) or (num_frames, 6)
-            Left hand, right hand, head (such as the nose): x and y in pixels, NaN where a point is out of sight.
+            Left hand, right hand, head (such as the nose): x and y in pixels, NaN where a point is out of sight. With
+            ``input="rows"``, shape (num_frames, num_features): features of any kind, NaN in frames without a hand.
         y : sequence of sequences of (label, first_frame, last_frame)
             The words of each sentence in the order of time; the last frame is excluded.
         scales_px : sequence of float, optional
@@ -137,7 +138,7 @@ class SentenceRecognizer(Recognizer):
         if not len(X) == len(y) == len(signers) == len(scales):
             lengths = f"{len(X)}, {len(y)}, {len(signers)}, {len(scales)}"
             raise InvalidArgument(f"X, y, groups and scales_px differ in length: {lengths}")
-        tracks = [as_tracks(one, f"X[{i}]") for i, one in enumerate(X)]
+        tracks = [self._frames(one, f"X[{i}]") for i, one in enumerate(X)]
         words = [_spans(spans, f"y[{i}]") for i, spans in enumerate(y)]
         _log.info("training on %d sentences", len(tracks))
         self._native = self._native_class.train(tracks, words, scales, signers, self.options, progress)
@@ -161,6 +162,7 @@ class SentenceRecognizer(Recognizer):
         Parameters
         ----------
         tracks : array_like, shape (num_frames, 3, 2) or (num_frames, 6)
+            Or what `fit` was given in their place.
         scale_px : float
             As in training; 0: that of the recording.
 
@@ -169,7 +171,7 @@ class SentenceRecognizer(Recognizer):
         InvalidArgument
             As in training.
         """
-        return _as_sentence(self._trained.recognise(as_tracks(tracks, "tracks"), scale_px))
+        return _as_sentence(self._trained.recognise(self._frames(tracks, "tracks"), scale_px))
 
     def recognise_spans(
         self,
@@ -184,6 +186,7 @@ class SentenceRecognizer(Recognizer):
         Parameters
         ----------
         tracks : array_like, shape (num_frames, 3, 2) or (num_frames, 6)
+            Or what `fit` was given in their place.
         spans : sequence of (first_frame, last_frame)
             Of each word in the order of time; the last frame is excluded.
         scale_px : float
@@ -197,7 +200,8 @@ class SentenceRecognizer(Recognizer):
             For spans beyond the frames or not in the order of time, and as in training.
         """
         pairs = [(int(first), int(last)) for first, last in spans]
-        return _as_sentence(self._trained.recognise_spans(as_tracks(tracks, "tracks"), pairs, scale_px, use_language))
+        frames = self._frames(tracks, "tracks")
+        return _as_sentence(self._trained.recognise_spans(frames, pairs, scale_px, use_language))
 
     def count_errors(
         self, X: Sequence[ArrayLike], y: Sequence[Sequence[str]], scales_px: Sequence[float] | None = None
@@ -206,6 +210,9 @@ class SentenceRecognizer(Recognizer):
         scales = [0.0] * len(X) if scales_px is None else scales_px
         found = [self.recognise(one, scale_px=scale).labels for one, scale in zip(X, scales, strict=True)]
         return count_word_errors(y, found)
+
+    def _frames(self, values: ArrayLike, name: str) -> NDArray[np.float32]:
+        return as_rows(values, name) if self.options.input == "rows" else as_tracks(values, name)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> SentenceRecognizer:
@@ -219,6 +226,14 @@ def as_tracks(values: ArrayLike, name: str) -> NDArray[np.float32]:
     if array.shape[1:] not in ((6,), (3, 2)):
         raise InvalidArgument(f"{name} has shape {array.shape}, must be (num_frames, 3, 2) or (num_frames, 6)")
     return np.ascontiguousarray(array.reshape(len(array), 6))
+
+
+def as_rows(values: ArrayLike, name: str) -> NDArray[np.float32]:
+    """Rows of features as the core takes them; InvalidArgument names what has another shape."""
+    array = np.asarray(values, np.float32)
+    if array.ndim != 2:
+        raise InvalidArgument(f"{name} has shape {array.shape}, must be (num_frames, num_features)")
+    return np.ascontiguousarray(array)
 
 
 def _spans(words: Sequence[tuple[str, int, int]], name: str) -> list[tuple[str, int, int]]:

@@ -122,6 +122,64 @@ TEST(SentenceRecognizer, GoesThroughAFile) {
   EXPECT_THROW(SentenceRecognizer::from_model_file(other), FormatError);
 }
 
+TEST(SentenceRecognizer, PossibilisticModelsFindTheSameWords) {
+  SentenceRecognizerOptions options;
+  options.model = SequenceModelKind::ptbhmm;
+  const SentenceRecognizer recognizer = SentenceRecognizer::train(samples(), options);
+  const SentenceRecognizer loaded = SentenceRecognizer::from_model_file(recognizer.to_model_file());
+  for (const std::uint64_t seed : {81U, 82U, 83U}) {
+    const SignedSample sample = signed_sentence({"dog", "cat", "cat", "ball"}, seed);
+    const RecognisedSentence found = recognizer.recognise(sample.tracks);
+    ASSERT_EQ(found.text(), "dog cat cat ball");
+    for (std::size_t i = 0; i < sample.words.size(); ++i) {
+      EXPECT_NEAR(found.words[i].first_frame, sample.words[i].first_frame, 3);
+      EXPECT_NEAR(found.words[i].last_frame, sample.words[i].last_frame, 3);
+    }
+    EXPECT_EQ(recognizer.recognise_spans(sample.tracks, sample.words, 0, false).text(),
+              "dog cat cat ball");
+    EXPECT_EQ(loaded.recognise(sample.tracks).log_score, found.log_score);
+  }
+  EXPECT_THROW(SentenceRecognizer(recognizer.options(), recognizer.labels(), recognizer.models(),
+                                  recognizer.final_stays(), recognizer.language()),
+               InvalidArgument);  // no codebook
+}
+
+// Sentences as rows of the places of the right hand, from the head.
+std::vector<SignedSample> as_rows(std::vector<SignedSample> sentences) {
+  for (SignedSample& sample : sentences) {
+    const MatrixF rows = (sample.tracks.middleCols(2, 2) - sample.tracks.rightCols(2)) / 100.0F;
+    sample.tracks = rows;
+  }
+  return sentences;
+}
+
+TEST(SentenceRecognizer, TakesRowsOfFeatures) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  SentenceRecognizerOptions options = quick_options();
+  options.input = SentenceInput::rows;
+  const SentenceRecognizer recognizer = SentenceRecognizer::train(as_rows(samples()), options);
+  SignedSample sample = as_rows({signed_sentence({"dog", "cat", "ball"}, 71)}).front();
+  EXPECT_EQ(recognizer.recognise(sample.tracks).text(), "dog cat ball");
+  const SentenceRecognizer loaded = SentenceRecognizer::from_model_file(recognizer.to_model_file());
+  EXPECT_EQ(loaded.recognise(sample.tracks).log_score,
+            recognizer.recognise(sample.tracks).log_score);
+  MatrixF held = sample.tracks;  // a hand that is not seen in rest
+  held.topRows(3).setConstant(nan);
+  held.bottomRows(5).setConstant(nan);
+  EXPECT_EQ(recognizer.recognise(held).text(), "dog cat ball");
+  EXPECT_THROW(recognizer.recognise(sample.tracks, 100), InvalidArgument);
+  EXPECT_THROW(recognizer.recognise(MatrixF(0, 2)), InvalidArgument);
+  EXPECT_THROW(recognizer.recognise(MatrixF::Zero(20, 3)), InvalidArgument);
+  EXPECT_THROW(recognizer.recognise(MatrixF::Constant(20, 2, nan)), InvalidArgument);
+  sample.tracks(4, 1) = nan;
+  EXPECT_THROW(recognizer.recognise(sample.tracks), InvalidArgument);
+  sample.tracks(4, 1) = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(recognizer.recognise(sample.tracks), InvalidArgument);
+  std::vector<SignedSample> bad = as_rows(samples());
+  bad[1].tracks = MatrixF::Zero(bad[1].tracks.rows(), 3);
+  EXPECT_THROW(SentenceRecognizer::train(bad, options), InvalidArgument);
+}
+
 TEST(SentenceRecognizer, TrainsTheSameAgain) {
   const SignedSample sample = signed_sentence({"ball", "cat"}, 94);
   EXPECT_EQ(

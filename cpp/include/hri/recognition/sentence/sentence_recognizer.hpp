@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sentences of signs, from tracks of both hands: one HMM a word, one of what lies between words
-// (rest, and the movement from one sign to the next), a bigram of the sentences that were trained
-// on, decoded in one pass (ConnectedDecoder).
+// Sentences of signs, from tracks of both hands or from features of one: an HMM or a
+// possibility-theory HMM a word, one of what lies between words (rest, and the movement from one
+// sign to the next), a bigram of the sentences trained on, decoded in one pass (ConnectedDecoder).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,12 +21,24 @@
 #include "hri/language/connected_decoder.hpp"
 #include "hri/language/ngram_model.hpp"
 #include "hri/language/word_emissions.hpp"
+#include "hri/models/codebook/multi_stream_codebook.hpp"
+#include "hri/models/sequence_scorer.hpp"
 #include "hri/recognition/training.hpp"
 
 namespace hri {
 
+/// What a sentence is given as.
+enum class SentenceInput : std::uint8_t {
+  tracks,  ///< places of both hands and of the head, kNumTwoHandTrackColumns
+  rows,    ///< features of one hand or two, whatever they are; NaN in a frame without a hand
+};
+constexpr auto enum_names(SentenceInput) { return std::array{"tracks", "rows"}; }
+
 struct HRI_API SentenceRecognizerOptions {
+  SentenceInput input = SentenceInput::tracks;
   TwoHandFeatureOptions features;
+  SequenceModelKind model = SequenceModelKind::hmm;
+  int num_codewords = 32;
   int frames_per_state = 3;
   int max_states = 8;
   int max_iterations = 8;
@@ -39,7 +53,13 @@ struct HRI_API SentenceRecognizerOptions {
   static constexpr const char* kName = "SentenceRecognizerOptions";
   template <class Self, class Visitor>
   static void visit(Self& o, Visitor&& v) {
-    v("features", o.features, any_value, "what is computed of the tracks");
+    v("input", o.input, any_value, "what sentences are given as");
+    v("features", o.features, any_value,
+      "what is computed of the tracks; of rows, only deltas are appended");
+    v("model", o.model, any_value,
+      "kind of the models; ptbhmm: the same densities as possibilities over codewords");
+    v("num_codewords", o.num_codewords, within(2, 4096),
+      "codewords of every column of the features (ptbhmm)");
     v("frames_per_state", o.frames_per_state, within(0, 100),
       "a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences "
       "held out");
@@ -69,8 +89,11 @@ struct SignedWordSpan {
 
 /// A sentence to train on. Words are in the order of time; they may overlap by some frames.
 struct SignedSample {
-  MatrixF tracks;       ///< (num_frames, kNumTwoHandTrackColumns), see TwoHandFeatureComputer
-  double scale_px = 0;  ///< of the signer; 0: hand_scale_px() of the tracks
+  /// (num_frames, kNumTwoHandTrackColumns), see TwoHandFeatureComputer; or rows of features of as
+  /// many columns in every sentence, all NaN in a frame that shows no hand: those of the frame
+  /// before stay, at the beginning those of the first frame that has some.
+  MatrixF tracks;
+  double scale_px = 0;  ///< of the signer; 0: hand_scale_px() of the tracks. Rows have none: 0
   std::vector<SignedWordSpan> words;
   std::string group;  ///< signer or session: never both trained on and held out
   std::string name;   ///< what errors call it
@@ -96,13 +119,16 @@ class HRI_API SentenceRecognizer {
  public:
   /// From trained parts: `models` are left-right ones of the sorted `labels` and behind them the
   /// one of what lies between; `final_stays` the probability of each word to stay in its last
-  /// state, and of what lies between to go on; `language` may be null. Throws InvalidArgument for
-  /// parts that do not fit each other, and options out of range.
+  /// state, and of what lies between to go on; `language` may be null; `codebook` is that of the
+  /// kind ptbhmm. Throws InvalidArgument for parts that do not fit each other, and options out of
+  /// range.
   SentenceRecognizer(const SentenceRecognizerOptions& options, std::vector<std::string> labels,
                      std::vector<GaussianMixtureHmm> models, const VectorD& final_stays,
-                     std::shared_ptr<const NGramModel> language);
+                     std::shared_ptr<const NGramModel> language,
+                     std::optional<MultiStreamCodebook> codebook = std::nullopt);
 
   /// Throws InvalidArgument (naming the sentence) for tracks that TwoHandFeatureComputer refuses,
+  /// rows that are none, differ in their columns, show no hand, or are NaN in part or infinite,
   /// words outside the frames, empty or not in the order of time, labels with white space in them,
   /// and where all frames lie in words; Interrupted.
   static SentenceRecognizer train(const std::vector<SignedSample>& samples,
@@ -120,8 +146,8 @@ class HRI_API SentenceRecognizer {
   [[nodiscard]] ModelFile to_model_file() const;
   static SentenceRecognizer from_model_file(const ModelFile& file);
 
-  /// The sentence that tracks (num_frames, kNumTwoHandTrackColumns) show; `scale_px` as in training
-  /// (0: of the tracks). Throws InvalidArgument as TwoHandFeatureComputer does.
+  /// The sentence that tracks (num_frames, kNumTwoHandTrackColumns) or rows show; `scale_px` as in
+  /// training (0: of the tracks). Throws InvalidArgument as train() does.
   [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF tracks, double scale_px = 0) const;
   /// The same where the frames of the words are known: one word for each of `spans`, whose labels
   /// are not read; with_language false: each by itself. Throws InvalidArgument as train() does.
@@ -142,14 +168,15 @@ class HRI_API SentenceRecognizer {
  private:
   static SentenceRecognizer read(const ModelFile& file);
   [[nodiscard]] MatrixF frames_of(ConstMatrixRefF tracks, double scale_px) const;
+  [[nodiscard]] MatrixF log_emissions(ConstMatrixRefF frames) const;
   [[nodiscard]] VectorD scores_of(ConstMatrixRefF frames) const;
   [[nodiscard]] MatrixD language_table() const;
 
   SentenceRecognizerOptions options_;
   std::vector<std::string> labels_;
   VectorD final_stays_;
-  TwoHandFeatureComputer features_;
   std::shared_ptr<const GaussianEmissions> emissions_;
+  std::shared_ptr<const CodedPossibilities> possibilities_;  // of the kind ptbhmm
   std::vector<WordChain> chains_;
   std::shared_ptr<const NGramModel> language_;
   std::shared_ptr<const WordNetwork> network_;
