@@ -225,13 +225,8 @@ def _files(files: tuple[Path, ...]) -> tuple[Path | None, Path | None]:
     return found.get("a sound file"), found.get("a video")
 
 
-<<<<<<< HEAD
 def load_model(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
     """The recogniser or fusion in a model file; its name and hash go into `ids`."""
-=======
-def load_model(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
-    """The recogniser in a model file; its name and hash go into `ids`."""
->>>>>>> serve
     chosen = path or kept_model(mode)
     ids[mode] = f"{chosen.name}:{hashlib.sha256(read_bytes(chosen, MAX_MODEL_BYTES)).hexdigest()[:12]}"
     return kind.load(chosen)
