@@ -5,13 +5,14 @@
 NAO's elbows bend by 88.5 degrees instead of 115, so that forearms cannot always point the same way. What counts in a
 sign is where the hands are, from the shoulders and in proportion to the arm's length, then where forearm, palm and
 upper arm point. Each key pose is found by damped least squares (Levenberg, 1944) over the shoulder and elbow within
-their limits, from several beginnings; the wrist then turns the palm. A gesture that departs further from the original
+their limits, from several beginnings; the wrist then turns the palm. Of the solutions for the key poses those near one
+another are taken. Arms at rest are where NAO's rest. A gesture that departs further from the original
 than the tolerances below, or whose motion does not pass the check, is none that NAO makes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -50,7 +51,7 @@ _HOAP2_MIRROR = np.array([1.0, -1.0, -1.0, 1.0, -1.0])
 _MARGIN_RAD = 1e-3
 # What weighs as much as what: 1 cm of the hand, 0.25 of the forearm's direction, 1 of the upper arm's.
 _SCALES = np.array([0.01] * 3 + [0.25] * 3 + [1.0] * 3)
-_PALM_WEIGHT, _DETOUR_WEIGHT = 8.0, 0.2
+_PALM_WEIGHT, _DETOUR_WEIGHT = 8.0, 2.0
 _NUM_BEGINNINGS = 12
 _ITERATIONS = 30
 _STEP = 1e-6
@@ -99,7 +100,7 @@ def nao_gesture(name: str) -> NaoGesture:
     for least_m in _APART_M:
         # NAO's hands are thicker: where they meet they are kept apart, and no further than needed.
         aims = _apart(wanted, least_m)
-        arms = _plain()[name] if aims is wanted else _solved(aims)
+        arms = _plain()[name] if aims is wanted else _solved([aims])[0]
         times_s, trajectory = _joined(gesture, np.hstack((arms[0], arms[1] * _MIRROR, head)))
         errors = _errors(arms, wanted).max(axis=1)
         faults = _faults(trajectory)
@@ -158,9 +159,8 @@ def _head_poses(poses: Floats) -> tuple[Floats, float]:
 def _plain() -> dict[str, Floats]:
     """Arms of all gestures, worked out together."""
     gestures = load_gestures()
-    keys = [len(gesture.poses_rad) for gesture in gestures.values()]
-    found = _solved(np.concatenate([_wanted_of(gesture) for gesture in gestures.values()], axis=1))
-    return dict(zip(gestures, np.split(found, np.cumsum(keys)[:-1], axis=1), strict=True))
+    wanted = {name: _wanted_of(gesture) for name, gesture in gestures.items()}
+    return dict(zip(wanted, _solved(list(wanted.values())), strict=True))
 
 
 def _wanted_of(gesture: Gesture) -> Floats:
@@ -199,29 +199,60 @@ def _apart(wanted: Floats, least_m: float) -> Floats:
 
 
 def _errors(arms: Floats, wanted: Floats) -> Floats:
-    """Of the hand in metres, of forearm and palm in degrees; shape (2, keys, 3)."""
+    """Of the hand in metres, of forearm and palm in degrees; shape (2, keys, 3); none of arms at rest."""
     points, fore = _points(arms[..., :4])
     facing = -(fore @ _turn("x", arms[..., 4]))[..., 2]
     cosines = [(points[..., 3:6] * wanted[..., 3:6]).sum(axis=-1), (facing * wanted[..., 9:12]).sum(axis=-1)]
     degrees = [np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))) for cosine in cosines]
-    return np.stack((np.linalg.norm(points[..., :3] - wanted[..., :3], axis=-1), *degrees), axis=-1)
+    errors = np.stack((np.linalg.norm(points[..., :3] - wanted[..., :3], axis=-1), *degrees), axis=-1)
+    return np.where(_resting(wanted)[..., np.newaxis], 0.0, errors)
 
 
-def _solved(wanted: Floats) -> Floats:
-    """The angles of NAO's left arm that come nearest; shape (2, keys, 5)."""
-    unique, where = np.unique(wanted.reshape(-1, wanted.shape[-1]), axis=0, return_inverse=True)
+def _resting(wanted: Floats) -> NDArray[np.bool_]:
+    rest = _wanted(load_gestures()["rest"].poses_rad[:1, 0:5])[0]
+    return np.abs(wanted - rest).max(axis=-1) < 1e-9
+
+
+def _solved(gestures: Sequence[Floats]) -> list[Floats]:
+    """The angles of NAO's left arm that come nearest to what is wanted, for each gesture of shape (2, keys, 5)."""
+    wanted = np.concatenate([gesture.reshape(-1, gesture.shape[-1]) for gesture in gestures])
+    unique, where = np.unique(wanted, axis=0, return_inverse=True)
     limits = _limits()
     seeds = np.random.default_rng(1).uniform(limits[:4, 0], limits[:4, 1], (_NUM_BEGINNINGS - 1, 4))
     alike = np.clip(unique[:, np.newaxis, 12:], limits[:4, 0], limits[:4, 1])
     begin = np.concatenate((alike, np.broadcast_to(seeds, (len(unique), *seeds.shape))), axis=1)
     found, costs = _least_squares(begin, unique[:, np.newaxis, :9], limits[:4])
     wrist, facing = _wrist(found, unique[:, np.newaxis, 9:12], limits[4])
-    # Of what is as good, that whose palm faces right, without detours of the joints.
-    costs = costs + _PALM_WEIGHT * (1.0 - facing) + _DETOUR_WEIGHT * ((found - alike) ** 2).sum(axis=-1)
-    best = np.argmin(costs, axis=1)[:, np.newaxis]
+    costs = costs + _PALM_WEIGHT * (1.0 - facing)
     arms = np.concatenate((found, wrist[..., np.newaxis]), axis=-1)
-    chosen = np.take_along_axis(arms, best[..., np.newaxis], axis=1)[:, 0]
-    return chosen[where.reshape(-1)].reshape(*wanted.shape[:2], 5)
+    rests = _resting(unique)
+    arms[rests], costs[rests] = [NAO[name].rest_rad for name in NAO_GESTURE_JOINTS[:5]], 0.0
+    chosen, at = [], 0
+    for gesture in gestures:
+        num_keys = gesture.shape[1]
+        rows = where.reshape(-1)[at : at + 2 * num_keys].reshape(2, num_keys)
+        chosen.append(np.stack([_shortest(row, arms[row], costs[row]) for row in rows]))
+        at += 2 * num_keys
+    return chosen
+
+
+def _shortest(rows: NDArray[np.intp], arms: Floats, costs: Floats) -> Floats:
+    """Of the choices for each key those of the least cost that lie near one another (Viterbi); shape (keys, 5).
+
+    Where `rows` repeats itself the arm is held.
+    """
+    total, came = costs[0], []
+    for key in range(1, len(costs)):
+        steps = np.abs(arms[key, :, np.newaxis, :4] - arms[key - 1, np.newaxis, :, :4]).max(axis=-1)
+        if rows[key] == rows[key - 1]:
+            steps[~np.eye(len(steps), dtype=bool)] = np.inf
+        through = total + _DETOUR_WEIGHT * steps
+        came.append(through.argmin(axis=1))
+        total = through.min(axis=1) + costs[key]
+    path = [int(total.argmin())]
+    for back in reversed(came):
+        path.append(int(back[path[-1]]))
+    return arms[np.arange(len(costs)), path[::-1]]
 
 
 def _points(angles: Floats) -> tuple[Floats, Floats]:
