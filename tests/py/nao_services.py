@@ -18,7 +18,6 @@ from hri.robot import NAO
 
 qi.logging.setLevel(qi.logging.SILENT)  # it writes to stdout
 
-POSTURE_S = 0.3
 REST_RAD = {"LShoulderPitch": 1.45, "RShoulderPitch": 1.45, "HeadPitch": 0.1, "LElbowYaw": -0.4, "RElbowYaw": 0.4}
 HANDS = ("LHand", "RHand")
 
@@ -40,6 +39,7 @@ class Motion:
         self.sent = []  # (time, {joint: angle}) of every setAngles
         self.clamped = []
         self.postures = []
+        self.posture_s = 0.2
         self.silent = threading.Event()  # set: calls are not answered
         self.killed = threading.Event()
         self._lock = threading.Lock()
@@ -111,7 +111,7 @@ class Motion:
 
     def _posture(self, name, stiffness):
         self.killed.clear()
-        if not self.killed.wait(POSTURE_S):
+        if not self.killed.wait(self.posture_s):
             self.postures.append(name)
             with self._lock:
                 self._move()

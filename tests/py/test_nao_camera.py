@@ -51,10 +51,10 @@ def test_a_smaller_picture(nao):
 
 
 def test_a_camera_that_stands_still_vanishes_or_sends_nonsense(nao):
-    source = NaoCamera(nao.url, size=(160, 120), stall_s=0.3)
+    source = NaoCamera(nao.url, size=(160, 120), stall_s=0.8)
     source.read()
     nao.video.frozen = True
-    with pytest.raises(Stalled, match=r"same picture for 0\.3 s"):
+    with pytest.raises(Stalled, match=r"same picture for 0\.8 s"):
         source.read()
     nao.video.frozen, nao.video.broken = False, True
     with pytest.raises(Stalled, match="no picture of 160 x 120"):
@@ -99,7 +99,7 @@ def test_nao_sees_a_sign_says_so_and_answers_by_a_motion(nao):
     with NaoqiRobot(nao.url) as robot:
         session = Session(signs=train_signs(), robot=robot, motions={"flat": NOD}, on_say=robot.say_later)
         assert session.motions.keys() == {"flat"} and session.refused.keys() == {"tall"}
-        source = NaoCamera(nao.url, fps=round(FPS), stall_s=0.5)
+        source = NaoCamera(nao.url, fps=round(FPS), stall_s=1.0)
         events = list(session.run(pictures=source))
         robot.say("the end")  # after what was to be said before
     finals = [event.fields["final"] for event in events if event.event == "fused"]

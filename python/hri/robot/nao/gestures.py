@@ -2,11 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The gestures as NAO makes them: its hands go where those of HOAP-2 are, as near as its joints allow.
 
-NAO's elbows bend by 88.5 degrees instead of 115, so that forearms cannot always point the same way. What counts in a
-sign is where the hands are, from the shoulders and in proportion to the arm's length, then where forearm, palm and
-upper arm point. Each key pose is found by damped least squares (Levenberg, 1944) over the shoulder and elbow within
-their limits, from several beginnings; the wrist then turns the palm. A gesture that departs further from the original
-than the tolerances below, or whose motion does not pass the check, is none that NAO makes.
+A gesture that departs further from the original than the tolerances below, or whose motion does not pass the check, is
+none that NAO makes.
 """
 
 from __future__ import annotations
@@ -21,11 +18,12 @@ from numpy.typing import NDArray
 from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
-from hri.robot.model.arm import SIDES, arm_of, arm_points
+from hri.robot.model.arm import SIDES
 from hri.robot.model.joints import NAO
 from hri.robot.motion.checks import check_trajectory
 from hri.robot.motion.gestures import Gesture, load_gestures, minimum_jerk
 from hri.robot.motion.trajectory import Trajectory
+from hri.robot.nao.arms import MARGIN_RAD, NAO_LEFT_ARM, apart, errors_of, solved, wanted_of
 from hri.robot.nao.couplings import coupling_findings, head_pitch_range
 
 Floats = NDArray[np.float64]
@@ -36,24 +34,12 @@ PALM_TOLERANCE_DEG = 45.0
 HEAD_TOLERANCE_DEG = 15.0
 
 NAO_GESTURE_JOINTS = (
-    *(
-        f"{side}{name}"
-        for side in "LR"
-        for name in ("ShoulderPitch", "ShoulderRoll", "ElbowYaw", "ElbowRoll", "WristYaw")
-    ),
+    *NAO_LEFT_ARM,
+    *(f"R{name[1:]}" for name in NAO_LEFT_ARM),
     "HeadYaw",
     "HeadPitch",
 )
-_HAND_M = 0.05775  # from the wrist to the middle of the hand, by the maker
 _MIRROR = np.array([1.0, -1.0, -1.0, -1.0, -1.0])
-_HOAP2_MIRROR = np.array([1.0, -1.0, -1.0, 1.0, -1.0])
-_MARGIN_RAD = 1e-3
-# What weighs as much as what: 1 cm of the hand, 0.25 of the forearm's direction, 1 of the upper arm's.
-_SCALES = np.array([0.01] * 3 + [0.25] * 3 + [1.0] * 3)
-_PALM_WEIGHT, _DETOUR_WEIGHT = 8.0, 0.2
-_NUM_BEGINNINGS = 12
-_ITERATIONS = 30
-_STEP = 1e-6
 _APART_M = (0.0, 0.06, 0.07, 0.08, 0.09, 0.1, 0.105)
 _HANDS = "l_wrist and r_wrist"
 
@@ -93,15 +79,15 @@ def nao_gesture(name: str) -> NaoGesture:
     if name not in gestures:
         raise InvalidArgument(f"no gesture {name!r}; {did_you_mean(name, gestures)}")
     gesture = gestures[name]
-    wanted = _wanted_of(gesture)
+    wanted = wanted_of(gesture)
     head, head_deg = _head_poses(gesture.poses_rad[:, 10:12])
     made: list[NaoGesture] = []
     for least_m in _APART_M:
         # NAO's hands are thicker: where they meet they are kept apart, and no further than needed.
-        aims = _apart(wanted, least_m)
-        arms = _plain()[name] if aims is wanted else _solved(aims)
+        aims = apart(wanted, least_m)
+        arms = _plain()[name] if aims is wanted else solved([aims])[0]
         times_s, trajectory = _joined(gesture, np.hstack((arms[0], arms[1] * _MIRROR, head)))
-        errors = _errors(arms, wanted).max(axis=1)
+        errors = errors_of(arms, wanted).max(axis=1)
         faults = _faults(trajectory)
         why_not = "; ".join((*_departures(errors, head_deg), *faults))
         hand_m, forearm_deg, palm_deg = errors.max(axis=0).tolist()
@@ -148,9 +134,9 @@ def _joined(gesture: Gesture, poses: Floats) -> tuple[Floats, Trajectory]:
 
 def _head_poses(poses: Floats) -> tuple[Floats, float]:
     """Yaw and pitch as near as the shell allows, and how far off in degrees at most; shape (keys, 2)."""
-    yaw = np.clip(poses[:, 0], NAO["HeadYaw"].lower_rad + _MARGIN_RAD, NAO["HeadYaw"].upper_rad - _MARGIN_RAD)
+    yaw = np.clip(poses[:, 0], NAO["HeadYaw"].lower_rad + MARGIN_RAD, NAO["HeadYaw"].upper_rad - MARGIN_RAD)
     least, most = head_pitch_range(yaw)
-    found = np.stack((yaw, np.clip(poses[:, 1], least + _MARGIN_RAD, most - _MARGIN_RAD)), axis=1)
+    found = np.stack((yaw, np.clip(poses[:, 1], least + MARGIN_RAD, most - MARGIN_RAD)), axis=1)
     return found, float(np.degrees(np.abs(found - poses).max()))
 
 
@@ -158,141 +144,5 @@ def _head_poses(poses: Floats) -> tuple[Floats, float]:
 def _plain() -> dict[str, Floats]:
     """Arms of all gestures, worked out together."""
     gestures = load_gestures()
-    keys = [len(gesture.poses_rad) for gesture in gestures.values()]
-    found = _solved(np.concatenate([_wanted_of(gesture) for gesture in gestures.values()], axis=1))
-    return dict(zip(gestures, np.split(found, np.cumsum(keys)[:-1], axis=1), strict=True))
-
-
-def _wanted_of(gesture: Gesture) -> Floats:
-    """What both arms ought to do, each as a left arm; shape (2, keys, 16)."""
-    return np.stack([_wanted(gesture.poses_rad[:, 0:5]), _wanted(gesture.poses_rad[:, 5:10] * _HOAP2_MIRROR)])
-
-
-def _wanted(poses: Floats) -> Floats:
-    """Hand, forearm and upper arm of HOAP-2 in NAO's size from the shoulder, the palm's normal, and like angles.
-
-    Shape (keys, 16).
-    """
-    arm = arm_of("left")
-    elbow, hand = arm_points(arm, poses[:, :4])
-    pitch, out, twist, bend, turn = poses.T
-    palm = _turn("y", pitch) @ _turn("z", out) @ _turn("x", twist) @ _turn("y", bend) @ _turn("x", turn)
-    directions = ((hand - elbow) / arm.fore_m, elbow / arm.upper_m, -palm[:, :, 1])
-    # HOAP-2's elbow bends about y, NAO's about z: a quarter turn of the upper arm takes one to the other.
-    return np.hstack((hand * sum(_lengths_m()) / arm.reach_m, *directions, poses[:, :4] - (0.0, 0.0, np.pi / 2.0, 0.0)))
-
-
-def _apart(wanted: Floats, least_m: float) -> Floats:
-    """With hands that are nearer to one another moved apart, each by half of it; the same object if none is."""
-    shoulder = np.array(NAO["LShoulderPitch"].origin_m) * (0.0, 1.0, 0.0)
-    left, right = wanted[0, :, :3] + shoulder, (wanted[1, :, :3] + shoulder) * (1.0, -1.0, 1.0)
-    line = left - right
-    distance = np.linalg.norm(line, axis=1)
-    if distance.min() >= least_m:
-        return wanted
-    away = np.where(distance[:, np.newaxis] > 1e-3, line, (0.0, 1.0, 0.0))
-    away = away / np.linalg.norm(away, axis=1, keepdims=True) * 0.5 * np.maximum(least_m - distance, 0.0)[:, np.newaxis]
-    moved = wanted.copy()
-    moved[0, :, :3] += away
-    moved[1, :, :3] -= away * (1.0, -1.0, 1.0)
-    return moved
-
-
-def _errors(arms: Floats, wanted: Floats) -> Floats:
-    """Of the hand in metres, of forearm and palm in degrees; shape (2, keys, 3)."""
-    points, fore = _points(arms[..., :4])
-    facing = -(fore @ _turn("x", arms[..., 4]))[..., 2]
-    cosines = [(points[..., 3:6] * wanted[..., 3:6]).sum(axis=-1), (facing * wanted[..., 9:12]).sum(axis=-1)]
-    degrees = [np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))) for cosine in cosines]
-    return np.stack((np.linalg.norm(points[..., :3] - wanted[..., :3], axis=-1), *degrees), axis=-1)
-
-
-def _solved(wanted: Floats) -> Floats:
-    """The angles of NAO's left arm that come nearest; shape (2, keys, 5)."""
-    unique, where = np.unique(wanted.reshape(-1, wanted.shape[-1]), axis=0, return_inverse=True)
-    limits = _limits()
-    seeds = np.random.default_rng(1).uniform(limits[:4, 0], limits[:4, 1], (_NUM_BEGINNINGS - 1, 4))
-    alike = np.clip(unique[:, np.newaxis, 12:], limits[:4, 0], limits[:4, 1])
-    begin = np.concatenate((alike, np.broadcast_to(seeds, (len(unique), *seeds.shape))), axis=1)
-    found, costs = _least_squares(begin, unique[:, np.newaxis, :9], limits[:4])
-    wrist, facing = _wrist(found, unique[:, np.newaxis, 9:12], limits[4])
-    # Of what is as good, that whose palm faces right, without detours of the joints.
-    costs = costs + _PALM_WEIGHT * (1.0 - facing) + _DETOUR_WEIGHT * ((found - alike) ** 2).sum(axis=-1)
-    best = np.argmin(costs, axis=1)[:, np.newaxis]
-    arms = np.concatenate((found, wrist[..., np.newaxis]), axis=-1)
-    chosen = np.take_along_axis(arms, best[..., np.newaxis], axis=1)[:, 0]
-    return chosen[where.reshape(-1)].reshape(*wanted.shape[:2], 5)
-
-
-def _points(angles: Floats) -> tuple[Floats, Floats]:
-    """Hand, forearm and upper arm, shape (..., 9), and the forearm's frame, (..., 3, 3), of NAO's left arm."""
-    pitch, roll, yaw, bend = np.moveaxis(angles, -1, 0)
-    fore_m = _lengths_m()[1]
-    shoulder = _turn("y", pitch) @ _turn("z", roll)
-    fore = shoulder @ _turn("x", yaw) @ _turn("z", bend)
-    elbow = shoulder @ np.array(NAO["LElbowYaw"].origin_m)
-    hand = elbow + fore_m * fore[..., 0]
-    return np.concatenate((hand, fore[..., 0], elbow / np.linalg.norm(elbow, axis=-1, keepdims=True)), axis=-1), fore
-
-
-def _least_squares(begin: Floats, wanted: Floats, limits: Floats) -> tuple[Floats, Floats]:
-    """Damped least squares within limits; angles of shape (keys, beginnings, 4), costs (keys, beginnings)."""
-    low, high = limits[:, 0], limits[:, 1]
-
-    def residuals(angles: Floats) -> Floats:
-        return (_points(angles)[0] - wanted) / _SCALES
-
-    found, damping = begin.copy(), np.full(begin.shape[:2], 1e-2)
-    errors = residuals(found)
-    costs = (errors**2).sum(axis=-1)
-    for _ in range(_ITERATIONS):
-        slopes = np.stack([(residuals(found + _STEP * unit) - errors) / _STEP for unit in np.eye(4)], axis=-1)
-        normal = np.swapaxes(slopes, -1, -2) @ slopes + damping[..., np.newaxis, np.newaxis] * np.eye(4)
-        gradient = (np.swapaxes(slopes, -1, -2) @ errors[..., np.newaxis])[..., 0]
-        # An angle at its limit that would go beyond stays, and the others are found without it.
-        held = ((found <= low) & (gradient > 0.0)) | ((found >= high) & (gradient < 0.0))
-        normal = np.where(held[..., np.newaxis] | held[..., np.newaxis, :], np.eye(4), normal)
-        step = np.linalg.solve(normal, np.where(held, 0.0, -gradient)[..., np.newaxis])[..., 0]
-        tried = np.clip(found + step, low, high)
-        tried_errors = residuals(tried)
-        tried_costs = (tried_errors**2).sum(axis=-1)
-        better = tried_costs < costs
-        found = np.where(better[..., np.newaxis], tried, found)
-        errors = np.where(better[..., np.newaxis], tried_errors, errors)
-        costs = np.where(better, tried_costs, costs)
-        damping = np.clip(np.where(better, 0.3 * damping, 5.0 * damping), 1e-9, 1e9)
-    return found, costs
-
-
-def _wrist(angles: Floats, palms: Floats, limits: Floats) -> tuple[Floats, Floats]:
-    """The turn of the wrist that brings the palm nearest to its normal, and the cosine of what is left.
-
-    At zero NAO's palm faces down in the forearm's frame.
-    """
-    forearms = _points(angles)[1]
-    across = (forearms[..., 1] * palms).sum(axis=-1)
-    down = -(forearms[..., 2] * palms).sum(axis=-1)
-    turn = np.clip(np.arctan2(across, down), limits[0], limits[1])
-    return turn, np.sin(turn) * across + np.cos(turn) * down
-
-
-def _limits() -> Floats:
-    """Of the left arm, shape (5, 2), with a little room."""
-    rows = NAO.limits_rad[[NAO.index(name) for name in NAO_GESTURE_JOINTS[:5]]]
-    return rows + np.array((_MARGIN_RAD, -_MARGIN_RAD))
-
-
-def _lengths_m() -> tuple[float, float]:
-    """From the shoulder to the elbow, and from there to the middle of the hand."""
-    return float(np.linalg.norm(NAO["LElbowYaw"].origin_m)), NAO["LWristYaw"].origin_m[0] + _HAND_M
-
-
-def _turn(axis: str, angle: Floats) -> Floats:
-    """Rotation matrices, shape (..., 3, 3)."""
-    c, s, zero, one = np.cos(angle), np.sin(angle), np.zeros_like(angle), np.ones_like(angle)
-    rows = {
-        "x": (one, zero, zero, zero, c, -s, zero, s, c),
-        "y": (c, zero, s, zero, one, zero, -s, zero, c),
-        "z": (c, -s, zero, s, c, zero, zero, zero, one),
-    }[axis]
-    return np.stack(rows, axis=-1).reshape(*np.shape(angle), 3, 3)
+    wanted = {name: wanted_of(gesture) for name, gesture in gestures.items()}
+    return dict(zip(wanted, solved(list(wanted.values())), strict=True))
