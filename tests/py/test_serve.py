@@ -36,7 +36,7 @@ from hri.serve.limits import RateLimit
 from page_people import PICTURE, RATE_HZ, SOUND, connected, enter, framed, jpeg, open_socket, request, sound_messages
 from session_people import MOTIONS, signing, speech, train_signs, train_words
 
-LIMITS = ServeLimits(stall_s=1.0, hello_s=0.5)
+LIMITS = ServeLimits(stall_s=2.0, hello_s=1.0)
 
 
 @pytest.fixture(scope="module")
@@ -205,6 +205,9 @@ def test_a_second_page_is_refused_and_the_same_page_takes_over(
         with connected(server, cookie) as again:  # its line broke, and the server has not seen it yet
             again.say(type="resume")
             again.await_event("resumed")
+            with pytest.raises(ConnectionClosed):
+                page.await_message(lambda m: False)
+            assert page.socket.close_code == 4409
     assert "a second page was refused" in notes.text
 
 
@@ -297,7 +300,7 @@ def test_who_does_not_begin_as_the_page_does_is_sent_away(server: PageServer, co
 def test_a_microphone_that_falls_silent_is_reported_and_comes_back(server: PageServer, cookie: str) -> None:
     with connected(server, cookie) as page:
         page.perform(speech([], 0.4))
-        page.await_event("stall", mode="speech", message="microphone: no sound for 1 s")
+        page.await_event("stall", mode="speech", message="microphone: no sound for 2 s")
         page.perform(speech([("flat", 1.6)], 4.0))
         assert page.await_event("reconnected", mode="speech")
         assert page.await_event("decision")["final"] == "flat"

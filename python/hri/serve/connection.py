@@ -10,6 +10,7 @@ import logging
 import math
 import time
 from collections import deque
+from contextlib import suppress
 from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -23,6 +24,7 @@ from hri.serve.teaching import Teacher
 TOO_LARGE = 1009
 REFUSED = 1008
 TAKEN = 4409
+_ELSEWHERE = "Another page uses the robot now. Close it first."
 _FIGURE_S = 0.12
 _REPEAT_S = 2.0
 _MOST_WAITING = 512
@@ -98,14 +100,14 @@ class Reception:
         page = str(hello.get("page", ""))
         if self.current is not None and (not page or page != self.current.page):
             log.warning("a second page was refused: the camera and the robot serve another one")
-            await socket.close(TAKEN, "Another page uses the robot now. Close it first.")
+            await socket.close(TAKEN, _ELSEWHERE)
             return
         await self._serve(Connection(socket, self.stage, self.teacher, page, hello))
 
     async def _serve(self, connection: Connection) -> None:
         before, self.current = self.current, connection
-        if before is not None:  # the same page, which has lost that connection before we did
-            await before.end()
+        if before is not None:  # the same page, which has lost that connection before we did, or stands in two windows
+            await before.dismiss(TAKEN, _ELSEWHERE)
         else:
             self.stage.arrive()
         try:
@@ -162,6 +164,12 @@ class Connection:
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    async def dismiss(self, code: int, reason: str) -> None:
+        """End, and say why."""
+        await self.end()
+        with suppress(RuntimeError):  # it is closed already
+            await self._socket.close(code, reason)
 
     def complain(self, text: str) -> None:
         """On the page and on the terminal, the same at most every two seconds."""

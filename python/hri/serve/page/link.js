@@ -9,7 +9,7 @@ const LONGEST_PAUSE_MS = 5000;
 
 export class Link {
   constructor(onMessage, onState) {
-    this.page = crypto.randomUUID();
+    this.page = sessionStorage.page ??= crypto.randomUUID(); // the same after the page is loaded again
     this.rate = 16000;
     this.onMessage = onMessage;
     this.onState = onState;
