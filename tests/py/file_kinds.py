@@ -19,6 +19,7 @@ from hri.core import files
 from hri.core.plotting import new_axes, save_figure
 from hri.datasets.asl_sentences import HANDS_COLUMNS, SIGNERS_COLUMNS, WORDS_COLUMNS, read_asl_sentences
 from hri.datasets.manifest import Manifest, SampleRow, read_manifest, write_manifest
+from hri.fusion import LearnedFusion
 from hri.htk import (
     Configuration,
     Dictionary,
@@ -89,6 +90,16 @@ def write_htk_models(path: Any) -> None:
 
 LABELS = Transcription([Label(f"word {i}", i * 100) for i in range(200)])
 
+
+def write_fusion(path: Any) -> None:
+    """A learned fusion: the nodes of a tree."""
+    rng = np.random.default_rng(0)
+    truth = rng.integers(5, size=2000)
+    scores = {mode: rng.dirichlet(np.ones(5), 2000) for mode in ("speech", "gesture")}
+    quality = {mode: rng.random(2000) for mode in scores}
+    LearnedFusion("tree").fit(scores, quality, truth).save(path)
+
+
 WRITERS: dict[str, Callable[[Any], object]] = {
     "text.txt": lambda path: files.write_text(path, "text " * 2000),
     "bytes.bin": lambda path: files.write_bytes(path, bytes(8000)),
@@ -117,6 +128,7 @@ WRITERS: dict[str, Callable[[Any], object]] = {
     "words.slf": WordLattice.of_words([f"word{i}" for i in range(200)]).write,
     "models.mmf": write_htk_models,
     "estimator.hri": lambda path: Codebook(num_codewords=64).fit(ROWS).save(path),
+    "fusion.hri": write_fusion,
     "figure.png": write_figure,
     "figure.svg": write_figure,
 }
@@ -163,6 +175,7 @@ READERS: dict[str, Callable[[Any], object]] = {
     "copy.scp": read_script,
     "models.list": read_list,
     "estimator.hri": Codebook.load,
+    "fusion.hri": LearnedFusion.load,
     "dataset.toml": lambda path: read_manifest(Path(path)),
     "signers.csv": lambda path: read_asl_sentences(Path(path).parent),
     "track.csv": read_hand_tracks,
