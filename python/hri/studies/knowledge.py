@@ -13,6 +13,7 @@ import numpy as np
 
 from hri.datasets.asl_sentences import SignedSentence, read_asl_sentences
 from hri.language import KnowledgeBase, StoredSentence, choose_max_distance
+from hri.recognition import SentenceRecognizer
 from hri.studies.registry import Layout, Progress, Study, within
 from hri.studies.sentences import FOLDER, NUM_GROUPS, RECORDINGS, SOURCES, groups_of, labels_of, scales_of, train_signs
 from hri.studies.tables import Row, statistics
@@ -34,12 +35,12 @@ class _Tried:
     found: Words
 
 
-def _recognised(train: Sequence[SignedSentence], test: Sequence[SignedSentence], progress: Progress) -> list[_Tried]:
-    scales = scales_of(train)
-    signs = train_signs(train, scales, progress)
+def _recognised(
+    signs: SentenceRecognizer, scales: dict[str, float], sentences: Sequence[SignedSentence]
+) -> list[_Tried]:
     return [
         _Tried(tuple(labels_of(s)), signs.recognise(s.positions, scale_px=scales.get(s.signer, 0.0)).labels)
-        for s in test
+        for s in sentences
     ]
 
 
@@ -62,14 +63,16 @@ def _choose(tried: Sequence[_Tried]) -> float:
     return choose_max_distance(distances[True], distances[False])
 
 
-def _inner(train: Sequence[SignedSentence], progress: Progress) -> list[_Tried]:
-    """Every sentence trained on, recognised by a model of the others."""
+def _inner(train: Sequence[SignedSentence], weights: Any, progress: Progress) -> list[_Tried]:
+    """Every sentence trained on, recognised by a model of the others, with the weights that all of them chose."""
     inner = [group % NUM_INNER for group in np.random.default_rng(0).permutation(len(train))]
     tried = []
     for number in range(NUM_INNER):
         own = [s for s, group in zip(train, inner, strict=True) if group != number]
         rest = [s for s, group in zip(train, inner, strict=True) if group == number]
-        tried += _recognised(own, rest, within(progress, f"inner {number + 1}"))
+        scales = scales_of(own)
+        signs = train_signs(own, scales, progress, choose_weights=False, decoder=weights)
+        tried += _recognised(signs, scales, rest)
     return tried
 
 
@@ -103,8 +106,10 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         test = [s for s, group in zip(sentences, groups, strict=True) if group == number]
         part = within(progress, str(number + 1))
         name = str(number + 1)
-        chosen[name] = _choose(_inner(train, part))
-        for key, share in _shares(_recognised(train, test, part), texts, chosen[name]).items():
+        scales = scales_of(train)
+        signs = train_signs(train, scales, part)
+        chosen[name] = _choose(_inner(train, signs.trained_options.decoder, part))
+        for key, share in _shares(_recognised(signs, scales, test), texts, chosen[name]).items():
             shares.setdefault(key, {})[name] = share
     rows: list[Row] = [
         {"signed": stored, "meaning": way, "outcome": outcome, **statistics(values, "share")}
