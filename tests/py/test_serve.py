@@ -197,7 +197,7 @@ def test_a_second_page_is_refused_and_the_same_page_takes_over(
         with open_socket(server, cookie) as other:
             other.send(json.dumps({"type": "hello", "page": "another"}))
             with pytest.raises(ConnectionClosed) as closed:
-                other.recv(timeout=5)
+                other.recv(timeout=20)
             assert closed.value.rcvd is not None and closed.value.rcvd.code == 4409
             assert "Another page uses the robot" in closed.value.rcvd.reason
         page.say(type="stop")
@@ -288,12 +288,12 @@ def test_ten_thousand_messages_a_second_are_sent_away(
 
 
 def test_who_does_not_begin_as_the_page_does_is_sent_away(server: PageServer, cookie: str) -> None:
-    for first in ("nonsense", b"\x01", None):
+    for first in ("nonsense", '{"type": "resume"}', b"\x01", None):
         with open_socket(server, cookie) as other:
             if first is not None:
                 other.send(first)
             with pytest.raises(ConnectionClosed) as closed:
-                other.recv(timeout=5)
+                other.recv(timeout=20)
             assert closed.value.rcvd is not None and closed.value.rcvd.code == 1008
 
 
