@@ -27,7 +27,7 @@ def request(
     server: PageServer, path: str, cookie: str = "", method: str = "GET", **headers: str
 ) -> tuple[int, dict[str, str], bytes]:
     """Status, headers and body of one request."""
-    link = http.client.HTTPConnection("127.0.0.1", server.port, timeout=5)
+    link = http.client.HTTPConnection("127.0.0.1", server.port, timeout=20)
     try:
         link.request(method, path, headers={"Cookie": cookie, **{k.replace("_", "-"): v for k, v in headers.items()}})
         answer = link.getresponse()
@@ -68,7 +68,7 @@ class Page:
     def say(self, **command: Any) -> None:
         self.socket.send(json.dumps(command))
 
-    def await_message(self, fits: Callable[[dict[str, Any]], bool], timeout_s: float = 10.0) -> dict[str, Any]:
+    def await_message(self, fits: Callable[[dict[str, Any]], bool], timeout_s: float = 30.0) -> dict[str, Any]:
         """The next message that fits; those before it are kept, too."""
         until_s = time.monotonic() + timeout_s
         while True:
@@ -77,7 +77,7 @@ class Page:
             if fits(message):
                 return message
 
-    def await_event(self, kind: str, timeout_s: float = 10.0, **fields: Any) -> dict[str, Any]:
+    def await_event(self, kind: str, timeout_s: float = 30.0, **fields: Any) -> dict[str, Any]:
         return self.await_message(
             lambda m: m.get("event") == kind and all(m.get(name) == value for name, value in fields.items()), timeout_s
         )

@@ -91,6 +91,8 @@ class Reception:
         try:
             first = await asyncio.wait_for(socket.receive_text(), self.stage.limits.hello_s)
             hello = read_command(first, self.stage.limits)
+            if hello["type"] != "hello":
+                raise FormatError("a page begins with hello")
         except (TimeoutError, FormatError, KeyError):
             log.warning("a connection that did not begin as the page does was closed")
             await socket.close(REFUSED, "this is no page of hri serve")
