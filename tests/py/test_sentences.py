@@ -142,8 +142,8 @@ def test_hands_that_vanish_for_a_second_leave_the_words(signs: SentenceRecognize
     gone[:, 2] = tracks[after_first, 2]
     found = signs.recognise(np.concatenate([tracks[:after_first], gone, tracks[after_first:]]))
     assert found.text == "DOG BALL CAT"
-    nobody = np.concatenate([tracks[:after_first], np.full((30, 3, 2), np.nan), tracks[after_first:]])
-    assert signs.recognise(nobody).text == "DOG BALL CAT"
+    unseen = np.concatenate([tracks[:after_first], np.full((30, 3, 2), np.nan), tracks[after_first:]])
+    assert signs.recognise(unseen).text == "DOG BALL CAT"
 
 
 def test_possibility_theory_models_read_the_same_words(sentences: list[Sentence], tmp_path: Path) -> None:
