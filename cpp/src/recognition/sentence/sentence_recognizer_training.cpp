@@ -40,7 +40,7 @@ struct WeightErrors {
   std::array<std::array<int, kScales.size()>, kPenalties.size()> sentences{};
   std::array<int, kScales.size()> known{};
   int num_sentences = 0;
-  std::size_t num_scales = kScales.size();
+  std::size_t num_scales = kScales.size();  ///< that are tried
 
   [[nodiscard]] std::pair<std::size_t, std::size_t> best() const {
     std::pair<std::size_t, std::size_t> best{0, 0};
@@ -135,11 +135,7 @@ class SentenceTrainer {
     int done = 0;
     if (progress) progress(done, num_steps);
     std::vector<WeightErrors> errors(lengths.size());
-    // Of tracks, scales that were not tried count as free of errors: without a language model the
-    // first penalty is chosen. Kept results rest on it.
-    if (options_.input == SentenceInput::rows) {
-      for (WeightErrors& e : errors) e.num_scales = num_scales();
-    }
+    for (WeightErrors& e : errors) e.num_scales = num_scales();
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       options_.frames_per_state = lengths[i];
       for (int fold = 0; fold < num_folds; ++fold) {
