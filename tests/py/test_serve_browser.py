@@ -33,7 +33,7 @@ CHROMIUM = shutil.which("chromium")
 WAIT_MS = 30_000
 
 pytestmark = [
-    pytest.mark.slow,
+    pytest.mark.alone,
     pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed: apt-get install chromium"),
 ]
 

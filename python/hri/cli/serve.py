@@ -76,10 +76,9 @@ def serve(
     moment. The address lets in one visitor, and nothing leaves this computer. Ctrl-C stops the robot and ends.
 
     \b
-    Before, once:
+    Examples:
       hri train speech --data spoken/
       hri train gesture --data signed/
-    Then:
       hri serve --open
       hri serve --no-gesture --wake robot
       hri serve --backend kinematic --port 0 --speech-model words.hri --gesture-model signs.hri

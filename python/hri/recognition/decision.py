@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from hri.core.display import html_table, summary
@@ -49,7 +49,8 @@ class Decision:
         0 where there were none.
     quality : float, optional
         How good the signal was, measured on it alone: of speech the estimated ratio of speech to noise in dB, of a
-        gesture the mean quality of the masks of the hand, 0..1. None where it was not measured.
+        gesture the mean quality of the masks of the hand, 0..1. None where it was not measured. No part of what was
+        decided: decisions of other quality may be equal.
     """
 
     mode: str
@@ -60,7 +61,7 @@ class Decision:
     nbest: tuple[NBest, ...] = ()
     notes: tuple[str, ...] = ()
     class_threshold: float = 0.0
-    quality: float | None = None
+    quality: float | None = field(default=None, compare=False)
 
     def __repr__(self) -> str:
         return summary(
