@@ -245,6 +245,30 @@ def test_stop_and_resume_by_the_caller(words: Any, robot: Robot) -> None:
     assert [e.fields["completed"] for e in of(events, "motion_end")] == [False, True]
 
 
+@pytest.mark.parametrize("live", [False, True])
+@pytest.mark.parametrize("goes_on", [False, True])
+def test_stop_is_not_lost_while_a_session_begins(words: Any, robot: Robot, live: bool, goes_on: bool) -> None:
+    session = Session(words, robot=robot, motions=MOTIONS)
+    begun = session.run(ArraySource(speech([("flat", 0.8)], 2.5), RATE_HZ), live=live)
+    session.stop()
+    if goes_on:
+        session.resume()
+    events = list(begun)
+    assert [e.event for e in of(events, "stop", "resumed")] == (["stop", "resumed"] if goes_on else ["stop"])
+    assert len(of(events, "motion_start")) == goes_on and robot.stopped != goes_on
+    if not goes_on:
+        assert of(events, "ignored")[-1].fields["reason"] == "stopped until resume"
+
+
+def test_what_was_asked_for_between_two_sessions_is_not_asked_for_again(words: Any, robot: Robot) -> None:
+    session = Session(words, robot=robot, motions=MOTIONS)
+    sound = speech([("flat", 0.8)], 2.5)
+    list(session.run(ArraySource(sound, RATE_HZ), live=True))
+    session.stop()
+    robot.resume()
+    assert of(list(session.run(ArraySource(sound, RATE_HZ))), "stop") == []
+
+
 def test_what_is_missing_is_refused(words: Any, signs: Any, robot: Robot) -> None:
     sound = ArraySource(speech([], 0.5), RATE_HZ)
     with pytest.raises(InvalidArgument, match="needs a recogniser"):

@@ -82,6 +82,7 @@ class Stage:
         self._joints: dict[str, float] = {}
         self._figure: dict[str, Any] | None = None
         self._paused = self._held = False
+        self._num_resumed = 0
         self._closed = threading.Event()
         self._wanted = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True, name="hri-stage")
@@ -122,8 +123,9 @@ class Stage:
     def resume(self) -> None:
         """End STOP; by any thread."""
         self._held = self._paused = False
-        if not self._wanted.is_set() and self._robot is not None:
-            self._robot.resume()
+        self._num_resumed += 1
+        if not self._wanted.is_set():  # no session runs that could
+            self._free()
         self._session.resume()
         self._wanted.set()
 
@@ -199,12 +201,20 @@ class Stage:
         self._log.append(message)
         self.publish(message)
 
+    def _free(self) -> None:
+        """Let the robot move again; STOP wins when both come at once."""
+        if self._robot is not None:
+            self._robot.resume()
+            if self._held or self._paused:
+                self._robot.stop()
+        self.publish({"type": "event", "event": "resumed"})
+
     def _run(self) -> None:
         while not self._closed.is_set():
             self._wanted.wait()
             if self._closed.is_set():
                 return
-            session = self._session
+            session, num_resumed = self._session, self._num_resumed
             try:
                 self._play(session)
             except Error as error:
@@ -212,7 +222,12 @@ class Stage:
                     return
                 self._wanted.clear()
                 stopped = self._robot is not None and self._robot.stopped
-                if not (isinstance(error, InvalidArgument) and stopped):
+                refused = isinstance(error, InvalidArgument) and stopped
+                if refused and self._num_resumed != num_resumed and not (self._held or self._paused):
+                    self._free()  # stopped and resumed while the session was about to begin
+                    self._wanted.set()
+                    continue
+                if not refused:
                     self.stop()
                     self._report(f"The session has ended: {error}. Press Resume to begin another.")
                 self._show_state(STOPPED)

@@ -131,6 +131,7 @@ class Session:
         self.refused: dict[str, str] = {}
         self._motions = self._prepared(motions)
         self._inbox: EventQueue | deque[Event] = deque(maxlen=64)
+        self._asking = threading.Lock()
         self._running = threading.Lock()
 
     @property
@@ -166,6 +167,9 @@ class Session:
             When a recording cannot be opened.
         """
         self._feeds(sound, pictures, None, recorder)  # refuses what is missing now
+        with self._asking:
+            if not self._running.locked():
+                self._inbox = deque(maxlen=64)  # without what was asked for before; STOP from now on is not lost
         if self._robot is not None and self._robot.stopped:
             raise InvalidArgument("the robot is stopped: call its resume() first")
         return self._run_live(sound, pictures, recorder) if live else self._run(sound, pictures, recorder)
@@ -182,10 +186,19 @@ class Session:
 
     def _ask(self, command: str) -> None:
         event = session_event(0.0, ASKED, command=command)
-        if isinstance(self._inbox, EventQueue):
-            self._inbox.put(event)
-        else:
-            self._inbox.append(event)
+        with self._asking:
+            if isinstance(self._inbox, EventQueue):
+                self._inbox.put(event)
+            else:
+                self._inbox.append(event)
+
+    def _deliver_to(self, queue: EventQueue) -> None:
+        """Put what was asked for since `run`, and what is from now on, in this queue."""
+        with self._asking:
+            waiting, self._inbox = self._inbox, queue
+            assert isinstance(waiting, deque)
+            for event in waiting:
+                queue.put(event)
 
     def _feeds(
         self,
@@ -249,7 +262,6 @@ class Session:
             raise InvalidArgument("the session is running already")
         with ExitStack() as stack:
             stack.callback(self._running.release)
-            self._inbox = deque(maxlen=64)  # without what was asked for before
             if recorder is not None:
                 recorder.begin(self._about())
                 stack.callback(recorder.end)
@@ -297,7 +309,7 @@ class Session:
             logic = self._logic(body)
             live = LiveFeeds(self._feeds(sound, pictures, clock, recorder), self.options.retry_s)
             stack.callback(live.close)
-            self._inbox = live.queue
+            self._deliver_to(live.queue)
 
             def decide() -> None:
                 try:
@@ -308,7 +320,8 @@ class Session:
                     output.close()
 
             def end() -> None:
-                self._inbox = deque(maxlen=64)
+                with self._asking:
+                    self._inbox = deque(maxlen=64)
                 live.queue.close()
                 thread.join(_CLOSE_S)
 
