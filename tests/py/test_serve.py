@@ -8,7 +8,6 @@ import contextlib
 import http.client
 import json
 import logging
-import queue
 import signal
 import socket as sockets
 import subprocess
@@ -34,7 +33,6 @@ from hri.core.errors import InvalidArgument, IoError
 from hri.robot import HOAP2, Robot, open_robot
 from hri.serve import PageServer, ServeLimits, Stage
 from hri.serve.limits import RateLimit
-from hri.session import Session
 from page_people import PICTURE, RATE_HZ, SOUND, connected, enter, framed, jpeg, open_socket, request, sound_messages
 from session_people import MOTIONS, signing, speech, train_signs, train_words
 
@@ -392,36 +390,6 @@ def test_the_command_line_reports_what_is_missing(hri, words: Any, tmp_path: Any
         ):
             result = hri("serve", "--backend", "none", *arguments)
             assert result.code == code and message in result.err, (arguments, result.err)
-
-
-def test_resume_ends_a_stop_that_came_while_a_session_began(
-    words: Any, signs: Any, robot: Robot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    stage = Stage(words, signs, robot, motions=MOTIONS, limits=LIMITS)
-    run, refusals = Session.run, []
-
-    def stopped_first(self: Session, *sources: Any, **options: Any) -> Any:
-        if not refusals:
-            refusals.append(True)
-            stage.stop()
-            try:
-                return run(self, *sources, **options)
-            finally:
-                stage.resume()  # before the stage knows that it was refused
-        return run(self, *sources, **options)
-
-    monkeypatch.setattr(Session, "run", stopped_first)
-    published: queue.Queue[dict[str, Any]] = queue.Queue()
-    stage.publish = published.put
-    try:
-        stage.arrive()
-        while published.get(timeout=20).get("event") != "resumed":
-            pass
-        while published.get(timeout=20).get("state") != "idle":
-            pass
-        assert not robot.stopped
-    finally:
-        stage.close()
 
 
 def test_ctrl_c_ends_the_command_and_the_robot_rests(words: Any, tmp_path: Any) -> None:

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The session behind the page: STOP and resume, whenever they come."""
+
+from __future__ import annotations
+
+import queue
+from typing import Any
+
+import pytest
+
+pytest.importorskip("cv2")
+pytest.importorskip("starlette")
+pytest.importorskip("uvicorn")
+
+from hri.robot import open_robot
+from hri.serve import ServeLimits, Stage
+from hri.session import Session
+from session_people import MOTIONS, train_words
+
+
+def test_resume_ends_a_stop_that_came_while_a_session_began(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = open_robot("kinematic")
+    stage = Stage(train_words(), None, robot, motions=MOTIONS, limits=ServeLimits(stall_s=2.0))
+    run, refusals = Session.run, []
+
+    def stopped_first(self: Session, *sources: Any, **options: Any) -> Any:
+        if not refusals:
+            refusals.append(True)
+            stage.stop()
+            try:
+                return run(self, *sources, **options)
+            finally:
+                stage.resume()  # before the stage knows that it was refused
+        return run(self, *sources, **options)
+
+    monkeypatch.setattr(Session, "run", stopped_first)
+    published: queue.Queue[dict[str, Any]] = queue.Queue()
+    stage.publish = published.put
+    try:
+        stage.arrive()
+        while published.get(timeout=20).get("event") != "resumed":
+            pass
+        while published.get(timeout=20).get("state") != "idle":
+            pass
+        assert not robot.stopped
+    finally:
+        stage.close()
+        robot.close()
