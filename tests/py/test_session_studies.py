@@ -12,8 +12,11 @@ import pytest
 
 from hri.robot import HOAP2, rest_positions
 from hri.session.logic import session_event
+from hri.studies.endurance import rounds_of, same
 from hri.studies.session import APART_S, FPS, PAUSE_S, Turn, judge, pictures_of, plan, sound_of
+from hri.studies.session_soak import decision_of_session
 from hri.studies.session_stop import Commands, within_limits
+from hri.studies.session_talk import alarms
 
 WORDS = [(str(digit), 0.4) for digit in range(10)]
 SIGNS = [str(digit) for digit in range(10)] * 2
@@ -82,7 +85,26 @@ def test_commands_beyond_the_limits_are_seen():
     assert not within_limits(sent([1.2, 1.2, 1.2, 1.2]), 0.01), "beyond the joint's limit"
 
 
-@pytest.mark.parametrize("name", ["session-digits", "session-stop"])
+def test_false_stops_and_commands_of_talk_are_counted():
+    heard = [
+        fused(1.0, 1.5, "forward", "s"),
+        fused(2.0, 2.5, "forward", "s", "unknown"),
+        fused(3.0, 3.5, "stop", "s"),
+        session_event(3.5, "stop", label="stop", reason="speech"),
+        fused(5.0, 5.5, "yes", "s"),
+    ]
+    assert alarms(iter(heard)) == {"commands": 2, "stops": 1}
+
+
+def test_what_a_session_decides_in_each_round_is_compared():
+    events = [fused(10.0 * turn + 1.0, 10.0 * turn + 1.5, "forward", "s") for turn in range(4)]
+    events[2] = fused(21.0, 21.5, "left", "s")
+    rounds = list(rounds_of(events, 10.0, decision_of_session))
+    assert [same(said, rounds[0]) for said in rounds] == [True, True, False, True]
+    assert rounds[0] == [(1.0, "forward", "recognised")]
+
+
+@pytest.mark.parametrize("name", ["session-digits", "session-soak", "session-stop", "session-talk"])
 def test_the_studies_are_listed(name: str):
     from hri.studies import get_study
 

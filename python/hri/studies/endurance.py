@@ -40,6 +40,7 @@ MAX_GROWTH = 0.05
 LINES_OF_STATUS = re.compile(r"^(RssAnon|VmRSS|VmSwap):\s*(\d+ kB)$", re.MULTILINE)
 Said = tuple[float, str, str]
 """Of a decision: when in its round, in seconds, its label and its status."""
+Decided = Callable[[Event], "tuple[str, str] | None"]
 
 
 class RepeatedSound(ArraySource):
@@ -80,7 +81,14 @@ def memory_bytes() -> int:
     return held.get("RssAnon", held.get("VmRSS", 0)) + held.get("VmSwap", 0)
 
 
-def rounds_of(events: Iterable[Event], round_s: float) -> Iterator[list[Said]]:
+def decision_of(event: Event) -> tuple[str, str] | None:
+    """Label and status of a decision; None for another event."""
+    if event.event != "decision" or event.decision is None:
+        return None
+    return event.decision.nbest[0].label if event.decision.nbest else "", event.decision.status
+
+
+def rounds_of(events: Iterable[Event], round_s: float, decided: Decided = decision_of) -> Iterator[list[Said]]:
     """The decisions of every round, when it is over: each belongs to the round in which what it decides began."""
     found: defaultdict[int, list[Said]] = defaultdict(list)
     turn = 0
@@ -89,11 +97,11 @@ def rounds_of(events: Iterable[Event], round_s: float) -> Iterator[list[Said]]:
         while event.time >= (turn + 1.5) * round_s:
             yield found.pop(turn, [])
             turn += 1
-        if event.event == "decision" and event.decision is not None:
+        decision = decided(event)
+        if decision is not None:
             begun = event.fields["first_s"]
             at = int(begun // round_s)
-            label = event.decision.nbest[0].label if event.decision.nbest else ""
-            found[at].append((round(begun - at * round_s, 2), label, event.decision.status))
+            found[at].append((round(begun - at * round_s, 2), *decision))
     for at in range(turn, max(found, default=turn - 1) + 1):
         yield found.pop(at, [])
 
@@ -112,7 +120,11 @@ def _small(frames: Sequence[Frame]) -> list[Frame]:
 
 
 def endure(
-    listen: Callable[[int], Iterable[Event]], round_s: float, hours: int, progress: Callable[[int, int], None]
+    listen: Callable[[int], Iterable[Event]],
+    round_s: float,
+    hours: int,
+    progress: Callable[[int, int], None],
+    decided: Decided = decision_of,
 ) -> dict[str, Any]:
     """Go on for so many hours: by hour, the share of rounds decided as the second one was, and the memory held.
 
@@ -125,7 +137,7 @@ def endure(
     shares, memory, equal = {}, [], []
     num_decisions = 0
     num_rounds = hours * rounds_an_hour
-    for turn, said in zip(range(num_rounds), rounds_of(listen(num_rounds + 1), round_s), strict=False):
+    for turn, said in zip(range(num_rounds), rounds_of(listen(num_rounds + 1), round_s, decided), strict=False):
         num_decisions += len(said)
         if turn == 1:
             reference = said
@@ -149,13 +161,20 @@ def endure(
     }
 
 
-def _sound(data_dir: Path, hours: int, progress: Progress) -> dict[str, Any]:
+def words_and_stream(data_dir: Path, length_s: float = SOUND_S) -> tuple[WordRecognizer, Samples, int]:
+    """A recogniser of the digits, so long a stream of these digits with pauses between them, and their rate in Hz."""
     dataset = load_words(data_dir, "fsdd", TAKES)
     audio = [read_audio(sample.path) for sample in dataset.samples]
     rate = audio[0].sample_rate_hz
     labels = [sample.label for sample in dataset.samples]
     words = WordRecognizer().fit([a.samples for a in audio], labels, sample_rate_hz=rate)
-    stream, _ = compose_words([a.samples for a in audio], rate, SOUND_S * rate, np.random.default_rng(SEED))
+    num_samples = round(length_s * rate)
+    stream, _ = compose_words([a.samples for a in audio], rate, num_samples, np.random.default_rng(SEED))
+    return words, stream, rate
+
+
+def _sound(data_dir: Path, hours: int, progress: Progress) -> dict[str, Any]:
+    words, stream, rate = words_and_stream(data_dir)
 
     def listen(num_rounds: int) -> Iterable[Event]:
         return Listener(words, level_interval_s=60).listen(RepeatedSound(stream, rate, num_rounds))
@@ -163,7 +182,8 @@ def _sound(data_dir: Path, hours: int, progress: Progress) -> dict[str, Any]:
     return endure(listen, float(SOUND_S), hours, lambda done, total: progress("hours heard", done, total))
 
 
-def _pictures(data_dir: Path, hours: int, progress: Progress) -> dict[str, Any]:
+def signs_and_pictures(data_dir: Path, progress: Progress) -> tuple[GestureRecognizer, list[TimedFrame], float]:
+    """A recogniser of the gestures before webcams, a clip of each after a rest, and how long they last in seconds."""
     dataset = Dataset.load(data_dir / FOLDER, "gesture", PATTERN)
     labels = [sample.label for sample in dataset.samples]
     signs = GestureRecognizer()
@@ -181,6 +201,11 @@ def _pictures(data_dir: Path, hours: int, progress: Progress) -> dict[str, Any]:
         begin_s = rest[-1][1] + 1 / clip.fps
         timed += rest + [(frame, begin_s + t) for frame, t in zip(frames, clip.times_s, strict=True)]
         end_s = timed[-1][1] + 1 / clip.fps
+    return signs, timed, end_s
+
+
+def _pictures(data_dir: Path, hours: int, progress: Progress) -> dict[str, Any]:
+    signs, timed, end_s = signs_and_pictures(data_dir, progress)
 
     def watch(num_rounds: int) -> Iterable[Event]:
         return Watcher(signs, hand_interval_s=60).watch(RepeatedPictures(timed, end_s, num_rounds))
