@@ -53,7 +53,7 @@ def alarms(events: Iterator[Event]) -> Counter[str]:
 
 
 def _run(
-    data_dir: Path, progress: Progress, *, front_end: Sequence[str] = ("cepstra",), folds: int | None = None
+    data_dir: Path, progress: Progress, *, front_end: Sequence[str] = tuple(FRONT_ENDS), folds: int | None = None
 ) -> dict[str, Any]:
     dataset = Dataset.load(data_dir / "commands", "speech")
     strangers = Dataset.load(data_dir / OTHERS, "speech").samples
@@ -109,5 +109,6 @@ STUDIES = (
         axes={"front_end": tuple(FRONT_ENDS)},
         sources=(*dict.fromkeys((*WORD_SOURCES, "python/live", "python/fusion", "python/session")),),
         folds=True,
+        quick={"front_end": ("cepstra",)},
     ),
 )
