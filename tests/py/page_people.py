@@ -9,7 +9,7 @@ import json
 import struct
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import cv2
@@ -81,6 +81,17 @@ class Page:
         return self.await_message(
             lambda m: m.get("event") == kind and all(m.get(name) == value for name, value in fields.items()), timeout_s
         )
+
+    def command(
+        self, kind: str, samples: np.ndarray | None = None, frames: list[Frame] | None = None, **fields: Any
+    ) -> dict[str, Any]:
+        """Say and show until that event comes: on a loaded machine a word may be lost, and is repeated."""
+        for _ in range(2):
+            self.perform(samples, frames)
+            with suppress(TimeoutError):
+                return self.await_event(kind, **fields, timeout_s=10.0)
+        self.perform(samples, frames)
+        return self.await_event(kind, **fields)
 
     def error(self, text: str) -> None:
         self.await_message(lambda m: m["type"] == "error" and text in m["text"])

@@ -141,8 +141,7 @@ def stop_by_request(server: PageServer, cookie: str, page: Any) -> None:
 @pytest.mark.parametrize("press", [stop_by_button, stop_by_request])
 def test_stop_stops_in_mid_motion_and_resume_goes_on(server: PageServer, cookie: str, robot: Robot, press: Any) -> None:
     with connected(server, cookie) as page:
-        page.perform(speech([("tall", 0.8)], 3.0))
-        page.await_event("motion_start", label="tall")
+        page.command("motion_start", speech([("tall", 0.8)], 3.0), label="tall")
         press(server, cookie, page)
         page.await_event("state", state="stopped")
         ended = [m for m in page.messages if m.get("event") == "motion_end"]  # it may come before the state
@@ -155,8 +154,7 @@ def test_stop_stops_in_mid_motion_and_resume_goes_on(server: PageServer, cookie:
 
 def test_a_page_that_goes_stops_the_robot_and_comes_back(server: PageServer, cookie: str, robot: Robot) -> None:
     with connected(server, cookie) as page:
-        page.perform(speech([("tall", 0.8)], 3.0))
-        page.await_event("motion_start", label="tall")
+        page.command("motion_start", speech([("tall", 0.8)], 3.0), label="tall")
     until_s = time.monotonic() + 5
     while not robot.stopped and time.monotonic() < until_s:
         time.sleep(0.01)
@@ -169,16 +167,14 @@ def test_a_page_that_goes_stops_the_robot_and_comes_back(server: PageServer, coo
         page.await_event("state", state="idle")
     time.sleep(0.3)
     with connected(server, cookie, "c") as page:  # at rest: it goes on by itself
-        page.perform(speech([("flat", 0.8)], 3.2))
-        page.await_event("motion_start", label="flat")
+        page.command("motion_start", speech([("flat", 0.8)], 3.2), label="flat")
 
 
 @pytest.mark.parametrize("spoken", [True, False])
 def test_stop_outlives_a_page_that_goes_at_once(server: PageServer, cookie: str, robot: Robot, spoken: bool) -> None:
     with connected(server, cookie) as page:
         if spoken:
-            page.perform(speech([("stop", 0.8)], 2.6))
-            page.await_event("stop")
+            page.command("stop", speech([("stop", 0.8)], 2.6))
         else:
             page.say(type="stop")
     time.sleep(0.4)
@@ -264,8 +260,7 @@ def test_an_oversized_message_ends_the_connection_alone(
     time.sleep(0.2)
     assert "too large" in notes.text
     with connected(server, cookie) as page:
-        page.perform(speech([("flat", 0.8)], 3.2))
-        page.await_event("motion_start", label="flat")
+        page.command("motion_start", speech([("flat", 0.8)], 3.2), label="flat")
 
 
 def test_ten_thousand_messages_a_second_are_sent_away(
@@ -283,8 +278,7 @@ def test_ten_thousand_messages_a_second_are_sent_away(
     time.sleep(0.2)
     assert robot.stopped  # without a page nothing moves
     with connected(server, cookie) as page:
-        page.perform(speech([("flat", 0.8)], 3.2))
-        page.await_event("motion_start", label="flat")
+        page.command("motion_start", speech([("flat", 0.8)], 3.2), label="flat")
 
 
 def test_who_does_not_begin_as_the_page_does_is_sent_away(server: PageServer, cookie: str) -> None:
