@@ -30,7 +30,7 @@ def test_words_are_cut_where_they_are_said(strings: list[_String]) -> None:
     assert sum(len(s.labels) for s in strings) == 32
     for string in strings:
         assert len(string.words) == len(string.labels)
-        assert all(45 <= len(word) <= 56 for word in string.words)
+        assert all(55 <= len(word) <= 66 for word in string.words)
         assert string.units[:2] == ["sil", string.labels[0]] and string.units[-1] == "sil"
         assert string.units.count("sp") == len(string.labels) - 1
 

@@ -69,7 +69,10 @@ def _coded(clips: Sequence[Clip]) -> list[_String]:
     coded = []
     for string in joined:
         frames = extractor.compute(string.samples)
-        words = [frames[round(FRAMES_A_S * first) : round(FRAMES_A_S * last)] for first, last in string.times_s]
+        # End points cut close; as labels do, words reach into the pauses on either side.
+        half_s = PAUSE_MS / 2000
+        times_s = [(first - half_s, last + half_s) for first, last in string.times_s]
+        words = [frames[round(FRAMES_A_S * first) : round(FRAMES_A_S * last)] for first, last in times_s]
         coded.append(_String(frames, string.labels, words))
     return coded
 

@@ -50,9 +50,10 @@ std::string refusal(const std::string& script) {
 }
 
 TEST(EditScript, SplitsTheHeaviestIntoTwoAboutItsMean) {
-  const ModelSet made = edited("MU 2 {*.state[2-4].mix}\n");
+  const ModelSet given = models();
+  const ModelSet made = edited("MU 2 {*.state[2-4].mix}\n", given);
   for (const char* name : {"aa", "ab", "sp"}) {
-    const StateDefinition& before = state_of(models(), name, 0);
+    const StateDefinition& before = state_of(given, name, 0);
     const StateDefinition& after = state_of(made, name, 0);
     ASSERT_EQ(after.components.size(), 2U);
     EXPECT_EQ(after.num_mixtures, 2);
