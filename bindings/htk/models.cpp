@@ -52,7 +52,7 @@ void bind_models(py::module_& m) {
           "Writes the definitions first..last - 1, which may use those before.")
       .def("add", &ModelSet::add, py::arg("name"), py::arg("model"), py::arg("final_stay"),
            "Adds a left-right HMM, whose last state is left with 1 - final_stay.")
-      .def("rename", &ModelSet::rename, py::arg("hmm"), py::arg("name"), "Renames an HMM.")
+      .def("rename_hmm", &ModelSet::rename_hmm, py::arg("hmm"), py::arg("name"), "Renames an HMM.")
       .def(
           "hmm",
           [](const ModelSet& self, const std::string& name) {

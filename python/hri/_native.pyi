@@ -7667,7 +7667,7 @@ class HtkModelSet:
         """
         Adds what a file defines; raises FormatError naming file and line.
         """
-    def rename(self, hmm: str, name: str) -> None:
+    def rename_hmm(self, hmm: str, name: str) -> None:
         """
         Renames an HMM.
         """

@@ -89,7 +89,7 @@ void ModelSet::add(const std::string& name, const GaussianMixtureHmm& model, dou
   macros.push_back(std::move(macro));
 }
 
-void ModelSet::rename(const std::string& hmm, const std::string& name) {
+void ModelSet::rename_hmm(const std::string& hmm, const std::string& name) {
   if (hmm == name) return;
   if (find('h', name) != nullptr)
     fail(ErrorKind::invalid_argument, "there is a model '" + name + "' already");

@@ -179,13 +179,13 @@ TEST(ModelSet, WritesWhatOneOfSeveralFilesDefines) {
 TEST(ModelSet, RenamesModels) {
   ModelSet set;
   set.parse(kShared, "models");
-  set.rename("one", "uno");
-  set.rename("uno", "uno");
+  set.rename_hmm("one", "uno");
+  set.rename_hmm("uno", "uno");
   EXPECT_EQ(set.to_text(), replaced(kShared, "~h \"one\"", "~h \"uno\""));
-  EXPECT_THROW(set.rename("one", "two"), InvalidArgument);
+  EXPECT_THROW(set.rename_hmm("one", "two"), InvalidArgument);
   set.macros.push_back(*set.find('h', "uno"));
   set.macros.back().name = "two";
-  EXPECT_THROW(set.rename("uno", "two"), InvalidArgument);
+  EXPECT_THROW(set.rename_hmm("uno", "two"), InvalidArgument);
 }
 
 TEST(ModelSet, StaysAsItWasWhenAFileIsRefused) {

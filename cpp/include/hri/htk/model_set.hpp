@@ -96,7 +96,7 @@ struct HRI_API ModelSet {
   void add(const std::string& name, const GaussianMixtureHmm& model, double final_stay);
 
   /// Throws InvalidArgument for an HMM that there is not, and a name that there is already.
-  void rename(const std::string& hmm, const std::string& name);
+  void rename_hmm(const std::string& hmm, const std::string& name);
 };
 
 /// The Gaussians of an HMM, and a chain without its entry and exit: what leaves a state for the

@@ -97,7 +97,7 @@ def compv(
         raise click.UsageError(NOTHING)
     made = start.apply(sources.models, means, min_variance)
     floors = None if share is None else start.variance_floors(share)
-    made.rename(defined[0], name or defined[0])
+    made.rename_hmm(defined[0], name or defined[0])
     target = sources.write(made, folder, {prototype: name or prototype})[-1]
     if floors is not None:
         floors.write(Path(make_folder(folder), "vFloors"))
