@@ -40,6 +40,7 @@ void bind_gesture_segments(py::module_& m);
 void bind_connected_words(py::module_& m);
 void bind_htk_files(py::module_& m);
 void bind_htk_models(py::module_& m);
+void bind_htk_training(py::module_& m);
 void bind_sentences(py::module_& m);
 
 namespace {
@@ -144,5 +145,6 @@ PYBIND11_MODULE(_native, m) {
   bind_connected_words(m);
   bind_htk_files(m);
   bind_htk_models(m);
+  bind_htk_training(m);
   bind_sentences(m);
 }

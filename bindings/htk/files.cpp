@@ -150,6 +150,7 @@ void bind_labels(py::module_& m) {
            py::arg("name"), py::arg("first") = py::none(), py::arg("last") = py::none(),
            py::arg("score") = py::none())
       .def_readonly("name", &Label::name, "What was said.")
+      .def_readonly("line", &Label::line, "Of the file that it was read from, from 1; 0: of none.")
       .def_property_readonly(
           "first",
           [](const Label& self) {

@@ -39,12 +39,20 @@ void bind_models(py::module_& m) {
           "Adds what a file defines; raises FormatError naming file and line.")
       .def("parse", &ModelSet::parse, py::arg("text"), py::arg("name"),
            "The same of a text; `name` is what errors call it.")
-      .def("to_text", &ModelSet::to_text, "The text of a file.")
+      .def("to_text", py::overload_cast<>(&ModelSet::to_text, py::const_), "The text of a file.")
       .def(
           "write", [](const ModelSet& self, const Path& path) { self.write(path.text); },
           py::arg("path"), "Writes a file.")
+      .def(
+          "write_part",
+          [](const ModelSet& self, const Path& path, std::size_t first, std::size_t last) {
+            self.write(path.text, first, last);
+          },
+          py::arg("path"), py::arg("first"), py::arg("last"),
+          "Writes the definitions first..last - 1, which may use those before.")
       .def("add", &ModelSet::add, py::arg("name"), py::arg("model"), py::arg("final_stay"),
            "Adds a left-right HMM, whose last state is left with 1 - final_stay.")
+      .def("rename_hmm", &ModelSet::rename_hmm, py::arg("hmm"), py::arg("name"), "Renames an HMM.")
       .def(
           "hmm",
           [](const ModelSet& self, const std::string& name) {
@@ -64,6 +72,9 @@ void bind_models(py::module_& m) {
           },
           py::arg("name"), "Its transitions with entry and exit, float64.")
       .def_property_readonly("hmm_names", &ModelSet::hmm_names, "Names of the HMMs.")
+      .def_property_readonly(
+          "num_definitions", [](const ModelSet& self) { return self.macros.size(); },
+          "HMMs and macros.")
       .def_readonly("vector_size", &ModelSet::vector_size, "Columns of a frame; 0: not set.")
       .def_property_readonly(
           "kind", [](const ModelSet& self) { return self.kind.text(); }, "Of the frames.");

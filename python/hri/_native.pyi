@@ -36,6 +36,7 @@ __all__: list[str] = [
     "DiscreteHmmStream",
     "DistanceClassifier",
     "DistanceClassifierOptions",
+    "EmbeddedTrainerOptions",
     "Endpoint",
     "Endpointer",
     "EndpointerOptions",
@@ -72,10 +73,14 @@ __all__: list[str] = [
     "HeldOutReport",
     "HtkConfiguration",
     "HtkDictionary",
+    "HtkEditScript",
+    "HtkEmbeddedTrainer",
     "HtkFeatureExtractor",
     "HtkFeatureOptions",
+    "HtkFlatStart",
     "HtkLabel",
     "HtkMasterLabelFile",
+    "HtkModelOccupation",
     "HtkModelSet",
     "HtkParameterFile",
     "HtkPronunciation",
@@ -7557,6 +7562,11 @@ class HtkLabel:
         Where it ends, in 100 ns.
         """
     @property
+    def line(self) -> int:
+        """
+        Of the file that it was read from, from 1; 0: of none.
+        """
+    @property
     def name(self) -> str:
         """
         What was said.
@@ -7657,6 +7667,10 @@ class HtkModelSet:
         """
         Adds what a file defines; raises FormatError naming file and line.
         """
+    def rename_hmm(self, hmm: str, name: str) -> None:
+        """
+        Renames an HMM.
+        """
     def to_text(self) -> str:
         """
         The text of a file.
@@ -7669,6 +7683,15 @@ class HtkModelSet:
         """
         Writes a file.
         """
+    def write_part(
+        self,
+        path: str | bytes | os.PathLike[str],
+        first: typing.SupportsInt | typing.SupportsIndex,
+        last: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None:
+        """
+        Writes the definitions first..last - 1, which may use those before.
+        """
     @property
     def hmm_names(self) -> list[str]:
         """
@@ -7678,6 +7701,11 @@ class HtkModelSet:
     def kind(self) -> str:
         """
         Of the frames.
+        """
+    @property
+    def num_definitions(self) -> int:
+        """
+        HMMs and macros.
         """
     @property
     def vector_size(self) -> int:
@@ -7882,6 +7910,242 @@ class HtkRecognizer:
     def recognise(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> HtkRecognisedSentence:
         """
         The best sentence of frames, shape (num_frames, num_columns).
+        """
+
+class HtkFlatStart:
+    """
+    HCompV: models at the mean and variance of all frames.
+    """
+    def __init__(self) -> None: ...
+    def add(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        Adds frames, shape (num_frames, num_columns).
+        """
+    def apply(
+        self, models: HtkModelSet, update_means: bool, min_variance: typing.SupportsFloat | typing.SupportsIndex = 0.0
+    ) -> HtkModelSet:
+        """
+        The models with the variance in every Gaussian, and with update_means the mean.
+        """
+    def variance_floors(self, share: typing.SupportsFloat | typing.SupportsIndex) -> HtkModelSet:
+        """
+        The macro varFloor1, of this share of the variance.
+        """
+    @property
+    def mean(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of all frames, float64.
+        """
+    @property
+    def num_frames(self) -> int:
+        """
+        Frames added.
+        """
+    @property
+    def variance(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of all frames, divided by their number, float64.
+        """
+
+class EmbeddedTrainerOptions:
+    """
+    Options of embedded Baum-Welch.
+
+    Parameters
+    ----------
+    beam : float, default 0.0
+        states whose backward score falls this much below the best of a frame (natural log) are dropped; 0: none is; 0..1e+12
+    beam_step : float, default 0.0
+        added to the beam when nothing of an utterance is left; 0: it is left out; 0..1e+12
+    beam_limit : float, default 0.0
+        beam up to which the step is added; 0..1e+12
+    min_examples : int, default 3
+        models that occur less often in the transcripts stay as they are; 0..1e+09
+    weight_floor : float, default 0.0
+        smallest mixture weight, in units of 1e-5; 0..100000
+    min_variance : float, default 0.0
+        smallest variance; ~v "varFloor1" of the models holds beside it; 0..1e+12
+    update_transitions : bool, default True
+        False: transitions stay
+    update_means : bool, default True
+        False: means stay
+    update_variances : bool, default True
+        False: variances stay
+    update_weights : bool, default True
+        False: mixture weights stay
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        beam: float = 0.0,
+        beam_step: float = 0.0,
+        beam_limit: float = 0.0,
+        min_examples: int = 3,
+        weight_floor: float = 0.0,
+        min_variance: float = 0.0,
+        update_transitions: bool = True,
+        update_means: bool = True,
+        update_variances: bool = True,
+        update_weights: bool = True,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def beam(self) -> float:
+        """
+        states whose backward score falls this much below the best of a frame (natural log) are dropped; 0: none is
+        """
+    @beam.setter
+    def beam(self, arg1: typing.Any) -> None: ...
+    @property
+    def beam_limit(self) -> float:
+        """
+        beam up to which the step is added
+        """
+    @beam_limit.setter
+    def beam_limit(self, arg1: typing.Any) -> None: ...
+    @property
+    def beam_step(self) -> float:
+        """
+        added to the beam when nothing of an utterance is left; 0: it is left out
+        """
+    @beam_step.setter
+    def beam_step(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_examples(self) -> int:
+        """
+        models that occur less often in the transcripts stay as they are
+        """
+    @min_examples.setter
+    def min_examples(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_variance(self) -> float:
+        """
+        smallest variance; ~v "varFloor1" of the models holds beside it
+        """
+    @min_variance.setter
+    def min_variance(self, arg1: typing.Any) -> None: ...
+    @property
+    def update_means(self) -> bool:
+        """
+        False: means stay
+        """
+    @update_means.setter
+    def update_means(self, arg1: typing.Any) -> None: ...
+    @property
+    def update_transitions(self) -> bool:
+        """
+        False: transitions stay
+        """
+    @update_transitions.setter
+    def update_transitions(self, arg1: typing.Any) -> None: ...
+    @property
+    def update_variances(self) -> bool:
+        """
+        False: variances stay
+        """
+    @update_variances.setter
+    def update_variances(self, arg1: typing.Any) -> None: ...
+    @property
+    def update_weights(self) -> bool:
+        """
+        False: mixture weights stay
+        """
+    @update_weights.setter
+    def update_weights(self, arg1: typing.Any) -> None: ...
+    @property
+    def weight_floor(self) -> float:
+        """
+        smallest mixture weight, in units of 1e-5
+        """
+    @weight_floor.setter
+    def weight_floor(self, arg1: typing.Any) -> None: ...
+
+class HtkModelOccupation:
+    """
+    How often a model was met in training.
+    """
+    @property
+    def name(self) -> str:
+        """
+        Of the model.
+        """
+    @property
+    def num_examples(self) -> int:
+        """
+        In the transcripts.
+        """
+    @property
+    def states(self) -> list[float]:
+        """
+        Expected frames of its states.
+        """
+
+class HtkEmbeddedTrainer:
+    """
+    HERest: one pass of Baum-Welch from transcripts without times.
+    """
+    def __init__(self, models: HtkModelSet, options: EmbeddedTrainerOptions = ...) -> None: ...
+    def add(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], units: collections.abc.Sequence[str]
+    ) -> str:
+        """
+        Adds an utterance, shape (num_frames, num_columns), by the names of its models; gives 'added', 'too_short' or 'impossible'.
+        """
+    def estimate(self) -> HtkModelSet:
+        """
+        The models that the utterances added make most likely.
+        """
+    def occupations(self) -> list[HtkModelOccupation]:
+        """
+        Of every model, in the order of the set.
+        """
+    @property
+    def log_likelihood(self) -> float:
+        """
+        Of the utterances added, before estimation; natural log.
+        """
+    @property
+    def num_frames(self) -> int:
+        """
+        Frames added.
+        """
+
+class HtkEditScript:
+    """
+    HHEd: commands that change the structure of models.
+    """
+    @staticmethod
+    def parse(text: str, name: str) -> HtkEditScript:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    @staticmethod
+    def read(path: str | bytes | os.PathLike[str]) -> HtkEditScript:
+        """
+        Raises FormatError naming file and line.
+        """
+    def apply(self, models: HtkModelSet) -> HtkModelSet:
+        """
+        The models after all commands; raises FormatError for items that no model has.
+        """
+    @property
+    def num_commands(self) -> int:
+        """
+        Commands.
         """
 
 class SentenceRecognizerOptions:

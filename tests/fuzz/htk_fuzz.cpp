@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any bytes as one of HTK's files; the first byte chooses which. What is read is written and read
-// again as it was.
+// Any bytes as one of HTK's files; the first byte chooses which, '0' the first. What is read is
+// written and read again as it was.
 #include "fuzzing.hpp"
 #include "hri/htk/configuration.hpp"
+#include "hri/htk/edit_script.hpp"
 #include "hri/htk/labels.hpp"
 #include "hri/htk/recognizer.hpp"
 
@@ -38,13 +39,35 @@ void read_models(const std::string& text) {
   }
 }
 
+// Models of two and of one state.
+const hri::htk::ModelSet& edited_models() {
+  static const hri::htk::ModelSet models = [] {
+    const std::string state = " <MEAN> 1 0.5 <VARIANCE> 1 2 ";
+    hri::htk::ModelSet set;
+    set.parse("~h a <BEGINHMM> <NUMSTATES> 4 <STATE> 2" + state + "<STATE> 3" + state +
+                  "<TRANSP> 4 0 1 0 0 0 0.5 0.5 0 0 0 0.5 0.5 0 0 0 0 <ENDHMM> ~h sp <BEGINHMM> "
+                  "<NUMSTATES> 3 <STATE> 2" +
+                  state + "<TRANSP> 3 0 1 0 0 0.5 0.5 0 0 0 <ENDHMM>",
+              "models");
+    return set;
+  }();
+  return models;
+}
+
+void run_script(const std::string& text) {
+  const auto script = hri::htk::EditScript::parse(text, "input");
+  const hri::htk::ModelSet made = script.apply(edited_models());
+  hri::htk::ModelSet again;
+  again.parse(made.to_text(), "again");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   hri::fuzzing::expect_typed_errors([&] {
     const std::string text(data + 1, data + size);
-    switch (data[0] % 8) {
+    switch ((data[0] + 6) % 9) {
       case 0:
         read_parameters(data + 1, size - 1);
         break;
@@ -66,8 +89,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 6:
         read_models(text);
         break;
-      default:
+      case 7:
         hri::htk::Configuration().parse(text, "input");
+        break;
+      default:
+        run_script(text);
         break;
     }
   });

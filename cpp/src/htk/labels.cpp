@@ -88,6 +88,7 @@ Transcription read_labels(detail::TextLines* lines, bool in_master) {
       found.alternatives.emplace_back();
     } else if (!line.empty() && line.front() != '#') {
       Label label = LabelLine(*lines).read();
+      label.line = lines->number();
       auto& labels = found.alternatives.back();
       if (!labels.empty() && label.first != Label::kNoTime && label.first < labels.back().first)
         lines->refuse("a label begins before the one above");

@@ -89,6 +89,17 @@ void ModelSet::add(const std::string& name, const GaussianMixtureHmm& model, dou
   macros.push_back(std::move(macro));
 }
 
+void ModelSet::rename_hmm(const std::string& hmm, const std::string& name) {
+  if (hmm == name) return;
+  if (find('h', name) != nullptr)
+    fail(ErrorKind::invalid_argument, "there is a model '" + name + "' already");
+  const auto found = std::find_if(macros.begin(), macros.end(), [&](const MacroDefinition& macro) {
+    return macro.type == 'h' && macro.name == hmm;
+  });
+  if (found == macros.end()) fail(ErrorKind::invalid_argument, "there is no model '" + hmm + "'");
+  found->name = name;
+}
+
 GaussianMixtureHmm to_hmm(const HmmDefinition& definition) {
   const auto n = static_cast<Eigen::Index>(definition.states.size());
   const MatrixD& values = definition.transitions.values;

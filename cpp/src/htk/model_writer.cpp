@@ -35,7 +35,7 @@ std::string number(double value) {
 
 class ModelWriter {
  public:
-  std::string write(const ModelSet& set) {
+  std::string write(const ModelSet& set, std::size_t first, std::size_t last) {
     if (set.vector_size > 0 || set.kind != ParameterKind()) {
       const std::string size = std::to_string(set.vector_size);
       text_ += "~o\n";
@@ -44,7 +44,7 @@ class ModelWriter {
       if (set.kind != ParameterKind()) text_ += "<" + set.kind.text() + ">";
       text_ += "<DIAGC>\n";
     }
-    for (const MacroDefinition& macro : set.macros) add(macro);
+    for (std::size_t i = first; i < last; ++i) add(set.macros[i]);
     return text_;
   }
 
@@ -148,13 +148,23 @@ class ModelWriter {
 }  // namespace
 
 std::string ModelSet::to_text() const {
-  std::string text = ModelWriter().write(*this);
+  std::string text = ModelWriter().write(*this, 0, macros.size());
   // What is written can be read: a set that was made by hand is checked here.
   ModelSet again;
   again.parse(text, "the models");
   return text;
 }
 
+std::string ModelSet::to_text(std::size_t first, std::size_t last) const {
+  require(first <= last && last <= macros.size(), "the set has not as many definitions");
+  std::string all = to_text();
+  return first == 0 && last == macros.size() ? all : ModelWriter().write(*this, first, last);
+}
+
 void ModelSet::write(const std::string& path) const { detail::write_text(path, to_text()); }
+
+void ModelSet::write(const std::string& path, std::size_t first, std::size_t last) const {
+  detail::write_text(path, to_text(first, last));
+}
 
 }  // namespace hri::htk

@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """HTK's files: parameters, labels, model definitions, dictionaries, word networks; and what its tools do with them."""
 
+from hri._native import EmbeddedTrainerOptions, HtkFeatureOptions
 from hri._native import HtkConfiguration as Configuration
 from hri._native import HtkDictionary as Dictionary
+from hri._native import HtkEditScript as EditScript
+from hri._native import HtkEmbeddedTrainer as EmbeddedTrainer
 from hri._native import HtkFeatureExtractor as FeatureExtractor
-from hri._native import HtkFeatureOptions
+from hri._native import HtkFlatStart as FlatStart
 from hri._native import HtkLabel as Label
 from hri._native import HtkMasterLabelFile as MasterLabelFile
+from hri._native import HtkModelOccupation as ModelOccupation
 from hri._native import HtkModelSet as ModelSet
 from hri._native import HtkParameterFile as ParameterFile
 from hri._native import HtkPronunciation as Pronunciation
@@ -27,10 +31,15 @@ __all__ = [
     "HTK_COSTS",
     "Configuration",
     "Dictionary",
+    "EditScript",
+    "EmbeddedTrainer",
+    "EmbeddedTrainerOptions",
     "FeatureExtractor",
+    "FlatStart",
     "HtkFeatureOptions",
     "Label",
     "MasterLabelFile",
+    "ModelOccupation",
     "ModelSet",
     "ParameterFile",
     "Pronunciation",

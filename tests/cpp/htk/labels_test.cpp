@@ -35,6 +35,8 @@ TEST(Transcription, ReadsTimesNamesScoresAndLevels) {
   EXPECT_EQ(t.labels()[1].name, "two words");
   EXPECT_EQ(t.labels()[2].first, Label::kNoTime);
   EXPECT_EQ(t.labels()[2].score, 7);
+  EXPECT_EQ(t.labels()[2].line, 5);
+  EXPECT_EQ(Label().line, 0);
   EXPECT_EQ(t.labels()[3].first, 5000000);
   EXPECT_EQ(t.labels()[3].last, Label::kNoTime);
   EXPECT_EQ(t.labels()[4].name, "5");

@@ -162,6 +162,32 @@ TEST(ModelSet, RefusesEveryCutFile) {
     EXPECT_NE(refusal(kShared.substr(0, size)), "nothing thrown") << size;
 }
 
+TEST(ModelSet, WritesWhatOneOfSeveralFilesDefines) {
+  const std::size_t at = kShared.find("~s");
+  const std::string header = kShared.substr(0, kShared.find("~t"));
+  ModelSet set;
+  set.parse(kShared.substr(0, at), "first");
+  const std::size_t middle = set.macros.size();
+  set.parse(header + kShared.substr(at), "second");
+  EXPECT_EQ(set.to_text(0, middle), kShared.substr(0, at));
+  EXPECT_EQ(set.to_text(middle, set.macros.size()), header + kShared.substr(at));
+  EXPECT_EQ(set.to_text(0, set.macros.size()), kShared);
+  EXPECT_THROW((void)set.to_text(2, 1), InvalidArgument);
+  EXPECT_THROW((void)set.to_text(0, set.macros.size() + 1), InvalidArgument);
+}
+
+TEST(ModelSet, RenamesModels) {
+  ModelSet set;
+  set.parse(kShared, "models");
+  set.rename_hmm("one", "uno");
+  set.rename_hmm("uno", "uno");
+  EXPECT_EQ(set.to_text(), replaced(kShared, "~h \"one\"", "~h \"uno\""));
+  EXPECT_THROW(set.rename_hmm("one", "two"), InvalidArgument);
+  set.macros.push_back(*set.find('h', "uno"));
+  set.macros.back().name = "two";
+  EXPECT_THROW(set.rename_hmm("uno", "two"), InvalidArgument);
+}
+
 TEST(ModelSet, StaysAsItWasWhenAFileIsRefused) {
   ModelSet set;
   set.parse(kShared, "models");

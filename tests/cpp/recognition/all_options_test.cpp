@@ -9,6 +9,7 @@
 #include "hri/features/hand/hand_pair.hpp"
 #include "hri/features/hand/hand_track.hpp"
 #include "hri/features/hand/two_hand_features.hpp"
+#include "hri/htk/embedded_trainer.hpp"
 #include "hri/htk/feature_extractor.hpp"
 #include "hri/language/connected_decoder.hpp"
 #include "hri/language/ngram_model.hpp"
@@ -57,7 +58,8 @@ using All = testing::Types<
     SpeechEmbeddingOptions, WordRecognizerOptions, GestureRecognizerOptions, SilhouetteOptions,
     HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
     GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
-    htk::HtkFeatureOptions, TwoHandFeatureOptions, SentenceRecognizerOptions>;
+    htk::HtkFeatureOptions, htk::EmbeddedTrainerOptions, TwoHandFeatureOptions,
+    SentenceRecognizerOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

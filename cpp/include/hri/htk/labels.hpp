@@ -28,6 +28,7 @@ struct Label {
   bool has_score = false;
   double score = 0;
   std::vector<AuxiliaryLabel> auxiliary;
+  std::int64_t line = 0;  ///< of the file that it was read from, from 1; 0: of none
 };
 
 /// The labels of one recording; further ones are alternatives.

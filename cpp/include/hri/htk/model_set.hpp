@@ -81,6 +81,10 @@ struct HRI_API ModelSet {
   /// and as many as it takes elsewhere. Throws InvalidArgument for what parse() would refuse.
   [[nodiscard]] std::string to_text() const;
   void write(const std::string& path) const;
+  /// The same of the definitions first..last - 1, which may use those before them: a file of
+  /// several.
+  [[nodiscard]] std::string to_text(std::size_t first, std::size_t last) const;
+  void write(const std::string& path, std::size_t first, std::size_t last) const;
 
   /// nullptr where there is none of this type and name.
   [[nodiscard]] const MacroDefinition* find(char type, const std::string& name) const;
@@ -90,6 +94,9 @@ struct HRI_API ModelSet {
   /// 1 - final_stay. Throws InvalidArgument for other topologies, another dimension, a name that
   /// there is already, and final_stay outside 0..1, 1 excluded.
   void add(const std::string& name, const GaussianMixtureHmm& model, double final_stay);
+
+  /// Throws InvalidArgument for an HMM that there is not, and a name that there is already.
+  void rename_hmm(const std::string& hmm, const std::string& name);
 };
 
 /// The Gaussians of an HMM, and a chain without its entry and exit: what leaves a state for the

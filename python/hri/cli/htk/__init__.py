@@ -7,6 +7,8 @@ from __future__ import annotations
 import click
 
 from hri.cli.groups import SuggestingGroup
+from hri.cli.htk.editing import hed
+from hri.cli.htk.embedded import compv, erest
 from hri.cli.htk.networks import parse, sgen
 from hri.cli.htk.parameters import copy, list_files
 from hri.cli.htk.recognition import vite
@@ -22,11 +24,13 @@ def htk() -> None:
     Examples:
       hri htk copy -C config -S copy.scp
       hri htk list -h -e 9 a.mfc
+      hri htk compv -m -M hmm0 -S train.scp proto
+      hri htk erest -H hmm0/models -M hmm1 -I words.mlf -S train.scp list
       hri htk parse grammar wdnet
       hri htk vite -H models -w wdnet -S test.scp -i found.mlf dict list
       hri htk results -I words.mlf list found.mlf
     """
 
 
-for _command in (copy, list_files, results, parse, sgen, vite, init, rest):
+for _command in (copy, list_files, results, parse, sgen, vite, compv, init, rest, erest, hed):
     htk.add_command(_command)

@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import click
 
 from hri.cli.messages import note
 from hri.core.errors import FormatError
+from hri.core.files import make_folder
 from hri.htk import Configuration, MasterLabelFile, ModelSet, Transcription, read_script
 
 INPUT = click.Path(exists=True, dir_okay=False)
@@ -41,6 +42,65 @@ def load_models(paths: Iterable[str]) -> ModelSet:
     return models
 
 
+class ModelFiles:
+    """Definitions of several files, each of which is written again with what it defines.
+
+    Parameters
+    ----------
+    paths : iterable of path
+
+    Attributes
+    ----------
+    models : ModelSet
+        Of all files.
+    """
+
+    def __init__(self, paths: Iterable[str]) -> None:
+        self.models = ModelSet()
+        self._parts: list[tuple[str, int, int]] = []
+        for path in paths:
+            self.read(path)
+
+    @property
+    def paths(self) -> list[str]:
+        """Of the files, in their order."""
+        return [path for path, _, _ in self._parts]
+
+    def read(self, path: str) -> None:
+        """Add what a file defines."""
+        first = self.models.num_definitions
+        self.models.read(path)
+        self._parts.append((path, first, self.models.num_definitions))
+
+    def write(self, models: ModelSet, folder: str | None, renamed: Mapping[str, str] | None = None) -> list[Path]:
+        """Write `models`, which have the same definitions, to files of the same names; gives these.
+
+        Parameters
+        ----------
+        models : ModelSet
+        folder : path or None
+            Where the files go; None: where they were read.
+        renamed : mapping or None
+            Other names of files.
+
+        Raises
+        ------
+        FormatError
+            For files that would have the same name; nothing is written then.
+        """
+        targets = []
+        for path, _, _ in self._parts:
+            name = (renamed or {}).get(path, path)
+            targets.append(Path(name) if folder is None else Path(folder, Path(name).name))
+        for number, target in enumerate(targets):
+            if target in targets[:number]:
+                raise FormatError(f"{target}: two files of models would be written here")
+        for target, (_, first, last) in zip(targets, self._parts, strict=True):
+            make_folder(target.parent)
+            models.write_part(target, first, last)
+        return targets
+
+
 def all_arguments(given: Sequence[str], scripts: Iterable[str]) -> list[str]:
     """The arguments of the command line, then those of the script files."""
     return [*given, *(argument for script in scripts for argument in read_script(script))]
@@ -59,21 +119,25 @@ class References:
     """
 
     def __init__(self, masters: Iterable[str], folder: str | None, suffix: str) -> None:
-        self._masters = [MasterLabelFile.read(path) for path in masters]
+        self._masters = {path: MasterLabelFile.read(path) for path in masters}
         self._folder = folder
         self._suffix = suffix
 
     def find(self, recording: str) -> Transcription:
         """Raises FormatError where there is none."""
+        return self.locate(recording)[0]
+
+    def locate(self, recording: str) -> tuple[Transcription, str]:
+        """The same with the name of the file that it stands in."""
         path = Path(recording).with_suffix(f".{self._suffix}")
         if self._folder is not None:
             path = Path(self._folder, path.name)
         # A pattern such as */a.lab also means a file in the current folder.
         name = str(path) if path.parent != Path() else f"./{path}"
-        for master in self._masters:
+        for source, master in self._masters.items():
             found = master.find(name)
             if found is not None:
-                return found
+                return found, source
         if self._masters and not path.is_file():
             raise FormatError(f"{recording}: no master label file has a transcription for {str(path)!r}")
-        return Transcription.read(path)
+        return Transcription.read(path), str(path)

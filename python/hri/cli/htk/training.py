@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import click
@@ -28,7 +28,10 @@ from hri.core.errors import FormatError
 from hri.core.files import make_folder
 from hri.htk import ModelSet, load_observations, retrain_model, train_model
 
-_label = click.option("-l", "label", metavar="NAME", help="Train on segments with this label, not on whole files.")
+NOTHING = "there is nothing to train on"
+label_option = click.option(
+    "-l", "label", metavar="NAME", help="Train on segments with this label, not on whole files."
+)
 _folder = click.option("-M", "folder", default=".", show_default=True, metavar="DIR", help="Where the model goes.")
 _iterations = click.option("-i", "iterations", type=click.IntRange(1), default=20, help="Iterations at most.")
 _floor = click.option(
@@ -47,7 +50,7 @@ _floor = click.option(
 @label_suffix_option
 @script_option
 @trace_option
-@_label
+@label_option
 @_folder
 @_iterations
 @_floor
@@ -77,7 +80,7 @@ def init(
     """
     source, model = _only_model(prototype)
     references = References(masters, label_folder, suffix)
-    sequences = _segments(all_arguments(files, scripts), source.kind, configs, references, label)
+    sequences = _all_segments(all_arguments(files, scripts), source.kind, configs, references, label)
     shape = source.hmm(model)
     made = ModelSet(source.kind)
     num_states = shape.num_states
@@ -100,7 +103,7 @@ def init(
 @label_suffix_option
 @script_option
 @trace_option
-@_label
+@label_option
 @_folder
 @_iterations
 @_floor
@@ -128,7 +131,7 @@ def rest(
     """
     source, model = _only_model(definition)
     references = References(masters, label_folder, suffix)
-    sequences = _segments(all_arguments(files, scripts), source.kind, configs, references, label)
+    sequences = _all_segments(all_arguments(files, scripts), source.kind, configs, references, label)
     made = ModelSet(source.kind)
     retrain_model(made, source, model, sequences, max_iterations=iterations, variance_floor=floor)
     _write(made, model, folder, len(sequences), trace)
@@ -141,16 +144,15 @@ def _only_model(path: str) -> tuple[ModelSet, str]:
     return source, source.hmm_names[0]
 
 
-def _segments(
+def segments(
     names: Sequence[str], kind: str, configs: Iterable[str], references: References, label: str | None
-) -> list[NDArray[np.float32]]:
-    """Whole files, or the parts of them that have the label."""
+) -> Iterator[NDArray[np.float32]]:
+    """Frames of whole files, or of the parts of them that have the label, one file at a time."""
     configuration = load_configuration(configs)
-    found = []
     for name in names:
         frames, period = load_observations(name, kind, configuration)
         if label is None:
-            found.append(frames)
+            yield frames
             continue
         for one in references.find(name).labels:
             if one.name != label:
@@ -159,9 +161,15 @@ def _segments(
                 raise FormatError(f"{name}: its label {label!r} has no times")
             segment = frames[round(one.first / period) : round(one.last / period)]
             if len(segment):
-                found.append(segment)
+                yield segment
+
+
+def _all_segments(
+    names: Sequence[str], kind: str, configs: Iterable[str], references: References, label: str | None
+) -> list[NDArray[np.float32]]:
+    found = list(segments(names, kind, configs, references, label))
     if not found:
-        raise click.UsageError("there is nothing to train on")
+        raise click.UsageError(NOTHING)
     return found
 
 

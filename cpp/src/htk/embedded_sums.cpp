@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "htk/embedded_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace hri::htk::detail {
+namespace {
+
+constexpr double kLog2Pi = 1.8378770664093454835606594728112;
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+constexpr double kLeastWeight = 1e-5;  // HTK's MINMIX: below, a component has no weight
+
+std::size_t place(int number) { return static_cast<std::size_t>(number); }
+
+// Weights below the floor are raised to it at the cost of the others.
+void raise_weights(double floor, std::vector<double>* weights) {
+  std::vector<bool> raised(weights->size(), false);
+  for (bool changed = true; changed;) {
+    changed = false;
+    double free = 1;
+    double others = 0;
+    for (std::size_t c = 0; c < weights->size(); ++c) {
+      if (!raised[c] && (*weights)[c] < floor) changed = raised[c] = true;
+      if (raised[c]) {
+        free -= floor;
+      } else {
+        others += (*weights)[c];
+      }
+    }
+    for (std::size_t c = 0; c < weights->size(); ++c)
+      (*weights)[c] = raised[c] ? floor : (*weights)[c] * free / others;
+  }
+}
+
+}  // namespace
+
+SharedDensities::SharedDensities(const SharedParameters& parameters) {
+  for (const SharedComponent& one : parameters.components) {
+    const VectorD& variance = parameters.variances[place(one.variance)];
+    gaussians_.push_back(
+        {parameters.means[place(one.mean)], variance.cwiseInverse(),
+         -0.5 * (static_cast<double>(variance.size()) * kLog2Pi + variance.array().log().sum())});
+  }
+  for (const SharedState& state : parameters.states) {
+    states_.push_back(state.components);
+    std::vector<double> logs;
+    logs.reserve(state.weights.size());
+    for (const double weight : state.weights) logs.push_back(std::log(weight));
+    logs_.reserve(logs.size());
+    log_weights_.push_back(std::move(logs));
+  }
+}
+
+double SharedDensities::state(int number, const VectorD& frame) {
+  const std::vector<int>& components = states_[place(number)];
+  logs_.resize(components.size());
+  double top = kImpossible;
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const Gaussian& one = gaussians_[place(components[c])];
+    const double distance = ((frame - one.mean).array().square() * one.precision.array()).sum();
+    logs_[c] = log_weights_[place(number)][c] + one.constant - 0.5 * distance;
+    top = std::max(top, logs_[c]);
+  }
+  if (components.size() == 1 || top == kImpossible) return top;
+  double sum = 0;
+  for (const double log : logs_) sum += std::exp(log - top);
+  return top + std::log(sum);
+}
+
+SharedSums::SharedSums(const SharedParameters& parameters) : before_(parameters) {
+  for (const MatrixD& one : parameters.transitions)
+    transitions.emplace_back(MatrixD::Zero(one.rows(), one.cols()));
+  for (const SharedState& state : parameters.states)
+    slots_.emplace_back(state.components.size(), 0.0);
+  const auto count = static_cast<Eigen::Index>(parameters.components.size());
+  const Eigen::Index dim = parameters.means.empty() ? 0 : parameters.means.front().size();
+  counts_ = VectorD::Zero(count);
+  firsts_ = MatrixD::Zero(count, dim);
+  seconds_ = MatrixD::Zero(count, dim);
+}
+
+void SharedSums::add(int state, std::size_t slot, const VectorD& frame, double probability) {
+  slots_[place(state)][slot] += probability;
+  const int component = before_.states[place(state)].components[slot];
+  const VectorD& mean = before_.means[place(before_.components[place(component)].mean)];
+  counts_[component] += probability;
+  firsts_.row(component) += probability * (frame - mean).transpose();
+  seconds_.row(component) += probability * (frame - mean).cwiseAbs2().transpose();
+}
+
+double SharedSums::occupation(int state) const {
+  const std::vector<double>& slots = slots_[place(state)];
+  return std::accumulate(slots.begin(), slots.end(), 0.0);
+}
+
+std::vector<bool> SharedSums::components_of(const std::vector<bool>& marked) const {
+  std::vector<bool> components(before_.components.size(), false);
+  for (std::size_t s = 0; s < marked.size(); ++s) {
+    if (!marked[s]) continue;
+    for (const int one : before_.states[s].components) components[place(one)] = true;
+  }
+  return components;
+}
+
+void SharedSums::estimate_weights(const std::vector<bool>& marked, double floor,
+                                  SharedParameters* parameters) const {
+  for (std::size_t s = 0; s < slots_.size(); ++s) {
+    const double sum = occupation(static_cast<int>(s));
+    if (!marked[s] || !(sum > 0) || slots_[s].size() < 2) continue;
+    std::vector<double>& weights = parameters->states[s].weights;
+    double kept = 0;
+    for (std::size_t c = 0; c < weights.size(); ++c) {
+      weights[c] = slots_[s][c] / sum > kLeastWeight ? slots_[s][c] / sum : 0;
+      kept += weights[c];
+    }
+    for (double& weight : weights) weight /= kept;
+    raise_weights(std::min(floor, 1 / static_cast<double>(weights.size())), &weights);
+  }
+}
+
+void SharedSums::estimate_means(const std::vector<bool>& marked,
+                                SharedParameters* parameters) const {
+  const std::vector<bool> components = components_of(marked);
+  std::vector<bool> wanted(before_.means.size(), false);
+  std::vector<VectorD> shifts(before_.means.size(), VectorD::Zero(firsts_.cols()));
+  std::vector<VectorD> weights = shifts;
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const auto row = static_cast<Eigen::Index>(c);
+    const std::size_t mean = place(before_.components[c].mean);
+    if (components[c]) wanted[mean] = true;
+    const auto& variance = before_.variances[place(before_.components[c].variance)].array();
+    shifts[mean].array() += firsts_.row(row).transpose().array() / variance;
+    weights[mean].array() += counts_[row] / variance;
+  }
+  for (std::size_t m = 0; m < wanted.size(); ++m) {
+    if (wanted[m] && (weights[m].array() > 0).all())
+      parameters->means[m] = before_.means[m] + shifts[m].cwiseQuotient(weights[m]);
+  }
+}
+
+void SharedSums::estimate_variances(const std::vector<bool>& marked, const VectorD& floor,
+                                    SharedParameters* parameters) const {
+  const std::vector<bool> components = components_of(marked);
+  std::vector<bool> wanted(before_.variances.size(), false);
+  std::vector<VectorD> squares(before_.variances.size(), VectorD::Zero(firsts_.cols()));
+  std::vector<double> counts(before_.variances.size(), 0.0);
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const auto row = static_cast<Eigen::Index>(c);
+    const SharedComponent& one = before_.components[c];
+    const std::size_t variance = place(one.variance);
+    if (components[c]) wanted[variance] = true;
+    const VectorD shift = parameters->means[place(one.mean)] - before_.means[place(one.mean)];
+    squares[variance] += seconds_.row(row).transpose() -
+                         2 * shift.cwiseProduct(firsts_.row(row).transpose()) +
+                         counts_[row] * shift.cwiseAbs2();
+    counts[variance] += counts_[row];
+  }
+  for (std::size_t v = 0; v < wanted.size(); ++v) {
+    if (wanted[v] && counts[v] > 0)
+      parameters->variances[v] = (squares[v] / counts[v]).cwiseMax(floor);
+  }
+}
+
+}  // namespace hri::htk::detail

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "htk/shared_parameters.hpp"
+
+#include "hri/core/error.hpp"
+
+namespace hri::htk::detail {
+namespace {
+
+constexpr double kLog2Pi = 1.8378770664093454835606594728112;
+
+}  // namespace
+
+SharedParameters::SharedParameters(const ModelSet& set) {
+  for (const MacroDefinition& macro : set.macros) {
+    switch (macro.type) {
+      case 'h': {
+        SharedHmm hmm;
+        hmm.name = macro.name;
+        for (const StateDefinition& state : macro.hmm.states)
+          hmm.states.push_back(add(state.macro, state));
+        hmm.transitions = add(macro.hmm.transitions.macro, macro.hmm.transitions);
+        numbers_.push_back(static_cast<int>(hmms.size()));
+        hmm_places_.emplace(macro.name, static_cast<int>(hmms.size()));
+        hmms.push_back(std::move(hmm));
+        break;
+      }
+      case 's':
+        numbers_.push_back(add(macro.name, macro.state));
+        break;
+      case 'm':
+        numbers_.push_back(add(macro.name, macro.component));
+        break;
+      case 'u':
+        numbers_.push_back(add('u', macro.name, macro.vector.values, &means));
+        break;
+      case 'v':
+        numbers_.push_back(add('v', macro.name, macro.vector.values, &variances));
+        break;
+      default:
+        numbers_.push_back(add(macro.name, macro.transitions));
+        break;
+    }
+  }
+}
+
+int SharedParameters::find(const std::string& hmm) const {
+  const auto found = hmm_places_.find(hmm);
+  return found == hmm_places_.end() ? -1 : found->second;
+}
+
+std::pair<int, bool> SharedParameters::place(char type, const std::string& macro,
+                                             std::size_t next) {
+  const auto number = static_cast<int>(next);
+  if (macro.empty()) return {number, true};
+  const auto [found, is_new] = places_.emplace(type + macro, number);
+  return {found->second, is_new};
+}
+
+int SharedParameters::add(char type, const std::string& macro, const VectorD& values,
+                          std::vector<VectorD>* all) {
+  const auto [number, is_new] = place(type, macro, all->size());
+  if (is_new) all->push_back(values);
+  const VectorD& known = (*all)[static_cast<std::size_t>(number)];
+  require(known.size() == values.size() && known == values, "the uses of a macro differ");
+  return number;
+}
+
+int SharedParameters::add(const std::string& macro, const ComponentDefinition& definition) {
+  const auto [number, is_new] = place('m', macro, components.size());
+  if (!is_new) return number;
+  components.emplace_back();
+  components.back().mean = add('u', definition.mean.macro, definition.mean.values, &means);
+  components.back().variance =
+      add('v', definition.variance.macro, definition.variance.values, &variances);
+  return number;
+}
+
+int SharedParameters::add(const std::string& macro, const StateDefinition& definition) {
+  const auto [number, is_new] = place('s', macro, states.size());
+  if (is_new) {
+    SharedState state;
+    for (const WeightedComponent& one : definition.components) {
+      state.components.push_back(add(one.component.macro, one.component));
+      state.weights.push_back(one.weight);
+    }
+    states.push_back(std::move(state));
+  }
+  const std::size_t known = states[static_cast<std::size_t>(number)].components.size();
+  require(known > 0 && known == definition.components.size(), "the uses of a macro differ");
+  return number;
+}
+
+int SharedParameters::add(const std::string& macro, const TransitionDefinition& definition) {
+  const auto [number, is_new] = place('t', macro, transitions.size());
+  if (is_new) transitions.push_back(definition.values);
+  const MatrixD& known = transitions[static_cast<std::size_t>(number)];
+  require(known.rows() == definition.values.rows() && known == definition.values,
+          "the uses of a macro differ");
+  return number;
+}
+
+ModelSet SharedParameters::applied_to(ModelSet set) const {
+  require(set.macros.size() == numbers_.size(), "another set of models");
+  for (std::size_t i = 0; i < set.macros.size(); ++i) {
+    MacroDefinition& macro = set.macros[i];
+    const auto number = static_cast<std::size_t>(numbers_[i]);
+    switch (macro.type) {
+      case 'h':
+        for (std::size_t s = 0; s < macro.hmm.states.size(); ++s)
+          put(hmms[number].states[s], &macro.hmm.states[s]);
+        macro.hmm.transitions.values =
+            transitions[static_cast<std::size_t>(hmms[number].transitions)];
+        break;
+      case 's':
+        put(numbers_[i], &macro.state);
+        break;
+      case 'm':
+        put(numbers_[i], &macro.component);
+        break;
+      case 'u':
+        macro.vector.values = means[number];
+        break;
+      case 'v':
+        macro.vector.values = variances[number];
+        break;
+      default:
+        macro.transitions.values = transitions[number];
+        break;
+    }
+  }
+  return set;
+}
+
+void SharedParameters::put(int number, ComponentDefinition* definition) const {
+  const SharedComponent& shared = components[static_cast<std::size_t>(number)];
+  const VectorD& variance = variances[static_cast<std::size_t>(shared.variance)];
+  definition->mean.values = means[static_cast<std::size_t>(shared.mean)];
+  if (!definition->has_gconst || definition->variance.values != variance) {
+    definition->gconst =
+        static_cast<double>(variance.size()) * kLog2Pi + variance.array().log().sum();
+  }
+  definition->variance.values = variance;
+  definition->has_gconst = true;
+}
+
+void SharedParameters::put(int number, StateDefinition* definition) const {
+  const SharedState& shared = states[static_cast<std::size_t>(number)];
+  for (std::size_t c = 0; c < definition->components.size(); ++c) {
+    definition->components[c].weight = shared.weights[c];
+    put(shared.components[c], &definition->components[c].component);
+  }
+}
+
+VectorD variance_floor(const ModelSet& set, double smallest) {
+  VectorD floor = VectorD::Constant(set.vector_size, smallest);
+  if (const MacroDefinition* macro = set.find('v', "varFloor1"); macro != nullptr) {
+    require(macro->vector.values.size() == floor.size(),
+            "~v \"varFloor1\" has another number of values than the models");
+    floor = floor.cwiseMax(macro->vector.values);
+  }
+  return floor;
+}
+
+}  // namespace hri::htk::detail
