@@ -66,6 +66,16 @@ def test_a_gesture_comes_back_to_the_bit_and_is_played(tmp_path: Path, suffix: s
         )
 
 
+@pytest.mark.parametrize("table", [HOAP2, NAO], ids=["hoap2", "nao"])
+def test_what_controllers_interpolate_between_the_points_passes_the_check(table: Any) -> None:
+    """They follow cubics through positions and velocities, a thousand times a second."""
+    motion = gesture_trajectory("9") if table is HOAP2 else nao_gesture_trajectory("9")
+    velocities = [point["velocities"] for point in joint_trajectory_message(motion)["points"]]
+    cubics = CubicHermiteSpline(motion.period_s * np.arange(len(motion)), motion.positions_rad, velocities)
+    fine = Trajectory(motion.joint_names, 0.001, cubics(0.001 * np.arange(round(1000 * motion.duration_s) + 1)))
+    assert check_trajectory(fine, table) == []
+
+
 @pytest.mark.parametrize("period_s", [0.001, 1 / 30, 0.04, 7.3])
 def test_times_are_whole_nanoseconds_and_rates_central_differences(period_s: float) -> None:
     positions = np.random.default_rng(0).normal(size=(40, 2))
