@@ -167,7 +167,8 @@ STAMP = {"sec": 0, "nanosec": 20_000_000}
         ([], "m: must be an object"),
         ({}, "m: joint_names: must be a list"),
         (changed(points={}), "m: points: must be a list"),
-        (changed(points=[]), "m: points: there is none"),
+        (changed(points=[]), "m: points: 0, must be 1 to 500000"),
+        (changed(points=[{}] * 500_001), "m: points: 500001, must be 1 to 500000"),
         (changed(joint_names=["a", "a", "b"]), "m: joint_names names a joint twice"),
         (changed(joint_names=["a", 1, "b"]), "m: joint_names is"),
         (changed(joint_names=["a"]), "m: point 1: positions: has 3 numbers, joint_names has 1"),
@@ -261,7 +262,7 @@ def test_files_of_others_are_read_by_what_the_message_is_and_not_by_what_they_sa
         (mcap_of([data], encoding="json"), "holds 0 messages"),
         (mcap_of([data[:50]]), "not an MCAP file of a motion"),
         (mcap_of([b""]), "not an MCAP file of a motion"),
-        (mcap_of([bytes(many)]), "not an MCAP file of a motion"),
+        (mcap_of([bytes(many)]), "points: 4294967295, must be 1 to 500000"),
         (whole[: len(whole) // 2], "not an MCAP file of a motion"),
         (b"", "not an MCAP file of a motion"),
     ):

@@ -23,6 +23,7 @@ from hri.robot.motion.trajectory import Trajectory
 SUFFIXES = (".json", ".mcap")
 MAX_BYTES = 1 << 26
 """Of a file: ten minutes of 25 joints, 100 times a second, in JSON."""
+MAX_POINTS = 500_000
 
 _PERIOD_S = 0.01  # of points at uneven times, once interpolated
 _MAX_NUMBERS = 25_000_000  # that interpolation may make
@@ -80,12 +81,13 @@ def trajectory_of_message(message: Any, name: str = "message") -> Trajectory:
     ------
     FormatError
         Names the file, the point (from 1) and the field: missing, unknown, of another kind, of another length than
-        joint_names, not finite; times that do not rise; joints without or with repeated names.
+        joint_names, not finite; times that do not rise; joints without or with repeated names; no or more than 500 000
+        points.
     """
     fields = _dict(message, _FIELDS, name)
     names, points = _list(fields, "joint_names", name), _list(fields, "points", name)
-    if not points:
-        raise FormatError(f"{name}: points: there is none")
+    if not 1 <= len(points) <= MAX_POINTS:
+        raise FormatError(f"{name}: points: {len(points)}, must be 1 to {MAX_POINTS}")
     times_ns = np.empty(len(points), np.int64)
     positions = np.empty((len(points), len(names)))
     velocities: NDArray[np.float64] | None = np.zeros_like(positions)
@@ -142,7 +144,7 @@ def read_joint_trajectory(path: str | PathLike[str]) -> Trajectory:
         For more than 64 MiB, also once decompressed; for another file or a damaged one; as `trajectory_of_message`.
     """
     if _suffix(path) == ".mcap":
-        message = message_of_mcap(read_bytes(path, MAX_BYTES), fspath(path), MAX_BYTES)
+        message = message_of_mcap(read_bytes(path, MAX_BYTES), fspath(path), MAX_BYTES, MAX_POINTS)
     else:
         message = parse_json(read_text(path, MAX_BYTES), fspath(path))
     return trajectory_of_message(message, fspath(path))

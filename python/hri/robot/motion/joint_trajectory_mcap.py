@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -16,9 +16,10 @@ MESSAGE_TYPE = "trajectory_msgs/msg/JointTrajectory"
 TOPIC = "/joint_trajectory"
 
 _END = "\n" + "=" * 80 + "\n"
-_DEFINITION = _END.join(
+_HEAD = "std_msgs/Header header\nstring[] joint_names\n"
+_PARTS = _END.join(
     (
-        "std_msgs/Header header\nstring[] joint_names\ntrajectory_msgs/JointTrajectoryPoint[] points",
+        "",
         "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id",
         "MSG: trajectory_msgs/JointTrajectoryPoint\nfloat64[] positions\nfloat64[] velocities\n"
         "float64[] accelerations\nfloat64[] effort\nbuiltin_interfaces/Duration time_from_start",
@@ -26,6 +27,8 @@ _DEFINITION = _END.join(
         "MSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec",
     )
 )
+_DEFINITION = _HEAD + "trajectory_msgs/JointTrajectoryPoint[] points" + _PARTS
+_COUNTED = _HEAD + "uint32 num_points" + _PARTS  # what stands before the points
 
 
 def mcap_of_message(message: dict[str, Any]) -> bytes:
@@ -38,21 +41,24 @@ def mcap_of_message(message: dict[str, Any]) -> bytes:
     return out.getvalue()
 
 
-def message_of_mcap(data: bytes, name: str, max_bytes: int) -> dict[str, Any]:
+def message_of_mcap(data: bytes, name: str, max_bytes: int, max_points: int) -> dict[str, Any]:
     """The only JointTrajectory of an MCAP file, as `joint_trajectory_message` has it.
 
     Raises
     ------
     FormatError
-        For a file, named `name`, that is no MCAP, is damaged, holds none or several, or holds more than `max_bytes`
-        once decompressed.
+        For a file, named `name`, that is no MCAP, is damaged, holds none or several, holds more than `max_bytes` once
+        decompressed, or more than `max_points` in the message.
     """
     import_optional("mcap_ros2", "mcap", "to read a motion from MCAP")
     try:
         found = list(_messages(data, max_bytes))
         if len(found) != 1:
             raise FormatError(f"{name}: holds {len(found)} messages {MESSAGE_TYPE} in CDR, must be one")
-        return _decoded(found[0])
+        num_points = _decoder(_COUNTED)(found[0]).num_points
+        if num_points > max_points:  # each of which would be an object, before anything looks at it
+            raise FormatError(f"{name}: points: {num_points}, must be 1 to {max_points}")
+        return _message(_decoder(_DEFINITION)(found[0]))
     except FormatError:
         raise
     except Exception as error:  # the libraries raise many kinds for what is damaged
@@ -109,21 +115,24 @@ def _decompressed(chunk: Any) -> bytes:
     return data
 
 
-def _decoded(data: bytes) -> dict[str, Any]:
-    """By the definition above, whatever the file says of its own."""
+def _decoder(definition: str) -> Callable[[bytes], Any]:
+    """By a definition of ours, whatever the file says of its own."""
     from mcap.records import Schema
     from mcap_ros2.decoder import DecoderFactory
 
-    schema = Schema(id=1, name=MESSAGE_TYPE, encoding="ros2msg", data=_DEFINITION.encode())
+    schema = Schema(id=1, name=MESSAGE_TYPE, encoding="ros2msg", data=definition.encode())
     decode = DecoderFactory().decoder_for("cdr", schema)
     assert decode is not None
-    message = decode(data)
+    return decode
+
+
+def _message(decoded: Any) -> dict[str, Any]:
     points = [
         {
             "positions": point.positions,
             "velocities": point.velocities,
             "time_from_start": {"sec": point.time_from_start.sec, "nanosec": point.time_from_start.nanosec},
         }
-        for point in message.points
+        for point in decoded.points
     ]
-    return {"joint_names": message.joint_names, "points": points}
+    return {"joint_names": decoded.joint_names, "points": points}
