@@ -28,6 +28,7 @@ from hri.robot import (
     check_trajectory,
     gesture_trajectory,
     joint_trajectory_message,
+    load_gestures,
     nao_gesture_trajectory,
     open_robot,
     read_joint_trajectory,
@@ -66,14 +67,26 @@ def test_a_gesture_comes_back_to_the_bit_and_is_played(tmp_path: Path, suffix: s
         )
 
 
-@pytest.mark.parametrize("table", [HOAP2, NAO], ids=["hoap2", "nao"])
-def test_what_controllers_interpolate_between_the_points_passes_the_check(table: Any) -> None:
-    """They follow cubics through positions and velocities, a thousand times a second."""
-    motion = gesture_trajectory("9") if table is HOAP2 else nao_gesture_trajectory("9")
+def between_points(motion: Trajectory) -> Trajectory:
+    """What controllers make of the points: cubics through positions and velocities, a thousand times a second."""
     velocities = [point["velocities"] for point in joint_trajectory_message(motion)["points"]]
     cubics = CubicHermiteSpline(motion.period_s * np.arange(len(motion)), motion.positions_rad, velocities)
-    fine = Trajectory(motion.joint_names, 0.001, cubics(0.001 * np.arange(round(1000 * motion.duration_s) + 1)))
-    assert check_trajectory(fine, table) == []
+    return Trajectory(motion.joint_names, 0.001, cubics(0.001 * np.arange(round(1000 * motion.duration_s) + 1)))
+
+
+def test_what_controllers_interpolate_between_the_points_passes_the_check() -> None:
+    assert check_trajectory(between_points(gesture_trajectory("9"))) == []
+    assert check_trajectory(between_points(nao_gesture_trajectory("9")), NAO) == []
+
+
+@pytest.mark.slow
+def test_so_does_what_they_interpolate_of_all_gestures() -> None:
+    errors = []
+    for table, gesture in ((HOAP2, gesture_trajectory), (NAO, nao_gesture_trajectory)):
+        for name in load_gestures():
+            findings = check_trajectory(between_points(gesture(name)), table)
+            errors += [(table.name, name, str(found)) for found in findings if found.severity == "error"]
+    assert errors == []
 
 
 @pytest.mark.parametrize("period_s", [0.001, 1 / 30, 0.04, 7.3])
