@@ -37,9 +37,10 @@ from hri.io import ModelFile, read_wav, write_wav_pcm16
 from hri.language import NGramModel
 from hri.media import frame_rate, iterate_frames, read_audio, read_frames, read_image, write_image, write_video
 from hri.models import Codebook
-from hri.robot import Trajectory, gesture_trajectory, read_pulse_csv, read_short_csv
+from hri.robot import Trajectory, gesture_trajectory, read_joint_trajectory, read_pulse_csv, read_short_csv
 from hri.robot.control.state import MotionLog, RobotState
 from hri.robot.imitation.tracks import read_hand_tracks
+from hri.robot.motion.joint_trajectory import write_joint_trajectory
 from hri.robot.motion.pulse_csv import parse_pulse_csv, write_pulse_csv
 from hri.robot.motion.repair import repair_pulse_csv
 from hri.robot.motion.short_csv import check_short_csv, is_short_csv, write_short_csv
@@ -106,6 +107,8 @@ WRITERS: dict[str, Callable[[Any], object]] = {
     "report.json": lambda path: write_json(str(path), {"rows": ROWS.tolist()}),
     "pulses.csv": lambda path: write_pulse_csv(path, motion()),
     "degrees.csv": lambda path: write_short_csv(path, motion()),
+    "trajectory.json": lambda path: write_joint_trajectory(path, motion()),
+    "trajectory.mcap": lambda path: write_joint_trajectory(path, motion()),
     "table.tsv": lambda path: motion().write_tsv(path),
     "repaired.csv": write_repaired,
     "log.json": write_log,
@@ -184,6 +187,8 @@ READERS: dict[str, Callable[[Any], object]] = {
     "odd.csv": lambda path: repair_pulse_csv(path, Path(path).with_name("repaired.csv")),
     "degrees.csv": read_short_csv,
     "form.csv": is_short_csv,
+    "trajectory.json": read_joint_trajectory,
+    "trajectory.mcap": read_joint_trajectory,
     "checked.csv": check_short_csv,
     "kept.json": lambda path: read_kept(Path(path)),
     "conditions.toml": lambda path: read_conditions(["a"], Path(path)),

@@ -50,6 +50,38 @@ def test_convert_writes_degrees(run, tmp_path):
     assert isinstance(run("convert", "1", tmp_path / "no" / "g.tsv").exception, IoError)
 
 
+@pytest.mark.parametrize("suffix", [".json", ".mcap"])
+def test_a_message_of_ros_passes_the_check_and_plays(run, tmp_path, suffix):
+    pytest.importorskip("mcap_ros2")
+    path, back = tmp_path / f"g{suffix}", tmp_path / "g.csv"
+    for robot in ("hoap2", "nao"):
+        assert run("convert", "1", path, "--robot", robot).exit_code == 0
+        assert run("check", path, "--robot", robot).exit_code == 0
+        assert run("play", path, "--robot", robot, "--backend", "kinematic").exit_code == 0
+        assert run("convert", path, back, "--short", "--robot", robot).exit_code == 0
+        assert run("check", back, "--robot", robot).exit_code == 0
+    result = run("check", path)  # NAO's joints are not HOAP-2's
+    assert result.exit_code == 3 and "HOAP-2 has no such joint" in result.output
+    assert run("check", path, "--repair", back).exit_code == 2
+    assert isinstance(run("convert", "1", back, "--robot", "nao").exception, InvalidArgument)
+
+
+def test_no_message_of_an_unsafe_motion_is_written(run, tmp_path):
+    path, out = tmp_path / "fast.csv", tmp_path / "fast.json"
+    path.write_text("# by hand\ntime_s,larm_joint_1\n0,80\n0.1,0\n")
+    error = run("convert", path, out).exception
+    assert isinstance(error, TrajectoryError) and str(error).startswith(f"{path}: row 4, column B") and not out.exists()
+    result = run("convert", path, out, "--slow")
+    assert result.exit_code == 0 and "slowed from 0.1" in result.output and run("check", out).exit_code == 0
+
+
+def test_urdf_is_written(run, tmp_path):
+    for robot, joint in (("hoap2", "larm_joint_1"), ("nao", "LShoulderPitch")):
+        path = tmp_path / f"{robot}.urdf"
+        assert run("urdf", path, "--robot", robot).exit_code == 0
+        assert f'<joint name="{joint}" type="revolute">' in path.read_text() and "capsule" not in path.read_text()
+
+
 def test_play_and_render(run, tmp_path):
     pytest.importorskip("cv2")
     result = run("play", "1", "--backend", "kinematic")

@@ -15,12 +15,16 @@ from hri.cli.groups import SuggestingGroup
 from hri.cli.imitate import imitate
 from hri.cli.messages import note
 from hri.core.errors import InvalidArgument
+from hri.core.files import write_text
 from hri.robot.control.state import MotionLog
 from hri.robot.control.stopping import stopped_by_signals
 from hri.robot.model.joints import HOAP2, NAO, ROBOTS, JointTable
 from hri.robot.model.postures import POSTURES
-from hri.robot.motion.checks import check_pulse_csv, require_safe
+from hri.robot.model.urdf import urdf_text
+from hri.robot.motion.checks import check_pulse_csv, check_trajectory, require_safe
 from hri.robot.motion.gestures import gesture_trajectory, load_gestures
+from hri.robot.motion.joint_trajectory import SUFFIXES as MESSAGE_SUFFIXES
+from hri.robot.motion.joint_trajectory import read_joint_trajectory, write_joint_trajectory
 from hri.robot.motion.plots import plot_trajectory
 from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
 from hri.robot.motion.repair import repair_pulse_csv
@@ -32,7 +36,7 @@ from hri.robot.motion.short_csv import (
     require_safe_short_csv,
     write_short_csv,
 )
-from hri.robot.motion.trajectory import Trajectory
+from hri.robot.motion.trajectory import Finding, Trajectory
 from hri.robot.nao.gestures import nao_gesture, nao_gesture_trajectory
 from hri.robot.nao.robot import NaoqiRobot
 from hri.robot.simulation.gallery import write_gallery
@@ -82,7 +86,8 @@ robot.add_command(imitate)
 )
 @_robot
 def check(file: Path, repaired: Path | None, table: JointTable) -> None:
-    """Look over FILE, pulses or the short form; tab-separated findings go to stdout, exit code 3 for errors.
+    """Look over FILE, pulses, the short form or a JointTrajectory of ROS 2 (.json, .mcap); tab-separated findings go to
+    stdout, exit code 3 for errors.
 
     With --repair, cells that hold no count are taken from their neighbours and counts beyond a limit become the limit
     in a new file; every change is reported on stderr, and the findings are those of the new file.
@@ -92,14 +97,16 @@ def check(file: Path, repaired: Path | None, table: JointTable) -> None:
       hri robot check motion.csv
       hri robot check motion.csv --repair repaired.csv
     """
-    if table is not HOAP2 and not is_short_csv(file):
-        raise InvalidArgument(f"{file}: pulses are HOAP-2's, {table.name} has the short form")
     if repaired is not None:
+        if _is_message(file):
+            raise click.UsageError("--repair is of pulses")
+        if not is_short_csv(file):
+            _require_pulses(file, table)
         for change in repair_pulse_csv(file, repaired):
             where = f"row {change.row}, column {change.column} ({change.joint})"
             note(f"{where}: {change.before!r} is now {change.after}: {change.reason}")
         file = repaired
-    findings = check_short_csv(file, table) if is_short_csv(file) else check_pulse_csv(file)
+    findings = _findings(file, table)
     for finding in findings:
         place = (finding.severity, str(finding.row), finding.column, finding.joint)
         click.echo("\t".join((*place, finding.message)))
@@ -146,7 +153,7 @@ def play(
     wake_up: bool,
     rest: bool,
 ) -> None:
-    """Carry out MOTION, the name of a gesture or a pulse CSV file; print where the joints end.
+    """Carry out MOTION, the name of a gesture or a file (.csv, .json, .mcap); print where the joints end.
 
     A robot on its feet begins with the motion's first row, standing or lying; where it ends, and whether it fell (exit
     code 1), is reported on stderr. Ctrl-C or SIGTERM stops the robot, within its limits of speed and acceleration: exit
@@ -214,7 +221,7 @@ def play(
 def render(
     motion: str, out: Path, backend: str, fps: float, size: tuple[int, int], still: float | None, table: JointTable
 ) -> None:
-    """Film MOTION, the name of a gesture or a pulse CSV file, as the video OUT, or take one picture of it.
+    """Film MOTION, the name of a gesture or a file (.csv, .json, .mcap), as the video OUT, or take one picture of it.
 
     \b
     Example:
@@ -238,38 +245,61 @@ def render(
     click.echo(str(out))
 
 
-@robot.command(short_help="Write a motion as pulses or degrees.")
+@robot.command(short_help="Write a motion as pulses, degrees or a message of ROS 2.")
 @click.argument("motion")
 @click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--short", is_flag=True, help="A .csv in degrees with named columns instead of pulses.")
 @click.option("--slow", is_flag=True, help="Slow the whole motion down to the limits of speed and acceleration.")
-def convert(motion: str, out: Path, short: bool, slow: bool) -> None:
-    """Write MOTION as OUT: pulses with .csv, else times and degrees, tab-separated (.tsv).
+@_robot
+def convert(motion: str, out: Path, short: bool, slow: bool, table: JointTable) -> None:
+    """Write MOTION as OUT: pulses with .csv, times and degrees, tab-separated, with .tsv, a JointTrajectory of ROS 2
+    with .json (as rosbridge has it) or .mcap (in CDR); the latter only if the check finds no error.
 
-    MOTION is the name of a gesture, a pulse CSV file or one in the short form.
+    MOTION is the name of a gesture, a pulse CSV file, one in the short form, or a JointTrajectory (.json, .mcap).
 
     \b
     Example:
       hri robot convert namaste namaste.csv
       hri robot convert motion.csv motion.tsv
       hri robot convert wave wave.csv --short
+      hri robot convert wave wave.mcap --robot nao
     """
-    trajectory = _motion(motion, HOAP2)
+    trajectory = _motion(motion, table)
     if slow:
-        slower = slow_to_limits(trajectory)
+        slower = slow_to_limits(trajectory, table)
         if slower is not trajectory:
             note(f"slowed from {trajectory.duration_s:g} to {slower.duration_s:g} s")
         trajectory = slower
     if out.suffix.lower() == ".csv" and short:
         write_short_csv(out, trajectory)
     elif out.suffix.lower() == ".csv":
+        if table is not HOAP2:
+            raise InvalidArgument(f"{out}: pulses are HOAP-2's: add --short")
         left_out = write_pulse_csv(out, trajectory)
         if left_out:
             note(f"left out, as the format has no count: {', '.join(left_out)}")
     elif out.suffix.lower() == ".tsv":
         trajectory.write_tsv(out)
+    elif _is_message(out):
+        (require_safe if slow else _require_safe)(trajectory, table, motion)
+        write_joint_trajectory(out, trajectory)
     else:
-        raise InvalidArgument(f"{out}: suffix must be .csv or .tsv")
+        raise InvalidArgument(f"{out}: suffix must be .csv, .tsv, .json or .mcap")
+    click.echo(str(out))
+
+
+@robot.command(short_help="Write the robot as URDF.")
+@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+@_robot
+def urdf(out: Path, table: JointTable) -> None:
+    """Write the robot as OUT, a URDF file that ROS reads: joints with axes and limits, masses, simple shapes.
+
+    \b
+    Examples:
+      hri robot urdf hoap2.urdf
+      hri robot urdf nao.urdf --robot nao
+    """
+    write_text(out, urdf_text(table, capsules=False))
     click.echo(str(out))
 
 
@@ -333,22 +363,42 @@ def gestures(table: JointTable) -> None:
             click.echo("\t".join((*fields, own.why_not)))
 
 
+def _is_message(path: str | Path) -> bool:
+    return Path(path).suffix.lower() in MESSAGE_SUFFIXES
+
+
 def _is_file(motion: str) -> bool:
-    return motion not in load_gestures() and (Path(motion).suffix.lower() == ".csv" or Path(motion).is_file())
+    suffixes = (".csv", *MESSAGE_SUFFIXES)
+    return motion not in load_gestures() and (Path(motion).suffix.lower() in suffixes or Path(motion).is_file())
+
+
+def _findings(file: Path, table: JointTable) -> list[Finding]:
+    if _is_message(file):
+        return check_trajectory(read_joint_trajectory(file), table)
+    if is_short_csv(file):
+        return check_short_csv(file, table)
+    _require_pulses(file, table)
+    return check_pulse_csv(file)
+
+
+def _require_pulses(file: str | Path, table: JointTable) -> None:
+    if table is not HOAP2:
+        raise InvalidArgument(f"{file}: pulses are HOAP-2's, {table.name} has the short form")
 
 
 def _motion(motion: str, table: JointTable) -> Trajectory:
     if _is_file(motion):
+        if _is_message(motion):
+            return read_joint_trajectory(motion)
         if is_short_csv(motion):
             return read_short_csv(motion, table)
-        if table is not HOAP2:
-            raise InvalidArgument(f"{motion}: pulses are HOAP-2's, {table.name} has the short form")
+        _require_pulses(motion, table)
         return read_pulse_csv(motion)
     return gesture_trajectory(motion) if table is HOAP2 else nao_gesture_trajectory(motion)  # errors name the gestures
 
 
 def _require_safe(trajectory: Trajectory, table: JointTable, motion: str) -> None:
     """As `require_safe`; the short form has rows and columns of its own."""
-    if _is_file(motion) and is_short_csv(motion):
+    if _is_file(motion) and not _is_message(motion) and is_short_csv(motion):
         require_safe_short_csv(motion, table)
     require_safe(trajectory, table, motion)

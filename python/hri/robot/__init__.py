@@ -18,6 +18,12 @@ from hri.robot.motion.gestures import (
     load_gestures,
     rest_positions,
 )
+from hri.robot.motion.joint_trajectory import (
+    joint_trajectory_message,
+    read_joint_trajectory,
+    trajectory_of_message,
+    write_joint_trajectory,
+)
 from hri.robot.motion.nao_arms import with_nao_arms
 from hri.robot.motion.plots import plot_trajectory
 from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
@@ -60,12 +66,14 @@ __all__ = [
     "check_trajectory",
     "concatenate",
     "gesture_trajectory",
+    "joint_trajectory_message",
     "link_poses",
     "load_gestures",
     "nao_gesture",
     "nao_gesture_trajectory",
     "open_robot",
     "plot_trajectory",
+    "read_joint_trajectory",
     "read_pulse_csv",
     "read_short_csv",
     "render_still",
@@ -79,9 +87,11 @@ __all__ = [
     "smooth",
     "spline",
     "stopped_by_signals",
+    "trajectory_of_message",
     "urdf_text",
     "with_nao_arms",
     "write_gallery",
+    "write_joint_trajectory",
     "write_pulse_csv",
     "write_short_csv",
 ]

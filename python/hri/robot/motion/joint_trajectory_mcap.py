@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""trajectory_msgs/JointTrajectory in MCAP as ROS 2 records it, in CDR, by mcap-ros2-support (the extra "mcap")."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+from hri.core.errors import FormatError
+from hri.core.optional import import_optional
+
+MESSAGE_TYPE = "trajectory_msgs/msg/JointTrajectory"
+TOPIC = "/joint_trajectory"
+
+_END = "\n" + "=" * 80 + "\n"
+_HEAD = "std_msgs/Header header\nstring[] joint_names\n"
+_PARTS = _END.join(
+    (
+        "",
+        "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id",
+        "MSG: trajectory_msgs/JointTrajectoryPoint\nfloat64[] positions\nfloat64[] velocities\n"
+        "float64[] accelerations\nfloat64[] effort\nbuiltin_interfaces/Duration time_from_start",
+        "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec",
+        "MSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec",
+    )
+)
+_DEFINITION = _HEAD + "trajectory_msgs/JointTrajectoryPoint[] points" + _PARTS
+_COUNTED = _HEAD + "uint32 num_points" + _PARTS  # what stands before the points
+
+
+def mcap_of_message(message: dict[str, Any]) -> bytes:
+    """An MCAP file of ROS 2 that holds one message, at time 0; the same message gives the same bytes."""
+    writer_of = import_optional("mcap_ros2.writer", "mcap", "to write a motion as MCAP")
+    out = io.BytesIO()
+    with writer_of.Writer(out) as writer:
+        definition = writer.register_msgdef(MESSAGE_TYPE, _DEFINITION)
+        writer.write_message(TOPIC, definition, message, log_time=0, publish_time=0)
+    return out.getvalue()
+
+
+def message_of_mcap(data: bytes, name: str, max_bytes: int, max_points: int) -> dict[str, Any]:
+    """The only JointTrajectory of an MCAP file, as `joint_trajectory_message` has it.
+
+    Raises
+    ------
+    FormatError
+        For a file, named `name`, that is no MCAP, is damaged, holds none or several, holds more than `max_bytes` once
+        decompressed, or more than `max_points` in the message.
+    """
+    import_optional("mcap_ros2", "mcap", "to read a motion from MCAP")
+    try:
+        found = list(_messages(data, max_bytes))
+        if len(found) != 1:
+            raise FormatError(f"{name}: holds {len(found)} messages {MESSAGE_TYPE} in CDR, must be one")
+        num_points = _decoder(_COUNTED)(found[0]).num_points
+        if num_points > max_points:  # each of which would be an object, before anything looks at it
+            raise FormatError(f"{name}: points: {num_points}, must be 1 to {max_points}")
+        return _message(_decoder(_DEFINITION)(found[0]))
+    except FormatError:
+        raise
+    except Exception as error:  # the libraries raise many kinds for what is damaged
+        raise FormatError(f"{name}: not an MCAP file of a motion: {type(error).__name__}: {error}") from error
+
+
+def _messages(data: bytes, max_bytes: int) -> Iterator[bytes]:
+    """What the channels of JointTrajectory hold."""
+    from mcap.records import Channel, Message, Schema
+
+    schemas: dict[int, str] = {}
+    ours: set[int] = set()
+    for record in _records(data, max_bytes):
+        if isinstance(record, Schema):
+            schemas[record.id] = record.name
+        elif isinstance(record, Channel):
+            if record.message_encoding == "cdr" and schemas.get(record.schema_id) == MESSAGE_TYPE:
+                ours.add(record.id)
+        elif isinstance(record, Message) and record.channel_id in ours:
+            yield record.data
+
+
+def _records(data: bytes, max_bytes: int) -> Iterator[Any]:
+    """All records; a chunk is decompressed no further than it says it holds."""
+    from mcap.records import Chunk
+    from mcap.stream_reader import StreamReader, breakup_chunk
+
+    reader = StreamReader(io.BytesIO(data), emit_chunks=True, validate_crcs=True, record_size_limit=len(data))
+    left = max_bytes
+    for record in reader.records:
+        if not isinstance(record, Chunk):
+            yield record
+            continue
+        left -= record.uncompressed_size
+        if left < 0:
+            raise ValueError(f"holds more than {max_bytes} bytes")
+        yield from breakup_chunk(replace(record, compression="", data=_decompressed(record)), validate_crc=True)
+
+
+def _decompressed(chunk: Any) -> bytes:
+    size = chunk.uncompressed_size
+    if chunk.compression == "lz4":
+        lz4 = import_optional("lz4.frame", "mcap", "to read a motion from MCAP")
+        data: bytes = lz4.LZ4FrameDecompressor().decompress(chunk.data, max_length=size + 1)
+    elif chunk.compression == "zstd":
+        zstd = import_optional("zstandard", "mcap", "to read a motion from MCAP")
+        data = zstd.ZstdDecompressor().stream_reader(io.BytesIO(chunk.data)).read(size + 1)
+    elif chunk.compression == "":
+        data = chunk.data
+    else:
+        raise ValueError(f"compression {chunk.compression!r} is none of lz4, zstd")
+    if len(data) != size:
+        raise ValueError(f"a chunk holds {len(data)} bytes or more, not {size}")
+    return data
+
+
+def _decoder(definition: str) -> Callable[[bytes], Any]:
+    """By a definition of ours, whatever the file says of its own."""
+    from mcap.records import Schema
+    from mcap_ros2.decoder import DecoderFactory
+
+    schema = Schema(id=1, name=MESSAGE_TYPE, encoding="ros2msg", data=definition.encode())
+    decode = DecoderFactory().decoder_for("cdr", schema)
+    assert decode is not None
+    return decode
+
+
+def _message(decoded: Any) -> dict[str, Any]:
+    points = [
+        {
+            "positions": point.positions,
+            "velocities": point.velocities,
+            "time_from_start": {"sec": point.time_from_start.sec, "nanosec": point.time_from_start.nanosec},
+        }
+        for point in decoded.points
+    ]
+    return {"joint_names": decoded.joint_names, "points": points}
