@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Hours of talk before a session: how often it stops the robot, or moves it, though nobody commanded that."""
+"""Hours of talk before a session: how often it stops the robot, or moves it, without a command."""
 
 from __future__ import annotations
 
