@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 
 import hri
-from hri.io import write_wav_pcm16
+from hri.io import model_as_cpp, write_wav_pcm16
 from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -98,6 +99,18 @@ def test_words_in_a_stream_are_found_and_recognised(programs: Path, spoken: Path
     assert [line.split("\t")[1] for line in lines] == ["one", "three"]
     begins_ms = [int(line.split()[0]) for line in lines]
     assert 1000 <= begins_ms[0] < 1200 and begins_ms[1] > 2000 + 1000 * len(clips[0].samples) / rate_hz
+
+
+def test_a_model_is_compiled_into_the_program_of_the_tutorial(installed: Path, spoken: Path, tmp_path: Path) -> None:
+    words = hri.train(hri.Dataset.load(spoken), hri.WordRecognizer(num_vtlp_factors=1, num_noisy_copies=0))
+    assert isinstance(words, hri.WordRecognizer)
+    (tmp_path / "words_model.hpp").write_text(model_as_cpp(words.to_model_file(), "words_model"))
+    tutorial = (ROOT / "docs" / "tutorial_cpp.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"```cpp\n(#include \"words_model.hpp\".*?)```", tutorial, re.DOTALL)
+    (tmp_path / "program.cpp").write_text(block)
+    flags = run("pkg-config", "--cflags", "--libs", "hri-core", PKG_CONFIG_PATH=str(installed / "lib" / "pkgconfig"))
+    run("g++", "-std=c++17", tmp_path / "program.cpp", "-o", tmp_path / "program", *flags.split())
+    assert run(tmp_path / "program").split() == list(words.classes_)
 
 
 def test_core_knows_no_opencv(installed: Path) -> None:

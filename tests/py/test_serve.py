@@ -256,7 +256,8 @@ def test_an_oversized_message_ends_the_connection_alone(
         page.socket.send(bytes(LIMITS.max_message_bytes + 1))
         with pytest.raises(ConnectionClosed) as closed:
             page.await_message(lambda m: False)
-        assert closed.value.rcvd is not None and closed.value.rcvd.code == 1009
+        # The rest of the message, which nobody reads any more, may reset the connection before the reason is there.
+        assert closed.value.rcvd is None or closed.value.rcvd.code == 1009
     time.sleep(0.2)
     assert "too large" in notes.text
     with connected(server, cookie) as page:
@@ -332,7 +333,9 @@ def test_a_word_is_added_by_three_samples_and_undone(
         assert not any(m.get("event") == "fused" for m in page.messages)  # what is recorded is no command
         (tmp_path / "words.hri").write_bytes(request(server, "/words.hri", cookie)[2])
         assert "hum" in hri.WordRecognizer.load(tmp_path / "words.hri").classes_
-        assert request(server, "/words.hri")[0] == 403
+        assert request(server, "/words.hri")[0] == 403 and request(server, "/words.hpp")[0] == 403
+        assert b"Span<const std::uint8_t> words()" in request(server, "/words.hpp", cookie)[2]
+        assert json.loads(request(server, "/words.json", cookie)[2])["kind"] == "word_recognizer"
         page.say(type="stop")
         page.await_event("state", state="stopped")
         page.say(type="undo")

@@ -46,6 +46,7 @@ COMMANDS = {
     "watch": ("hri.cli.watch:watch", "Recognise gestures as they are shown, to a camera or in a video."),
     "session": ("hri.cli.session:session", "Command a robot by words and signs, live or from recordings."),
     "serve": ("hri.cli.serve:serve", "Command a robot from a page in the browser, by its camera and microphone."),
+    "export": ("hri.cli.export:export", "Write a model as a C++ header or as JSON."),
     "adapt": ("hri.cli.adapt:adapt", "Adapt a word recogniser to a speaker, a microphone or a room."),
     "evaluate": ("hri.cli.evaluate:evaluate", "Measure accuracy on unseen persons, with cross-validation."),
     "record": ("hri.cli.record:record", "Record a data set of your own words or gestures."),

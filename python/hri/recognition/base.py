@@ -98,7 +98,7 @@ class Recognizer:
         return self
 
     def __getstate__(self) -> dict[str, Any]:
-        model = None if self._native is None else self._native.to_model_file().to_bytes()
+        model = None if self._native is None else self.to_model_file().to_bytes()
         return {"params": self.options.as_dict(), "model": model}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -114,6 +114,11 @@ class Recognizer:
 
     def _from_model_file(self, file: ModelFile) -> Any:
         return self._native_class.from_model_file(file)
+
+    def to_model_file(self) -> ModelFile:
+        """The model as `save` writes it."""
+        file: ModelFile = self._trained.to_model_file()
+        return file
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the model (safetensors layout). The old file stays whole if this fails."""

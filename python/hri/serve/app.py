@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import secrets
+from collections.abc import Callable
 from importlib.resources import files
 
 from starlette.applications import Starlette
@@ -15,6 +16,7 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
+from hri.io import ModelFile, model_as_cpp, model_as_json
 from hri.serve.connection import Reception, log
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teacher
@@ -22,6 +24,12 @@ from hri.serve.teaching import Teacher
 _PAGE = ("index.html", "page.css", "page.js", "link.js", "devices.js", "drawing.js", "words.js", "sound.js")
 HOSTS = ("127.0.0.1", "localhost")
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+_FORMS: dict[str, tuple[str, Callable[[ModelFile], bytes | str]]] = {
+    "hri": ("application/octet-stream", ModelFile.to_bytes),
+    "hpp": ("text/x-c++hdr", lambda file: model_as_cpp(file, "words")),
+    "json": ("application/json", model_as_json),
+}
+"""Of the recogniser of words, as the page offers it."""
 _USED = "This address has been used, or is not the one that hri serve printed. Start hri serve again for a new one."
 _HEADERS = {
     "Cache-Control": "no-store",
@@ -126,8 +134,10 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
             return refused("without the token")
         if stage.words is None:
             return PlainTextResponse("There is no recogniser of words.", 404, _HEADERS)
-        name = {"Content-Disposition": 'attachment; filename="words.hri"'}
-        return Response(stage.words_file(), media_type="application/octet-stream", headers=_HEADERS | name)
+        form = request.url.path.rpartition(".")[2]
+        name = {"Content-Disposition": f'attachment; filename="words.{form}"'}
+        kind, content = _FORMS[form]
+        return Response(content(stage.words.to_model_file()), media_type=kind, headers=_HEADERS | name)
 
     async def talk(socket: WebSocket) -> None:
         if not door.knows(socket) or not door.is_own_page(socket):
@@ -139,7 +149,7 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
     routes = [
         Route("/", index),
         Route("/stop", stop, methods=["POST"]),
-        Route("/words.hri", model),
+        *(Route(f"/words.{form}", model) for form in _FORMS),
         WebSocketRoute("/talk", talk),
         Route("/{name}", file),
     ]

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri export``."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import click
+
+from hri.cli.messages import note
+from hri.cli.output import OutputFile, write_text
+from hri.io import ModelFile, model_as_cpp, model_as_json
+
+_SUFFIXES = (".hpp", ".h", ".json")
+
+
+@click.command()
+@click.argument("model", type=click.Path(exists=True, dir_okay=False))
+@click.option("--out", "-o", required=True, type=OutputFile(_SUFFIXES), metavar="FILE", help="FILE.hpp or FILE.json.")
+@click.option("--name", metavar="NAME", help="Of the C++ function that gives the bytes; the default is made of FILE's.")
+def export(model: str, out: str, name: str | None) -> None:
+    """Write a model as a C++ header, to be compiled into a program, or as JSON, for programs of other kinds.
+
+    \b
+    Examples:
+      hri export words.hri -o words_model.hpp
+      hri export words.hri -o words.json
+    """
+    file = ModelFile.read(model)
+    target = Path(out)
+    if target.suffix.lower() == ".json":
+        if name is not None:
+            raise click.UsageError("--name is for C++: FILE must end in .hpp or .h")
+        write_text(target, model_as_json(file))
+        return
+    function = name or re.sub(r"[^A-Za-z0-9_]", "_", target.stem)
+    write_text(target, model_as_cpp(file, function))
+    note(f'load it with hri::ModelFile::parse({function}(), "{function}")')
