@@ -16,8 +16,10 @@ from hri.robot.model.joints import HOAP2, JointTable, Shape
 from hri.robot.motion.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
+ShapePair = tuple[tuple[str, Shape], tuple[str, Shape]]
 _LOOK_EVERY_RAD = 0.08  # of the joint with the largest displacement
 _TOLERANCE_M = 0.001
+_ROWS_AT_ONCE = 256
 
 
 @dataclass(frozen=True)
@@ -43,13 +45,15 @@ def self_collisions(
     table: JointTable = HOAP2,
     others_rad: Mapping[str, float] | None = None,
     legs_nearer_than_m: float = 0.0,
+    moved_alone: bool = False,
 ) -> list[Touch]:
     """Pairs of links whose solid shapes overlap by more than a millimetre.
 
     Joints that the motion does not name are at `others_rad`, and rest where that does not name them either. Links that
     adjoin (`JointTable.adjoining`) are left out. A row is looked at whenever a joint has moved by 0.08 rad; a row with
     an unknown position is passed over. `legs_nearer_than_m` above 0 also finds links of different legs that come that
-    near, in motions of the legs.
+    near, in motions of the legs. With `moved_alone`, links that the motion does not move against one another are left
+    out.
 
     Returns
     -------
@@ -61,8 +65,9 @@ def self_collisions(
         return []
     places = _link_frames(trajectory, rows, table, table.rest_rad | dict(others_rad or {}))
     touches: list[Touch] = []
+    pairs = _moved_pairs(table, frozenset(trajectory.joint_names)) if moved_alone else _shape_pairs(table)
     leg_of = _legs(table) if legs_nearer_than_m > 0.0 and _moves_legs(trajectory, table) else {}
-    for (first, a), (second, b) in _shape_pairs(table):
+    for (first, a), (second, b) in _near_pairs(places, pairs, legs_nearer_than_m):
         two_legs = first in leg_of and second in leg_of and leg_of[first] != leg_of[second]
         margin_m = legs_nearer_than_m if two_legs else 0.0
         depths = _depths(a, places[first], b, places[second], margin_m)
@@ -123,7 +128,7 @@ def _link_frames(
 
 
 @lru_cache(maxsize=8)
-def _shape_pairs(table: JointTable) -> list[tuple[tuple[str, Shape], tuple[str, Shape]]]:
+def _shape_pairs(table: JointTable) -> list[ShapePair]:
     shapes = [(name, shape) for name, link in table.links.items() for shape in link.solid]
     pairs = []
     for first, second in combinations(shapes, 2):
@@ -131,6 +136,31 @@ def _shape_pairs(table: JointTable) -> list[tuple[tuple[str, Shape], tuple[str, 
         if len(names) == 2 and names not in table.adjoining:
             pairs.append((first, second) if first[1].kind == "box" else (second, first))
     return pairs
+
+
+@lru_cache(maxsize=8)
+def _moved_pairs(table: JointTable, moving: frozenset[str]) -> list[ShapePair]:
+    """Pairs with a moving joint between them."""
+    carried: dict[str, frozenset[str]] = {table.base.name: frozenset()}
+    for joint in table.joints:
+        carried[joint.child] = carried[joint.parent] | ({joint.name} & moving)
+    return [pair for pair in _shape_pairs(table) if carried[pair[0][0]] != carried[pair[1][0]]]
+
+
+def _near_pairs(places: dict[str, tuple[Floats, Floats]], pairs: list[ShapePair], margin_m: float) -> list[ShapePair]:
+    """Pairs whose balls around them come within the margin in any row: few of hundreds."""
+    if not pairs:
+        return []
+    shapes = list(dict.fromkeys(one for pair in pairs for one in pair))
+    centres = np.stack([places[name][1] + places[name][0] @ np.array(shape.start) for name, shape in shapes])
+    reaches = np.array([_reach(shape) for _, shape in shapes])
+    number = {one: place for place, one in enumerate(shapes)}
+    first, second = (np.array([number[pair[side]] for pair in pairs]) for side in range(2))
+    nearest = np.full(len(pairs), np.inf)
+    for begin in range(0, centres.shape[1], _ROWS_AT_ONCE):
+        part = centres[:, begin : begin + _ROWS_AT_ONCE]
+        nearest = np.minimum(nearest, np.linalg.norm(part[first] - part[second], axis=2).min(axis=1))
+    return [pairs[place] for place in np.flatnonzero(nearest < reaches[first] + reaches[second] + margin_m)]
 
 
 def _depths(a: Shape, at: tuple[Floats, Floats], b: Shape, bt: tuple[Floats, Floats], margin_m: float) -> Floats:
