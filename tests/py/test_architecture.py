@@ -42,8 +42,8 @@ PYTHON = {
     "evaluation": {"core", "signal", "media", "datasets", "recognition"},
     "fusion": {"core", "io", "models", "recognition.decision"},
     "robot": {"core", "media"},
-    "session": {"core", "media", "signal", "recognition", "live", "fusion", "robot"},
-    "serve": {"core", "media", "signal", "recognition", "live", "robot", "session"},
+    "session": {"core", "media", "signal", "features", "vision", "recognition", "live", "fusion", "robot"},
+    "serve": {"core", "io", "media", "signal", "recognition", "live", "robot", "session"},
 }
 PYTHON["studies"] = {*PYTHON}
 PYTHON["demo"] = {*PYTHON, "cli"} - {"studies"}

@@ -59,6 +59,12 @@ _NAO = "nao"
 @click.option("--stop-threshold", type=float, metavar="P", help="Confidence from which STOP is sure; else the model's.")
 @click.option("--resume", multiple=True, metavar="LABEL", help="A word or sign that ends STOP.")
 @click.option(
+    "--imitate",
+    multiple=True,
+    metavar="LABEL",
+    help="From this word or sign on the arms move as yours do, until no or STOP.",
+)
+@click.option(
     "--confirm-below", type=float, default=0.5, show_default=True, help="Ask for what is less sure; 1: always."
 )
 @click.option("--window", "window_s", type=float, default=1.0, show_default=True, help="Seconds between word and sign.")
@@ -97,6 +103,7 @@ def session(
     stops: tuple[str, ...],
     stop_threshold: float | None,
     resume: tuple[str, ...],
+    imitate: tuple[str, ...],
     confirm_below: float,
     window_s: float,
     rule: str,
@@ -119,6 +126,7 @@ def session(
     Examples:
       hri session
       hri session --wake robot --resume start --record class.mcap
+      hri session --imitate follow --gui
       hri session --backend kinematic --json words.wav signs.mp4
       hri session --replay class.mcap
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
@@ -137,7 +145,13 @@ def session(
         raise click.UsageError("--no-speech and --no-gesture leave nothing")
     fusion = FusionOptions(stop_labels=stops, stop_threshold=stop_threshold)
     options = SessionOptions(
-        window_s, rule=rule, fusion=fusion, wake_labels=wake, resume_labels=resume, confirm_below=confirm_below
+        window_s,
+        rule=rule,
+        fusion=fusion,
+        wake_labels=wake,
+        resume_labels=resume,
+        imitate_labels=imitate,
+        confirm_below=confirm_below,
     )
     ids: dict[str, str] = {}
     words = load_model(WordRecognizer, "speech", speech_model, ids) if with_speech else None

@@ -4,20 +4,17 @@
 
 from __future__ import annotations
 
-import tempfile
 import threading
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import closing
-from pathlib import Path
 from typing import Any
 
 from hri.core.errors import Error, InvalidArgument
-from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.live import Event
 from hri.recognition import GestureRecognizer, WordRecognizer
-from hri.robot import Robot, Trajectory
+from hri.robot import Robot
 from hri.serve.devices import PageCamera, PageMicrophone
 from hri.serve.figure import figure
 from hri.serve.limits import ServeLimits
@@ -25,6 +22,7 @@ from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
 from hri.session.logic import BY_BUTTON
+from hri.session.mover import Motion
 
 _MOST_KEPT = 60
 _CLOSE_S = 8.0
@@ -45,7 +43,7 @@ class Stage:
     robot : Robot, optional
         Left open.
     options : SessionOptions, optional
-    motions : mapping of str to Trajectory, optional
+    motions : mapping of str to Trajectory or Guided, optional
         As of `Session`.
     limits : ServeLimits, optional
     model_ids : mapping of mode to str, optional
@@ -63,7 +61,7 @@ class Stage:
         robot: Robot | None = None,
         options: SessionOptions | None = None,
         *,
-        motions: Mapping[str, Trajectory] | None = None,
+        motions: Mapping[str, Motion] | None = None,
         limits: ServeLimits | None = None,
         model_ids: Mapping[str, str] | None = None,
     ) -> None:
@@ -161,21 +159,12 @@ class Stage:
             self._joints, self._figure = joints, {"type": "robot", **figure(joints, self._robot.table)}
         return self._figure
 
-    def words_file(self) -> bytes:
-        """The recogniser of words as a model file."""
-        if self.words is None:
-            raise InvalidArgument("there is no recogniser of words")
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "words.hri"
-            self.words.save(path)
-            return read_bytes(path, MAX_MODEL_BYTES)
-
-    def renew(self, motions: Mapping[str, Trajectory] | None = None) -> None:
+    def renew(self, motions: Mapping[str, Motion] | None = None) -> None:
         """Begin a new session, as the vocabulary has changed.
 
         Parameters
         ----------
-        motions : mapping of str to Trajectory, optional
+        motions : mapping of str to Trajectory or Guided, optional
             For labels beside those that have one.
 
         Raises
@@ -190,7 +179,7 @@ class Stage:
         self._session = self._made(motions)
         self.publish(self.welcome())
 
-    def _made(self, motions: Mapping[str, Trajectory] | None) -> Session:
+    def _made(self, motions: Mapping[str, Motion] | None) -> Session:
         return Session(self.words, self.signs, self._robot, self._options, motions=motions, model_ids=self._model_ids)
 
     def _refused(self, text: str) -> None:

@@ -3,7 +3,9 @@
 """A live session: words and signs paired, a dialogue, a robot that answers."""
 
 from hri.session.dialogue import STATES, Action, Dialogue
+from hri.session.imitation import Imitator, PersonTracker
 from hri.session.live import EventQueue
+from hri.session.mover import Guided
 from hri.session.nao_camera import NaoCamera
 from hri.session.nao_microphone import NaoMicrophone
 from hri.session.options import SessionOptions
@@ -18,12 +20,15 @@ __all__ = [
     "Action",
     "Dialogue",
     "EventQueue",
+    "Guided",
+    "Imitator",
     "McapRecorder",
     "NaoCamera",
     "NaoMicrophone",
     "Observation",
     "Pair",
     "Pairer",
+    "PersonTracker",
     "Recording",
     "Session",
     "SessionOptions",

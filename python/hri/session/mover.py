@@ -11,11 +11,31 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hri.core.errors import InvalidArgument
 from hri.robot import Robot, Trajectory, TrajectoryError
 
 _CLOSE_S = 5.0
 
+
+@dataclass(frozen=True)
+class Guided:
+    """A motion that is not known in advance: these joints go where `target_at` says at every time of the session.
+
+    Attributes
+    ----------
+    joint_names : tuple of str
+    target_at : callable of time_s
+        As of `hri.robot.Robot.follow`, whose time is the session's here.
+    """
+
+    joint_names: tuple[str, ...]
+    target_at: Callable[[float], NDArray[np.float64] | None]
+
+
+Motion = Trajectory | Guided
 OnJoints = Callable[[float, Mapping[str, float]], None]
 
 
@@ -74,7 +94,7 @@ class Moved:
 @dataclass
 class _Job:
     label: str
-    trajectory: Trajectory
+    motion: Motion
     begin_s: float
     cause: Cause
     steps: int = 0
@@ -95,7 +115,7 @@ class Mover:
     ----------
     robot : Robot
         Left open by `close`. Its `on_command` is used until then.
-    motions : mapping of label to Trajectory
+    motions : mapping of label to Trajectory or Guided
     clock : callable, optional
         The session's time in seconds, where that goes on by itself.
     on_joints : callable of (time_s, positions_rad), optional
@@ -110,7 +130,7 @@ class Mover:
     def __init__(
         self,
         robot: Robot,
-        motions: Mapping[str, Trajectory],
+        motions: Mapping[str, Motion],
         clock: Callable[[], float] | None = None,
         on_joints: OnJoints | None = None,
     ) -> None:
@@ -207,7 +227,7 @@ class Mover:
     def _carry_out(self, job: _Job) -> Moved:
         message, fault, completed = "", False, False
         try:
-            completed = self._robot.perform(job.trajectory)
+            completed = self._perform(job)
             fell = [event for event in self._robot.events[job.num_events :] if event.kind == "fall"]
             message = "I have fallen." if fell else ""
         except (TrajectoryError, InvalidArgument) as error:
@@ -217,12 +237,22 @@ class Mover:
         end_s = job.begin_s + max(0, job.steps - 1) * self._robot.step_s
         return Moved("motion_end", job.label, end_s, message, fault, completed)
 
+    def _perform(self, job: _Job) -> bool:
+        motion = job.motion
+        if isinstance(motion, Trajectory):
+            return self._robot.perform(motion)
+        return self._robot.follow(motion.joint_names, lambda _: motion.target_at(self._at_s(job)))
+
+    def _at_s(self, job: _Job) -> float:
+        """When the job's next command is due."""
+        return job.begin_s + job.steps * self._robot.step_s
+
     def _step(self, time_s: float, positions_rad: Mapping[str, float]) -> None:
         """Before every command, in the thread that moves: wait for its time, and note what it begins."""
         job = self._job
         if job is None:
             return
-        at_s = job.begin_s + job.steps * self._robot.step_s
+        at_s = self._at_s(job)
         self._wait(at_s)
         if job.rest:
             job.rest = False

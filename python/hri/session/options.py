@@ -12,7 +12,7 @@ from hri.core.suggest import did_you_mean
 from hri.fusion import RULES, FusionOptions
 
 _POSITIVE = ("onset_s", "max_wait_s", "attend_s", "confirm_s", "retry_s")
-_LABELS = ("wake_labels", "yes_labels", "no_labels", "resume_labels")
+_LABELS = ("wake_labels", "yes_labels", "no_labels", "resume_labels", "imitate_labels")
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,8 @@ class SessionOptions:
         Answers, beside the label itself, which confirms too.
     resume_labels : tuple of str
         What ends STOP; () leaves that to `Session.resume`.
+    imitate_labels : tuple of str
+        Commands from which on the robot moves its arms as the person before the camera does, until "no" or STOP.
     retry_s : float
         How often a source that vanished is opened again, above 0.
 
@@ -66,6 +68,7 @@ class SessionOptions:
     yes_labels: tuple[str, ...] = ("yes",)
     no_labels: tuple[str, ...] = ("no",)
     resume_labels: tuple[str, ...] = ()
+    imitate_labels: tuple[str, ...] = ()
     retry_s: float = 0.5
 
     def __post_init__(self) -> None:

@@ -20,9 +20,10 @@ from hri.recognition import GestureRecognizer, GestureSegmenterOptions, WordReco
 from hri.robot import NAO, Robot, Trajectory, gesture_trajectory, load_gestures, nao_gesture_trajectory
 from hri.session.feeds import Arrival, Clock, Feed, merge
 from hri.session.feeds import Recorder as StreamRecorder
+from hri.session.imitation import Faces, ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, STOP, TICK, Body, NoRobot, SessionLogic, session_event
-from hri.session.mover import Mover
+from hri.session.mover import Guided, Motion, Mover
 from hri.session.options import SessionOptions
 from hri.signal import EndpointerOptions
 
@@ -70,9 +71,9 @@ class Session:
     robot : Robot, optional
         Moved by `run`, and left open. Without one nothing moves, and every command counts as carried out.
     options : SessionOptions, optional
-    motions : mapping of str to Trajectory, optional
-        What the robot does for a label; by default the gesture of the same name. Each is checked here, from where the
-        joints are: those that the robot cannot make are left out, and `refused` says why.
+    motions : mapping of str to Trajectory or Guided, optional
+        What the robot does for a label; by default the gesture of the same name. Trajectories are checked here, from
+        where the joints are: those that the robot cannot make are left out, and `refused` says why.
     endpointer : EndpointerOptions, optional
         When a word begins and ends; see `hri.live.Listener`.
     segmenter : GestureSegmenterOptions, optional
@@ -83,6 +84,8 @@ class Session:
         Which models decide, and which learned fusion ("fusion"); passed on with decisions.
     fusion : LearnedFusion, optional
         Fuses words and signs in place of ``options.rule``.
+    faces : FaceFinder, optional
+        Finds the person who is imitated (``options.imitate_labels``); by default by OpenCV's cascade.
 
     Attributes
     ----------
@@ -104,12 +107,13 @@ class Session:
         robot: Robot | None = None,
         options: SessionOptions | None = None,
         *,
-        motions: Mapping[str, Trajectory] | None = None,
+        motions: Mapping[str, Motion] | None = None,
         endpointer: EndpointerOptions | None = None,
         segmenter: GestureSegmenterOptions | None = None,
         on_say: Callable[[str], None] | None = None,
         model_ids: Mapping[str, str] | None = None,
         fusion: LearnedFusion | None = None,
+        faces: Faces | None = None,
     ) -> None:
         if words is None and signs is None:
             raise InvalidArgument("a session needs a recogniser of words or of gestures")
@@ -117,7 +121,7 @@ class Session:
         self._robot = robot
         self._on_say = on_say
         self._labels = {str(label) for one in (words, signs) if one is not None for label in one.classes_}
-        for label in self.options.wake_labels + self.options.resume_labels:
+        for label in self.options.wake_labels + self.options.resume_labels + self.options.imitate_labels:
             if label not in self._labels:
                 raise InvalidArgument(f"{label!r} is in no vocabulary: {', '.join(sorted(self._labels))}")
         self._fusion = fusion
@@ -128,6 +132,11 @@ class Session:
         self._endpointer, self._segmenter = endpointer, segmenter
         self._listener = None if words is None else Listener(words, endpointer, model_id=ids.get("speech", ""))
         self._watcher = None if signs is None else Watcher(signs, segmenter, model_id=ids.get("gesture", ""))
+        self._imitator: Imitator | None = None
+        if self.options.imitate_labels and robot is not None:
+            if signs is None:
+                raise InvalidArgument("imitation needs pictures, and with them a recogniser of gestures")
+            self._imitator = Imitator(robot.table, faces)
         self.refused: dict[str, str] = {}
         self._motions = self._prepared(motions)
         self._inbox: EventQueue | deque[Event] = deque(maxlen=64)
@@ -135,7 +144,7 @@ class Session:
         self._running = threading.Lock()
 
     @property
-    def motions(self) -> dict[str, Trajectory]:
+    def motions(self) -> dict[str, Motion]:
         """What the robot does for each label."""
         return dict(self._motions)
 
@@ -217,14 +226,18 @@ class Session:
         if pictures is not None:
             if self._watcher is None:
                 raise InvalidArgument("pictures need a recogniser of gestures")
-            feeds.append(Feed("gesture", pictures, self._watcher.watch, clock, recorder))
+            tap = recorder if self._imitator is None else ImitatingTap(self._imitator, recorder)
+            feeds.append(Feed("gesture", pictures, self._watcher.watch, clock, tap))
         return feeds
 
-    def _prepared(self, motions: Mapping[str, Trajectory] | None) -> dict[str, Trajectory]:
+    def _prepared(self, motions: Mapping[str, Motion] | None) -> dict[str, Motion]:
         if self._robot is None:
             return {}
-        found: dict[str, Trajectory] = {}
-        led = {*self.options.control_labels, *self.options.fusion.stop_labels}
+        found: dict[str, Motion] = {}
+        if self._imitator is not None:
+            guided = Guided(self._imitator.joint_names, self._imitator.target_at)
+            found |= dict.fromkeys(self.options.imitate_labels, guided)
+        led = {*self.options.control_labels, *self.options.fusion.stop_labels, *found}
         for label in sorted(self._labels - led):
             if motions is None and label not in load_gestures():
                 self.refused[label] = "no gesture has this name"
@@ -233,9 +246,10 @@ class Session:
             else:
                 own = nao_gesture_trajectory if self._robot.table.name == NAO.name else gesture_trajectory
                 try:
-                    trajectory = motions[label] if motions is not None else own(label)
-                    self._robot.prepare(trajectory)
-                    found[label] = trajectory
+                    motion = motions[label] if motions is not None else own(label)
+                    if isinstance(motion, Trajectory):
+                        self._robot.prepare(motion)
+                    found[label] = motion
                 except (FormatError, InvalidArgument) as error:
                     self.refused[label] = str(error)
         return found
@@ -366,7 +380,7 @@ class Session:
         for event in events:
             if recorder is not None:
                 recorder.event(event)
-                if event.event == "motion_start" and event.fields["label"] in self._motions:
-                    label = event.fields["label"]
-                    recorder.motion(event.time, label, self._motions[label])
+                motion = self._motions.get(event.fields["label"]) if event.event == "motion_start" else None
+                if isinstance(motion, Trajectory):
+                    recorder.motion(event.time, event.fields["label"], motion)
             yield event

@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 import threading
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from abc import abstractmethod
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
@@ -15,28 +15,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import Error, InvalidArgument
-from hri.robot.control.braking import brake
+from hri.robot.control.commanding import CommandedJoints
 from hri.robot.control.filming import Film, Image, OnFrame
+from hri.robot.control.following import JointFollower, clear_of_itself
 from hri.robot.control.playing import Playback, approach_to
-from hri.robot.control.state import Contact, Event, MotionLog, RobotState, SelfContact, SelfContacts
-from hri.robot.control.stopping import StopLatch
+from hri.robot.control.state import MotionLog, RobotState
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.model.postures import require_posture
-from hri.robot.motion.checks import LIMIT_TOLERANCE_RAD, require_safe, require_safe_approach, require_within
+from hri.robot.motion.checks import require_safe, require_safe_approach, require_within
 from hri.robot.motion.trajectory import Trajectory
 
-FALL_TILT_DEG = 60.0
-UPRIGHT_TILT_DEG = 20.0
-_UPRIGHT_S = 0.5
 _HOLD_AFTER_FALL_S = 1.0
-_LOOK_S = 0.01
-_FEEL_S = 0.005
 _SAME_RAD = 1e-9
 _MOST_PREPARED = 256
-_TOLERANCES_RAD = np.array([-LIMIT_TOLERANCE_RAD, LIMIT_TOLERANCE_RAD])
+_SHARE = 0.99  # of speed and acceleration; the rest is for rounding
 
 
-class Robot(ABC):
+class Robot(CommandedJoints):
     """A robot that carries out trajectories; `hri.robot.open_robot` makes one.
 
     STOP latches: after `stop` no motion begins until `resume`. Any thread, `on_frame` and a signal handler may call
@@ -58,37 +53,17 @@ class Robot(ABC):
         not raise. It may wait: the command is sent when it returns.
     """
 
-    step_s: float = 0.001
-
     def __init__(self, table: JointTable = HOAP2) -> None:
-        self.table = table
-        self.events: list[Event] = []
-        self.on_command: Callable[[float, Mapping[str, float]], None] | None = None
+        super().__init__(table)
         self._prepared: dict[Trajectory, NDArray[np.float64]] = {}
-        self._touched = SelfContacts()
-        self._stop = StopLatch()
         self._moves = threading.Lock()
         self._mover: int | None = None
         self._closed = False
-        self._link_lost = False
-        self._commanded: dict[str, float] = {}
-        self._upright_s = 0.0
-        self._steps = 0
-
-    @property
-    def time_s(self) -> float:
-        """The robot's own time since it was opened."""
-        return self._steps * self.step_s
 
     @property
     def stopped(self) -> bool:
         """Whether `stop` was called, and `resume` not since."""
         return self._stop.engaged
-
-    @property
-    def self_contacts(self) -> list[SelfContact]:
-        """Pairs of links that touched one another in motions and while the robot held, looked at every 5 ms."""
-        return self._touched.found()
 
     def perform(
         self,
@@ -131,16 +106,12 @@ class Robot(ABC):
         """
         film = Film(on_frame, fps, size)
         stops = self._stop.mark()  # before the check, which takes a while: a stop during it concerns this motion
-        with self._one_at_a_time():
-            if self._stop.engaged:
-                self._event("stop", "not begun: stopped until resume()", log)
+        with self._begun(log) as may_move:
+            if not may_move:
                 return False
             why_not = self._why_not(trajectory)
             if why_not:
                 raise InvalidArgument(why_not)
-            if self._link_lost:
-                self._commanded.update(self._joint_positions())
-                self._link_lost = False
             begin, approach = self._checked(trajectory)
             return self._play(Playback(begin, approach, trajectory), stops, film, log)
 
@@ -161,6 +132,59 @@ class Robot(ABC):
             if why_not:
                 raise InvalidArgument(why_not)
             self._checked(trajectory)
+
+    def follow(
+        self,
+        joint_names: Sequence[str],
+        target_at: Callable[[float], NDArray[np.float64] | None],
+        log: MotionLog | None = None,
+    ) -> bool:
+        """Go towards targets that come one by one, as those of a person who is imitated, until there are no more.
+
+        What will come is not known, so it cannot be checked as a whole: the joints keep their limits of position,
+        speed and acceleration, and rest before links would overlap (`control.following`).
+
+        Parameters
+        ----------
+        joint_names : sequence of str
+            The joints that move; the others stay where they are.
+        target_at : callable of time_s
+            Called about every 10 ms with the robot's time. Gives positions in rad, shape (joints,); beyond a joint's
+            limits the limit is meant. None: there are no more targets, the joints come to rest.
+        log : MotionLog, optional
+
+        Returns
+        -------
+        bool
+            As of `perform`.
+
+        Raises
+        ------
+        InvalidArgument
+            For a joint that the robot does not have or cannot move; nothing has moved. For a target of another shape or
+            that is not finite; the joints have come to rest.
+        TrajectoryError
+            When links overlap where the joints are; nothing has moved.
+        Error
+            As of `perform`.
+        """
+        stops = self._stop.mark()
+        with self._begun(log) as may_move:
+            if not may_move:
+                return False
+            positions = self._positions_sent(self.table.names)
+            others = dict(zip(self.table.names, positions.tolist(), strict=True))
+            begin = np.array([others[self.table[name].name] for name in joint_names])
+            still = Trajectory(tuple(joint_names), self.step_s, np.stack((begin, begin)))
+            why_not = self._why_not(still)
+            if why_not:
+                raise InvalidArgument(why_not)
+            require_safe(still, self.table, others_rad=others)
+            limits = self.table.limits_rad[[self.table.index(name) for name in joint_names]]
+            most = _SHARE * self.table.max_speed_rad_s, _SHARE * self.table.max_acceleration_rad_s2
+            clear = clear_of_itself(still.joint_names, self.table, others)
+            follower = JointFollower(begin, limits, *most, self.step_s, clear)
+            return self._follow(follower, still.joint_names, target_at, stops, log)
 
     def hold(self, duration_s: float, log: MotionLog | None = None) -> bool:
         """Keep the joints where they were sent for a time, also when stopped; False when the robot falls meanwhile.
@@ -265,14 +289,6 @@ class Robot(ABC):
                 self._close()
 
     @abstractmethod
-    def _command(self, positions_rad: Mapping[str, float]) -> None:
-        """Send joints to positions, the others as before, and let `step_s` go by."""
-
-    @abstractmethod
-    def _state(self) -> RobotState:
-        """Do what `state` says."""
-
-    @abstractmethod
     def _place(self, positions_rad: Mapping[str, float], posture: str | None) -> None:
         """Do what `reset` says; names, positions and posture are known to be valid."""
 
@@ -284,25 +300,9 @@ class Robot(ABC):
     def _close(self) -> None:
         """Do what `close` says; called once."""
 
-    def _joint_positions(self) -> dict[str, float]:
-        """Do what `joint_positions_rad` says."""
-        return self._state().positions_rad
-
     def _why_not(self, trajectory: Trajectory) -> str:
         """Why this robot cannot make a motion that its table allows; "" when it can."""
         return ""
-
-    def _tilt_deg(self) -> float:
-        """Angle between the base's z axis and the vertical; 0 for a robot that cannot fall or has no such sensor."""
-        return 0.0
-
-    def _on_feet_alone(self) -> bool:
-        """Whether nothing but feet touches the floor; True for a robot without contact sensors."""
-        return True
-
-    def _touching(self) -> Iterable[Contact]:
-        """Links that touch one another now; none for a robot without physics or such sensors."""
-        return ()
 
     def __enter__(self) -> Self:
         return self
@@ -331,6 +331,19 @@ class Robot(ABC):
         finally:
             self._mover = None
             self._moves.release()
+
+    @contextmanager
+    def _begun(self, log: MotionLog | None) -> Iterator[bool]:
+        """As of `_one_at_a_time`, from where the joints really are; False for a robot that is stopped."""
+        with self._one_at_a_time():
+            if self._stop.engaged:
+                self._event("stop", "not begun: stopped until resume()", log)
+                yield False
+                return
+            if self._link_lost:
+                self._commanded.update(self._joint_positions())
+                self._link_lost = False
+            yield True
 
     def _checked(self, trajectory: Trajectory) -> tuple[NDArray[np.float64], Trajectory | None]:
         """Where the motion's joints are, and the way to its first row; raises TrajectoryError for what is not safe."""
@@ -369,74 +382,57 @@ class Robot(ABC):
             if not self._link_lost:
                 self._brake(names, before, now, log)
             raise
-        if fallen:
-            self._event("fall", f"the base leans by {self._tilt_deg():.0f} degrees", log)
-            self._upright_s = 0.0
-        else:
-            self._event("stop", "stopped on request", log)
+        self._report_end(fallen, log)
         self._brake(names, before, now, log)
         if fallen:
             self._hold(_HOLD_AFTER_FALL_S, log)
         return False
 
-    def _brake(self, names: tuple[str, ...], before: list[float], now: list[float], log: MotionLog | None) -> None:
-        """Bring joints to rest that were sent to these two positions, a step apart."""
-        limits = self.table.limits_rad[[self.table.index(name) for name in names]] + _TOLERANCES_RAD
-        positions = np.array(now)
-        speeds = (positions - np.array(before)) / self.step_s
-        most = self.table.max_acceleration_rad_s2
-        for row in brake(positions, speeds, limits, self.table.max_speed_rad_s, most, self.step_s).tolist():
-            self._send(dict(zip(names, row, strict=True)), log)
+    def _follow(
+        self,
+        follower: JointFollower,
+        names: tuple[str, ...],
+        target_at: Callable[[float], NDArray[np.float64] | None],
+        stops: object,
+        log: MotionLog | None,
+    ) -> bool:
+        """Until the targets, a stop or a fall end it; the way to rest is always one that was found clear."""
+        ended = fallen = False
+        failure: BaseException | None = None
+        while not (ended and follower.rests):
+            target: NDArray[np.float64] | None = None
+            if not ended:
+                fallen = self._fallen()
+                ended = fallen or self._stop.since(stops)
+                if ended:
+                    self._report_end(fallen, log)
+                else:
+                    try:
+                        target = _target(target_at(self.time_s), len(names))
+                    except BaseException as error:  # raised once the joints rest
+                        failure = error
+                    ended = target is None
+            for row in follower.tick(target).tolist():
+                self._send(dict(zip(names, row, strict=True)), log)
+        if failure is not None:
+            raise failure
+        if fallen:
+            self._hold(_HOLD_AFTER_FALL_S, log)
+        return not (fallen or self._stop.since(stops))
 
-    def _hold(self, duration_s: float, log: MotionLog | None) -> bool:
-        for _ in range(round(duration_s / self.step_s)):
-            if self._fallen():
-                self._event("fall", "fell while holding", log)
-                return False
-            self._send({}, log)
-        return True
+    def _report_end(self, fallen: bool, log: MotionLog | None) -> None:
+        if fallen:
+            self._event("fall", f"the base leans by {self._tilt_deg():.0f} degrees", log)
+            self._upright_s = 0.0
+        else:
+            self._event("stop", "stopped on request", log)
 
-    def _send(self, positions_rad: dict[str, float], log: MotionLog | None) -> None:
-        self._commanded.update(positions_rad)
-        if self.on_command is not None:
-            self.on_command(self.time_s, self._commanded)
-        try:
-            self._command(positions_rad)
-        except Exception as error:
-            self._link_lost = True
-            self._stop.engage()
-            self._event("fault", f"stopped, as the robot does not take commands: {error}", log)
-            raise
-        self._steps += 1
-        if self._steps % max(1, round(_FEEL_S / self.step_s)) == 0:
-            for contact in self._touching():
-                self._touched.add(contact, self.time_s)
-                if log is not None:
-                    log.touched.add(contact, self.time_s)
-        if log is not None and self._steps % max(1, round(log.period_s / self.step_s)) == 0:
-            log.states.append(self._state())
 
-    def _positions_sent(self, names: tuple[str, ...]) -> NDArray[np.float64]:
-        missing = [name for name in names if name not in self._commanded]
-        if missing:
-            there = self._joint_positions()
-            self._commanded.update((name, there[name]) for name in missing)
-        return np.array([self._commanded[name] for name in names])
-
-    def _fallen(self) -> bool:
-        """Whether a robot that has stood upright for a while does so no more."""
-        every = max(1, round(_LOOK_S / self.step_s))
-        if self._steps % every != 0:
-            return False
-        tilt, on_feet = self._tilt_deg(), self._on_feet_alone()
-        if self._upright_s < _UPRIGHT_S:
-            upright = tilt < UPRIGHT_TILT_DEG and on_feet
-            self._upright_s = self._upright_s + every * self.step_s if upright else 0.0
-            return False
-        return tilt > FALL_TILT_DEG or (tilt > UPRIGHT_TILT_DEG and not on_feet)
-
-    def _event(self, kind: str, message: str, log: MotionLog | None) -> None:
-        event = Event(self.time_s, kind, message)
-        self.events.append(event)
-        if log is not None:
-            log.events.append(event)
+def _target(positions_rad: NDArray[np.float64] | None, count: int) -> NDArray[np.float64] | None:
+    """What `Robot.follow` was given; raises InvalidArgument for anything but one finite number a joint."""
+    if positions_rad is None:
+        return None
+    target = np.asarray(positions_rad, dtype=np.float64)
+    if target.shape != (count,) or not np.isfinite(target).all():
+        raise InvalidArgument(f"a target to follow must be {count} finite positions, got {positions_rad!r}")
+    return target

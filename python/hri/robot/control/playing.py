@@ -68,7 +68,7 @@ class Playback:
             last = min(first + _CHUNK, steps) - 1
             fine = np.arange(first * finer - window + 1, last * finer + window, dtype=np.float64)
             positions = self._unsmoothed(fine_s * fine - self.lead_s)
-            yield from _mean(_mean(positions, window), window)[::finer].tolist()
+            yield from running_mean(running_mean(positions, window), window)[::finer].tolist()
 
     def _unsmoothed(self, times_s: Floats) -> Floats:
         rows = self.trajectory.at(times_s - self.approach_s)
@@ -94,7 +94,7 @@ def approach_to(trajectory: Trajectory, begin_rad: Floats, table: JointTable) ->
     return Trajectory(trajectory.joint_names, 0.01, positions)
 
 
-def _mean(values: Floats, count: int) -> Floats:
+def running_mean(values: Floats, count: int) -> Floats:
     """Means of so many rows in succession."""
     sums = np.cumsum(np.vstack((np.zeros(values.shape[1]), values - values[0])), axis=0)
     means: Floats = values[0] + (sums[count:] - sums[:-count]) / count

@@ -16,7 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.robot.model.arm import Arm, arm_angles, arm_of, arm_points
-from hri.robot.model.clearance import Body, arms_clearance, body_clearance, body_of, forearm_balls
+from hri.robot.model.clearance import (
+    Body,
+    arms_clearance,
+    body_clearance,
+    body_of,
+    forearm_balls,
+    mirrored_to_other,
+)
 from hri.robot.model.joints import JointTable
 
 Floats = NDArray[np.float64]
@@ -36,6 +43,8 @@ _SWIVEL_RAD, _SWIVEL_SPREAD_RAD = np.radians(25.0), np.radians(60.0)
 _STEP_RAD = 0.06  # a change of all joints by this from frame to frame costs as much as one spread
 _REFINEMENTS = (0.5, 0.25)
 _BLOCKED = 1e6
+_TOUCHING = 1e3
+_NEAR = np.arange(-2.0, 3.0)
 _GRID_M = 0.01
 
 
@@ -138,10 +147,10 @@ def _poses(
     return angles, clearance[clear], possible, balls[clear]
 
 
-def _best(
+def _rated(
     arm: Arm, body: Body, targets_m: Floats, depths_m: Floats, swivels_rad: Floats, other: Floats | None
 ) -> tuple[Floats, Floats]:
-    """Depth and swivel of the cheapest path through the choices of every frame."""
+    """Angles of every choice, shape (frames, choices, 4), and what each costs by itself, shape (frames, choices)."""
     angles, clearance, possible, balls = _poses(arm, body, targets_m, depths_m, swivels_rad)
     costs = ((depths_m - DEPTH_M) / _DEPTH_SPREAD_M) ** 2 + ((swivels_rad - _SWIVEL_RAD) / _SWIVEL_SPREAD_RAD) ** 2
     costs[~possible] += _BLOCKED
@@ -149,7 +158,15 @@ def _best(
         frames = np.nonzero(possible)[0]
         radii = forearm_balls(arm, np.zeros(3), np.zeros(3))[1]
         clearance = np.minimum(clearance, arms_clearance(balls, radii, other[frames]))
-    costs[possible] += np.maximum(0.0, 0.012 - clearance) / 0.004 + np.where(clearance < CLEARANCE_M, 1e3, 0.0)
+    costs[possible] += np.maximum(0.0, 0.012 - clearance) / 0.004 + np.where(clearance < CLEARANCE_M, _TOUCHING, 0.0)
+    return angles, costs
+
+
+def _best(
+    arm: Arm, body: Body, targets_m: Floats, depths_m: Floats, swivels_rad: Floats, other: Floats | None
+) -> tuple[Floats, Floats]:
+    """Depth and swivel of the cheapest path through the choices of every frame."""
+    angles, costs = _rated(arm, body, targets_m, depths_m, swivels_rad, other)
     scaled = angles / _STEP_RAD
     chosen = np.zeros((len(costs), costs.shape[1]), dtype=np.intp)
     total = costs[0]
@@ -165,6 +182,60 @@ def _best(
         path[frame - 1] = chosen[frame, path[frame]]
     rows = np.arange(len(costs))
     return depths_m[rows, path], swivels_rad[rows, path]
+
+
+class PoseFinder:
+    """Poses of one arm for places that come one by one; each is near the pose before.
+
+    Parameters
+    ----------
+    arm : Arm
+    table : JointTable
+    rest_rad : ndarray, shape (4,)
+        The pose without a place, as for a left arm.
+
+    Attributes
+    ----------
+    angles_rad : ndarray of float64, shape (4,)
+        The pose, as for a left arm.
+    """
+
+    def __init__(self, arm: Arm, table: JointTable, rest_rad: Floats) -> None:
+        self._arm, self._table, self._rest = arm, table, rest_rad
+        self._body = body_of(arm, table)
+        self.angles_rad = rest_rad
+        self._depth, self._swivel = DEPTH_M, float(_SWIVEL_RAD)
+
+    @property
+    def forearm_seen_by_other(self) -> Floats:
+        """Balls of the forearm as the other arm sees them, shape (balls, 3)."""
+        elbow, hand = arm_points(self._arm, self.angles_rad)
+        return mirrored_to_other(self._arm, forearm_balls(self._arm, elbow, hand)[0])
+
+    def move_to(self, target_m: Floats | None, other: Floats) -> None:
+        """Bring the hand to a place, or near it; stays where no pose is possible.
+
+        Parameters
+        ----------
+        target_m : ndarray, shape (2,), or None
+            Outwards and up from the shoulder; None: to rest.
+        other : ndarray, shape (balls, 3)
+            The other forearm, to stay clear of.
+        """
+        if target_m is None:
+            self.angles_rad = self._rest
+            return
+        target = _within_reach(self._arm, self._table, self._body, target_m[np.newaxis])
+        depths, swivels = (grid.ravel() for grid in np.meshgrid(_DEPTHS_M, _SWIVELS_RAD, indexing="ij"))
+        near = [grid.ravel() for grid in np.meshgrid(0.004 * _NEAR, np.radians(3.0) * _NEAR)]
+        depths = np.concatenate((self._depth + near[0], depths))[np.newaxis]
+        swivels = np.concatenate((self._swivel + near[1], swivels))[np.newaxis]
+        angles, costs = _rated(self._arm, self._body, target, depths, swivels, other[np.newaxis])
+        moved = ((angles[0] - self.angles_rad) / _STEP_RAD) ** 2
+        best = int(np.argmin(costs[0] + 0.1 * moved.sum(axis=1)))
+        if costs[0, best] < _TOUCHING:
+            self.angles_rad = angles[0, best]
+            self._depth, self._swivel = float(depths[0, best]), float(swivels[0, best])
 
 
 def _smooth(values: Floats, reach: int = 3) -> Floats:
