@@ -298,6 +298,16 @@ class ForwardPass {
 
 }  // namespace
 
+bool Lattice::fits(const std::vector<WordChain>& chains, const WordNetwork& network,
+                   std::int64_t num_frames) {
+  std::int64_t width = 2 * static_cast<std::int64_t>(network.num_nodes());
+  for (const int model : network.models()) {
+    if (model >= 0 && model < static_cast<int>(chains.size()))
+      width += chains[static_cast<std::size_t>(model)].log_start.size();
+  }
+  return num_frames < kMostValues / width;
+}
+
 Lattice Lattice::decode(const std::vector<WordChain>& chains, const WordNetwork& network,
                         ConstMatrixRefF log_emissions, const ConnectedDecoderOptions& options,
                         const LatticeOptions& lattice_options) {
@@ -312,8 +322,7 @@ Lattice Lattice::decode(const std::vector<WordChain>& chains, const WordNetwork&
     for (const float value : row_span(log_emissions, t))
       require(value < std::numeric_limits<float>::infinity(), "log_emissions has NaN or infinity");
   }
-  const std::int64_t width = search.num_states + 2 * static_cast<std::int64_t>(search.num_nodes());
-  require((log_emissions.rows() + 1) * width <= kMostValues,
+  require(fits(chains, network, log_emissions.rows()),
           "the recording is too long for a lattice of so many states");
   const BackwardScores after(search, log_emissions);
   if (!(after.of_entry(0, search.initial) > kImpossible)) return {{}, {}};

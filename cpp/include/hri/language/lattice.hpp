@@ -79,6 +79,10 @@ class HRI_API Lattice {
                         ConstMatrixRefF log_emissions, const ConnectedDecoderOptions& options = {},
                         const LatticeOptions& lattice_options = {});
 
+  /// Whether decode() takes so many frames of the network.
+  static bool fits(const std::vector<WordChain>& chains, const WordNetwork& network,
+                   std::int64_t num_frames);
+
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<Arc>& arcs() const { return arcs_; }  ///< by where they lead
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
