@@ -34,13 +34,13 @@ struct HRI_API ConnectedWordRecognizerOptions {
   double max_pause_ms = 300;
   int num_alignments = 1;
   bool choose_penalty = true;
-  double confidence_scale = 0.1;
+  double confidence_scale = 0.02;
   double min_confidence = 0;
   bool unknown_words = false;
   int unknown_rank = 4;
   double unknown_penalty = -20;
   ConnectedDecoderOptions decoder;
-  LatticeOptions lattice{500, 200000};
+  LatticeOptions lattice{1000, 200000};
 
   static constexpr const char* kName = "ConnectedWordRecognizerOptions";
   template <class Self, class Visitor>
