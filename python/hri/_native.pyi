@@ -7181,7 +7181,7 @@ class ConnectedWordRecognizerOptions:
         times that the boundaries of words are moved to where the models put them, and the models trained again; 0..10
     choose_penalty : bool, default True
         decoder.insertion_penalty, confidence_scale, unknown_rank and unknown_penalty are chosen on strings of speakers held out
-    confidence_scale : float, default 0.1
+    confidence_scale : float, default 0.02
         factor on log scores in confidences, as neighbouring frames do not score independently; 1e-06..1
     min_confidence : float, default 0.0
         words of less confidence are marked unknown; 0..1
@@ -7215,7 +7215,7 @@ class ConnectedWordRecognizerOptions:
         max_pause_ms: float = 300.0,
         num_alignments: int = 1,
         choose_penalty: bool = True,
-        confidence_scale: float = 0.1,
+        confidence_scale: float = 0.02,
         min_confidence: float = 0.0,
         unknown_words: bool = False,
         unknown_rank: int = 4,

@@ -202,27 +202,34 @@ def _fitted(train: Sequence[Clip], progress: Progress, **options: Any) -> Connec
     )
 
 
+def _by(
+    recognizer: ConnectedWordRecognizer, rate_hz: int, *, is_known: bool = False
+) -> Callable[[DigitString], Transcript]:
+    def recognise(string: DigitString) -> Transcript:
+        return recognizer.recognise(string.samples, rate_hz, num_words=len(string.labels) if is_known else None)
+
+    return recognise
+
+
 def _measure(measured: Measured, person: str, test: Sequence[Clip], recognizer: ConnectedWordRecognizer) -> None:
     rate_hz = test[0][2].sample_rate_hz
     labels = sorted({label for label, _, _ in test})
-    by = lambda model: lambda s: model.recognise(s.samples, rate_hz)  # noqa: E731
     for pause_ms in PAUSES_MS:
         strings = _strings(test, pause_ms)
-        measured.add(pause_ms, LOOP, person, strings, by(recognizer))
-        known = lambda s: recognizer.recognise(s.samples, rate_hz, num_words=len(s.labels))  # noqa: E731
-        measured.add(pause_ms, KNOWN, person, strings, known)
+        measured.add(pause_ms, LOOP, person, strings, _by(recognizer, rate_hz))
+        measured.add(pause_ms, KNOWN, person, strings, _by(recognizer, rate_hz, is_known=True))
     longest = max(PAUSES_MS)
     strings = _strings(test, longest)
     for snr_db in NOISES_DB:
         rng = np.random.default_rng([SEED, 4, snr_db])
         noisy = [_noisy(string, snr_db, rng) for string in strings]
-        measured.add(longest, f"{LOOP}, white noise at {snr_db} dB", person, noisy, by(recognizer))
+        measured.add(longest, f"{LOOP}, white noise at {snr_db} dB", person, noisy, _by(recognizer, rate_hz))
     directed = copy.deepcopy(recognizer).set_grammar(_directory(strings, labels))
-    measured.add(longest, GRAMMAR, person, strings, by(directed))
+    measured.add(longest, GRAMMAR, person, strings, _by(directed, rate_hz))
     rows = _rows_of_choices(test, labels, longest)
-    measured.add(longest, FREE, person, rows, by(recognizer))
+    measured.add(longest, FREE, person, rows, _by(recognizer, rate_hz))
     weighted = copy.deepcopy(recognizer).set_language(_language(labels)).set_decoder(language_scale=LANGUAGE_SCALE)
-    measured.add(longest, BIGRAM, person, rows, by(weighted))
+    measured.add(longest, BIGRAM, person, rows, _by(weighted, rate_hz))
 
 
 def _measure_unknown(
@@ -239,7 +246,7 @@ def _measure_unknown(
     ]
     for words, is_on in ((MISSED, False), (UNKNOWN, True)):
         model = _fitted(known, progress, unknown_words=is_on)
-        measured.add(longest, words, person, strings, lambda s, model=model: model.recognise(s.samples, rate_hz))
+        measured.add(longest, words, person, strings, _by(model, rate_hz))
 
 
 def _run(data_dir: Path, progress: Progress, *, source: str, takes: int | None = None) -> dict[str, Any]:
