@@ -34,8 +34,8 @@ class HeldOutChoices {
   static constexpr std::array kPenalties{-400.0, -300.0, -200.0, -150.0, -100.0, -70.0,
                                          -50.0,  -30.0,  -15.0,  0.0,    15.0,   30.0};
   static constexpr std::array kScales{1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005};
-  static constexpr std::array kRanks{2, 4, 8, 16};
-  static constexpr std::array kUnknownPenalties{0.0, -10.0, -20.0, -40.0, -70.0, -100.0, -150.0};
+  static constexpr std::array kRanks{1, 2, 4, 8, 16};
+  static constexpr std::array kUnknownPenalties{0.0, -30.0, -70.0, -150.0, -300.0, -500.0, -800.0};
   using UnknownErrors = std::array<std::array<int, kUnknownPenalties.size()>, kRanks.size()>;
 
   StopCheck should_stop_;
