@@ -18,6 +18,7 @@ from pathlib import Path
 import bench_cepstra
 import bench_classifiers
 import bench_codebook
+import bench_connected
 import bench_hmm
 import bench_latency
 import bench_possibility
@@ -38,6 +39,7 @@ MODULES = (
     bench_classifiers,
     bench_vision,
     bench_latency,
+    bench_connected,
     bench_robot,
 )
 ALL = {bench.name: bench for module in MODULES for bench in module.BENCHES}

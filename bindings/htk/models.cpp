@@ -113,9 +113,10 @@ void bind_words(py::module_& m) {
   py::class_<WordLattice>(m, "HtkWordLattice", "A word network: words on nodes, weights on arcs.")
       .def(py::init([](std::vector<std::string> words,
                        const std::vector<std::tuple<int, int, double>>& arcs) {
-             WordLattice made{std::move(words), {}};
+             WordLattice made;
+             made.words = std::move(words);
              for (const auto& [from, to, log_weight] : arcs)
-               made.arcs.push_back({from, to, log_weight});
+               made.arcs.push_back({from, to, log_weight, 0});
              if (const std::string fault = made.fault(); !fault.empty())
                hri::fail(hri::ErrorKind::invalid_argument, fault);
              return made;
@@ -147,6 +148,16 @@ void bind_words(py::module_& m) {
             return arcs;
           },
           "(from, to, log weight).")
+      .def_static("of_lattice", &WordLattice::of_lattice, py::arg("lattice"), py::arg("labels"),
+                  py::arg("first_s"), py::arg("frame_s"),
+                  "A hri.language.Lattice as a file: labels of its models, frame n at first_s + n "
+                  "frame_s.")
+      .def("to_lattice", &WordLattice::to_lattice, py::arg("labels"),
+           py::arg("silences") = std::vector<std::string>{}, py::arg("first_s") = 0.0,
+           py::arg("frame_s") = 0.01,
+           "The same back; words of `silences` are silence. Raises InvalidArgument for a file "
+           "without times.")
+      .def_readonly("times_s", &WordLattice::times_s, "Where the words of the nodes end, or empty.")
       .def_property_readonly("first", &WordLattice::first, "The node that begins sentences.")
       .def_property_readonly("last", &WordLattice::last, "The node that ends them.");
 }

@@ -12,6 +12,8 @@
 #include "core/options.hpp"
 #include "core/paths.hpp"
 #include "hri/language/connected_decoder.hpp"
+#include "hri/language/grammar.hpp"
+#include "hri/language/lattice.hpp"
 #include "hri/language/ngram_model.hpp"
 #include "hri/language/word_emissions.hpp"
 #include "models/model_inputs.hpp"
@@ -88,7 +90,8 @@ void bind_network(py::module_& m) {
            py::arg("models"), py::arg("arcs"), py::arg("initial"), py::arg("final"),
            "`models[n]` is the model of node n, -1 for a null node; an arc is (from, to, log "
            "weight).")
-      .def_static("loop", &hri::WordNetwork::loop, py::arg("num_words"), py::arg("silence") = -1,
+      .def_static("loop", py::overload_cast<int, int>(&hri::WordNetwork::loop),
+                  py::arg("num_words"), py::arg("silence") = -1,
                   "Any number of words in any order; `silence` is the model between them.")
       .def_static("sequence", &hri::WordNetwork::sequence, py::arg("num_words"), py::arg("length"),
                   py::arg("silence") = -1, "So many words in any order.")
@@ -164,6 +167,96 @@ void bind_decoder(py::module_& m) {
                              "Whether any hypothesis is left.");
 }
 
+void bind_lattice(py::module_& m) {
+  hri_bind::bind_options<hri::LatticeOptions>(m, "Options of Lattice.");
+  py::class_<hri::ConfusionSlot>(m, "ConfusionSlot",
+                                 "What may have been said in one place of a recording.")
+      .def_readonly("first_frame", &hri::ConfusionSlot::first_frame, "First frame.")
+      .def_readonly("last_frame", &hri::ConfusionSlot::last_frame, "One past the last frame.")
+      .def_property_readonly(
+          "entries",
+          [](const hri::ConfusionSlot& self) {
+            std::vector<std::pair<int, double>> entries;
+            for (const auto& entry : self.entries)
+              entries.emplace_back(entry.model, entry.probability);
+            return entries;
+          },
+          "(model, probability), the most probable first; model -1: no word.");
+  py::class_<hri::Lattice>(m, "Lattice", "All sentences of a recording that come near the best.")
+      .def(py::init([](const std::vector<std::tuple<int, std::int64_t, bool>>& nodes,
+                       const std::vector<std::tuple<int, int, double, double>>& arcs) {
+             std::vector<hri::Lattice::Node> made_nodes;
+             for (const auto& [model, frame, is_silence] : nodes)
+               made_nodes.push_back({model, frame, is_silence});
+             std::vector<hri::Lattice::Arc> made_arcs;
+             for (const auto& [from, to, acoustic, weight] : arcs)
+               made_arcs.push_back({from, to, acoustic, weight});
+             return hri::Lattice(std::move(made_nodes), std::move(made_arcs));
+           }),
+           py::arg("nodes"), py::arg("arcs"),
+           "A node is (model of the word that ends here or -1, frame, is_silence), an arc (from, "
+           "to, log acoustic score, log weight).")
+      .def_static(
+          "decode",
+          [](const std::vector<hri::WordChain>& chains, const hri::WordNetwork& network,
+             const FloatArray& log_emissions, const hri::ConnectedDecoderOptions& options,
+             const hri::LatticeOptions& lattice_options) {
+            const auto matrix = as_matrix(log_emissions, "log_emissions");
+            const py::gil_scoped_release release;
+            return hri::Lattice::decode(chains, network, matrix, options, lattice_options);
+          },
+          py::arg("chains"), py::arg("network"), py::arg("log_emissions"),
+          py::arg_v("options", hri::ConnectedDecoderOptions(), "ConnectedDecoderOptions()"),
+          py::arg_v("lattice_options", hri::LatticeOptions(), "LatticeOptions()"),
+          "Of log scores, shape (num_frames, num_states); exact, without the decoder's beam.")
+      .def("best", &hri::Lattice::best, "The best sentence.")
+      .def("n_best", &hri::Lattice::n_best, py::arg("count"),
+           py::call_guard<py::gil_scoped_release>(),
+           "At most `count` sentences that differ in their words, the best first.")
+      .def(
+          "posteriors",
+          [](const hri::Lattice& self, double scale) { return to_array(self.posteriors(scale)); },
+          py::arg("scale"), "Probability of every arc, float64; `scale` is on log scores.")
+      .def("confidences", &hri::Lattice::confidences, py::arg("words"), py::arg("scale"),
+           "For each of the words how probable it is that it was said there.")
+      .def("confusion_network", &hri::Lattice::confusion_network, py::arg("scale"),
+           "ConfusionSlots along the best sentence.")
+      .def_property_readonly(
+          "nodes",
+          [](const hri::Lattice& self) {
+            std::vector<std::tuple<int, std::int64_t, bool>> nodes;
+            for (const auto& node : self.nodes())
+              nodes.emplace_back(node.model, node.frame, node.is_silence);
+            return nodes;
+          },
+          "(model, frame, is_silence).")
+      .def_property_readonly(
+          "arcs",
+          [](const hri::Lattice& self) {
+            std::vector<std::tuple<int, int, double, double>> arcs;
+            for (const auto& arc : self.arcs())
+              arcs.emplace_back(arc.from, arc.to, arc.log_acoustic, arc.log_weight);
+            return arcs;
+          },
+          "(from, to, log acoustic score, log weight).")
+      .def_property_readonly("empty", &hri::Lattice::empty, "Whether there is no sentence.");
+}
+
+void bind_grammar(py::module_& m) {
+  py::class_<hri::Grammar>(m, "Grammar", "Commands with slots, in the JSpeech Grammar Format.")
+      .def_static(
+          "load", [](const hri_bind::Path& path) { return hri::Grammar::load(path.text); },
+          py::arg("path"), "Reads a file; raises FormatError naming file and line.")
+      .def_static("parse", &hri::Grammar::parse, py::arg("text"), py::arg("name"),
+                  "The same of a text; `name` is what errors call it.")
+      .def("slots_of", &hri::Grammar::slots_of, py::arg("sentence"),
+           "The slots of a list of words; None for what is no sentence of the grammar.")
+      .def("network", &hri::Grammar::network, py::arg("labels"), py::arg("silence") = -1,
+           py::arg("unknown") = -1, "Its sentences as a WordNetwork; model i is labels[i].")
+      .def_property_readonly("text", &hri::Grammar::text, "That was read.")
+      .def_property_readonly("words", &hri::Grammar::words, "Sorted.");
+}
+
 void bind_emissions(py::module_& m) {
   py::class_<hri::GaussianEmissions>(m, "GaussianEmissions",
                                      "Log densities of the states of several models.")
@@ -204,5 +297,7 @@ void bind_language(py::module_& m) {
   bind_ngram_model(m);
   bind_network(m);
   bind_decoder(m);
+  bind_lattice(m);
+  bind_grammar(m);
   bind_emissions(m);
 }

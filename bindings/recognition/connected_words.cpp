@@ -14,6 +14,7 @@
 #include "core/options.hpp"
 #include "core/paths.hpp"
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
+#include "hri/recognition/sentence/connected_word_stream.hpp"
 #include "models/model_inputs.hpp"
 
 namespace py = pybind11;
@@ -60,9 +61,25 @@ void bind_connected_words(py::module_& m) {
       .def_readonly("first_s", &hri::TranscribedWord::first_s, "Its beginning, in seconds.")
       .def_readonly("last_s", &hri::TranscribedWord::last_s, "Its end, in seconds.")
       .def_readonly("log_score", &hri::TranscribedWord::log_score,
-                    "What it adds to the transcript's.");
+                    "What it adds to the transcript's.")
+      .def_readonly("confidence", &hri::TranscribedWord::confidence,
+                    "How probable it is that this word was said here; None: not known.")
+      .def_readonly("unknown", &hri::TranscribedWord::unknown,
+                    "Whether it is no word of the vocabulary, or its confidence too low.");
+  py::class_<hri::TranscriptAlternative>(m, "TranscriptAlternative", "Another sentence.")
+      .def_readonly("words", &hri::TranscriptAlternative::words, "In the order of time.")
+      .def_readonly("log_score", &hri::TranscriptAlternative::log_score, "Of its best path.");
+  py::class_<hri::ScoredRecording>(m, "ScoredRecording", "A recording as models score it.")
+      .def_property_readonly(
+          "log_emissions",
+          [](const hri::ScoredRecording& self) { return hri_bind::to_array(self.log_emissions); },
+          "float32, shape (num_frames, num_states).")
+      .def_readonly("first_s", &hri::ScoredRecording::first_s, "Where the first frame begins.")
+      .def_readonly("frame_s", &hri::ScoredRecording::frame_s, "From one frame to the next.");
   py::class_<hri::Transcript>(m, "Transcript", "The words of a recording.")
       .def_readonly("words", &hri::Transcript::words, "In the order of time.")
+      .def_readonly("alternatives", &hri::Transcript::alternatives, "The best first.")
+      .def_readonly("slots", &hri::Transcript::slots, "Of the grammar.")
       .def_readonly("log_score", &hri::Transcript::log_score, "Of the best path.")
       .def_readonly("complete", &hri::Transcript::complete, "Whether there were enough frames.")
       .def_readonly("notes", &hri::Transcript::notes, "What was converted or assumed on the way.");
@@ -85,17 +102,56 @@ void bind_connected_words(py::module_& m) {
                   py::arg("file"))
       .def("to_model_file", &hri::ConnectedWordRecognizer::to_model_file)
       .def("with_language", &hri::ConnectedWordRecognizer::with_language, py::arg("language"))
+      .def("with_grammar", &hri::ConnectedWordRecognizer::with_grammar, py::arg("grammar"))
       .def("with_decoder", &hri::ConnectedWordRecognizer::with_decoder, py::arg("decoder"))
       .def(
           "recognise",
           [](const hri::ConnectedWordRecognizer& self, const FloatArray& audio, int sample_rate_hz,
-             int num_words) {
+             int num_words, int num_alternatives) {
             const auto samples = as_span(audio, "audio");
             const py::gil_scoped_release release;
-            return self.recognise(samples, sample_rate_hz, num_words);
+            return self.recognise(samples, sample_rate_hz, {num_words, num_alternatives});
           },
-          py::arg("audio"), py::arg("sample_rate_hz"), py::arg("num_words") = 0)
+          py::arg("audio"), py::arg("sample_rate_hz"), py::arg("num_words") = 0,
+          py::arg("num_alternatives") = 0)
+      .def(
+          "score",
+          [](const hri::ConnectedWordRecognizer& self, const FloatArray& audio,
+             int sample_rate_hz) {
+            const auto samples = as_span(audio, "audio");
+            const py::gil_scoped_release release;
+            return self.score(samples, sample_rate_hz);
+          },
+          py::arg("audio"), py::arg("sample_rate_hz"))
+      .def("lattice", &hri::ConnectedWordRecognizer::lattice, py::arg("recording"),
+           py::arg("num_words") = 0, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("labels", &hri::ConnectedWordRecognizer::labels)
       .def_property_readonly("options", &hri::ConnectedWordRecognizer::options,
                              "As trained, with what training chose.");
+  hri_bind::bind_options<hri::ConnectedWordStreamOptions>(m, "Options of ConnectedWordStream.");
+  py::class_<hri::ConnectedWordResult>(m, "ConnectedWordResult", "What an utterance holds.")
+      .def_readonly("transcript", &hri::ConnectedWordResult::transcript,
+                    "Times from the beginning of the stream.")
+      .def_readonly("num_stable", &hri::ConnectedWordResult::num_stable,
+                    "So many of the first words are kept until the utterance ends.")
+      .def_readonly("is_final", &hri::ConnectedWordResult::is_final, "Whether it has ended.")
+      .def_readonly("first_s", &hri::ConnectedWordResult::first_s, "Its beginning.")
+      .def_readonly("last_s", &hri::ConnectedWordResult::last_s, "Its end, so far.");
+  py::class_<hri::ConnectedWordStream>(m, "ConnectedWordStream",
+                                       "A stream; hri.recognition.ConnectedWordStream wraps it.")
+      .def(py::init<hri::ConnectedWordRecognizer, int, const hri::ConnectedWordStreamOptions&,
+                    std::string>(),
+           py::arg("recognizer"), py::arg("sample_rate_hz"), py::arg("options"),
+           py::arg("wake_word"))
+      .def(
+          "process",
+          [](hri::ConnectedWordStream& self, const FloatArray& samples) {
+            const auto span = as_span(samples, "samples");
+            const py::gil_scoped_release release;
+            return self.process(span);
+          },
+          py::arg("samples"))
+      .def("finish", &hri::ConnectedWordStream::finish, py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("options", &hri::ConnectedWordStream::options)
+      .def_property_readonly("num_kept", &hri::ConnectedWordStream::num_kept, "Samples in memory.");
 }

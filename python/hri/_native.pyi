@@ -24,10 +24,14 @@ __all__: list[str] = [
     "CodebookOptions",
     "CodebookReport",
     "ConfusedPair",
+    "ConfusionSlot",
     "ConnectedDecoder",
     "ConnectedDecoderOptions",
     "ConnectedWordRecognizer",
     "ConnectedWordRecognizerOptions",
+    "ConnectedWordResult",
+    "ConnectedWordStream",
+    "ConnectedWordStreamOptions",
     "Decision",
     "DecodedSentence",
     "DecodedWord",
@@ -60,6 +64,7 @@ __all__: list[str] = [
     "GestureSegment",
     "GestureSegmenter",
     "GestureSegmenterOptions",
+    "Grammar",
     "HAND_TRACK_COLUMNS",
     "HandColourOptions",
     "HandFeatureComputer",
@@ -95,6 +100,8 @@ __all__: list[str] = [
     "Knn",
     "KnnOptions",
     "LEARNED_STILL_CHANGE",
+    "Lattice",
+    "LatticeOptions",
     "Lda",
     "LdaOptions",
     "LinearSvm",
@@ -125,6 +132,7 @@ __all__: list[str] = [
     "RbfClassifierOptions",
     "RecognisedSentence",
     "RecognisedSign",
+    "ScoredRecording",
     "SentenceRecognizer",
     "SentenceRecognizerOptions",
     "SequenceModelOptions",
@@ -147,6 +155,7 @@ __all__: list[str] = [
     "TrainingReport",
     "TranscribedWord",
     "Transcript",
+    "TranscriptAlternative",
     "TwoHandFeatureComputer",
     "TwoHandFeatureOptions",
     "UtteranceDecision",
@@ -5675,6 +5684,176 @@ class ConnectedDecoder:
         Of all models.
         """
 
+class LatticeOptions:
+    """
+    Options of Lattice.
+
+    Parameters
+    ----------
+    beam : float, default 200.0
+        words through which no sentence comes as near as this to the best (natural log) are left out; 0..1e+12
+    max_arcs : int, default 200000
+        arcs at most; where there would be more, the beam is halved until there are not; 1..100000000
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, beam: float = 200.0, max_arcs: int = 200000) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def beam(self) -> float:
+        """
+        words through which no sentence comes as near as this to the best (natural log) are left out
+        """
+    @beam.setter
+    def beam(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_arcs(self) -> int:
+        """
+        arcs at most; where there would be more, the beam is halved until there are not
+        """
+    @max_arcs.setter
+    def max_arcs(self, arg1: typing.Any) -> None: ...
+
+class ConfusionSlot:
+    """
+    What may have been said in one place of a recording.
+    """
+    @property
+    def entries(self) -> list[tuple[int, float]]:
+        """
+        (model, probability), the most probable first; model -1: no word.
+        """
+    @property
+    def first_frame(self) -> int:
+        """
+        First frame.
+        """
+    @property
+    def last_frame(self) -> int:
+        """
+        One past the last frame.
+        """
+
+class Lattice:
+    """
+    All sentences of a recording that come near the best.
+    """
+    @staticmethod
+    def decode(
+        chains: collections.abc.Sequence[WordChain],
+        network: WordNetwork,
+        log_emissions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        options: ConnectedDecoderOptions = ...,
+        lattice_options: LatticeOptions = ...,
+    ) -> Lattice:
+        """
+        Of log scores, shape (num_frames, num_states); exact, without the decoder's beam.
+        """
+    def __init__(
+        self,
+        nodes: collections.abc.Sequence[
+            tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, bool]
+        ],
+        arcs: collections.abc.Sequence[
+            tuple[
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsFloat | typing.SupportsIndex,
+                typing.SupportsFloat | typing.SupportsIndex,
+            ]
+        ],
+    ) -> None:
+        """
+        A node is (model of the word that ends here or -1, frame, is_silence), an arc (from, to, log acoustic score, log weight).
+        """
+    def best(self) -> DecodedSentence:
+        """
+        The best sentence.
+        """
+    def confidences(
+        self, words: collections.abc.Sequence[DecodedWord], scale: typing.SupportsFloat | typing.SupportsIndex
+    ) -> list[float]:
+        """
+        For each of the words how probable it is that it was said there.
+        """
+    def confusion_network(self, scale: typing.SupportsFloat | typing.SupportsIndex) -> list[ConfusionSlot]:
+        """
+        ConfusionSlots along the best sentence.
+        """
+    def n_best(self, count: typing.SupportsInt | typing.SupportsIndex) -> list[DecodedSentence]:
+        """
+        At most `count` sentences that differ in their words, the best first.
+        """
+    def posteriors(self, scale: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Probability of every arc, float64; `scale` is on log scores.
+        """
+    @property
+    def arcs(self) -> list[tuple[int, int, float, float]]:
+        """
+        (from, to, log acoustic score, log weight).
+        """
+    @property
+    def empty(self) -> bool:
+        """
+        Whether there is no sentence.
+        """
+    @property
+    def nodes(self) -> list[tuple[int, int, bool]]:
+        """
+        (model, frame, is_silence).
+        """
+
+class Grammar:
+    """
+    Commands with slots, in the JSpeech Grammar Format.
+    """
+    @staticmethod
+    def load(path: str | bytes | os.PathLike[str]) -> Grammar:
+        """
+        Reads a file; raises FormatError naming file and line.
+        """
+    @staticmethod
+    def parse(text: str, name: str) -> Grammar:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    def network(
+        self,
+        labels: collections.abc.Sequence[str],
+        silence: typing.SupportsInt | typing.SupportsIndex = -1,
+        unknown: typing.SupportsInt | typing.SupportsIndex = -1,
+    ) -> WordNetwork:
+        """
+        Its sentences as a WordNetwork; model i is labels[i].
+        """
+    def slots_of(self, sentence: collections.abc.Sequence[str]) -> dict[str, str] | None:
+        """
+        The slots of a list of words; None for what is no sentence of the grammar.
+        """
+    @property
+    def text(self) -> str:
+        """
+        That was read.
+        """
+    @property
+    def words(self) -> list[str]:
+        """
+        Sorted.
+        """
+
 class GaussianEmissions:
     """
     Log densities of the states of several models.
@@ -7001,9 +7180,21 @@ class ConnectedWordRecognizerOptions:
     num_alignments : int, default 1
         times that the boundaries of words are moved to where the models put them, and the models trained again; 0..10
     choose_penalty : bool, default True
-        decoder.insertion_penalty is chosen on strings of speakers held out
+        decoder.insertion_penalty, confidence_scale, unknown_rank and unknown_penalty are chosen on strings of speakers held out
+    confidence_scale : float, default 0.02
+        factor on log scores in confidences, as neighbouring frames do not score independently; 1e-06..1
+    min_confidence : float, default 0.0
+        words of less confidence are marked unknown; 0..1
+    unknown_words : bool, default False
+        sounds that fit no word of the vocabulary become words marked unknown
+    unknown_rank : int, default 4
+        an unknown word scores the mean of so many best states in every frame; 1..1000
+    unknown_penalty : float, default -20.0
+        added to the log score at every unknown word; -1000000..0
     decoder : ConnectedDecoderOptions or dict
         how sentences are searched
+    lattice : LatticeOptions or dict
+        which other sentences are kept, for confidences
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -7024,7 +7215,13 @@ class ConnectedWordRecognizerOptions:
         max_pause_ms: float = 300.0,
         num_alignments: int = 1,
         choose_penalty: bool = True,
+        confidence_scale: float = 0.02,
+        min_confidence: float = 0.0,
+        unknown_words: bool = False,
+        unknown_rank: int = 4,
+        unknown_penalty: float = -20.0,
         decoder: ConnectedDecoderOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        lattice: LatticeOptions | collections.abc.Mapping[str, typing.Any] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -7035,10 +7232,17 @@ class ConnectedWordRecognizerOptions:
     @property
     def choose_penalty(self) -> bool:
         """
-        decoder.insertion_penalty is chosen on strings of speakers held out
+        decoder.insertion_penalty, confidence_scale, unknown_rank and unknown_penalty are chosen on strings of speakers held out
         """
     @choose_penalty.setter
     def choose_penalty(self, arg1: typing.Any) -> None: ...
+    @property
+    def confidence_scale(self) -> float:
+        """
+        factor on log scores in confidences, as neighbouring frames do not score independently
+        """
+    @confidence_scale.setter
+    def confidence_scale(self, arg1: typing.Any) -> None: ...
     @property
     def decoder(self) -> ConnectedDecoderOptions:
         """
@@ -7046,6 +7250,13 @@ class ConnectedWordRecognizerOptions:
         """
     @decoder.setter
     def decoder(self, arg1: typing.Any) -> None: ...
+    @property
+    def lattice(self) -> LatticeOptions:
+        """
+        which other sentences are kept, for confidences
+        """
+    @lattice.setter
+    def lattice(self, arg1: typing.Any) -> None: ...
     @property
     def max_pause_ms(self) -> float:
         """
@@ -7060,6 +7271,13 @@ class ConnectedWordRecognizerOptions:
         """
     @max_words.setter
     def max_words(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_confidence(self) -> float:
+        """
+        words of less confidence are marked unknown
+        """
+    @min_confidence.setter
+    def min_confidence(self, arg1: typing.Any) -> None: ...
     @property
     def num_alignments(self) -> int:
         """
@@ -7082,6 +7300,27 @@ class ConnectedWordRecognizerOptions:
     @silence_states.setter
     def silence_states(self, arg1: typing.Any) -> None: ...
     @property
+    def unknown_penalty(self) -> float:
+        """
+        added to the log score at every unknown word
+        """
+    @unknown_penalty.setter
+    def unknown_penalty(self, arg1: typing.Any) -> None: ...
+    @property
+    def unknown_rank(self) -> int:
+        """
+        an unknown word scores the mean of so many best states in every frame
+        """
+    @unknown_rank.setter
+    def unknown_rank(self, arg1: typing.Any) -> None: ...
+    @property
+    def unknown_words(self) -> bool:
+        """
+        sounds that fit no word of the vocabulary become words marked unknown
+        """
+    @unknown_words.setter
+    def unknown_words(self, arg1: typing.Any) -> None: ...
+    @property
     def words(self) -> WordRecognizerOptions:
         """
         front end, models and augmentation as of isolated words, models of the kind hmm; what these reject words by is not used
@@ -7093,6 +7332,11 @@ class TranscribedWord:
     """
     One word of a transcript.
     """
+    @property
+    def confidence(self) -> float | None:
+        """
+        How probable it is that this word was said here; None: not known.
+        """
     @property
     def first_s(self) -> float:
         """
@@ -7113,11 +7357,56 @@ class TranscribedWord:
         """
         What it adds to the transcript's.
         """
+    @property
+    def unknown(self) -> bool:
+        """
+        Whether it is no word of the vocabulary, or its confidence too low.
+        """
+
+class TranscriptAlternative:
+    """
+    Another sentence.
+    """
+    @property
+    def log_score(self) -> float:
+        """
+        Of its best path.
+        """
+    @property
+    def words(self) -> list[TranscribedWord]:
+        """
+        In the order of time.
+        """
+
+class ScoredRecording:
+    """
+    A recording as models score it.
+    """
+    @property
+    def first_s(self) -> float:
+        """
+        Where the first frame begins.
+        """
+    @property
+    def frame_s(self) -> float:
+        """
+        From one frame to the next.
+        """
+    @property
+    def log_emissions(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, shape (num_frames, num_states).
+        """
 
 class Transcript:
     """
     The words of a recording.
     """
+    @property
+    def alternatives(self) -> list[TranscriptAlternative]:
+        """
+        The best first.
+        """
     @property
     def complete(self) -> bool:
         """
@@ -7132,6 +7421,11 @@ class Transcript:
     def notes(self) -> list[str]:
         """
         What was converted or assumed on the way.
+        """
+    @property
+    def slots(self) -> dict[str, str]:
+        """
+        Of the grammar.
         """
     @property
     def words(self) -> list[TranscribedWord]:
@@ -7156,15 +7450,25 @@ class ConnectedWordRecognizer:
         options: ConnectedWordRecognizerOptions,
         progress: collections.abc.Callable[[int, int], None] | None = None,
     ) -> ConnectedWordRecognizer: ...
+    def lattice(
+        self, recording: ScoredRecording, num_words: typing.SupportsInt | typing.SupportsIndex = 0
+    ) -> Lattice: ...
     def recognise(
         self,
         audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
         num_words: typing.SupportsInt | typing.SupportsIndex = 0,
+        num_alternatives: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> Transcript: ...
     def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
+    def score(
+        self,
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    ) -> ScoredRecording: ...
     def to_model_file(self) -> ModelFile: ...
     def with_decoder(self, decoder: ConnectedDecoderOptions) -> ConnectedWordRecognizer: ...
+    def with_grammar(self, grammar: Grammar) -> ConnectedWordRecognizer: ...
     def with_language(self, language: NGramModel) -> ConnectedWordRecognizer: ...
     @property
     def labels(self) -> list[str]: ...
@@ -7173,6 +7477,126 @@ class ConnectedWordRecognizer:
         """
         As trained, with what training chose.
         """
+
+class ConnectedWordStreamOptions:
+    """
+    Options of ConnectedWordStream.
+
+    Parameters
+    ----------
+    endpointer : EndpointerOptions or dict
+        how utterances are found: pauses between words must not end them, so that hangover_ms is longer than for single words
+    partial_ms : float, default 300.0
+        an utterance is searched again when it has grown by this; 50..60000 ms
+    partial_share : float, default 0.1
+        and by this share of its length, so that long ones do not cost more and more; 0..10
+    num_alternatives : int, default 0
+        sentences to give at the end of an utterance; 0..1000
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        endpointer: EndpointerOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        partial_ms: float = 300.0,
+        partial_share: float = 0.1,
+        num_alternatives: int = 0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def endpointer(self) -> EndpointerOptions:
+        """
+        how utterances are found: pauses between words must not end them, so that hangover_ms is longer than for single words
+        """
+    @endpointer.setter
+    def endpointer(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_alternatives(self) -> int:
+        """
+        sentences to give at the end of an utterance
+        """
+    @num_alternatives.setter
+    def num_alternatives(self, arg1: typing.Any) -> None: ...
+    @property
+    def partial_ms(self) -> float:
+        """
+        an utterance is searched again when it has grown by this
+        """
+    @partial_ms.setter
+    def partial_ms(self, arg1: typing.Any) -> None: ...
+    @property
+    def partial_share(self) -> float:
+        """
+        and by this share of its length, so that long ones do not cost more and more
+        """
+    @partial_share.setter
+    def partial_share(self, arg1: typing.Any) -> None: ...
+
+class ConnectedWordResult:
+    """
+    What an utterance holds.
+    """
+    @property
+    def first_s(self) -> float:
+        """
+        Its beginning.
+        """
+    @property
+    def is_final(self) -> bool:
+        """
+        Whether it has ended.
+        """
+    @property
+    def last_s(self) -> float:
+        """
+        Its end, so far.
+        """
+    @property
+    def num_stable(self) -> int:
+        """
+        So many of the first words are kept until the utterance ends.
+        """
+    @property
+    def transcript(self) -> Transcript:
+        """
+        Times from the beginning of the stream.
+        """
+
+class ConnectedWordStream:
+    """
+    A stream; hri.recognition.ConnectedWordStream wraps it.
+    """
+    def __init__(
+        self,
+        recognizer: ConnectedWordRecognizer,
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+        options: ConnectedWordStreamOptions,
+        wake_word: str,
+    ) -> None: ...
+    def finish(self) -> list[ConnectedWordResult]: ...
+    def process(
+        self, samples: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> list[ConnectedWordResult]: ...
+    @property
+    def num_kept(self) -> int:
+        """
+        Samples in memory.
+        """
+    @property
+    def options(self) -> ConnectedWordStreamOptions: ...
 
 class HtkFeatureOptions:
     """
@@ -7784,6 +8208,16 @@ class HtkWordLattice:
         The network of a grammar in HParse's form.
         """
     @staticmethod
+    def of_lattice(
+        lattice: Lattice,
+        labels: collections.abc.Sequence[str],
+        first_s: typing.SupportsFloat | typing.SupportsIndex,
+        frame_s: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> HtkWordLattice:
+        """
+        A hri.language.Lattice as a file: labels of its models, frame n at first_s + n frame_s.
+        """
+    @staticmethod
     def of_words(words: collections.abc.Sequence[str]) -> HtkWordLattice:
         """
         The one sentence, for forced alignment.
@@ -7817,6 +8251,16 @@ class HtkWordLattice:
         """
         An arc is (from, to, log weight).
         """
+    def to_lattice(
+        self,
+        labels: collections.abc.Sequence[str],
+        silences: collections.abc.Sequence[str] = [],
+        first_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        frame_s: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+    ) -> Lattice:
+        """
+        The same back; words of `silences` are silence. Raises InvalidArgument for a file without times.
+        """
     def to_text(self) -> str:
         """
         The text of the file.
@@ -7839,6 +8283,11 @@ class HtkWordLattice:
     def last(self) -> int:
         """
         The node that ends them.
+        """
+    @property
+    def times_s(self) -> list[float]:
+        """
+        Where the words of the nodes end, or empty.
         """
     @property
     def words(self) -> list[str]:

@@ -16,11 +16,17 @@ import hri as package
 from conftest import RATE_HZ, tone_word
 from hri.core.errors import FormatError, InvalidArgument, NotFittedError
 from hri.datasets import Dataset
+from hri.htk import WordLattice
 from hri.io import write_wav_pcm16
-from hri.language import NGramModel
-from hri.recognition import ConnectedWordRecognizer
+from hri.language import Grammar, NGramModel
+from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream
 
 WORDS = ["1", "2", "2", "1"]
+GRAMMAR = """#JSGF V1.0;
+grammar tones;
+public <tones> = 1 <twos> {count} 1 {gesture=wave} | <twos>;
+<twos> = 2+;
+"""
 OPTIONS = {
     "words": {"num_states": 5, "num_vtlp_factors": 1, "num_noisy_copies": 1, "min_snr_db": 10.0},
     "max_words": 4,
@@ -82,6 +88,53 @@ def test_language_and_decoder_change_after_training(words: ConnectedWordRecogniz
         changed.set_decoder(beam=-1)
 
 
+def test_other_sentences_their_words_and_places(
+    words: ConnectedWordRecognizer, sentence: np.ndarray, tmp_path: Path
+) -> None:
+    found = words.recognise(sentence, RATE_HZ, num_alternatives=3)
+    assert all(word.confidence is not None and 0.5 < word.confidence <= 1 for word in found.words)
+    assert found.alternatives[0].text == found.text and len({a.text for a in found.alternatives}) == len(
+        found.alternatives
+    )
+    lattice, first_s, frame_s = words.lattice(sentence, RATE_HZ)
+    assert [word.model for word in lattice.best().words if word.model < 2] == [int(label) - 1 for label in WORDS]
+    slots = words.confusion_network(sentence, RATE_HZ)
+    assert [slot.entries[0][0] for slot in slots if slot.entries[0][0] >= 0] == [int(label) - 1 for label in WORDS]
+    assert all(sum(p for _, p in slot.entries) == pytest.approx(1) for slot in slots)
+    labels = ["1", "2", "<sil>"]
+    written = WordLattice.of_lattice(lattice, labels, first_s, frame_s)
+    back = WordLattice.parse(written.to_text(), "file").to_lattice(labels, ["<sil>"], first_s, frame_s)
+    assert back.best().log_score == pytest.approx(lattice.best().log_score)
+    np.testing.assert_allclose(np.sort(back.posteriors(0.1)), np.sort(lattice.posteriors(0.1)), atol=1e-9)
+
+
+def test_a_grammar_fills_slots(words: ConnectedWordRecognizer, sentence: np.ndarray) -> None:
+    follows = copy.deepcopy(words).set_grammar(Grammar.parse(GRAMMAR, "tones.jsgf"))
+    found = follows.recognise(sentence, RATE_HZ)
+    assert found.text == "1 2 2 1" and found.slots == {"gesture": "wave", "count": "2 2"}
+    assert found.to_dict()["slots"] == found.slots
+    with pytest.raises(InvalidArgument, match="the grammar has the word '3', which is no label"):
+        words.set_grammar(Grammar.parse("#JSGF V1.0;\ngrammar g;\npublic <s> = 3;", "g"))
+
+
+def test_a_stream_gives_what_it_has_and_ends_as_the_file_does(
+    words: ConnectedWordRecognizer, sentence: np.ndarray
+) -> None:
+    rng = np.random.default_rng(0)
+    quiet = (0.001 * rng.standard_normal(2 * RATE_HZ)).astype(np.float32)
+    stream = ConnectedWordStream(words, RATE_HZ)
+    audio = np.concatenate([quiet, sentence, quiet, sentence, quiet])
+    results = [result for at in range(0, len(audio), 320) for result in stream.process(audio[at : at + 320])]
+    results += stream.finish()
+    final = [result for result in results if result.is_final]
+    assert [result.transcript.text for result in final] == ["1 2 2 1"] * 2
+    assert final[0].transcript.words[0].first_s == pytest.approx(2.35, abs=0.05)
+    stable = [result.num_stable for result in results[: results.index(final[0])]]
+    assert stable == sorted(stable) and stable[-1] >= 1
+    with pytest.raises(InvalidArgument, match="wake_word is 'robot', which is no label"):
+        ConnectedWordStream(words, RATE_HZ, wake_word="robot")
+
+
 def test_what_cannot_be_done_is_refused(words: ConnectedWordRecognizer, sentence: np.ndarray) -> None:
     with pytest.raises(NotFittedError):
         ConnectedWordRecognizer().recognise(sentence, RATE_HZ)
@@ -108,6 +161,16 @@ def test_command_line_trains_and_transcribes(hri, spoken: Path, sentence: np.nda
     assert [line.split("\t")[2] for line in lines] == WORDS
     found = json.loads(hri("transcribe", file, "--json", "-").out)
     assert found[str(file)]["text"] == "1 2 2 1"
+    (tmp_path / "tones.jsgf").write_text(GRAMMAR)
+    assert hri("transcribe", file, "--grammar", tmp_path / "tones.jsgf").out == "1 2 2 1\tcount=2 2\tgesture=wave\n"
+    assert hri("transcribe", file, "--alternatives", 2).out.splitlines()[0].endswith("\t1 2 2 1")
+    hri("transcribe", file, "--lattices", tmp_path / "lattices")
+    assert WordLattice.read(tmp_path / "lattices" / "number.slf").times_s
+    streamed = [json.loads(line) for line in hri("transcribe", "--stream", file).out.splitlines()]
+    assert streamed[-1]["event"] == "final" and streamed[-1]["text"] == "1 2 2 1"
+    film = hri("transcribe", file, "--grammar", tmp_path / "tones.jsgf", "--robot", tmp_path / "wave.mp4")
+    assert film.code == 0 and (tmp_path / "wave.mp4").stat().st_size > 10000
+    assert hri("transcribe").code == 2 and hri("transcribe", file, "--robot", "a.mp4").code == 2
     assert hri("transcribe", file, "--words", 1000).err.count("too short for 1000 words") == 1
 
 

@@ -11,22 +11,15 @@
 #include "hri/core/error.hpp"
 #include "hri/htk/word_lattice.hpp"
 #include "htk/text_lines.hpp"
+#include "language/grammar_tree.hpp"
 
 namespace hri::htk {
 namespace {
 
-constexpr std::size_t kMostNodes = 1000000;
 constexpr int kMostDepth = 200;  // of brackets within brackets
 
-struct Expression {
-  enum class Kind : std::uint8_t { word, sequence, choice, option, none_or_more, one_or_more };
-  Kind kind = Kind::sequence;
-  std::string word;
-  std::vector<std::shared_ptr<const Expression>> parts;
-  bool may_be_empty = false;
-  int depth = 1;
-};
-using Part = std::shared_ptr<const Expression>;
+using Expression = hri::detail::GrammarExpression;
+using Part = hri::detail::GrammarPart;
 
 // A token is a mark, or a name: of a variable (with its $) or of a word.
 struct GrammarToken {
@@ -188,8 +181,8 @@ class GrammarReader {
     } else {
       Expression word;
       word.kind = Expression::Kind::word;
-      word.word = name;
       word.may_be_empty = name == WordLattice::kNull;
+      if (!word.may_be_empty) word.word = name;
       found = std::make_shared<const Expression>(std::move(word));
     }
     advance();
@@ -197,13 +190,10 @@ class GrammarReader {
   }
 
   Part make(Expression::Kind kind, std::vector<Part> parts, bool may_be_empty) const {
-    Expression made;
-    made.kind = kind;
-    made.may_be_empty = may_be_empty;
-    for (const Part& part : parts) made.depth = std::max(made.depth, part->depth + 1);
-    if (made.depth > 10 * kMostDepth) refuse("the definitions stand in each other too deep");
-    made.parts = std::move(parts);
-    return std::make_shared<const Expression>(std::move(made));
+    Part made = hri::detail::make_part(kind, std::move(parts), may_be_empty);
+    if (made->depth > hri::detail::kMostGrammarDepth)
+      refuse("the definitions stand in each other too deep");
+    return made;
   }
 
   const std::string& text_;
@@ -215,87 +205,16 @@ class GrammarReader {
   std::map<std::string, Part> variables_;
 };
 
-class LatticeBuilder {
- public:
-  explicit LatticeBuilder(const std::string& name) : name_(name) {}
-
-  WordLattice build(const Part& sentence) {
-    const int first = add(WordLattice::kNull);
-    const Ends ends = expand(*sentence);
-    const int last = add(WordLattice::kNull);
-    connect(first, ends.entry);
-    connect(ends.exit, last);
-    return std::move(lattice_);
-  }
-
- private:
-  struct Ends {
-    int entry;
-    int exit;
-  };
-
-  int add(const std::string& word) {
-    if (lattice_.words.size() >= kMostNodes)
-      fail(ErrorKind::format, name_ + ": the grammar has more than a million nodes");
-    lattice_.words.push_back(word);
-    return static_cast<int>(lattice_.words.size()) - 1;
-  }
-  void connect(int from, int to) { lattice_.arcs.push_back({from, to, 0}); }
-
-  Ends expand(const Expression& e) {
-    switch (e.kind) {
-      case Expression::Kind::word: {
-        const int node = add(e.word);
-        return {node, node};
-      }
-      case Expression::Kind::sequence: {
-        Ends ends = expand(*e.parts.front());
-        for (std::size_t i = 1; i < e.parts.size(); ++i) {
-          const Ends next = expand(*e.parts[i]);
-          connect(ends.exit, next.entry);
-          ends.exit = next.exit;
-        }
-        return ends;
-      }
-      case Expression::Kind::none_or_more: {
-        const int node = add(WordLattice::kNull);
-        const Ends inside = expand(*e.parts.front());
-        connect(node, inside.entry);
-        connect(inside.exit, node);
-        return {node, node};
-      }
-      case Expression::Kind::one_or_more: {
-        const int entry = add(WordLattice::kNull);
-        const Ends inside = expand(*e.parts.front());
-        const int exit = add(WordLattice::kNull);
-        connect(entry, inside.entry);
-        connect(inside.exit, entry);
-        connect(inside.exit, exit);
-        return {entry, exit};
-      }
-      default: {
-        const int entry = add(WordLattice::kNull);
-        const int exit = add(WordLattice::kNull);
-        for (const Part& part : e.parts) {
-          const Ends inside = expand(*part);
-          connect(entry, inside.entry);
-          connect(inside.exit, exit);
-        }
-        if (e.kind == Expression::Kind::option) connect(entry, exit);
-        return {entry, exit};
-      }
-    }
-  }
-
-  const std::string& name_;
-  WordLattice lattice_;
-};
-
 }  // namespace
 
 WordLattice WordLattice::of_grammar(const std::string& text, const std::string& name) {
   detail::require_text(text, name);
-  return LatticeBuilder(name).build(GrammarReader(text, name).read());
+  const auto graph = hri::detail::GrammarGraph::of(GrammarReader(text, name).read(), name);
+  WordLattice lattice;
+  for (const auto& node : graph.nodes)
+    lattice.words.push_back(node.word.empty() ? kNull : node.word);
+  for (const auto& arc : graph.arcs) lattice.arcs.push_back({arc.from, arc.to, arc.log_weight});
+  return lattice;
 }
 
 }  // namespace hri::htk

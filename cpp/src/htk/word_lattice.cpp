@@ -35,6 +35,10 @@ class LatticeReader {
       lines_.refuse("there are " + std::to_string(lattice_.arcs.size()) + " arcs above, L= says " +
                     std::to_string(num_arcs_));
     for (auto& [number, word] : nodes_) lattice_.words.push_back(std::move(word));
+    // Of the times of some nodes alone nothing can be made.
+    for (const auto& [number, time] : times_) {
+      if (times_.size() == nodes_.size()) lattice_.times_s.push_back(time);
+    }
     if (const std::string fault = lattice_.fault(); !fault.empty()) lines_.refuse(fault);
     return std::move(lattice_);
   }
@@ -99,6 +103,8 @@ class LatticeReader {
     if (name.empty()) lines_.refuse("a word is empty");
     if (!nodes_.emplace(number, name).second)
       lines_.refuse("node " + std::to_string(number) + " stands here again");
+    if (const auto time = fields.find("t"); time != fields.end())
+      times_[number] = lines_.number_of(time->second, 1e12);
   }
 
   void read_arc(const Fields& fields) {
@@ -115,6 +121,8 @@ class LatticeReader {
     }
     if (const auto weight = fields.find("l"); weight != fields.end())
       arc.log_weight = lines_.number_of(weight->second, 1e12) * log_base_;
+    if (const auto score = fields.find("a"); score != fields.end())
+      arc.log_acoustic = lines_.number_of(score->second, 1e12) * log_base_;
     if (static_cast<std::int64_t>(lattice_.arcs.size()) >= num_arcs_)
       lines_.refuse("there are more arcs than L= says");
     lattice_.arcs.push_back(arc);
@@ -123,6 +131,7 @@ class LatticeReader {
   detail::TextLines lines_;
   WordLattice lattice_;
   std::map<std::int64_t, std::string> nodes_;
+  std::map<std::int64_t, double> times_;
   std::int64_t num_nodes_ = -1;
   std::int64_t num_arcs_ = 0;
   double log_base_ = 1;
@@ -190,7 +199,12 @@ std::string WordLattice::fault() const {
   for (const Arc& arc : arcs) {
     if (arc.from < 0 || arc.from >= size || arc.to < 0 || arc.to >= size)
       return "an arc joins nodes that there are not";
-    if (!std::isfinite(arc.log_weight)) return "the weight of an arc is not finite";
+    if (!std::isfinite(arc.log_weight) || !std::isfinite(arc.log_acoustic))
+      return "the weight of an arc is not finite";
+  }
+  if (!times_s.empty() && times_s.size() != words.size()) return "some nodes have no time";
+  for (const double time : times_s) {
+    if (!std::isfinite(time)) return "the time of a node is not finite";
   }
   if (first() < 0) return "not exactly one node is without predecessors, to begin sentences";
   if (last() < 0) return "not exactly one node is without successors, to end sentences";
@@ -227,11 +241,14 @@ std::string WordLattice::to_text() const {
   std::string text = "VERSION=1.0\nN=" + padded(std::to_string(words.size()), 4) +
                      " L=" + std::to_string(arcs.size()) + "\n";
   for (std::size_t n = 0; n < words.size(); ++n) {
-    text += "I=" + padded(std::to_string(n), 4) + " W=" + word_text(words[n]) + "\n";
+    text += "I=" + padded(std::to_string(n), 4);
+    if (!times_s.empty()) text += " t=" + padded(detail::shortest(times_s[n]), 5);
+    text += " W=" + word_text(words[n]) + "\n";
   }
   for (std::size_t a = 0; a < arcs.size(); ++a) {
     text += "J=" + padded(std::to_string(a), 5) + " S=" + padded(std::to_string(arcs[a].from), 4) +
             " E=" + std::to_string(arcs[a].to);
+    if (arcs[a].log_acoustic != 0) text += " a=" + detail::shortest(arcs[a].log_acoustic);
     if (arcs[a].log_weight != 0) text += " l=" + detail::shortest(arcs[a].log_weight);
     text += '\n';
   }

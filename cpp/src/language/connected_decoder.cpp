@@ -8,38 +8,22 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "language/search_network.hpp"
 #include "language/word_records.hpp"
 
 namespace hri {
 namespace {
 
+using detail::ChainStep;
+using detail::kImpossible;
+using detail::SearchChain;
+using detail::SearchNetwork;
 using detail::Token;
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr std::int64_t kDecideEvery = 16;  // frames
 
-// A possible step into a state.
-struct Step {
-  int from;
-  double log_weight;
-};
-
-// A chain without what it cannot do.
-struct Model {
-  int first_emission = 0;
-  int num_states = 0;
-  bool is_silence = false;
-  std::vector<Step> steps;      // by the state they lead to
-  std::vector<int> first_step;  // of every state, and one past the last
-  VectorD log_start;
-  VectorD log_exit;
-};
-
-// A node of the network that stands for a word or a silence.
-struct WordNode {
-  int model = 0;
-  int node = 0;
-  int first_state = 0;
+// A word of the network, and whether a token is in it.
+struct ActiveWord : detail::SearchWord {
   bool is_active = false;
 };
 
@@ -48,38 +32,6 @@ struct Arrival {
   Token token;
   int origin = -1;
 };
-
-void check_logs(const VectorD& logs, int size, const std::string& name) {
-  if (logs.size() != size) {
-    fail(ErrorKind::invalid_argument, name + " has " + std::to_string(logs.size()) +
-                                          " values, the chain " + std::to_string(size) + " states");
-  }
-  for (int i = 0; i < size; ++i) {
-    if (!(logs[i] <= 0))
-      fail(ErrorKind::invalid_argument, name + " has a value that is no log probability");
-  }
-}
-
-Model model_of(const WordChain& chain, int first_emission, const std::string& name) {
-  const auto size = static_cast<int>(chain.log_start.size());
-  if (size == 0) fail(ErrorKind::invalid_argument, name + " has no state");
-  check_logs(chain.log_start, size, name + ".log_start");
-  check_logs(chain.log_exit, size, name + ".log_exit");
-  if (chain.log_transition.rows() != size)
-    fail(ErrorKind::invalid_argument, name + ".log_transition has another number of rows");
-  for (int i = 0; i < size; ++i)
-    check_logs(chain.log_transition.row(i), size, name + ".log_transition");
-  Model model{first_emission, size, chain.is_silence, {}, {}, chain.log_start, chain.log_exit};
-  for (int to = 0; to < size; ++to) {
-    model.first_step.push_back(static_cast<int>(model.steps.size()));
-    for (int from = 0; from < size; ++from) {
-      const double log_weight = chain.log_transition(from, to);
-      if (log_weight > kImpossible) model.steps.push_back({from, log_weight});
-    }
-  }
-  model.first_step.push_back(static_cast<int>(model.steps.size()));
-  return model;
-}
 
 }  // namespace
 
@@ -103,46 +55,22 @@ struct ConnectedDecoder::State {
   State(const std::vector<WordChain>& chains, const WordNetwork& network,
         const ConnectedDecoderOptions& of_decoder)
       : options(validated(of_decoder)),
-        initial(network.initial()),
-        final(network.final()),
+        search(chains, network, options),
         records(std::max(256, 2 * network.num_nodes())) {
-    for (std::size_t m = 0; m < chains.size(); ++m) {
-      models.push_back(model_of(chains[m], num_emissions, "chains[" + std::to_string(m) + "]"));
-      num_emissions += models.back().num_states;
-    }
-    word_of_node.assign(static_cast<std::size_t>(network.num_nodes()), -1);
-    std::size_t num_states = 0;
-    for (int n = 0; n < network.num_nodes(); ++n) {
-      const int model = network.models()[static_cast<std::size_t>(n)];
-      if (model == WordNetwork::kNull) continue;
-      require(model < static_cast<int>(models.size()),
-              "the network names a model that there is not");
-      word_of_node[static_cast<std::size_t>(n)] = static_cast<int>(words.size());
-      words.push_back({model, n, static_cast<int>(num_states), false});
-      num_states += static_cast<std::size_t>(models[static_cast<std::size_t>(model)].num_states);
-    }
-    for (WordNetwork::Arc arc : network.arcs()) {
-      const int word = word_of_node[static_cast<std::size_t>(arc.to)];
-      arc.log_weight *= options.language_scale;
-      if (word >= 0 && !model_at(word).is_silence) arc.log_weight += options.insertion_penalty;
-      arcs.push_back(arc);
-    }
+    for (const detail::SearchWord& word : search.words) words.push_back({word, false});
+    const auto num_states = static_cast<std::size_t>(search.num_states);
     tokens.resize(num_states);
     next_tokens.resize(num_states);
-    arrivals.resize(word_of_node.size());
+    arrivals.resize(search.word_of_node.size());
     exits.resize(words.size());
     exit_records.resize(words.size());
     begin();
   }
 
-  [[nodiscard]] const Model& model_at(int word) const {
-    return models[static_cast<std::size_t>(words[static_cast<std::size_t>(word)].model)];
-  }
-
-  [[nodiscard]] Token& token_at(const WordNode& word, int state) {
+  [[nodiscard]] Token& token_at(const ActiveWord& word, int state) {
     return tokens[static_cast<std::size_t>(word.first_state) + static_cast<std::size_t>(state)];
   }
-  [[nodiscard]] const Token& token_at(const WordNode& word, int state) const {
+  [[nodiscard]] const Token& token_at(const ActiveWord& word, int state) const {
     return tokens[static_cast<std::size_t>(word.first_state) + static_cast<std::size_t>(state)];
   }
 
@@ -150,7 +78,7 @@ struct ConnectedDecoder::State {
     records.reset();
     num_frames = 0;
     std::fill(tokens.begin(), tokens.end(), Token{});
-    for (WordNode& word : words) word.is_active = false;
+    for (ActiveWord& word : words) word.is_active = false;
     std::fill(exits.begin(), exits.end(), Token{});
     pass_on(true);
   }
@@ -158,10 +86,10 @@ struct ConnectedDecoder::State {
   // Tokens of all states after one more frame.
   void advance(Span<const float> emissions) {
     double best = kImpossible;
-    for (WordNode& word : words) {
+    for (ActiveWord& word : words) {
       const Arrival& arrival = arrivals[static_cast<std::size_t>(word.node)];
       Token* const next = next_tokens.data() + word.first_state;
-      const Model& model = models[static_cast<std::size_t>(word.model)];
+      const SearchChain& model = search.chain_of(word);
       if (!word.is_active && !arrival.token.alive()) {
         std::fill(next, next + model.num_states, Token{});
         continue;
@@ -173,17 +101,16 @@ struct ConnectedDecoder::State {
     prune(best - options.beam);
   }
 
-  static double advance_word(const Model& model, const Token& arrival, const Token* before,
+  static double advance_word(const SearchChain& model, const Token& arrival, const Token* before,
                              const float* emissions, Token* after) {
     double best = kImpossible;
     for (int j = 0; j < model.num_states; ++j) {
       Token token = arrival;
       token.score += model.log_start[j];
-      for (int s = model.first_step[static_cast<std::size_t>(j)];
-           s < model.first_step[static_cast<std::size_t>(j) + 1]; ++s) {
-        const Step& step = model.steps[static_cast<std::size_t>(s)];
-        const double score = before[step.from].score + step.log_weight;
-        if (score > token.score) token = {score, before[step.from].record};
+      const ChainStep* const end = model.end_of_steps_into(j);
+      for (const ChainStep* step = model.steps_into(j); step != end; ++step) {
+        const double score = before[step->from].score + step->log_weight;
+        if (score > token.score) token = {score, before[step->from].record};
       }
       token.score += static_cast<double>(emissions[j]);
       after[j] = token;
@@ -195,8 +122,8 @@ struct ConnectedDecoder::State {
   // Drops what is below, and takes stock of the ends of words.
   void prune(double lowest) {
     for (std::size_t w = 0; w < words.size(); ++w) {
-      WordNode& word = words[w];
-      const Model& model = models[static_cast<std::size_t>(word.model)];
+      ActiveWord& word = words[w];
+      const SearchChain& model = search.chain_of(word);
       word.is_active = false;
       exits[w] = {};
       for (int j = 0; j < model.num_states; ++j) {
@@ -214,9 +141,9 @@ struct ConnectedDecoder::State {
   // node.
   void pass_on(bool at_first) {
     std::fill(arrivals.begin(), arrivals.end(), Arrival{});
-    if (at_first) arrivals[static_cast<std::size_t>(initial)].token = {0, records.root()};
-    for (const WordNetwork::Arc& arc : arcs) {
-      const int word = word_of_node[static_cast<std::size_t>(arc.from)];
+    if (at_first) arrivals[static_cast<std::size_t>(search.initial)].token = {0, records.root()};
+    for (const WordNetwork::Arc& arc : search.arcs) {
+      const int word = search.word_of_node[static_cast<std::size_t>(arc.from)];
       Arrival passed = word < 0 ? arrivals[static_cast<std::size_t>(arc.from)]
                                 : Arrival{exits[static_cast<std::size_t>(word)], word};
       passed.token.score += arc.log_weight;
@@ -224,8 +151,8 @@ struct ConnectedDecoder::State {
       if (passed.token.score > there.token.score) there = passed;
     }
     std::fill(exit_records.begin(), exit_records.end(), -1);
-    for (const WordNode& word : words) record(word.node);
-    record(final);
+    for (const ActiveWord& word : words) record(word.node);
+    record(search.final);
   }
 
   // Gives what arrives at a node the record of the word whose end it is.
@@ -246,11 +173,11 @@ struct ConnectedDecoder::State {
     for (Token& token : tokens) {
       if (token.alive()) f(token);
     }
-    for (const WordNode& word : words) {
+    for (const ActiveWord& word : words) {
       Token& token = arrivals[static_cast<std::size_t>(word.node)].token;
       if (token.alive()) f(token);
     }
-    Token& token = arrivals[static_cast<std::size_t>(final)].token;
+    Token& token = arrivals[static_cast<std::size_t>(search.final)].token;
     if (token.alive()) f(token);
   }
 
@@ -286,10 +213,10 @@ struct ConnectedDecoder::State {
 
   [[nodiscard]] DecodedSentence best_so_far() const {
     DecodedSentence sentence;
-    const WordNode* in = nullptr;
+    const ActiveWord* in = nullptr;
     Token best;
-    for (const WordNode& word : words) {
-      const int size = models[static_cast<std::size_t>(word.model)].num_states;
+    for (const ActiveWord& word : words) {
+      const int size = search.chain_of(word).num_states;
       for (int j = 0; j < size; ++j) {
         const Token& token = token_at(word, j);
         if (token.score > best.score) {
@@ -310,13 +237,8 @@ struct ConnectedDecoder::State {
   }
 
   ConnectedDecoderOptions options;
-  std::vector<Model> models;
-  int num_emissions = 0;
-  std::vector<int> word_of_node;  // -1: a null node
-  std::vector<WordNode> words;
-  std::vector<WordNetwork::Arc> arcs;  // weighted
-  int initial;
-  int final;
+  SearchNetwork search;
+  std::vector<ActiveWord> words;
 
   std::int64_t num_frames = 0;
   std::vector<Token> tokens;  // of every state of every word
@@ -336,10 +258,10 @@ ConnectedDecoder::~ConnectedDecoder() = default;
 
 void ConnectedDecoder::push(Span<const float> log_emissions) {
   State& s = *state_;
-  if (log_emissions.size() != static_cast<std::size_t>(s.num_emissions)) {
+  if (log_emissions.size() != static_cast<std::size_t>(s.search.num_emissions)) {
     fail(ErrorKind::invalid_argument, "log_emissions has " + std::to_string(log_emissions.size()) +
                                           " values, the models have " +
-                                          std::to_string(s.num_emissions) + " states");
+                                          std::to_string(s.search.num_emissions) + " states");
   }
   for (const float value : log_emissions)
     require(value < std::numeric_limits<float>::infinity(), "log_emissions has NaN or infinity");
@@ -360,7 +282,7 @@ std::vector<DecodedWord> ConnectedDecoder::take_decided() {
 }
 
 DecodedSentence ConnectedDecoder::finish() {
-  const Token& last = state_->arrivals[static_cast<std::size_t>(state_->final)].token;
+  const Token& last = state_->arrivals[static_cast<std::size_t>(state_->search.final)].token;
   DecodedSentence sentence;
   if (last.alive()) {
     sentence.complete = true;
@@ -375,7 +297,7 @@ DecodedSentence ConnectedDecoder::finish() {
 
 void ConnectedDecoder::reset() { state_->begin(); }
 
-int ConnectedDecoder::num_states() const { return state_->num_emissions; }
+int ConnectedDecoder::num_states() const { return state_->search.num_emissions; }
 std::int64_t ConnectedDecoder::num_frames() const { return state_->num_frames; }
 
 int ConnectedDecoder::num_active() const {

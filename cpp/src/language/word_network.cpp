@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "hri/core/error.hpp"
@@ -114,9 +115,21 @@ void WordNetwork::sort_arcs() {
 
 WordNetwork WordNetwork::loop(int num_words, int silence) {
   require(num_words >= 1, "num_words must be at least 1");
+  std::vector<int> words(static_cast<std::size_t>(num_words));
+  std::iota(words.begin(), words.end(), 0);
+  return loop(words, silence);
+}
+
+WordNetwork WordNetwork::loop(const std::vector<int>& words, int silence) {
+  require(!words.empty(), "words: there is none");
   Draft draft;
   const int middle = draft.add(kNull);
-  draft.add_words(middle, middle, num_words);
+  for (const int word : words) {
+    require(word >= 0, "words: a number is below 0");
+    const int node = draft.add(word);
+    draft.connect(middle, node);
+    draft.connect(node, middle);
+  }
   draft.add_silence(middle, middle, silence);
   return {std::move(draft.models), std::move(draft.arcs), middle, middle};
 }

@@ -4,10 +4,14 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
+from typing import Any
 
 import click
+import numpy as np
 
+from hri.cli.live_screen import device_option, microphone, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
@@ -20,12 +24,19 @@ from hri.cli.recognizers import (
     pattern_option,
 )
 from hri.core.errors import InvalidArgument
-from hri.language import NGramModel
+from hri.core.files import make_folder
+from hri.htk import WordLattice
+from hri.language import Grammar, NGramModel
+from hri.live import AudioSource, FileSource
 from hri.media import read_audio
-from hri.recognition import ConnectedWordRecognizer
+from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream, Transcript, UtteranceResult
+from hri.recognition.sentence.recognizer import UNKNOWN
 
 MODE = "connected"
 """Under which name the model is kept per user."""
+MOST_TIMES = 10
+SILENCE = "<sil>"
+"""The word of silence in lattices."""
 
 
 @click.command("train-connected")
@@ -91,7 +102,7 @@ def train_connected(
 
 
 @click.command()
-@click.argument("files", nargs=-1, required=True, type=click.Path(exists=True, dir_okay=False), metavar="FILE...")
+@click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False), metavar="FILE...")
 @click.option(
     "--model",
     type=click.Path(exists=True, dir_okay=False),
@@ -99,10 +110,49 @@ def train_connected(
     help="A model from 'hri train-connected'; the default is the one kept per user.",
 )
 @click.option("--words", type=click.IntRange(1, 1000), metavar="N", help="How many words there are, where it is known.")
+@click.option(
+    "--grammar",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="JSGF",
+    help="Commands with slots: only its sentences are recognised.",
+)
+@click.option(
+    "--alternatives", type=click.IntRange(0, 1000), default=0, metavar="N", help="Print the N best sentences."
+)
+@click.option(
+    "--lattices", type=click.Path(file_okay=False, path_type=Path), metavar="DIR", help="Write lattices (.slf)."
+)
+@click.option(
+    "--robot",
+    "film",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Film HOAP-2 as it performs the command: slot 'gesture', and 'times', of the grammar.",
+)
+@click.option(
+    "--stream",
+    is_flag=True,
+    help="Recognise utterance by utterance, from the microphone where no file is named; a line each, as JSON.",
+)
+@click.option("--wake", default="", metavar="WORD", help="With --stream: take what is said behind this word.")
+@device_option
+@stall_option
 @click.option("--times", is_flag=True, help="Print a line a word: its beginning and end in seconds, and the word.")
 @json_option
 def transcribe(
-    files: tuple[str, ...], model: str | None, words: int | None, times: bool, json_path: str | None
+    files: tuple[str, ...],
+    model: str | None,
+    words: int | None,
+    grammar: str | None,
+    alternatives: int,
+    lattices: Path | None,
+    film: Path | None,
+    stream: bool,
+    wake: str,
+    device: str | None,
+    stall_s: float,
+    times: bool,
+    json_path: str | None,
 ) -> None:
     """Recognise several words in one recording; print them in a line for each file.
 
@@ -110,23 +160,91 @@ def transcribe(
     Examples:
       hri transcribe number.wav
       hri transcribe number.wav --words 4
+      hri transcribe command.wav --grammar robot.jsgf --alternatives 3
+      hri transcribe command.wav --grammar robot.jsgf --robot robot.webm
+      hri transcribe --stream --wake robot
       hri transcribe monday.wav tuesday.wav --times --json -
     """
+    if not files and not stream:
+        raise click.UsageError("name a recording, or add --stream for the microphone")
+    if film is not None and (grammar is None or len(files) != 1 or stream):
+        raise click.UsageError("--robot goes with --grammar and one recording")
     path = Path(model) if model is not None else default_model(MODE)
     if not path.is_file():
         raise InvalidArgument("there is no model of connected words yet: run 'hri train-connected --data DIR'")
     recognizer = ConnectedWordRecognizer.load(path)
+    if grammar is not None:
+        recognizer.set_grammar(Grammar.load(grammar))
+    if stream:
+        sources: list[AudioSource] = [FileSource(file) for file in files] or [microphone(device, stall_s)]
+        for source in sources:
+            _follow(recognizer, source, wake)
+        return
     found = {}
     for file in files:
-        transcript = recognizer.recognise(file, num_words=words)
+        transcript = recognizer.recognise(file, num_words=words, num_alternatives=alternatives)
         found[file] = transcript.to_dict()
         if times:
             for word in transcript.words:
                 say(f"{word.first_s:.3f}\t{word.last_s:.3f}\t{word.label}", json_path)
+        elif alternatives:
+            for other in transcript.alternatives:
+                say(f"{other.log_score:.1f}\t{other.text}", json_path)
         else:
-            say(transcript.text, json_path)
+            slots = "".join(f"\t{slot}={value}" for slot, value in transcript.slots.items())
+            say(transcript.text + slots, json_path)
+        if lattices is not None:
+            _write_lattice(recognizer, file, lattices)
+        if film is not None:
+            _film(transcript, film)
         if not transcript.complete:
             note(f"{file}: too short for {words} words")
         for text in transcript.notes:
             note(f"{file}: {text}")
     write_json(json_path, found)
+
+
+def _follow(recognizer: ConnectedWordRecognizer, source: AudioSource, wake: str) -> None:
+    """A line of JSON for every result until the source ends."""
+    stream = ConnectedWordStream(recognizer, source.sample_rate_hz, wake_word=wake)
+
+    def show(results: list[UtteranceResult]) -> None:
+        for result in results:
+            fields: dict[str, Any] = {"event": "final" if result.is_final else "partial", "source": source.name}
+            fields |= {"first_s": round(result.first_s, 3), "last_s": round(result.last_s, 3)}
+            fields |= {"num_stable": result.num_stable, **result.transcript.to_dict()}
+            click.echo(json.dumps(fields, ensure_ascii=False))
+
+    try:
+        while (block := source.read()) is not None:
+            show(stream.process(block))
+        show(stream.finish())
+    finally:
+        source.close()
+
+
+def _film(transcript: Transcript, path: Path) -> None:
+    from hri.robot import Trajectory, gesture_trajectory, render_video
+
+    slots = transcript.slots
+    if "gesture" not in slots or any(word.unknown for word in transcript.words):
+        note("robot: not moved, no command with a gesture was understood")
+        return
+    times = slots.get("times", "1")
+    if not (times.isdecimal() and 1 <= int(times) <= MOST_TIMES):
+        raise InvalidArgument(f"the slot 'times' is {times!r}, must be a number from 1 to {MOST_TIMES}")
+    once = gesture_trajectory(slots["gesture"])
+    motion = Trajectory(once.joint_names, once.period_s, np.tile(once.positions_rad, (int(times), 1)))
+    make_folder(path.parent)
+    render_video(motion, path)
+    note(f"robot: {path}")
+
+
+def _write_lattice(recognizer: ConnectedWordRecognizer, file: str, folder: Path) -> None:
+    lattice, first_s, frame_s = recognizer.lattice(file)
+    if lattice.empty:
+        note(f"{file}: no speech, no lattice")
+        return
+    labels = [*recognizer.classes_, SILENCE, UNKNOWN]
+    make_folder(folder)
+    WordLattice.of_lattice(lattice, labels, first_s, frame_s).write(folder / Path(file).with_suffix(".slf").name)

@@ -7,11 +7,15 @@ behind a front end.
 """
 
 from hri._native import (
+    ConfusionSlot,
     ConnectedDecoder,
     ConnectedDecoderOptions,
     DecodedSentence,
     DecodedWord,
     GaussianEmissions,
+    Grammar,
+    Lattice,
+    LatticeOptions,
     NGramFit,
     NGramModel,
     NGramOptions,
@@ -24,12 +28,16 @@ from hri.language.word_errors import AlignedWord, WordErrors, align_words, count
 
 __all__ = [
     "AlignedWord",
+    "ConfusionSlot",
     "ConnectedDecoder",
     "ConnectedDecoderOptions",
     "DecodedSentence",
     "DecodedWord",
     "GaussianEmissions",
+    "Grammar",
     "KnowledgeBase",
+    "Lattice",
+    "LatticeOptions",
     "NGramFit",
     "NGramModel",
     "NGramOptions",

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from hri._native import (
     LEARNED_STILL_CHANGE,
     ConnectedWordRecognizerOptions,
+    ConnectedWordStreamOptions,
     GestureRecognizerOptions,
     GestureSegment,
     GestureSegmenter,
@@ -26,12 +27,15 @@ from hri.recognition.files import load
 from hri.recognition.gesture import GestureRecognizer
 from hri.recognition.held_out_report import ConfusedPair, HeldOutReport
 from hri.recognition.sentence import (
+    Alternative,
     ConnectedWordRecognizer,
+    ConnectedWordStream,
     RecognisedSentence,
     RecognisedSign,
     SentenceRecognizer,
     TranscribedWord,
     Transcript,
+    UtteranceResult,
 )
 from hri.recognition.word import (
     FillerWord,
@@ -51,9 +55,12 @@ else:
 
 __all__ = [
     "LEARNED_STILL_CHANGE",
+    "Alternative",
     "ConfusedPair",
     "ConnectedWordRecognizer",
     "ConnectedWordRecognizerOptions",
+    "ConnectedWordStream",
+    "ConnectedWordStreamOptions",
     "Decision",
     "FillerWord",
     "GestureEvent",
@@ -79,6 +86,7 @@ __all__ = [
     "TranscribedWord",
     "Transcript",
     "Utterance",
+    "UtteranceResult",
     "WordRecognizer",
     "WordRecognizerOptions",
     "embedding_weights",

@@ -276,6 +276,13 @@ class ConnectedDecoderKeywords(TypedDict, total=False):
     max_open_words: int
 
 
+class LatticeKeywords(TypedDict, total=False):
+    """Fields of `LatticeOptions`."""
+
+    beam: float
+    max_arcs: int
+
+
 class ConnectedWordRecognizerKeywords(TypedDict, total=False):
     """Fields of `ConnectedWordRecognizerOptions`."""
 
@@ -286,7 +293,13 @@ class ConnectedWordRecognizerKeywords(TypedDict, total=False):
     max_pause_ms: float
     num_alignments: int
     choose_penalty: bool
+    confidence_scale: float
+    min_confidence: float
+    unknown_words: bool
+    unknown_rank: int
+    unknown_penalty: float
     decoder: _native.ConnectedDecoderOptions | ConnectedDecoderKeywords
+    lattice: _native.LatticeOptions | LatticeKeywords
 
 
 class TwoHandFeatureKeywords(TypedDict, total=False):

@@ -50,6 +50,35 @@ std::string grammar_refusal(const std::string& text) {
 }
 std::string lattice_refusal(const std::string& text) { return refusal(text, WordLattice::parse); }
 
+TEST(WordLattice, HoldsLatticesOfRecognition) {
+  const Lattice lattice(
+      {{-1, 0, false}, {0, 3, false}, {1, 4, false}, {2, 7, true}, {-1, 7, false}},
+      {{0, 1, -3.25, -0.5}, {0, 2, -4, 0}, {1, 3, -1, 0}, {2, 3, -2, 0}, {3, 4}});
+  const std::vector<std::string> labels{"one", "two", "sil"};
+  const WordLattice written = WordLattice::of_lattice(lattice, labels, 0.05, 0.01);
+  const WordLattice file = WordLattice::parse(written.to_text(), "file");
+  EXPECT_EQ(file.to_text(), written.to_text());
+  EXPECT_NE(file.to_text().find("I=1    t=0.08  W=one\n"), std::string::npos) << file.to_text();
+  EXPECT_NE(file.to_text().find("J=0     S=0    E=1 a=-3.25 l=-0.5\n"), std::string::npos);
+  const Lattice back = file.to_lattice(labels, {"sil"}, 0.05, 0.01);
+  const std::vector<DecodedSentence> expected = lattice.n_best(5);
+  const std::vector<DecodedSentence> found = back.n_best(5);
+  ASSERT_EQ(found.size(), 2U);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].log_score, expected[i].log_score);
+    ASSERT_EQ(found[i].words.size(), 2U);
+    EXPECT_EQ(found[i].words[0].model, expected[i].words[0].model);
+    EXPECT_EQ(found[i].words[0].last_frame, expected[i].words[0].last_frame);
+  }
+  EXPECT_THROW((void)file.to_lattice({"one", "two"}, {}, 0.05, 0.01), InvalidArgument);
+  EXPECT_THROW((void)file.to_lattice(labels, {}, 5, 0.01), InvalidArgument);
+  EXPECT_THROW((void)WordLattice::of_words({"one"}).to_lattice(labels, {}, 0, 0.01),
+               InvalidArgument);
+  EXPECT_THROW((void)WordLattice::of_lattice(lattice, {"one"}, 0, 0.01), InvalidArgument);
+  EXPECT_TRUE(
+      WordLattice::parse("N=2 L=1\nI=0 t=0\nI=1 W=a\nJ=0 S=0 E=1\n", "file").times_s.empty());
+}
+
 TEST(WordLattice, HoldsTheSentencesOfAGrammar) {
   EXPECT_EQ(of_grammar("( go | stop )"), (std::set<Words>{{"go"}, {"stop"}}));
   EXPECT_EQ(of_grammar("( go [ left | right ] )"),

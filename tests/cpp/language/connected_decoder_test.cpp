@@ -15,22 +15,6 @@ using namespace testing_data;
 constexpr int kNumStates = 5;  // of the three models below
 constexpr int kSilence = 2;
 
-std::vector<WordChain> two_words_and_silence(std::uint64_t seed) {
-  return {random_chain(2, seed), random_chain(2, seed + 1, 2), random_chain(1, seed + 2, 1, true)};
-}
-
-std::vector<WordNetwork> networks() {
-  const NGramModel language = NGramModel::train({{"a", "b"}, {"a", "b", "b"}, {"b"}, {"a"}}, {2});
-  return {WordNetwork::loop(2),
-          WordNetwork::loop(2, kSilence),
-          WordNetwork::sequence(2, 1),
-          WordNetwork::sequence(2, 3, kSilence),
-          WordNetwork::transcript({1, 0}),
-          WordNetwork::transcript({0, 1, 1}, kSilence),
-          WordNetwork::bigram(language, {"a", "b"}),
-          WordNetwork::bigram(language, {"a", "b"}, kSilence)};
-}
-
 ConnectedDecoderOptions without_beam() {
   ConnectedDecoderOptions options;
   options.beam = 1e12;
@@ -60,7 +44,7 @@ TEST(ConnectedDecoder, FindsTheBestOfAllSegmentations) {
     options.language_scale = 0.5 + static_cast<double>(seed % 2);
     const auto chains = two_words_and_silence(10 * seed);
     const MatrixF scores = random_scores(6, kNumStates, seed);
-    for (const WordNetwork& network : networks()) {
+    for (const WordNetwork& network : networks_of_two_words()) {
       const PlainDecoder plain(chains, network, options, scores);
       ConnectedDecoder decoder(chains, network, options);
       const DecodedSentence found = decode(&decoder, scores);

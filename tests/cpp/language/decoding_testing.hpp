@@ -62,6 +62,24 @@ inline double word_score(const WordChain& chain, const MatrixF& scores, int firs
   return result;
 }
 
+/// Models 0 and 1 are words, 2 is silence: five states.
+inline std::vector<WordChain> two_words_and_silence(std::uint64_t seed) {
+  return {random_chain(2, seed), random_chain(2, seed + 1, 2), random_chain(1, seed + 2, 1, true)};
+}
+
+/// One of every kind, of two words and silence.
+inline std::vector<WordNetwork> networks_of_two_words() {
+  const NGramModel language = NGramModel::train({{"a", "b"}, {"a", "b", "b"}, {"b"}, {"a"}}, {2});
+  return {WordNetwork::loop(2),
+          WordNetwork::loop(2, 2),
+          WordNetwork::sequence(2, 1),
+          WordNetwork::sequence(2, 3, 2),
+          WordNetwork::transcript({1, 0}),
+          WordNetwork::transcript({0, 1, 1}, 2),
+          WordNetwork::bigram(language, {"a", "b"}),
+          WordNetwork::bigram(language, {"a", "b"}, 2)};
+}
+
 /// All paths of a network that cover all frames, each word in every place: slow and plain.
 class PlainDecoder {
  public:
@@ -76,14 +94,23 @@ class PlainDecoder {
     follow(network.initial(), 0, 0);
   }
 
+  struct Path {
+    std::vector<DecodedWord> words;
+    double log_score;
+  };
+
   [[nodiscard]] double log_score() const { return best_; }
+  [[nodiscard]] const std::vector<Path>& paths() const { return paths_; }
   [[nodiscard]] const std::vector<DecodedWord>& words() const { return best_words_; }
 
  private:
   void follow(int node, int frame, double score) {
-    if (node == network_.final() && frame == scores_.rows() && score > best_) {
-      best_ = score;
-      best_words_ = words_;
+    if (node == network_.final() && frame == scores_.rows()) {
+      paths_.push_back({words_, score});
+      if (score > best_) {
+        best_ = score;
+        best_words_ = words_;
+      }
     }
     for (const WordNetwork::Arc& arc : network_.arcs()) {
       if (arc.from == node) enter(arc.to, frame, score + options_.language_scale * arc.log_weight);
@@ -115,6 +142,7 @@ class PlainDecoder {
   std::vector<int> first_states_;
   std::vector<DecodedWord> words_;
   std::vector<DecodedWord> best_words_;
+  std::vector<Path> paths_;  // all that cover all frames
   double best_ = kNever;
 };
 

@@ -34,6 +34,8 @@ class HRI_API WordNetwork {
   /// Any number of words, none included, in any order: models 0 .. num_words - 1. With the number
   /// of a `silence` model it may stand before, between and after them.
   static WordNetwork loop(int num_words, int silence = kNoSilence);
+  /// The same of the models `words`.
+  static WordNetwork loop(const std::vector<int>& words, int silence = kNoSilence);
   /// `length` words, 1..1000, in any order.
   static WordNetwork sequence(int num_words, int length, int silence = kNoSilence);
   /// The given words in this order: for forced alignment. Throws InvalidArgument for none.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kKind = "connected_word_recognizer";
 constexpr const char* kLanguage = "language";
+constexpr const char* kGrammar = "grammar";
 
 std::string prefix_of(std::size_t model) { return "hmm." + std::to_string(model) + "."; }
 
@@ -27,6 +28,7 @@ ModelFile ConnectedWordRecognizer::to_model_file() const {
   for (std::size_t m = 0; m < models().size(); ++m) models()[m].write(file, prefix_of(m));
   file.set_vector("final_stays", final_stays_);
   if (language_ != nullptr) file.set_text(kLanguage, language_->to_arpa());
+  if (grammar_ != nullptr) file.set_text(kGrammar, grammar_->text());
   return file;
 }
 
@@ -57,6 +59,8 @@ ConnectedWordRecognizer ConnectedWordRecognizer::read(const ModelFile& file) {
     result =
         result.with_language(NGramModel::parse(file.text(kLanguage), file.name() + ": language"));
   }
+  if (file.has(kGrammar))
+    result = result.with_grammar(Grammar::parse(file.text(kGrammar), file.name() + ": grammar"));
   file.require_all_read();
   return result;
 }

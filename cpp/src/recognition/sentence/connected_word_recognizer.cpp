@@ -3,10 +3,12 @@
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "hri/core/error.hpp"
 #include "recognition/sentence/sentence_front_end.hpp"
+#include "recognition/sentence/unknown_word.hpp"
 
 namespace hri {
 namespace {
@@ -29,7 +31,10 @@ const char* ConnectedWordRecognizerOptions::conflict() const {
 
 std::string Transcript::text() const {
   std::string text;
-  for (const TranscribedWord& word : words) text += (text.empty() ? "" : " ") + word.label;
+  for (const TranscribedWord& word : words) {
+    text += text.empty() ? "" : " ";
+    text += word.unknown ? TranscribedWord::kUnknown : word.label;
+  }
   return text;
 }
 
@@ -54,12 +59,25 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
                                     final_stays_[static_cast<Eigen::Index>(m)],
                                     m + 1 == num_models));
   }
+  if (options_.unknown_words) {
+    chains_.push_back(
+        detail::unknown_chain(this->models().front().num_states(), options_.unknown_penalty));
+  }
 }
 
 ConnectedWordRecognizer ConnectedWordRecognizer::with_language(NGramModel language) const {
   ConnectedWordRecognizer result = *this;
   result.language_ = std::make_shared<const NGramModel>(std::move(language));
+  result.grammar_ = nullptr;
   (void)result.network(0);  // refuses what cannot be decoded with
+  return result;
+}
+
+ConnectedWordRecognizer ConnectedWordRecognizer::with_grammar(Grammar grammar) const {
+  ConnectedWordRecognizer result = *this;
+  result.grammar_ = std::make_shared<const Grammar>(std::move(grammar));
+  result.language_ = nullptr;
+  (void)result.network(0);
   return result;
 }
 
@@ -72,39 +90,145 @@ ConnectedWordRecognizer ConnectedWordRecognizer::with_decoder(
 
 WordNetwork ConnectedWordRecognizer::network(int num_words) const {
   const auto num_labels = static_cast<int>(labels_.size());
-  if (num_words != 0) return WordNetwork::sequence(num_labels, num_words, num_labels);
-  if (language_ != nullptr) return WordNetwork::bigram(*language_, labels_, num_labels);
-  return WordNetwork::loop(num_labels, num_labels);
+  if (num_words != 0) return WordNetwork::sequence(num_labels, num_words, silence());
+  if (grammar_ != nullptr) {
+    return grammar_->network(labels_, silence(),
+                             options_.unknown_words ? unknown_word() : WordNetwork::kNull);
+  }
+  if (language_ != nullptr) return WordNetwork::bigram(*language_, labels_, silence());
+  std::vector<int> words(labels_.size());
+  std::iota(words.begin(), words.end(), 0);
+  if (options_.unknown_words) words.push_back(unknown_word());
+  return WordNetwork::loop(words, silence());
+}
+
+double ScoredRecording::seconds_of(std::int64_t frame) const {
+  return std::max(0.0, first_s + static_cast<double>(frame) * frame_s);
+}
+
+ScoredRecording ConnectedWordRecognizer::score(Span<const float> audio, int sample_rate_hz) const {
+  detail::CutSentence sentence = front_end_->cut(audio, sample_rate_hz);
+  ScoredRecording recording;
+  recording.notes = std::move(sentence.notes);
+  const double rate_hz = front_end_->sample_rate_hz();
+  // A frame begins in the middle between two.
+  recording.first_s =
+      (static_cast<double>(sentence.offset) + front_end_->middle_of(-0.5)) / rate_hz;
+  recording.frame_s = (front_end_->middle_of(1) - front_end_->middle_of(0)) / rate_hz;
+  if (sentence.samples.empty()) return recording;
+  const MatrixF frames = front_end_->frames(std::move(sentence.samples));
+  MatrixF known(frames.rows(), emissions_->num_states());
+  emissions_->compute(frames, known);
+  if (options_.unknown_words) {
+    known.conservativeResize(Eigen::NoChange, known.cols() + chains_.back().log_start.size());
+    detail::score_unknown(states_of_words(), options_.unknown_rank, &known);
+  }
+  recording.log_emissions = std::move(known);
+  return recording;
+}
+
+std::vector<bool> ConnectedWordRecognizer::states_of_words() const {
+  std::vector<bool> result(static_cast<std::size_t>(emissions_->num_states()), true);
+  const auto of_silence = models().back().num_states();
+  std::fill(result.end() - of_silence, result.end(), false);
+  return result;
 }
 
 Transcript ConnectedWordRecognizer::recognise(Span<const float> audio, int sample_rate_hz,
-                                              int num_words) const {
-  require(num_words >= 0 && num_words <= kMaxLength, "num_words must lie in 0..1000");
-  detail::CutSentence sentence = front_end_->cut(audio, sample_rate_hz);
+                                              const TranscriptionQuery& query) const {
+  return recognise(score(audio, sample_rate_hz), query);
+}
+
+Transcript ConnectedWordRecognizer::recognise(const ScoredRecording& recording,
+                                              const TranscriptionQuery& query) const {
+  require(query.num_words >= 0 && query.num_words <= kMaxLength, "num_words must lie in 0..1000");
+  require(query.num_alternatives >= 0 && query.num_alternatives <= kMaxLength,
+          "num_alternatives must lie in 0..1000");
   Transcript transcript;
-  transcript.notes = std::move(sentence.notes);
-  if (sentence.samples.empty()) return transcript;
-  const MatrixF frames = front_end_->frames(std::move(sentence.samples));
-  MatrixF log_emissions(frames.rows(), emissions_->num_states());
-  emissions_->compute(frames, log_emissions);
-  ConnectedDecoder decoder(chains_, network(num_words), options_.decoder);
-  for (Eigen::Index t = 0; t < frames.rows(); ++t) decoder.push(row_span(log_emissions, t));
+  transcript.notes = recording.notes;
+  const MatrixF& scores = recording.log_emissions;
+  if (scores.rows() == 0) return transcript;
+  const WordNetwork searched = network(query.num_words);
+  ConnectedDecoder decoder(chains_, searched, options_.decoder);
+  for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
   const DecodedSentence decoded = decoder.finish();
   transcript.complete = decoded.complete;
   transcript.log_score = decoded.log_score;
-  // A word begins and ends in the middle between two frames.
-  const auto seconds_of = [&](std::int64_t frame) {
-    const double sample = static_cast<double>(sentence.offset) +
-                          front_end_->middle_of(static_cast<double>(frame) - 0.5);
-    return std::max(0.0, sample) / front_end_->sample_rate_hz();
-  };
-  for (const DecodedWord& word : decoded.words) {
-    if (word.model == static_cast<int>(labels_.size())) continue;
-    transcript.words.push_back({labels_[static_cast<std::size_t>(word.model)],
-                                seconds_of(word.first_frame), seconds_of(word.last_frame),
-                                word.log_score});
+  transcript.words = words_of(decoded.words, recording);
+  if (grammar_ != nullptr && query.num_words == 0 && decoded.complete)
+    transcript.slots = slots_of(transcript.words);
+  if (!decoded.complete || (!query.confidences && query.num_alternatives == 0)) return transcript;
+  if (!Lattice::fits(chains_, searched, scores.rows())) {
+    transcript.notes.emplace_back("too long for confidences and alternatives");
+    return transcript;
+  }
+  const Lattice lattice =
+      Lattice::decode(chains_, searched, scores, options_.decoder, options_.lattice);
+  if (query.confidences) add_confidences(lattice, decoded.words, &transcript);
+  if (query.num_alternatives > 0) {
+    for (const DecodedSentence& sentence : lattice.n_best(query.num_alternatives))
+      transcript.alternatives.push_back({words_of(sentence.words, recording), sentence.log_score});
   }
   return transcript;
+}
+
+Transcript ConnectedWordRecognizer::recognise_begun(const ScoredRecording& recording,
+                                                    std::size_t* num_decided) const {
+  ConnectedDecoder decoder(chains_, network(0), options_.decoder);
+  const MatrixF& scores = recording.log_emissions;
+  for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
+  std::vector<DecodedWord> words = decoder.take_decided();
+  *num_decided = words_of(words, recording).size();
+  const DecodedSentence rest = decoder.partial();
+  words.insert(words.end(), rest.words.begin(), rest.words.end());
+  Transcript transcript;
+  transcript.complete = false;
+  transcript.log_score = rest.log_score;
+  transcript.words = words_of(words, recording);
+  return transcript;
+}
+
+Slots ConnectedWordRecognizer::slots_of(const std::vector<TranscribedWord>& words) const {
+  std::vector<std::string> sentence;
+  for (const TranscribedWord& word : words) sentence.push_back(word.label);
+  return grammar_->slots_of(sentence).value_or(Slots());
+}
+
+Lattice ConnectedWordRecognizer::lattice(const ScoredRecording& recording, int num_words) const {
+  require(num_words >= 0 && num_words <= kMaxLength, "num_words must lie in 0..1000");
+  if (recording.log_emissions.rows() == 0) return {{}, {}};
+  return Lattice::decode(chains_, network(num_words), recording.log_emissions, options_.decoder,
+                         options_.lattice);
+}
+
+std::vector<TranscribedWord> ConnectedWordRecognizer::words_of(
+    const std::vector<DecodedWord>& decoded, const ScoredRecording& recording) const {
+  std::vector<TranscribedWord> words;
+  for (const DecodedWord& word : decoded) {
+    if (word.model == silence()) continue;
+    TranscribedWord found;
+    found.unknown = word.model == unknown_word();
+    found.label =
+        found.unknown ? TranscribedWord::kUnknown : labels_[static_cast<std::size_t>(word.model)];
+    found.first_s = recording.seconds_of(word.first_frame);
+    found.last_s = recording.seconds_of(word.last_frame);
+    found.log_score = word.log_score;
+    words.push_back(std::move(found));
+  }
+  return words;
+}
+
+void ConnectedWordRecognizer::add_confidences(const Lattice& lattice,
+                                              const std::vector<DecodedWord>& decoded,
+                                              Transcript* transcript) const {
+  const std::vector<double> confidences = lattice.confidences(decoded, options_.confidence_scale);
+  std::size_t word = 0;
+  for (std::size_t i = 0; i < decoded.size(); ++i) {
+    if (decoded[i].model == silence()) continue;
+    TranscribedWord& found = transcript->words[word++];
+    found.confidence = confidences[i];
+    found.unknown = found.unknown || confidences[i] < options_.min_confidence;
+  }
 }
 
 }  // namespace hri

@@ -4,7 +4,6 @@
 // Training of ConnectedWordRecognizer: isolated recordings to strings, strings to sequences of
 // every word and of silence, one HMM each; the insertion penalty on strings of speakers held out.
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <set>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "hri/signal/activity.hpp"
 #include "hri/signal/resample.hpp"
+#include "recognition/sentence/held_out_choices.hpp"
 #include "recognition/sentence/sentence_training.hpp"
 #include "recognition/sentence/training_strings.hpp"
 
@@ -29,8 +29,6 @@ constexpr int kNoFold = -1;
 constexpr int kDefaultRateHz = 16000;
 constexpr int kSpeakersPerMixture = 2;
 constexpr int kMaxMixtures = 4;
-constexpr std::array kPenalties{-400.0, -300.0, -200.0, -150.0, -100.0, -70.0,
-                                -50.0,  -30.0,  -15.0,  0.0,    15.0,   30.0};
 
 // The models of a training, before they are a recogniser.
 struct TrainedWords {
@@ -81,16 +79,8 @@ class SentenceTrainer {
     const int num_folds = options_.choose_penalty ? assign_folds() : 0;
     const int num_steps = num_folds + 1;
     if (progress) progress(0, num_steps);
-    std::array<int, kPenalties.size()> errors{};
-    for (int fold = 0; fold < num_folds; ++fold) {
-      if (usable(fold)) count_errors(fold, &errors);
-      if (progress) progress(fold + 1, num_steps);
-    }
-    if (num_folds > 0) {
-      const auto best = std::min_element(errors.begin(), errors.end()) - errors.begin();
-      options_.decoder.insertion_penalty = kPenalties[static_cast<std::size_t>(best)];
-    }
-    ConnectedWordRecognizer result = recognizer(train_without(kNoFold));
+    if (num_folds > 0) choose(num_folds, num_steps, progress);
+    ConnectedWordRecognizer result = recognizer(options_, train_without(kNoFold));
     if (progress) progress(num_steps, num_steps);
     return result;
   }
@@ -227,30 +217,36 @@ class SentenceTrainer {
     return trained;
   }
 
-  [[nodiscard]] ConnectedWordRecognizer recognizer(TrainedWords trained) const {
-    return {options_, labels_, std::move(trained.models), trained.final_stays};
+  [[nodiscard]] ConnectedWordRecognizer recognizer(const ConnectedWordRecognizerOptions& options,
+                                                   TrainedWords trained) const {
+    return {options, labels_, std::move(trained.models), trained.final_stays};
   }
 
-  // Of strings of the fold, by every penalty.
-  void count_errors(int fold, std::array<int, kPenalties.size()>* errors) const {
-    const ConnectedWordRecognizer trained = recognizer(train_without(fold));
-    const std::vector<WordString> strings = maker_.join(
-        words_where([fold](const SpokenWord& w) { return w.fold == fold; }), options_.words.seed);
-    detail::parallel_for(errors->size(), should_stop_, [&](std::size_t p, const StopCheck& stop) {
-      ConnectedDecoderOptions decoder = options_.decoder;
-      decoder.insertion_penalty = kPenalties[p];
-      const ConnectedWordRecognizer tried = trained.with_decoder(decoder);
-      for (const WordString& string : strings) {
-        poll(stop);
-        std::vector<int> found;
-        const Transcript transcript =
-            tried.recognise(string.audio, maker_.front_end().sample_rate_hz());
-        found.reserve(transcript.words.size());
-        for (const TranscribedWord& word : transcript.words)
-          found.push_back(label_index(labels_, word.label));
-        (*errors)[p] += detail::num_word_errors(string.labels, found);
+  // On strings of every fold, by models of the others.
+  void choose(int num_folds, int num_steps, const TrainingProgress& progress) {
+    ConnectedWordRecognizerOptions of_folds = options_;
+    of_folds.unknown_words = false;
+    detail::HeldOutChoices choices(should_stop_);
+    std::vector<std::pair<ConnectedWordRecognizer, std::vector<WordString>>> folds;
+    for (int fold = 0; fold < num_folds; ++fold) {
+      if (usable(fold)) {
+        folds.emplace_back(
+            recognizer(of_folds, train_without(fold)),
+            maker_.join(words_where([fold](const SpokenWord& w) { return w.fold == fold; }),
+                        options_.words.seed));
+        choices.try_penalties(folds.back().first, folds.back().second);
       }
-    });
+      if (progress) progress(fold + 1, num_steps);
+    }
+    options_.decoder.insertion_penalty = choices.best_penalty();
+    if (folds.empty()) return;
+    for (auto& [trained, strings] : folds) {
+      const ConnectedWordRecognizer weighted = trained.with_decoder(options_.decoder);
+      choices.try_scales(weighted, strings);
+      if (options_.unknown_words) choices.try_unknown(weighted, strings);
+    }
+    options_.confidence_scale = choices.best_scale();
+    if (options_.unknown_words) choices.set_best_unknown(&options_);
   }
 
   ConnectedWordRecognizerOptions options_;

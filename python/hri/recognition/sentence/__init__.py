@@ -2,14 +2,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sentences: several words in one recording, spoken or signed."""
 
-from hri.recognition.sentence.recognizer import ConnectedWordRecognizer, TranscribedWord, Transcript
+from hri.recognition.sentence.recognizer import (
+    Alternative,
+    ConnectedWordRecognizer,
+    TranscribedWord,
+    Transcript,
+)
 from hri.recognition.sentence.signs import RecognisedSentence, RecognisedSign, SentenceRecognizer
+from hri.recognition.sentence.stream import ConnectedWordStream, UtteranceResult
 
 __all__ = [
+    "Alternative",
     "ConnectedWordRecognizer",
+    "ConnectedWordStream",
     "RecognisedSentence",
     "RecognisedSign",
     "SentenceRecognizer",
     "TranscribedWord",
     "Transcript",
+    "UtteranceResult",
 ]

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from os import PathLike
 from typing import Any, Unpack
 
 from hri import _native
 from hri.core.errors import InvalidArgument
-from hri.language import NGramModel, WordErrors, count_word_errors
+from hri.language import ConfusionSlot, Grammar, Lattice, NGramModel, WordErrors, count_word_errors
 from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
@@ -20,6 +20,9 @@ from hri.recognition.keywords import ConnectedDecoderKeywords, ConnectedWordReco
 from hri.recognition.loading import load_native
 
 _log = logging.getLogger(__name__)
+
+UNKNOWN = "<unk>"
+"""The label of a word that is not in the vocabulary."""
 
 
 @dataclass(frozen=True)
@@ -33,12 +36,41 @@ class TranscribedWord:
         Its beginning and end from the beginning of the recording.
     log_score : float
         What it adds to the transcript's.
+    confidence : float or None
+        0..1: how probable it is that this word was said here, by the other sentences that might have been; None where
+        that is not known.
+    unknown : bool
+        Whether it is no word of the vocabulary (``label`` is then ``<unk>``), or its confidence is below
+        ``min_confidence``.
     """
 
     label: str
     first_s: float
     last_s: float
     log_score: float
+    confidence: float | None = None
+    unknown: bool = False
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Another sentence that might have been said.
+
+    Attributes
+    ----------
+    words : tuple of TranscribedWord
+        In the order of time, without confidence.
+    log_score : float
+        Natural log, of its best path.
+    """
+
+    words: tuple[TranscribedWord, ...]
+    log_score: float
+
+    @property
+    def text(self) -> str:
+        """The words, with spaces between."""
+        return " ".join(word.label for word in self.words)
 
 
 @dataclass(frozen=True)
@@ -55,17 +87,23 @@ class Transcript:
         False where the recording was too short for so many words as were asked for.
     notes : tuple of str
         What was converted or assumed on the way.
+    alternatives : tuple of Alternative
+        As many as were asked for, the best first, which has the words above.
+    slots : dict
+        What the grammar's tags say of the sentence.
     """
 
     words: tuple[TranscribedWord, ...]
     log_score: float = 0.0
     complete: bool = True
     notes: tuple[str, ...] = ()
+    alternatives: tuple[Alternative, ...] = ()
+    slots: dict[str, str] = field(default_factory=dict)
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The words alone."""
-        return tuple(word.label for word in self.words)
+        """The words alone, ``<unk>`` for those that are unknown."""
+        return tuple(UNKNOWN if word.unknown else word.label for word in self.words)
 
     @property
     def text(self) -> str:
@@ -75,6 +113,22 @@ class Transcript:
     def to_dict(self) -> dict[str, Any]:
         """As plain values that can be written as JSON."""
         return {"text": self.text, **asdict(self)}
+
+
+def transcript_of(found: _native.Transcript, notes: Sequence[str] = ()) -> Transcript:
+    """As Python has it; `notes` stand before its own."""
+    return Transcript(
+        tuple(_word_of(word) for word in found.words),
+        found.log_score,
+        found.complete,
+        (*notes, *found.notes),
+        tuple(Alternative(tuple(_word_of(word) for word in a.words), a.log_score) for a in found.alternatives),
+        dict(found.slots),
+    )
+
+
+def _word_of(word: _native.TranscribedWord) -> TranscribedWord:
+    return TranscribedWord(word.label, word.first_s, word.last_s, word.log_score, word.confidence, word.unknown)
 
 
 class ConnectedWordRecognizer(Recognizer):
@@ -167,6 +221,17 @@ class ConnectedWordRecognizer(Recognizer):
         self._native = self._trained.with_language(language)
         return self
 
+    def set_grammar(self, grammar: Grammar) -> ConnectedWordRecognizer:
+        """Find sentences of a grammar alone, which is saved with the model; a language model is dropped.
+
+        Raises
+        ------
+        InvalidArgument
+            For a word of the grammar that is no label.
+        """
+        self._native = self._trained.with_grammar(grammar)
+        return self
+
     def set_decoder(self, **options: Unpack[ConnectedDecoderKeywords]) -> ConnectedWordRecognizer:
         """Change options of the decoder after training, such as ``insertion_penalty`` or ``language_scale``."""
         current = self._trained.options.decoder.as_dict()
@@ -179,7 +244,12 @@ class ConnectedWordRecognizer(Recognizer):
         return float(self._trained.options.decoder.insertion_penalty)
 
     def recognise(
-        self, audio: AudioInput, sample_rate_hz: int | None = None, *, num_words: int | None = None
+        self,
+        audio: AudioInput,
+        sample_rate_hz: int | None = None,
+        *,
+        num_words: int | None = None,
+        num_alternatives: int = 0,
     ) -> Transcript:
         """Recognise the words of a recording.
 
@@ -189,13 +259,15 @@ class ConnectedWordRecognizer(Recognizer):
         sample_rate_hz : int, optional
             Of an array.
         num_words : int, optional
-            How many words there are, where that is known; the language model then has no say.
+            How many words there are, where that is known; language model and grammar then have no say.
+        num_alternatives : int
+            How many sentences to give, the best and others that differ in their words.
 
         Raises
         ------
         InvalidArgument
             For an array without a rate, of several channels, not finite or shorter than one frame, and for a number of
-            words outside 1..1000.
+            words or alternatives outside 1..1000.
         FormatError, IoError
             For a file that is no recording.
         """
@@ -204,13 +276,34 @@ class ConnectedWordRecognizer(Recognizer):
         clip = as_audio(audio, sample_rate_hz)
         words = self._trained
         with naming_file(clip.path):
-            found = words.recognise(clip.samples, clip.sample_rate_hz, num_words or 0)
-        return Transcript(
-            tuple(TranscribedWord(w.label, w.first_s, w.last_s, w.log_score) for w in found.words),
-            found.log_score,
-            found.complete,
-            (*clip.notes, *found.notes),
-        )
+            found = words.recognise(clip.samples, clip.sample_rate_hz, num_words or 0, num_alternatives)
+        return transcript_of(found, clip.notes)
+
+    def lattice(self, audio: AudioInput, sample_rate_hz: int | None = None) -> tuple[Lattice, float, float]:
+        """All sentences that come near the best, with their times.
+
+        Returns
+        -------
+        lattice : hri.language.Lattice
+            Model ``i`` is ``classes_[i]``, then silence and the unknown word; empty without speech.
+        first_s, frame_s : float
+            Frame ``n`` begins at ``first_s + n * frame_s``.
+
+        Raises
+        ------
+        InvalidArgument, FormatError, IoError
+            As `recognise` does, and for a recording too long for a lattice.
+        """
+        clip = as_audio(audio, sample_rate_hz)
+        words = self._trained
+        with naming_file(clip.path):
+            scored = words.score(clip.samples, clip.sample_rate_hz)
+            return words.lattice(scored), scored.first_s, scored.frame_s
+
+    def confusion_network(self, audio: AudioInput, sample_rate_hz: int | None = None) -> list[ConfusionSlot]:
+        """What may have been said instead, word by word; models are numbered as those of `lattice`."""
+        found, _, _ = self.lattice(audio, sample_rate_hz)
+        return found.confusion_network(self._trained.options.confidence_scale)
 
     def count_errors(
         self, X: Sequence[AudioInput], y: Sequence[Sequence[str]], sample_rate_hz: int | Sequence[int] | None = None

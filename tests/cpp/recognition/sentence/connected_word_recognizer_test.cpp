@@ -74,11 +74,70 @@ TEST(ConnectedWordRecognizer, FindsWordsAndTheirTimes) {
 
 TEST(ConnectedWordRecognizer, FindsSoManyWordsAsThereAre) {
   const std::vector<float> audio = sentence(kWords, 0);
-  const Transcript found = trained().recognise(audio, kRateHz, 5);
+  const Transcript found = trained().recognise(audio, kRateHz, {5});
   EXPECT_EQ(labels_of(found), kWords) << found.text();
-  EXPECT_EQ(trained().recognise(audio, kRateHz, 3).words.size(), 3U);
-  const Transcript too_many = trained().recognise(audio, kRateHz, 500);
+  EXPECT_EQ(trained().recognise(audio, kRateHz, {3}).words.size(), 3U);
+  const Transcript too_many = trained().recognise(audio, kRateHz, {500});
   EXPECT_FALSE(too_many.complete);
+}
+
+TEST(ConnectedWordRecognizer, IsSureOfClearWordsAndKnowsOtherSentences) {
+  const Transcript found = trained().recognise(sentence(kWords, 0.1), kRateHz, {0, 3});
+  ASSERT_EQ(labels_of(found), kWords);
+  for (const TranscribedWord& word : found.words) {
+    ASSERT_TRUE(word.confidence.has_value());
+    EXPECT_GT(*word.confidence, 0.9);
+    EXPECT_LE(*word.confidence, 1);
+    EXPECT_FALSE(word.unknown);
+  }
+  ASSERT_FALSE(found.alternatives.empty());
+  EXPECT_NEAR(found.alternatives[0].log_score, found.log_score, 1e-6);
+  ASSERT_EQ(found.alternatives[0].words.size(), found.words.size());
+  for (std::size_t i = 1; i < found.alternatives.size(); ++i)
+    EXPECT_LE(found.alternatives[i].log_score, found.alternatives[i - 1].log_score);
+  const auto plain = trained().recognise(sentence(kWords, 0.1), kRateHz, {0, 0, false});
+  EXPECT_FALSE(plain.words[0].confidence.has_value());
+}
+
+TEST(ConnectedWordRecognizer, IsLessSureOfWordsBetweenTwo) {
+  // A tone that neither rises nor falls.
+  std::vector<float> audio(kRateHz / 5, 0.0F);
+  const std::vector<float> clip = tone(575, 225, 7);
+  audio.insert(audio.end(), clip.begin() + kRateHz / 4, clip.begin() + 3 * kRateHz / 4);
+  audio.insert(audio.end(), kRateHz / 5, 0.0F);
+  ConnectedWordRecognizerOptions options = small_options();
+  options.min_confidence = 1;
+  options.choose_penalty = false;
+  options.confidence_scale = 0.001;
+  options.lattice.beam = 1e4;
+  const auto doubting = ConnectedWordRecognizer::train(clips().samples, options);
+  const Transcript found = doubting.recognise(audio, kRateHz);
+  ASSERT_FALSE(found.words.empty());
+  EXPECT_TRUE(found.words[0].unknown);
+  EXPECT_NE(found.words[0].label, TranscribedWord::kUnknown);
+  EXPECT_EQ(found.text().substr(0, 5), "<unk>");
+  EXPECT_LT(*found.words[0].confidence,
+            *doubting.recognise(sentence({"rise"}, 0), kRateHz).words[0].confidence);
+}
+
+TEST(ConnectedWordRecognizer, MarksSoundsThatAreNoWord) {
+  ConnectedWordRecognizerOptions options = small_options();
+  options.unknown_words = true;
+  const auto rejecting = ConnectedWordRecognizer::train(clips().samples, options);
+  EXPECT_EQ(labels_of(rejecting.recognise(sentence(kWords, 0.1), kRateHz)), kWords);
+  // Two known words, and between them a tone far above those of both.
+  std::vector<float> audio = sentence({"rise"}, 0.1);
+  const std::vector<float> other = tone(2600, 30, 9);
+  audio.insert(audio.end(), other.begin() + kRateHz / 4, other.begin() + 3 * kRateHz / 4);
+  const std::vector<float> after = sentence({"fall"}, 0);
+  audio.insert(audio.end(), after.begin(), after.end());
+  const Transcript found = rejecting.recognise(audio, kRateHz);
+  EXPECT_EQ(labels_of(found), (std::vector<std::string>{"rise", "<unk>", "fall"})) << found.text();
+  const Transcript without = trained().recognise(audio, kRateHz);
+  for (const TranscribedWord& word : without.words) EXPECT_FALSE(word.unknown);
+  const std::vector<std::uint8_t> bytes = rejecting.to_model_file().serialise();
+  const auto loaded = ConnectedWordRecognizer::from_model_file(ModelFile::parse(bytes, "m.hri"));
+  EXPECT_EQ(loaded.recognise(audio, kRateHz).text(), found.text());
 }
 
 TEST(ConnectedWordRecognizer, HearsNothingInSilence) {
@@ -113,6 +172,25 @@ TEST(ConnectedWordRecognizer, FollowsItsLanguageModel) {
   EXPECT_EQ(forced({"rise"}), (std::vector<std::string>{"rise"}));
   EXPECT_THROW((void)trained().with_language(NGramModel::train({{"rise"}})), InvalidArgument);
   EXPECT_THROW((void)trained().with_language(NGramModel::train({{"rise", "fall"}}, {3})),
+               InvalidArgument);
+}
+
+TEST(ConnectedWordRecognizer, FollowsItsGrammarAndFillsItsSlots) {
+  const Grammar grammar = Grammar::parse(
+      "#JSGF V1.0;\ngrammar tones;\npublic <s> = rise {first} ( rise | fall ) {second} [rise];",
+      "tones.jsgf");
+  const auto following = trained().with_grammar(grammar);
+  const Transcript found = following.recognise(sentence({"rise", "fall"}, 0.2), kRateHz);
+  EXPECT_EQ(labels_of(found), (std::vector<std::string>{"rise", "fall"}));
+  EXPECT_EQ(found.slots, (Slots{{"first", "rise"}, {"second", "fall"}}));
+  // What is no sentence becomes the nearest that is one.
+  const Transcript forced = following.recognise(sentence({"fall", "fall"}, 0.2), kRateHz);
+  EXPECT_EQ(forced.words.front().label, "rise");
+  const std::vector<std::uint8_t> bytes = following.to_model_file().serialise();
+  const auto loaded = ConnectedWordRecognizer::from_model_file(ModelFile::parse(bytes, "m.hri"));
+  EXPECT_EQ(loaded.recognise(sentence({"rise", "fall"}, 0.2), kRateHz).slots, found.slots);
+  EXPECT_THROW((void)trained().with_grammar(Grammar::parse(
+                   "#JSGF V1.0;\ngrammar g;\npublic <s> = rise | stop;", "other.jsgf")),
                InvalidArgument);
 }
 
@@ -158,8 +236,8 @@ TEST(ConnectedWordRecognizer, RefusesWhatItCannotTrainOn) {
   EXPECT_THROW(ConnectedWordRecognizer::train(clips().samples, options), InvalidArgument);
   const std::vector<float> audio = sentence(kWords, 0);
   EXPECT_THROW((void)trained().recognise(audio, 10), InvalidArgument);
-  EXPECT_THROW((void)trained().recognise(audio, kRateHz, -1), InvalidArgument);
-  EXPECT_THROW((void)trained().recognise(audio, kRateHz, 1001), InvalidArgument);
+  EXPECT_THROW((void)trained().recognise(audio, kRateHz, {-1}), InvalidArgument);
+  EXPECT_THROW((void)trained().recognise(audio, kRateHz, {1001}), InvalidArgument);
   EXPECT_THROW((void)trained().recognise({}, kRateHz), InvalidArgument);
 }
 

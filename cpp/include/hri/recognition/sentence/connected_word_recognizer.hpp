@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/language/connected_decoder.hpp"
+#include "hri/language/grammar.hpp"
+#include "hri/language/lattice.hpp"
 #include "hri/language/ngram_model.hpp"
 #include "hri/language/word_emissions.hpp"
 #include "hri/recognition/training.hpp"
@@ -31,7 +34,13 @@ struct HRI_API ConnectedWordRecognizerOptions {
   double max_pause_ms = 300;
   int num_alignments = 1;
   bool choose_penalty = true;
+  double confidence_scale = 0.02;
+  double min_confidence = 0;
+  bool unknown_words = false;
+  int unknown_rank = 4;
+  double unknown_penalty = -20;
   ConnectedDecoderOptions decoder;
+  LatticeOptions lattice{1000, 200000};
 
   static constexpr const char* kName = "ConnectedWordRecognizerOptions";
   template <class Self, class Visitor>
@@ -48,28 +57,73 @@ struct HRI_API ConnectedWordRecognizerOptions {
       "times that the boundaries of words are moved to where the models put them, and the models "
       "trained again");
     v("choose_penalty", o.choose_penalty, any_value,
-      "decoder.insertion_penalty is chosen on strings of speakers held out");
+      "decoder.insertion_penalty, confidence_scale, unknown_rank and unknown_penalty are chosen on "
+      "strings of speakers held out");
+    v("confidence_scale", o.confidence_scale, within(1e-6, 1),
+      "factor on log scores in confidences, as neighbouring frames do not score independently");
+    v("min_confidence", o.min_confidence, within(0, 1),
+      "words of less confidence are marked unknown");
+    v("unknown_words", o.unknown_words, any_value,
+      "sounds that fit no word of the vocabulary become words marked unknown");
+    v("unknown_rank", o.unknown_rank, within(1, 1000),
+      "an unknown word scores the mean of so many best states in every frame");
+    v("unknown_penalty", o.unknown_penalty, within(-1e6, 0),
+      "added to the log score at every unknown word");
     v("decoder", o.decoder, any_value, "how sentences are searched");
+    v("lattice", o.lattice, any_value, "which other sentences are kept, for confidences");
   }
   /// nullptr, or which fields do not go together.
   [[nodiscard]] const char* conflict() const;
 };
 
 struct TranscribedWord {
-  std::string label;
+  static constexpr const char* kUnknown = "<unk>";
+
+  std::string label;   ///< kUnknown: no word of the vocabulary fits
   double first_s = 0;  ///< from the beginning of the recording
   double last_s = 0;
   double log_score = 0;  ///< what it adds to the transcript's
+  /// How probable it is that this word was said here, by the other sentences that might have been;
+  /// nothing where it was not asked for, or the recording is too long for a lattice.
+  std::optional<double> confidence;
+  bool unknown = false;  ///< label is kUnknown, or confidence below min_confidence
+};
+
+/// Another sentence that might have been said.
+struct TranscriptAlternative {
+  std::vector<TranscribedWord> words;  ///< without confidence
+  double log_score = 0;
 };
 
 struct Transcript {
   std::vector<TranscribedWord> words;
+  /// As many as were asked for, the best first, which is `words`; they differ in their words.
+  std::vector<TranscriptAlternative> alternatives;
+  Slots slots;                     ///< of the grammar, where there is one
   double log_score = 0;            ///< natural log, of the best path; 0 without speech
   bool complete = true;            ///< false: too short for so many words, these are what was found
   std::vector<std::string> notes;  ///< what was converted or assumed on the way
 
-  /// The words, with spaces between.
+  /// The words, with spaces between; kUnknown for those that are unknown.
   [[nodiscard]] std::string text() const;
+};
+
+/// What is known of a recording before, and wanted of it.
+struct TranscriptionQuery {
+  int num_words = 0;         ///< 1..1000: so many, in any order, without language model and grammar
+  int num_alternatives = 0;  ///< 0..1000
+  bool confidences = true;   ///< of the words
+};
+
+/// A recording as models score it.
+struct ScoredRecording {
+  MatrixF log_emissions;  ///< (num_frames, states of all chains); no frame without speech
+  double first_s = 0;     ///< where the first frame begins
+  double frame_s = 0;     ///< from one frame to the next
+  std::vector<std::string> notes;
+
+  /// Where a frame begins, in seconds of the recording.
+  [[nodiscard]] double seconds_of(std::int64_t frame) const;
 };
 
 namespace detail {
@@ -95,6 +149,10 @@ class HRI_API ConnectedWordRecognizer {
   /// The same with a language model of order 1 or 2, which has to know all labels; the scale is
   /// options().decoder.language_scale. Throws InvalidArgument.
   [[nodiscard]] ConnectedWordRecognizer with_language(NGramModel language) const;
+  /// The same with a grammar, whose words have to be labels: only its sentences are found, with the
+  /// scale of a language model on its weights. With options().unknown_words a sentence of unknown
+  /// words alone is found, too. A language model is gone. Throws InvalidArgument.
+  [[nodiscard]] ConnectedWordRecognizer with_grammar(Grammar grammar) const;
   /// The same with other options of the decoder. Throws InvalidArgument for values out of range.
   [[nodiscard]] ConnectedWordRecognizer with_decoder(const ConnectedDecoderOptions& decoder) const;
 
@@ -103,25 +161,48 @@ class HRI_API ConnectedWordRecognizer {
   [[nodiscard]] ModelFile to_model_file() const;
   static ConnectedWordRecognizer from_model_file(const ModelFile& file);
 
-  /// The words of a recording: any number, in any order or as the language model weighs them; or
-  /// `num_words` (1..1000) in any order, without the language model. No word without speech. Throws
-  /// InvalidArgument for audio that is not finite or shorter than one frame, and rates and numbers
-  /// out of range.
+  /// The words of a recording: any number, in any order or as the language model weighs them, a
+  /// sentence of the grammar, or as `query` says. No word without speech. Throws InvalidArgument
+  /// for audio that is not finite or shorter than one frame, and rates and numbers out of range.
   [[nodiscard]] Transcript recognise(Span<const float> audio, int sample_rate_hz,
-                                     int num_words = 0) const;
+                                     const TranscriptionQuery& query = {}) const;
+
+  /// The same in two steps: the scores of a recording do not depend on how it is searched.
+  [[nodiscard]] ScoredRecording score(Span<const float> audio, int sample_rate_hz) const;
+  /// Throws InvalidArgument for scores of another recogniser.
+  [[nodiscard]] Transcript recognise(const ScoredRecording& recording,
+                                     const TranscriptionQuery& query = {}) const;
+  /// Of a recording that goes on: the best beginning of a sentence, without confidences; its first
+  /// `num_decided` words are on every path that is left.
+  [[nodiscard]] Transcript recognise_begun(const ScoredRecording& recording,
+                                           std::size_t* num_decided) const;
+  /// All sentences near the best; model i is labels()[i], then silence and the unknown word. Throws
+  /// InvalidArgument as Lattice::decode() does.
+  [[nodiscard]] Lattice lattice(const ScoredRecording& recording, int num_words = 0) const;
 
   [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
   [[nodiscard]] const ConnectedWordRecognizerOptions& options() const { return options_; }
   /// nullptr: there is none.
   [[nodiscard]] const std::shared_ptr<const NGramModel>& language() const { return language_; }
+  [[nodiscard]] const std::shared_ptr<const Grammar>& grammar() const { return grammar_; }
   [[nodiscard]] const std::vector<GaussianMixtureHmm>& models() const {
     return emissions_->models();
   }
   [[nodiscard]] const VectorD& final_stays() const { return final_stays_; }
+  /// Of the words, of silence, and with options().unknown_words that of the unknown word.
+  [[nodiscard]] const std::vector<WordChain>& chains() const { return chains_; }
+  [[nodiscard]] int silence() const { return static_cast<int>(labels_.size()); }
+  [[nodiscard]] int unknown_word() const { return silence() + 1; }
 
  private:
   static ConnectedWordRecognizer read(const ModelFile& file);
   [[nodiscard]] WordNetwork network(int num_words) const;
+  [[nodiscard]] std::vector<TranscribedWord> words_of(const std::vector<DecodedWord>& decoded,
+                                                      const ScoredRecording& recording) const;
+  [[nodiscard]] Slots slots_of(const std::vector<TranscribedWord>& words) const;
+  [[nodiscard]] std::vector<bool> states_of_words() const;
+  void add_confidences(const Lattice& lattice, const std::vector<DecodedWord>& decoded,
+                       Transcript* transcript) const;
 
   ConnectedWordRecognizerOptions options_;
   std::vector<std::string> labels_;
@@ -130,6 +211,7 @@ class HRI_API ConnectedWordRecognizer {
   std::shared_ptr<const GaussianEmissions> emissions_;
   std::vector<WordChain> chains_;
   std::shared_ptr<const NGramModel> language_;
+  std::shared_ptr<const Grammar> grammar_;
 };
 
 }  // namespace hri

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/language/grammar.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hri/core/error.hpp"
+#include "language/decoding_testing.hpp"
+
+namespace hri {
+namespace {
+
+const std::string kHead = "#JSGF V1.0 UTF-8 en;\ngrammar commands;\n";
+const std::string kCommands = kHead + R"(
+// What a robot does.
+public <command> = [ please ] ( <walk> | <hand> );
+<walk> = go ( forward {direction=ahead} | back {direction} ) [ <number> {steps} ( step | steps ) ];
+<hand> = raise the ( left | right ) {side} hand {action=raise};
+<number> = one | two | three; /* at
+most */
+)";
+
+Slots slots_of(const Grammar& grammar, const std::vector<std::string>& sentence) {
+  const auto found = grammar.slots_of(sentence);
+  return found ? *found : Slots{{"no", "sentence"}};
+}
+
+std::string refusal(const std::string& rules) {
+  try {
+    (void)Grammar::parse(kHead + rules, "file");
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
+TEST(Grammar, FillsSlots) {
+  const Grammar grammar = Grammar::parse(kCommands, "commands.jsgf");
+  EXPECT_EQ(slots_of(grammar, {"go", "forward", "three", "steps"}),
+            (Slots{{"direction", "ahead"}, {"steps", "three"}}));
+  EXPECT_EQ(slots_of(grammar, {"please", "go", "back"}), (Slots{{"direction", "back"}}));
+  EXPECT_EQ(slots_of(grammar, {"raise", "the", "left", "hand"}),
+            (Slots{{"side", "left"}, {"action", "raise"}}));
+  EXPECT_FALSE(grammar.slots_of({"go"}));
+  EXPECT_FALSE(grammar.slots_of({"go", "forward", "three"}));
+  EXPECT_FALSE(grammar.slots_of({}));
+  EXPECT_EQ(grammar.words().front(), "back");
+  EXPECT_EQ(grammar.words().size(), 14U);
+}
+
+TEST(Grammar, ReadsWhatJsgfHas) {
+  const auto grammar = Grammar::parse(
+      kHead + "public <s> = ( /3/ a | /1/ \"b\" )+ {all} [<NULL>] c* {c} | \\{ d;", "file");
+  EXPECT_EQ(slots_of(grammar, {"a", "b", "a"}), (Slots{{"all", "a b a"}, {"c", ""}}));
+  EXPECT_EQ(slots_of(grammar, {"b", "c", "c"}), (Slots{{"all", "b"}, {"c", "c c"}}));
+  EXPECT_TRUE(grammar.slots_of({"{", "d"}));
+  // Of several readings the first counts.
+  const auto twice = Grammar::parse(kHead + "public <s> = a {first=1} | a {second=2};", "file");
+  EXPECT_EQ(slots_of(twice, {"a"}), (Slots{{"first", "1"}}));
+  const auto two = Grammar::parse(kHead + "public <x> = a; public <y> = <z> b; <z> = c;", "file");
+  EXPECT_TRUE(two.slots_of({"a"}));
+  EXPECT_TRUE(two.slots_of({"c", "b"}));
+  EXPECT_FALSE(two.slots_of({"c"}));
+}
+
+TEST(Grammar, MakesANetworkOfItsSentencesAlone) {
+  using namespace testing_data;
+  const Grammar grammar = Grammar::parse(kHead + "public <s> = ( /3/ a b | /1/ b a );", "file");
+  std::vector<WordChain> chains;
+  for (int m = 0; m < 3; ++m) chains.push_back(random_chain(1, 1, 1, m == 2));
+  // Frames that sound like "a a": the nearest sentence begins with a.
+  MatrixF scores = MatrixF::Constant(4, 3, -5);
+  scores.col(0).setConstant(0);
+  ConnectedDecoder decoder(chains, grammar.network({"a", "b"}, 2));
+  for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
+  const DecodedSentence found = decoder.finish();
+  ASSERT_TRUE(found.complete);
+  ASSERT_EQ(found.words.size(), 2U);
+  EXPECT_EQ(found.words[0].model, 0);
+  EXPECT_EQ(found.words[1].model, 1);
+  // The weight of the alternative is in the score.
+  ConnectedDecoder plain(chains, WordNetwork::transcript({0, 1}, 2));
+  for (Eigen::Index t = 0; t < scores.rows(); ++t) plain.push(row_span(scores, t));
+  EXPECT_NEAR(found.log_score, plain.finish().log_score + std::log(0.75), 1e-9);
+  EXPECT_THROW((void)grammar.network({"a"}), InvalidArgument);
+}
+
+TEST(Grammar, AllowsSilenceAndUnknownSentences) {
+  using namespace testing_data;
+  const Grammar grammar = Grammar::parse(kHead + "public <s> = a b;", "file");
+  std::vector<WordChain> chains;
+  for (int m = 0; m < 4; ++m) chains.push_back(random_chain(1, 1, 1, m == 2));
+  const auto decode = [&](const std::vector<int>& best) {
+    ConnectedDecoder decoder(chains, grammar.network({"a", "b"}, 2, 3));
+    for (const int model : best) {
+      std::vector<float> frame(4, -50);
+      frame[static_cast<std::size_t>(model)] = 0;
+      decoder.push(frame);
+    }
+    std::vector<int> models;
+    for (const DecodedWord& word : decoder.finish().words) models.push_back(word.model);
+    return models;
+  };
+  EXPECT_EQ(decode({2, 2, 0, 2, 1, 2}), (std::vector<int>{2, 0, 2, 1, 2}));
+  EXPECT_EQ(decode({3, 3, 2, 3}).back(), 3);
+}
+
+TEST(Grammar, NamesFileAndLineOfWhatIsWrong) {
+  EXPECT_EQ(refusal("public <a> = b\n<c>;"), "file: line 4: <c> is not defined");
+  EXPECT_EQ(refusal("public <a> = b <c>;\n<c> = d\n<a>;"), "file: line 5: <a> holds itself");
+  EXPECT_EQ(refusal("<a> = b;"), "file: line 3: no rule is public");
+  EXPECT_EQ(refusal("public <a> = [b]*;"),
+            "file: line 3: what is repeated here may be empty: a cycle without words");
+  EXPECT_EQ(refusal("import <other.*>;"), "file: line 3: imports are not read");
+  EXPECT_EQ(refusal("public <a> = ( b;"), "file: line 3: a bracket of line 3 is not closed");
+  EXPECT_EQ(refusal("public <a> = b );"), "file: line 3: a bracket is closed that was not opened");
+  EXPECT_EQ(refusal("public <a> = b"), "file: line 3: <a> does not end with ;");
+  EXPECT_EQ(refusal("public <a> = b; public <a> = c;"), "file: line 3: <a> is defined twice");
+  EXPECT_EQ(refusal("public <a> = b {=c};"),
+            "file: line 3: a tag is {slot} or {slot=value}, a slot letters, digits and _");
+  EXPECT_EQ(refusal("public <a> = b {c=};"), "file: line 3: the tag of slot 'c' has no value");
+  EXPECT_EQ(refusal("public <a> = /x/ b | /1/ c;"),
+            "file: line 3: a weight must be a number above 0");
+  EXPECT_EQ(refusal("public <a> = /1/ b | c;"),
+            "file: line 3: all alternatives have a weight, or none");
+  EXPECT_EQ(refusal("public <a> = b \"c;"), "file: line 3: a quotation does not end");
+  EXPECT_EQ(refusal("public <a> = | b;"), "file: line 3: expected a word, a <rule> or a bracket");
+  EXPECT_EQ(refusal("public <NULL> = b;"), "file: line 3: <NULL> cannot be defined");
+  EXPECT_EQ(refusal("public <a> = > b;"), "file: line 3: '>' has no meaning here");
+  EXPECT_EQ(refusal("public <a> = b <VOID>;"), "file: line 3: <VOID> is not read");
+  EXPECT_THROW(Grammar::parse("", "file"), FormatError);
+  EXPECT_THROW(Grammar::parse("#JSGF V1.0;", "file"), FormatError);
+  EXPECT_THROW(Grammar::parse("#JSGF V1.0;\ngrammar a", "file"), FormatError);
+  EXPECT_THROW(Grammar::load("/no/such/file"), IoError);
+}
+
+TEST(Grammar, BoundsWhatItIsGiven) {
+  EXPECT_NE(refusal("public <a> = " + std::string(10000, '(') + "b" + std::string(10000, ')') + ";")
+                .find("too deep"),
+            std::string::npos);
+  // Every rule holds that before it twice.
+  std::string doubling = "<r0> = a b;\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string before = "<r" + std::to_string(i - 1) + ">";
+    doubling += "<r" + std::to_string(i) + "> = " + before + " " + before + ";\n";
+  }
+  EXPECT_EQ(refusal(doubling + "public <s> = <r39>;"),
+            "file: the grammar has more than a million nodes");
+}
+
+}  // namespace
+}  // namespace hri

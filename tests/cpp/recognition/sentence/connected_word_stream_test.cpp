@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "hri/recognition/sentence/connected_word_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hri/core/error.hpp"
+#include "recognition/tone_words.hpp"
+
+namespace hri {
+namespace {
+
+using testing_data::kRateHz;
+using testing_data::tone;
+
+const ConnectedWordRecognizer& trained() {
+  static const testing_data::Clips clips = testing_data::tone_clips();
+  static const ConnectedWordRecognizer recognizer = [] {
+    ConnectedWordRecognizerOptions options;
+    options.words.num_states = 5;
+    options.words.num_vtlp_factors = 1;
+    options.words.num_noisy_copies = 1;
+    options.words.min_snr_db = 10;
+    options.max_words = 4;
+    options.choose_penalty = false;
+    return ConnectedWordRecognizer::train(clips.samples, options);
+  }();
+  return recognizer;
+}
+
+void add_silence(double seconds, std::uint64_t seed, std::vector<float>* audio) {
+  Random random(seed);
+  for (int n = 0; n < static_cast<int>(seconds * kRateHz); ++n)
+    audio->push_back(static_cast<float>(0.001 * random.normal()));
+}
+
+// Words with 0.1 s between, and silence around.
+std::vector<float> utterance(const std::vector<std::string>& words, std::uint64_t seed) {
+  std::vector<float> audio;
+  add_silence(1.5, seed, &audio);
+  for (const std::string& word : words) {
+    const std::vector<float> clip = tone(575, word == "rise" ? 800 : -350, ++seed);
+    audio.insert(audio.end(), clip.begin() + kRateHz / 4, clip.begin() + 3 * kRateHz / 4);
+    add_silence(0.1, seed, &audio);
+  }
+  add_silence(1.5, seed + 100, &audio);
+  return audio;
+}
+
+std::vector<std::string> labels_of(const Transcript& transcript) {
+  std::vector<std::string> labels;
+  for (const TranscribedWord& word : transcript.words) labels.push_back(word.label);
+  return labels;
+}
+
+std::vector<ConnectedWordResult> results_of(ConnectedWordStream* stream,
+                                            const std::vector<float>& audio, std::size_t block) {
+  std::vector<ConnectedWordResult> all;
+  const auto add = [&all](const std::vector<ConnectedWordResult>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  for (std::size_t at = 0; at < audio.size(); at += block)
+    add(stream->process(Span<const float>(audio).subspan(at, std::min(block, audio.size() - at))));
+  add(stream->finish());
+  return all;
+}
+
+const std::vector<std::string> kFirst{"rise", "fall", "fall", "rise"};
+const std::vector<std::string> kSecond{"fall", "rise"};
+
+std::vector<float> two_utterances() {
+  std::vector<float> audio = utterance(kFirst, 1);
+  const std::vector<float> second = utterance(kSecond, 50);
+  audio.insert(audio.end(), second.begin(), second.end());
+  return audio;
+}
+
+TEST(ConnectedWordStream, EndsUtterancesAsTheirRecordingsAreRecognised) {
+  const std::vector<float> audio = two_utterances();
+  ConnectedWordStream stream(trained(), kRateHz);
+  std::vector<ConnectedWordResult> final;
+  for (const ConnectedWordResult& result : results_of(&stream, audio, 1600)) {
+    if (result.is_final) final.push_back(result);
+  }
+  ASSERT_EQ(final.size(), 2U);
+  EXPECT_EQ(labels_of(final[0].transcript), kFirst);
+  EXPECT_EQ(labels_of(final[1].transcript), kSecond);
+  const std::size_t half = utterance(kFirst, 1).size();
+  const Transcript file = trained().recognise(Span<const float>(audio).subspan(0, half), kRateHz);
+  ASSERT_EQ(labels_of(file), kFirst);
+  for (std::size_t i = 0; i < kFirst.size(); ++i) {
+    EXPECT_NEAR(final[0].transcript.words[i].first_s, file.words[i].first_s, 0.02);
+    EXPECT_NEAR(final[0].transcript.words[i].last_s, file.words[i].last_s, 0.02);
+    EXPECT_TRUE(final[0].transcript.words[i].confidence.has_value());
+  }
+  const double half_s = static_cast<double>(half) / kRateHz;
+  EXPECT_NEAR(final[1].transcript.words[0].first_s, half_s + 1.5, 0.05);
+  EXPECT_LE(final[1].first_s, final[1].transcript.words[0].first_s + 0.05);
+}
+
+TEST(ConnectedWordStream, SaysWhatItHasSoFarAndKeepsWhatIsStable) {
+  ConnectedWordStream stream(trained(), kRateHz);
+  std::vector<std::string> stable;
+  int num_partial = 0;
+  for (const ConnectedWordResult& result : results_of(&stream, utterance(kFirst, 1), 400)) {
+    const std::vector<std::string> labels = labels_of(result.transcript);
+    ASSERT_LE(static_cast<std::size_t>(result.num_stable), labels.size());
+    ASSERT_GE(static_cast<std::size_t>(result.num_stable), stable.size());
+    EXPECT_TRUE(std::equal(stable.begin(), stable.end(), labels.begin()));
+    stable.assign(labels.begin(), labels.begin() + result.num_stable);
+    num_partial += result.is_final ? 0 : 1;
+  }
+  EXPECT_GE(num_partial, 4);
+  EXPECT_EQ(stable, kFirst);
+}
+
+TEST(ConnectedWordStream, DoesNotDependOnBlocks) {
+  const std::vector<float> audio = two_utterances();
+  ConnectedWordStream stream(trained(), kRateHz);
+  const auto expected = results_of(&stream, audio, audio.size());
+  const auto found = results_of(&stream, audio, 333);  // the same stream anew
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].is_final, expected[i].is_final);
+    EXPECT_EQ(found[i].num_stable, expected[i].num_stable);
+    EXPECT_EQ(found[i].last_s, expected[i].last_s);
+    EXPECT_EQ(found[i].transcript.log_score, expected[i].transcript.log_score);
+    EXPECT_EQ(labels_of(found[i].transcript), labels_of(expected[i].transcript));
+  }
+}
+
+TEST(ConnectedWordStream, CountsWhatIsSaidBehindTheWakeWord) {
+  ConnectedWordStream stream(trained(), kRateHz, {}, "rise");
+  std::vector<std::vector<std::string>> final;
+  std::vector<float> audio = two_utterances();
+  const std::vector<float> asleep = utterance({"fall", "fall"}, 90);
+  audio.insert(audio.end(), asleep.begin(), asleep.end());
+  for (const ConnectedWordResult& result : results_of(&stream, audio, 1600)) {
+    EXPECT_LE(static_cast<std::size_t>(result.num_stable), result.transcript.words.size());
+    if (result.is_final) final.push_back(labels_of(result.transcript));
+  }
+  EXPECT_EQ(final, (std::vector<std::vector<std::string>>{{"fall", "fall", "rise"}}));
+  EXPECT_THROW(ConnectedWordStream(trained(), kRateHz, {}, "stop"), InvalidArgument);
+}
+
+TEST(ConnectedWordStream, KeepsItsMemoryForTenMinutes) {
+  ConnectedWordStreamOptions options;
+  options.endpointer.max_utterance_ms = 4000;
+  ConnectedWordStream stream(trained(), kRateHz, options);
+  const std::vector<float> audio = utterance({"rise", "fall"}, 7);
+  const double seconds = static_cast<double>(audio.size()) / kRateHz;
+  std::size_t most_early = 0;
+  std::size_t most_late = 0;
+  int num_final = 0;
+  const auto num_rounds = static_cast<int>(600 / seconds);
+  for (int round = 0; round < num_rounds; ++round) {
+    // Most of it is silence, so that the test is short.
+    const bool speaks = round % 10 == 0;
+    std::vector<float> quiet;
+    if (!speaks) add_silence(seconds, static_cast<std::uint64_t>(round), &quiet);
+    for (const ConnectedWordResult& result : stream.process(speaks ? audio : quiet))
+      num_final += result.is_final ? 1 : 0;
+    std::size_t& most = round < num_rounds / 4 ? most_early : most_late;
+    most = std::max(most, stream.num_kept());
+  }
+  EXPECT_EQ(num_final, (num_rounds + 9) / 10);
+  EXPECT_LE(most_late, most_early);
+  EXPECT_LT(most_late, 25U * kRateHz);
+}
+
+TEST(ConnectedWordStream, RefusesSamplesAndOptions) {
+  ConnectedWordStream stream(trained(), kRateHz);
+  EXPECT_THROW(stream.process(std::vector<float>{0, std::nanf("")}), InvalidArgument);
+  EXPECT_THROW(ConnectedWordStream(trained(), 10), InvalidArgument);
+  ConnectedWordStreamOptions options;
+  options.partial_ms = 1;
+  EXPECT_THROW(ConnectedWordStream(trained(), kRateHz, options), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hri
