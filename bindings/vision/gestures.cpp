@@ -41,11 +41,12 @@ hri::HandObservation hand_of(const Stream& self) {
 void bind_spotter(py::module_& m) {
   py::class_<hri::GestureSpotter>(m, "GestureSpotter", "Gesture segments in a stream of pictures.")
       .def(py::init([](const hri::HandFinder& hands, bool dynamic,
-                       const hri::GestureSegmenterOptions& options) {
-             return std::make_unique<hri::GestureSpotter>(hands.stream(dynamic), options);
+                       const hri::GestureSegmenterOptions& options, int max_hands) {
+             return std::make_unique<hri::GestureSpotter>(hands.stream(dynamic, max_hands),
+                                                          options);
            }),
            py::arg("hands"), py::arg("dynamic") = true,
-           py::arg("options") = hri::GestureSegmenterOptions{})
+           py::arg("options") = hri::GestureSegmenterOptions{}, py::arg("max_hands") = 1)
       .def(
           "push",
           [](hri::GestureSpotter& self, const ByteArray& bgr, double time_s) {
@@ -85,22 +86,24 @@ void bind_stream(py::module_& m) {
                        const std::optional<hri::GestureStreamOptions>& chosen) {
              const hri::HandFinder finder(recognizer.options().hands);
              return std::make_unique<hri::GestureStream>(
-                 recognizer, finder.stream(recognizer.is_dynamic()),
+                 recognizer, finder.stream(recognizer.is_dynamic(), recognizer.options().num_hands),
                  chosen ? *chosen : hri::GestureStream::options_for(recognizer));
            }),
            py::arg("recognizer"), py::arg("options") = py::none())
       .def(
           "push",
           [](hri::GestureStream& self, const ByteArray& bgr, double time_s,
-             const std::optional<FloatArray>& landmarks) {
+             const std::vector<FloatArray>& landmarks) {
             const auto picture = hri_bind::as_image(bgr, 3, "picture");
-            hri::MatrixF points;
-            if (landmarks) points = hri_bind::as_matrix(*landmarks, "landmarks");
+            std::vector<hri::MatrixF> hands;
+            for (const FloatArray& points : landmarks)
+              hands.emplace_back(hri_bind::as_matrix(points, "landmarks"));
             const py::gil_scoped_release release;
-            return std::vector<hri::GestureEvent>(self.push(picture, time_s, &points));
+            return std::vector<hri::GestureEvent>(self.push(picture, time_s, hands));
           },
-          py::arg("bgr"), py::arg("time_s"), py::arg("landmarks") = py::none(),
-          "The events of the next picture; landmarks in pixels, float32, shape (21, 2).")
+          py::arg("bgr"), py::arg("time_s"), py::arg("landmarks") = std::vector<FloatArray>(),
+          "The events of the next picture; landmarks of every hand found, the surest first, in "
+          "pixels, float32, shape (21, 2).")
       .def(
           "finish",
           [](hri::GestureStream& self) {
@@ -145,9 +148,7 @@ void bind_vision_gestures(py::module_& m) {
         hri::MatrixF rows;
         {
           const py::gil_scoped_release release;
-          const auto hands = hri::HandFinder(options.hands).find(views);
-          rows = hri::GestureFeatureComputer(options.features, options.min_quality)
-                     .compute(hri::Span<const hri::HandObservation>(hands));
+          rows = hri::GestureRecognizer::features(views, hri::HandFinder(options.hands), options);
         }
         return hri_bind::to_array(rows);
       },

@@ -52,6 +52,12 @@ MANY_PERSONS = 10
     help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes; the default is "
     "to do so from ten speakers on. The same as --option use_network=true or false",
 )
+@click.option(
+    "--hands",
+    type=click.Choice(["one", "both"]),
+    help="Gesture only: whether gestures are of one hand, the default, or of both. The same as --option num_hands=1 or "
+    "2",
+)
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train(
@@ -64,6 +70,7 @@ def train(
     no_fillers: bool,
     front_end: str | None,
     network: bool | None,
+    hands: str | None,
     seed: int,
     json_path: str | None,
 ) -> None:
@@ -76,6 +83,7 @@ def train(
       hri train speech --data spoken/ --out digits.hri --option model=ptbhmm
       hri train speech --data spoken/ --front-end cepstra
       hri train speech --data spoken/ --no-network
+      hri train gesture --data pairs/ --hands both
     """
     if mode != "speech" and (fillers or no_fillers):
         raise click.UsageError("--fillers and --no-fillers are for speech")
@@ -89,6 +97,10 @@ def train(
         options = (*options, "front_end=both")
     if network is not None and mode != "speech":
         raise click.UsageError("--network is for speech")
+    if hands is not None:
+        if mode != "gesture":
+            raise click.UsageError("--hands is for gesture")
+        options = (*options, f"num_hands={1 if hands == 'one' else 2}")
     dataset = load_dataset(data, mode, pattern)
     asked = network is not None or any(o.startswith("use_network=") for o in options)
     if mode == "speech" and not asked:

@@ -98,7 +98,7 @@ class Watcher:
         with ExitStack() as stack:
             landmarks: LandmarkTracker | None = None
             if self._recognizer.options.source == "landmarks":
-                landmarks = stack.enter_context(LandmarkTracker())
+                landmarks = stack.enter_context(LandmarkTracker(max_hands=self._recognizer.options.num_hands))
             stream = _DecidingStream(self._recognizer, self._options, landmarks, self._locale, self._model_id)
             results = frame_results(source, stream, **self._intervals, model=self._model_id)
             for result in stack.enter_context(closing(results)):
@@ -135,7 +135,7 @@ class _DecidingStream:
 
     def push(self, frame: Frame, time_s: float) -> list[Event]:
         self._time_s = time_s
-        points = None if self._landmarks is None else self._landmarks.find(frame)
+        points = [] if self._landmarks is None else self._landmarks.find_all(frame)
         return self._events(lambda: self._pushed(frame, time_s, points))
 
     def _pushed(self, frame: Frame, time_s: float, points: Any) -> list[GestureEvent]:

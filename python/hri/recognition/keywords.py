@@ -228,6 +228,8 @@ class GestureRecognizerKeywords(TypedDict, total=False):
     """Fields of `GestureRecognizerOptions`."""
 
     source: Literal["silhouettes", "landmarks"]
+    num_hands: int
+    relation_weight: float
     hands: _native.HandFinderOptions | HandFinderKeywords
     min_quality: float
     features: _native.HandFeatureOptions | HandFeatureKeywords
