@@ -20,6 +20,7 @@ import bench_classifiers
 import bench_codebook
 import bench_hmm
 import bench_latency
+import bench_person
 import bench_possibility
 import bench_robot
 import bench_signal
@@ -37,6 +38,7 @@ MODULES = (
     bench_codebook,
     bench_classifiers,
     bench_vision,
+    bench_person,
     bench_latency,
     bench_robot,
 )

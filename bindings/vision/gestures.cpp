@@ -33,6 +33,12 @@ py::object place_of(const hri::GestureSpotter& spotter) {
   return py::make_tuple(place->x, place->y, place->area);
 }
 
+using Faces = std::optional<std::shared_ptr<hri::FaceFinder>>;
+
+hri::HandFinder finder_of(const hri::HandFinderOptions& options, const Faces& faces) {
+  return faces ? hri::HandFinder(options, *faces) : hri::HandFinder(options);
+}
+
 template <class Stream>
 hri::HandObservation hand_of(const Stream& self) {
   return self.spotter().hand();
@@ -83,13 +89,14 @@ void bind_stream(py::module_& m) {
   py::class_<hri::GestureStream>(m, "GestureStream", "Decides on the gestures of a stream.")
       .def_static("options_for", &hri::GestureStream::options_for, py::arg("recognizer"))
       .def(py::init([](const hri::GestureRecognizer& recognizer,
-                       const std::optional<hri::GestureStreamOptions>& chosen) {
-             const hri::HandFinder finder(recognizer.options().hands);
+                       const std::optional<hri::GestureStreamOptions>& chosen, const Faces& faces) {
+             const hri::HandFinder finder = finder_of(recognizer.options().hands, faces);
              return std::make_unique<hri::GestureStream>(
                  recognizer, finder.stream(recognizer.is_dynamic(), recognizer.options().num_hands),
                  chosen ? *chosen : hri::GestureStream::options_for(recognizer));
            }),
-           py::arg("recognizer"), py::arg("options") = py::none())
+           py::arg("recognizer"), py::arg("options") = py::none(), py::arg("faces") = py::none(),
+           "faces: a FaceFinder, by which hands are found while a face is seen.")
       .def(
           "push",
           [](hri::GestureStream& self, const ByteArray& bgr, double time_s,
@@ -143,14 +150,16 @@ void bind_vision_gestures(py::module_& m) {
       py::arg("recognizer"), py::arg("clip"), "The Decision on a clip of BGR frames.");
   m.def(
       "gesture_features",
-      [](const std::vector<ByteArray>& clip, const hri::GestureRecognizerOptions& options) {
+      [](const std::vector<ByteArray>& clip, const hri::GestureRecognizerOptions& options,
+         const Faces& faces) {
         const auto views = as_clip(clip);
         hri::MatrixF rows;
         {
           const py::gil_scoped_release release;
-          rows = hri::GestureRecognizer::features(views, hri::HandFinder(options.hands), options);
+          rows = hri::GestureRecognizer::features(views, finder_of(options.hands, faces), options);
         }
         return hri_bind::to_array(rows);
       },
-      py::arg("clip"), py::arg("options"), "Rows of features of a clip, float32.");
+      py::arg("clip"), py::arg("options"), py::arg("faces") = py::none(),
+      "Rows of features of a clip, float32.");
 }

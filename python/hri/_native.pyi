@@ -6383,6 +6383,8 @@ class GestureRecognizerOptions:
         of the way between two hands, in sides of the picture, beside their shapes, of length 1; 0..1000000
     hands : HandFinderOptions or dict
         how hands are found in pictures
+    use_faces : bool, default False
+        where a face is seen, hands are those of that person; needs a finder of faces, to which a palm may look like one
     min_quality : float, default 0.25
         least quality of an observation that shows a hand: hands have more in any light, walls mostly less; 0..1
     features : HandFeatureOptions or dict
@@ -6426,6 +6428,7 @@ class GestureRecognizerOptions:
         num_hands: int = 1,
         relation_weight: float = 3.0,
         hands: HandFinderOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        use_faces: bool = False,
         min_quality: float = 0.25,
         features: HandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
         model: typing.Literal["svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf", "automatic"] = "automatic",
@@ -6565,6 +6568,13 @@ class GestureRecognizerOptions:
         """
     @svm_cost.setter
     def svm_cost(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_faces(self) -> bool:
+        """
+        where a face is seen, hands are those of that person; needs a finder of faces, to which a palm may look like one
+        """
+    @use_faces.setter
+    def use_faces(self, arg1: typing.Any) -> None: ...
 
 class GestureFeatureComputer:
     """

@@ -506,8 +506,14 @@ class GestureStream:
     @staticmethod
     def options_for(recognizer: hri._native.GestureRecognizer) -> GestureStreamOptions: ...
     def __init__(
-        self, recognizer: hri._native.GestureRecognizer, options: GestureStreamOptions | None = None
-    ) -> None: ...
+        self,
+        recognizer: hri._native.GestureRecognizer,
+        options: GestureStreamOptions | None = None,
+        faces: FaceFinder | None = None,
+    ) -> None:
+        """
+        faces: a FaceFinder, by which hands are found while a face is seen.
+        """
     def finish(self) -> list[GestureEvent]:
         """
         The stream has ended: preliminary decisions settle.
@@ -556,6 +562,7 @@ def background_of(
 def gesture_features(
     clip: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
     options: hri._native.GestureRecognizerOptions,
+    faces: FaceFinder | None = None,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Rows of features of a clip, float32.

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -135,7 +136,7 @@ def test_landmarks_of_both_hands_go_the_same_way(monkeypatch: pytest.MonkeyPatch
         assert decided and decided[-1] == label
 
 
-def test_the_commands_record_train_and_recognise_both_hands(hri, tmp_path: Path) -> None:
+def test_the_commands_record_train_and_recognise_both_hands(hri: Any, tmp_path: Path) -> None:
     data, model = tmp_path / "pairs", tmp_path / "pairs.hri"
     for label in LABELS:
         for take, start in enumerate((-3.0, 0.0, 3.0), 1):

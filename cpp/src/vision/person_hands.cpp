@@ -10,6 +10,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/features/hand/regions.hpp"
+#include "vision/hand_streams.hpp"
 #include "vision/mask_quality.hpp"
 #include "vision/pictures.hpp"
 #include "vision/pixels.hpp"
@@ -230,6 +231,16 @@ double quality(const Region& region, const Workspace& w) {
   });
 }
 
+double median_side(const std::vector<std::optional<Face>>& faces) {
+  std::vector<double> sides;
+  for (const auto& face : faces) {
+    if (face) sides.push_back(face->side_px);
+  }
+  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+  std::nth_element(sides.begin(), middle, sides.end());
+  return *middle;
+}
+
 void require_face(ImageView bgr, const Face& face) {
   const double half = face.side_px / 2;
   const double x = face.left_px + half;
@@ -324,11 +335,12 @@ std::optional<std::vector<HandObservation>> PersonHands::find(Span<const ImageVi
   if (count == 0 || 2 * count < seen.size()) return std::nullopt;
   const auto first = std::find_if(seen.begin(), seen.end(),
                                   [](const std::optional<Face>& face) { return face.has_value(); });
+  const double side_px = median_side(seen);
   Face face = **first;
   std::vector<HandObservation> found(clip.size());
   for (std::size_t i = 0; i < clip.size(); ++i) {
     if (i % interval == 0 && seen[i / interval]) face = *seen[i / interval];
-    extract(clip[i], face, &found[i]);
+    extract(clip[i], detail::resized(face, side_px), &found[i]);
     if (progress) progress(static_cast<int>(i) + 1, static_cast<int>(clip.size()));
   }
   return found;

@@ -27,9 +27,9 @@ class HRI_API HandFinder : public HandSource {
   HandFinder(const HandFinderOptions& options, ImageView background);
 
   /// With a finder of faces: in clips in which a face is seen, hands are found as that person's
-  /// (PersonHands), in others as without it. Streams do not look for faces. `person.max_hands` is
-  /// ignored: find() looks for one hand, find_pair() for both. Throws InvalidArgument without a
-  /// finder.
+  /// (PersonHands), in others as without it; in streams, while one is seen in at least half of the
+  /// last six looks. `person.max_hands` is ignored: find() looks for one hand, find_pair() for
+  /// both. Throws InvalidArgument without a finder.
   HandFinder(const HandFinderOptions& options, std::shared_ptr<const FaceFinder> faces,
              const PersonOptions& person = {});
 

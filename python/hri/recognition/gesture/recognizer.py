@@ -21,6 +21,7 @@ from hri.recognition.inputs import ClipInput, as_clips, as_frames, as_texts
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import mask_quality
+from hri.vision.faces import VARIABLE, face_finder
 from hri.vision.landmarks import (
     find_landmark_pairs,
     find_landmarks,
@@ -82,7 +83,7 @@ class GestureRecognizer(Recognizer):
             return landmark_features(find_landmarks(frames), size)
         from hri import _native_vision
 
-        return np.asarray(_native_vision.gesture_features(frames, self.options))
+        return np.asarray(_native_vision.gesture_features(frames, self.options, _face_finder(self.options)))
 
     def observation_features(self, hands: Sequence[Any], right: Sequence[Any] | None = None) -> NDArray[np.float32]:
         """Features as `features` gives them, of hands that are found already (`HandObservation`).
@@ -208,7 +209,7 @@ class GestureRecognizer(Recognizer):
 
         options = self._trained.options
         frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
-        finder = _native_vision.HandFinder(options.hands)
+        finder = _native_vision.HandFinder(options.hands, faces=_face_finder(options))
         sides = finder.find_pair(frames) if options.num_hands == 2 else [finder.find(frames)]
         surer = [max(hands, key=lambda hand: float(hand.quality)) for hands in zip(*sides, strict=True)]
         return replace(self.recognise_features(_observation_rows(sides, options)), quality=mask_quality(surer))
@@ -223,13 +224,16 @@ class GestureRecognizer(Recognizer):
 
         return _native_vision.GestureStream.options_for(self._trained)
 
-    def stream(self, options: GestureStreamOptions | None = None) -> GestureStream:
+    def stream(self, options: GestureStreamOptions | None = None, *, faces: Any = None) -> GestureStream:
         """Decisions on pictures as they come; `hri.live.Watcher` takes care of cameras and events on top.
 
         Parameters
         ----------
         options : GestureStreamOptions, optional
             By default `stream_options`.
+        faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder, optional
+            Whether hands are those of the person whose face is seen, while one is (`hri.vision.faces.face_finder`); by
+            default as the option ``use_faces`` says.
 
         Examples
         --------
@@ -239,7 +243,8 @@ class GestureRecognizer(Recognizer):
         """
         from hri import _native_vision
 
-        return _native_vision.GestureStream(self._trained, options)
+        found = _face_finder(self._trained.options) if faces is None else face_finder(faces)
+        return _native_vision.GestureStream(self._trained, options, found)
 
     def decide(self, X: Sequence[ClipInput]) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
@@ -249,6 +254,18 @@ class GestureRecognizer(Recognizer):
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
         return cls._wrap(load_native(_native.GestureRecognizer.from_model_file, path, "gesture_recognizer"))
+
+
+def _face_finder(options: _native.GestureRecognizerOptions) -> Any:
+    """What finds faces, or None where `options` use none."""
+    if not options.use_faces:
+        return None
+    finder = face_finder("auto")
+    if finder is None:
+        raise InvalidArgument(
+            f"use_faces needs a cascade that finds faces: install opencv-data, or name one in {VARIABLE}"
+        )
+    return finder
 
 
 def _observation_rows(sides: Sequence[Sequence[Any]], options: _native.GestureRecognizerOptions) -> NDArray[np.float32]:

@@ -59,6 +59,7 @@ struct GestureRecognizerOptions {
   int num_hands = 1;
   double relation_weight = 3;
   HandFinderOptions hands;
+  bool use_faces = false;
   double min_quality = 0.25;
   HandFeatureOptions features;
   GestureModel model = GestureModel::automatic;
@@ -81,6 +82,9 @@ struct GestureRecognizerOptions {
     v("relation_weight", o.relation_weight, within(0, 1e6),
       "of the way between two hands, in sides of the picture, beside their shapes, of length 1");
     v("hands", o.hands, any_value, "how hands are found in pictures");
+    v("use_faces", o.use_faces, any_value,
+      "where a face is seen, hands are those of that person; needs a finder of faces, to which a "
+      "palm may look like one");
     v("min_quality", o.min_quality, within(0, 1),
       "least quality of an observation that shows a hand: hands have more in any light, walls "
       "mostly less");
