@@ -32,19 +32,25 @@ struct Place {
   double u, v;
 };
 
+// In units of its half axes. Most places are far outside: these need no root.
+bool in_ellipse(double a, double b) {
+  return std::abs(a) < 1 && std::abs(b) < 1 && std::hypot(a, b) < 1;
+}
+
 // The middle of the face, most of it skin.
-bool in_middle(Place p) { return std::hypot(p.u / 0.33, (p.v - 0.05) / 0.42) < 1; }
+bool in_middle(Place p) { return in_ellipse(p.u / 0.33, (p.v - 0.05) / 0.42); }
 
 // Head and neck: what is no hand.
 bool in_head(Place p) {
-  const bool face = std::hypot(p.u / 0.52, (p.v - 0.02) / 0.64) < 1;
+  const bool face = in_ellipse(p.u / 0.52, (p.v - 0.02) / 0.64);
   const bool neck = std::abs(p.u) < 0.25 && p.v > 0 && p.v < 0.75;
   const bool hair = std::abs(p.u) < 0.52 && p.v > -0.8 && p.v < -0.2;
   return face || neck || hair;
 }
 
 // Whose colours are not the room's.
-bool near_head(Place p) { return std::abs(p.u) < 0.6 && p.v > -0.8 && p.v < 0.95; }
+bool beside_head(Place p) { return p.v > -0.8 && p.v < 0.95; }
+bool near_head(Place p) { return std::abs(p.u) < 0.6 && beside_head(p); }
 
 // A part of the scaled picture around the face.
 struct Surroundings {
@@ -90,6 +96,10 @@ int learn(const Surroundings& around, Workspace* w) {
   std::array<std::array<int, kCentreBins>, 3> values{};
   for (int y = 0; y < w->ycrcb.rows; ++y) {
     const auto* pixel = w->ycrcb.ptr<std::uint8_t>(y);
+    if (!beside_head(around.place(0, y))) {  // most rows: all of them is room
+      for (int x = 0; x < w->ycrcb.cols; ++x, pixel += 3) w->room.add(pixel);
+      continue;
+    }
     for (int x = 0; x < w->ycrcb.cols; ++x, pixel += 3) {
       const Place p = around.place(x, y);
       if (in_middle(p)) {
