@@ -21,6 +21,7 @@ import bench_codebook
 import bench_connected
 import bench_hmm
 import bench_latency
+import bench_person
 import bench_possibility
 import bench_robot
 import bench_signal
@@ -38,6 +39,7 @@ MODULES = (
     bench_codebook,
     bench_classifiers,
     bench_vision,
+    bench_person,
     bench_latency,
     bench_connected,
     bench_robot,

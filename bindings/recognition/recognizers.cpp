@@ -268,7 +268,19 @@ void bind_gestures(py::module_& m) {
             }
             return hri_bind::to_array(rows);
           },
-          py::arg("hands"), "float32, shape (num_hands, num_features).");
+          py::arg("hands"), "float32, shape (num_hands, num_features).")
+      .def(
+          "compute_every",
+          [](const hri::GestureFeatureComputer& self,
+             const std::vector<hri::HandObservation>& hands) {
+            hri::MatrixF rows;
+            {
+              const py::gil_scoped_release release;
+              rows = self.compute_every(hri::Span<const hri::HandObservation>(hands));
+            }
+            return hri_bind::to_array(rows);
+          },
+          py::arg("hands"), "The same with a row for every frame, all NaN where it shows no hand.");
 
   py::class_<hri::GestureRecognizer>(m, "GestureRecognizer",
                                      "Signs and gestures; hri.GestureRecognizer wraps it.")

@@ -33,6 +33,12 @@ py::object place_of(const hri::GestureSpotter& spotter) {
   return py::make_tuple(place->x, place->y, place->area);
 }
 
+using Faces = std::optional<std::shared_ptr<hri::FaceFinder>>;
+
+hri::HandFinder finder_of(const hri::HandFinderOptions& options, const Faces& faces) {
+  return faces ? hri::HandFinder(options, *faces) : hri::HandFinder(options);
+}
+
 template <class Stream>
 hri::HandObservation hand_of(const Stream& self) {
   return self.spotter().hand();
@@ -41,11 +47,12 @@ hri::HandObservation hand_of(const Stream& self) {
 void bind_spotter(py::module_& m) {
   py::class_<hri::GestureSpotter>(m, "GestureSpotter", "Gesture segments in a stream of pictures.")
       .def(py::init([](const hri::HandFinder& hands, bool dynamic,
-                       const hri::GestureSegmenterOptions& options) {
-             return std::make_unique<hri::GestureSpotter>(hands.stream(dynamic), options);
+                       const hri::GestureSegmenterOptions& options, int max_hands) {
+             return std::make_unique<hri::GestureSpotter>(hands.stream(dynamic, max_hands),
+                                                          options);
            }),
            py::arg("hands"), py::arg("dynamic") = true,
-           py::arg("options") = hri::GestureSegmenterOptions{})
+           py::arg("options") = hri::GestureSegmenterOptions{}, py::arg("max_hands") = 1)
       .def(
           "push",
           [](hri::GestureSpotter& self, const ByteArray& bgr, double time_s) {
@@ -82,25 +89,28 @@ void bind_stream(py::module_& m) {
   py::class_<hri::GestureStream>(m, "GestureStream", "Decides on the gestures of a stream.")
       .def_static("options_for", &hri::GestureStream::options_for, py::arg("recognizer"))
       .def(py::init([](const hri::GestureRecognizer& recognizer,
-                       const std::optional<hri::GestureStreamOptions>& chosen) {
-             const hri::HandFinder finder(recognizer.options().hands);
+                       const std::optional<hri::GestureStreamOptions>& chosen, const Faces& faces) {
+             const hri::HandFinder finder = finder_of(recognizer.options().hands, faces);
              return std::make_unique<hri::GestureStream>(
-                 recognizer, finder.stream(recognizer.is_dynamic()),
+                 recognizer, finder.stream(recognizer.is_dynamic(), recognizer.options().num_hands),
                  chosen ? *chosen : hri::GestureStream::options_for(recognizer));
            }),
-           py::arg("recognizer"), py::arg("options") = py::none())
+           py::arg("recognizer"), py::arg("options") = py::none(), py::arg("faces") = py::none(),
+           "faces: a FaceFinder, by which hands are found while a face is seen.")
       .def(
           "push",
           [](hri::GestureStream& self, const ByteArray& bgr, double time_s,
-             const std::optional<FloatArray>& landmarks) {
+             const std::vector<FloatArray>& landmarks) {
             const auto picture = hri_bind::as_image(bgr, 3, "picture");
-            hri::MatrixF points;
-            if (landmarks) points = hri_bind::as_matrix(*landmarks, "landmarks");
+            std::vector<hri::MatrixF> hands;
+            for (const FloatArray& points : landmarks)
+              hands.emplace_back(hri_bind::as_matrix(points, "landmarks"));
             const py::gil_scoped_release release;
-            return std::vector<hri::GestureEvent>(self.push(picture, time_s, &points));
+            return std::vector<hri::GestureEvent>(self.push(picture, time_s, hands));
           },
-          py::arg("bgr"), py::arg("time_s"), py::arg("landmarks") = py::none(),
-          "The events of the next picture; landmarks in pixels, float32, shape (21, 2).")
+          py::arg("bgr"), py::arg("time_s"), py::arg("landmarks") = std::vector<FloatArray>(),
+          "The events of the next picture; landmarks of every hand found, the surest first, in "
+          "pixels, float32, shape (21, 2).")
       .def(
           "finish",
           [](hri::GestureStream& self) {
@@ -140,16 +150,16 @@ void bind_vision_gestures(py::module_& m) {
       py::arg("recognizer"), py::arg("clip"), "The Decision on a clip of BGR frames.");
   m.def(
       "gesture_features",
-      [](const std::vector<ByteArray>& clip, const hri::GestureRecognizerOptions& options) {
+      [](const std::vector<ByteArray>& clip, const hri::GestureRecognizerOptions& options,
+         const Faces& faces) {
         const auto views = as_clip(clip);
         hri::MatrixF rows;
         {
           const py::gil_scoped_release release;
-          const auto hands = hri::HandFinder(options.hands).find(views);
-          rows = hri::GestureFeatureComputer(options.features, options.min_quality)
-                     .compute(hri::Span<const hri::HandObservation>(hands));
+          rows = hri::GestureRecognizer::features(views, finder_of(options.hands, faces), options);
         }
         return hri_bind::to_array(rows);
       },
-      py::arg("clip"), py::arg("options"), "Rows of features of a clip, float32.");
+      py::arg("clip"), py::arg("options"), py::arg("faces") = py::none(),
+      "Rows of features of a clip, float32.");
 }

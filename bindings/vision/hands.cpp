@@ -83,8 +83,14 @@ void bind_vision_hands(py::module_& m) {
           },
           py::arg("clip"), py::arg("progress") = nullptr,
           "The observations of the left hand of the picture, and those of the right one.")
-      .def("stream", &hri::HandFinder::stream, py::arg("dynamic") = true,
-           "A HandStream of its own; `dynamic`: by colours learned from the stream.")
+      .def(
+          "stream",
+          [](const hri::HandFinder& self, bool dynamic, int max_hands) {
+            return self.stream(dynamic, max_hands);
+          },
+          py::arg("dynamic") = true, py::arg("max_hands") = 1,
+          "A HandStream of its own, of masks of one hand or both; `dynamic`: by colours learned "
+          "from the stream.")
       .def_property_readonly("options", &hri::HandFinder::options,
                              "As passed, with defaults filled in.");
   m.def(

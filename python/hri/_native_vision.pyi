@@ -364,9 +364,9 @@ class HandFinder:
         """
         The observations of the left hand of the picture, and those of the right one.
         """
-    def stream(self, dynamic: bool = True) -> HandStream:
+    def stream(self, dynamic: bool = True, max_hands: typing.SupportsInt | typing.SupportsIndex = 1) -> HandStream:
         """
-        A HandStream of its own; `dynamic`: by colours learned from the stream.
+        A HandStream of its own, of masks of one hand or both; `dynamic`: by colours learned from the stream.
         """
     @property
     def options(self) -> hri._native.HandFinderOptions:
@@ -379,7 +379,11 @@ class GestureSpotter:
     Gesture segments in a stream of pictures.
     """
     def __init__(
-        self, hands: HandFinder, dynamic: bool = True, options: hri._native.GestureSegmenterOptions = ...
+        self,
+        hands: HandFinder,
+        dynamic: bool = True,
+        options: hri._native.GestureSegmenterOptions = ...,
+        max_hands: typing.SupportsInt | typing.SupportsIndex = 1,
     ) -> None: ...
     def finish(self) -> hri._native.GestureSegment:
         """
@@ -502,8 +506,14 @@ class GestureStream:
     @staticmethod
     def options_for(recognizer: hri._native.GestureRecognizer) -> GestureStreamOptions: ...
     def __init__(
-        self, recognizer: hri._native.GestureRecognizer, options: GestureStreamOptions | None = None
-    ) -> None: ...
+        self,
+        recognizer: hri._native.GestureRecognizer,
+        options: GestureStreamOptions | None = None,
+        faces: FaceFinder | None = None,
+    ) -> None:
+        """
+        faces: a FaceFinder, by which hands are found while a face is seen.
+        """
     def finish(self) -> list[GestureEvent]:
         """
         The stream has ended: preliminary decisions settle.
@@ -516,10 +526,10 @@ class GestureStream:
         self,
         bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8],
         time_s: typing.SupportsFloat | typing.SupportsIndex,
-        landmarks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+        landmarks: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = [],
     ) -> list[GestureEvent]:
         """
-        The events of the next picture; landmarks in pixels, float32, shape (21, 2).
+        The events of the next picture; landmarks of every hand found, the surest first, in pixels, float32, shape (21, 2).
         """
     @property
     def hand(self) -> hri._native.HandObservation:
@@ -552,6 +562,7 @@ def background_of(
 def gesture_features(
     clip: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]],
     options: hri._native.GestureRecognizerOptions,
+    faces: FaceFinder | None = None,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Rows of features of a clip, float32.

@@ -117,15 +117,25 @@ std::array<std::vector<HandObservation>, 2> HandFinder::find_pair(
   return sides;
 }
 
-std::unique_ptr<HandStream> HandFinder::stream(bool dynamic) const {
+std::unique_ptr<HandStream> HandFinder::stream(bool dynamic, int max_hands) const {
+  HandFinderOptions options = options_;
+  options.silhouette.max_hands = options.colours.max_hands = max_hands;
+  validate(options);
   if (!background_.empty()) {
     return std::make_unique<detail::PlainHandStream>(SilhouetteExtractor(
-        options_.silhouette, {background_.data(), background_width_px_, background_height_px_, 3,
-                              std::ptrdiff_t{3} * background_width_px_}));
+        options.silhouette, {background_.data(), background_width_px_, background_height_px_, 3,
+                             std::ptrdiff_t{3} * background_width_px_}));
   }
-  if (dynamic && options_.learning == ColourLearning::automatic)
-    return std::make_unique<detail::LearningHandStream>(options_);
-  return std::make_unique<detail::PlainHandStream>(SilhouetteExtractor(options_.silhouette));
+  std::unique_ptr<HandStream> result;
+  if (dynamic && options.learning == ColourLearning::automatic) {
+    result = std::make_unique<detail::LearningHandStream>(options);
+  } else {
+    result = std::make_unique<detail::PlainHandStream>(SilhouetteExtractor(options.silhouette));
+  }
+  if (!faces_) return result;
+  PersonOptions person = person_;
+  person.max_hands = max_hands;
+  return std::make_unique<detail::PersonHandStream>(faces_, person, std::move(result));
 }
 
 std::vector<std::uint8_t> background_of(Span<const ImageView> clip) {

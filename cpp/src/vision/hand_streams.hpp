@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The two ways in which HandFinder finds hands in a stream.
+// The ways in which HandFinder finds hands in a stream.
 #pragma once
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "hri/features/hand/hand_finder_options.hpp"
 #include "hri/features/hand/hand_source.hpp"
 #include "hri/vision/hand_colours.hpp"
+#include "hri/vision/person_hands.hpp"
 #include "hri/vision/silhouette.hpp"
 
 namespace hri::detail {
@@ -64,5 +67,38 @@ class LearningHandStream : public HandStream {
   bool renewed_ = false;
   HandObservation found_;
 };
+
+/// By the face of the person, where one is seen in at least half of the last looks; otherwise as
+/// another stream finds hands. Which of the two it is does not change within a gesture.
+class PersonHandStream : public HandStream {
+ public:
+  PersonHandStream(std::shared_ptr<const FaceFinder> faces, const PersonOptions& options,
+                   std::unique_ptr<HandStream> others)
+      : faces_(std::move(faces)), options_(options), hands_(options), others_(std::move(others)) {}
+
+  const HandObservation& push(ImageView bgr, double time_s, bool in_gesture) override;
+  [[nodiscard]] bool renewed() const override { return renewed_; }
+
+ private:
+  static constexpr std::size_t kNumLooks = 6;
+
+  void look(ImageView bgr, bool in_gesture);
+
+  std::shared_ptr<const FaceFinder> faces_;
+  PersonOptions options_;
+  PersonHands hands_;
+  std::unique_ptr<HandStream> others_;
+  std::array<bool, kNumLooks> seen_{};  // a ring
+  std::size_t num_looks_ = 0;
+  int num_pictures_ = 0;  // since the last look
+  int width_px_ = 0, height_px_ = 0;
+  Face face_;
+  bool by_person_ = false;
+  bool renewed_ = false;
+  HandObservation found_;
+};
+
+/// The face with its centre in place and another side.
+Face resized(const Face& face, double side_px);
 
 }  // namespace hri::detail

@@ -10,6 +10,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/features/hand/regions.hpp"
+#include "vision/hand_streams.hpp"
 #include "vision/mask_quality.hpp"
 #include "vision/pictures.hpp"
 #include "vision/pixels.hpp"
@@ -31,19 +32,25 @@ struct Place {
   double u, v;
 };
 
+// In units of its half axes. Most places are far outside: these need no root.
+bool in_ellipse(double a, double b) {
+  return std::abs(a) < 1 && std::abs(b) < 1 && std::hypot(a, b) < 1;
+}
+
 // The middle of the face, most of it skin.
-bool in_middle(Place p) { return std::hypot(p.u / 0.33, (p.v - 0.05) / 0.42) < 1; }
+bool in_middle(Place p) { return in_ellipse(p.u / 0.33, (p.v - 0.05) / 0.42); }
 
 // Head and neck: what is no hand.
 bool in_head(Place p) {
-  const bool face = std::hypot(p.u / 0.52, (p.v - 0.02) / 0.64) < 1;
+  const bool face = in_ellipse(p.u / 0.52, (p.v - 0.02) / 0.64);
   const bool neck = std::abs(p.u) < 0.25 && p.v > 0 && p.v < 0.75;
   const bool hair = std::abs(p.u) < 0.52 && p.v > -0.8 && p.v < -0.2;
   return face || neck || hair;
 }
 
 // Whose colours are not the room's.
-bool near_head(Place p) { return std::abs(p.u) < 0.6 && p.v > -0.8 && p.v < 0.95; }
+bool beside_head(Place p) { return p.v > -0.8 && p.v < 0.95; }
+bool near_head(Place p) { return std::abs(p.u) < 0.6 && beside_head(p); }
 
 // A part of the scaled picture around the face.
 struct Surroundings {
@@ -89,6 +96,10 @@ int learn(const Surroundings& around, Workspace* w) {
   std::array<std::array<int, kCentreBins>, 3> values{};
   for (int y = 0; y < w->ycrcb.rows; ++y) {
     const auto* pixel = w->ycrcb.ptr<std::uint8_t>(y);
+    if (!beside_head(around.place(0, y))) {  // most rows: all of them is room
+      for (int x = 0; x < w->ycrcb.cols; ++x, pixel += 3) w->room.add(pixel);
+      continue;
+    }
     for (int x = 0; x < w->ycrcb.cols; ++x, pixel += 3) {
       const Place p = around.place(x, y);
       if (in_middle(p)) {
@@ -230,6 +241,16 @@ double quality(const Region& region, const Workspace& w) {
   });
 }
 
+double median_side(const std::vector<std::optional<Face>>& faces) {
+  std::vector<double> sides;
+  for (const auto& face : faces) {
+    if (face) sides.push_back(face->side_px);
+  }
+  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+  std::nth_element(sides.begin(), middle, sides.end());
+  return *middle;
+}
+
 void require_face(ImageView bgr, const Face& face) {
   const double half = face.side_px / 2;
   const double x = face.left_px + half;
@@ -324,11 +345,12 @@ std::optional<std::vector<HandObservation>> PersonHands::find(Span<const ImageVi
   if (count == 0 || 2 * count < seen.size()) return std::nullopt;
   const auto first = std::find_if(seen.begin(), seen.end(),
                                   [](const std::optional<Face>& face) { return face.has_value(); });
+  const double side_px = median_side(seen);
   Face face = **first;
   std::vector<HandObservation> found(clip.size());
   for (std::size_t i = 0; i < clip.size(); ++i) {
     if (i % interval == 0 && seen[i / interval]) face = *seen[i / interval];
-    extract(clip[i], face, &found[i]);
+    extract(clip[i], detail::resized(face, side_px), &found[i]);
     if (progress) progress(static_cast<int>(i) + 1, static_cast<int>(clip.size()));
   }
   return found;

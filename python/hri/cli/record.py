@@ -91,6 +91,7 @@ def word(
 @click.option(
     "--takes", default=5, show_default=True, type=click.IntRange(1, 10000), help="Recordings of each gesture."
 )
+@click.option("--hands", type=click.Choice(["one", "both"]), default="one", show_default=True, help="Hands that sign.")
 @click.option("--held", is_flag=True, help="Signs that are held: the hand comes into view with them.")
 @click.option(
     "--pause", "pause_s", default=2.5, show_default=True, type=float, help="Seconds to go back before the next prompt."
@@ -112,6 +113,7 @@ def gesture(
     out: str,
     person: str,
     takes: int,
+    hands: str,
     held: bool,
     pause_s: float,
     files: tuple[str, ...],
@@ -131,8 +133,11 @@ def gesture(
       hri record gesture wave circle push --person asha --out signs/
       hri record gesture one two five --held --person ben --device 1 --out digits/
       hri record gesture wave circle --person cem --takes 1 --from cem.mp4 --out signs/
+      hri record gesture clap part --hands both --person asha --out pairs/
     """
-    recorder = GestureRecorder(out, labels, person, takes, held=held, pause_s=pause_s)
+    recorder = GestureRecorder(
+        out, labels, person, takes, held=held, num_hands=1 if hands == "one" else 2, pause_s=pause_s
+    )
     sources: Iterable[FrameSource] = (VideoSource(file) for file in files)
     if not files and recorder.missing():
         sources = (camera(device, stall_s) for _ in range(1))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.hand_source import choose_source
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
@@ -52,6 +53,18 @@ MANY_PERSONS = 10
     help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes; the default is "
     "to do so from ten speakers on. The same as --option use_network=true or false",
 )
+@click.option(
+    "--source",
+    type=click.Choice(["silhouettes", "landmarks"]),
+    help="Gesture only: silhouettes of hands, or their joints, as the extra mediapipe finds them. The default is "
+    "landmarks where the extra is installed and finds the hands. The same as --option source=...",
+)
+@click.option(
+    "--hands",
+    type=click.Choice(["one", "both"]),
+    help="Gesture only: whether gestures are of one hand, the default, or of both. The same as --option num_hands=1 or "
+    "2",
+)
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train(
@@ -64,6 +77,8 @@ def train(
     no_fillers: bool,
     front_end: str | None,
     network: bool | None,
+    source: str | None,
+    hands: str | None,
     seed: int,
     json_path: str | None,
 ) -> None:
@@ -76,6 +91,7 @@ def train(
       hri train speech --data spoken/ --out digits.hri --option model=ptbhmm
       hri train speech --data spoken/ --front-end cepstra
       hri train speech --data spoken/ --no-network
+      hri train gesture --data pairs/ --hands both
     """
     if mode != "speech" and (fillers or no_fillers):
         raise click.UsageError("--fillers and --no-fillers are for speech")
@@ -89,7 +105,19 @@ def train(
         options = (*options, "front_end=both")
     if network is not None and mode != "speech":
         raise click.UsageError("--network is for speech")
+    if hands is not None:
+        if mode != "gesture":
+            raise click.UsageError("--hands is for gesture")
+        options = (*options, f"num_hands={1 if hands == 'one' else 2}")
+    if source is not None:
+        if mode != "gesture":
+            raise click.UsageError("--source is for gesture")
+        options = (*options, f"source={source}")
     dataset = load_dataset(data, mode, pattern)
+    why_source = ""
+    if mode == "gesture" and not any(o.startswith("source=") for o in options):
+        chosen, why_source = choose_source(dataset)
+        options = (*options, f"source={chosen}")
     asked = network is not None or any(o.startswith("use_network=") for o in options)
     if mode == "speech" and not asked:
         network = len(dataset.persons) >= MANY_PERSONS
@@ -111,6 +139,8 @@ def train(
         note(f"front end: {_front_end(recognizer.options.front_end)}")
         if recognizer.options.use_network:
             note("a network of the same words votes too; --no-network trains in a fraction of the time")
+    if why_source:
+        note(why_source)
     report = recognizer.held_out if isinstance(recognizer, WordRecognizer) else None
     for line in report.lines() if report is not None else []:
         note(line)

@@ -12,6 +12,7 @@ from pathlib import Path
 import click
 
 from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, report, stall_option
+from hri.cli.messages import note
 from hri.cli.output import OutputFile
 from hri.cli.recognizers import kept_model
 from hri.cli.result_screen import ResultScreen
@@ -50,6 +51,12 @@ from hri.recognition import GestureRecognizer
     help="Film what is seen: picture, mask, outline, track and n-best.",
 )
 @click.option("--show", is_flag=True, help="Show the same in a window.")
+@click.option(
+    "--faces",
+    metavar="auto|never|FILE",
+    help="Whether hands are those of the person whose face is seen, where one is; FILE is a cascade of OpenCV's that "
+    "finds faces. The default is as the model was trained.",
+)
 @click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to show.")
 def watch(
     files: tuple[str, ...],
@@ -61,6 +68,7 @@ def watch(
     reconnect_s: float,
     video_path: str | None,
     show: bool,
+    faces: str | None,
     top: int,
 ) -> None:
     """Recognise gestures as they are shown, from a camera or from videos played as a stream.
@@ -78,13 +86,15 @@ def watch(
         raise InvalidArgument("--video films one stream: give one file, or a camera")
     path = Path(model_path) if model_path else kept_model("gesture")
     signs = GestureRecognizer.load(path)
+    if signs.options.source == "landmarks":
+        note("hands: by their joints, as MediaPipe finds them")
     model_id = f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
     sources: Iterable[FrameSource] = (VideoSource(file, paced) for file in files)
     if not files:
         sources = (camera(device, stall_s) for _ in range(1))
     for source in sources:
         with ResultScreen(video_path, source.fps, show, top) as screen:
-            watcher = Watcher(signs, reconnect_s=reconnect_s, model_id=model_id, on_result=screen.draw)
+            watcher = Watcher(signs, reconnect_s=reconnect_s, faces=faces, model_id=model_id, on_result=screen.draw)
             report(watcher.watch(source), as_json, partial(describe, top=top))
 
 

@@ -18,6 +18,8 @@ from hri._native import (
     HandPairTracker,
     HandTrackComputer,
     HandTrackOptions,
+    LandmarkPairOptions,
+    LandmarkPairTracker,
     OrientationHistogramOptions,
     PairedHand,
     SilhouetteCepstrumComputer,
@@ -27,6 +29,8 @@ from hri._native import (
     WaveletDescriptorComputer,
     WaveletDescriptorOptions,
     hand_scale_px,
+    pair_rows,
+    track_rows,
 )
 from hri.features.frames import filter_bank, filter_edges, lpc_cepstrum, normalise_time, spectral_envelope
 from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
@@ -64,6 +68,8 @@ __all__ = [
     "HandPairTracker",
     "HandTrackComputer",
     "HandTrackOptions",
+    "LandmarkPairOptions",
+    "LandmarkPairTracker",
     "OrientationHistogramOptions",
     "PairedHand",
     "SilhouetteCepstrumComputer",
@@ -90,10 +96,12 @@ __all__ = [
     "mfcc",
     "normalise_time",
     "orientation_histogram",
+    "pair_rows",
     "resample_contour",
     "shape_axis",
     "shape_moments",
     "shape_number",
     "spectral_envelope",
     "trace_contour",
+    "track_rows",
 ]

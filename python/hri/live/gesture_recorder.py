@@ -47,6 +47,8 @@ class GestureRecorder:
     held : bool
         The labels are signs: the hand comes into view and holds one. Otherwise they are dynamic: the hand rests in
         view, moves, and rests again, and its coming is not recorded.
+    num_hands : int
+        1, or 2 for gestures of both hands: a gesture begins when either moves, and ends when both rest.
     pause_s : float
         From a recording to the next prompt.
     hand_interval_s : float
@@ -62,6 +64,7 @@ class GestureRecorder:
         segmenter: GestureSegmenterOptions | None = None,
         *,
         held: bool = False,
+        num_hands: int = 1,
         pause_s: float = 2.5,
         hand_interval_s: float = 0.1,
     ) -> None:
@@ -72,6 +75,8 @@ class GestureRecorder:
         chosen = GestureSegmenterOptions(**{**fields, "arrivals": held})
         chosen.context_s = chosen.context_s if held else max(chosen.context_s, REST_S)
         self._options = chosen
+        self._num_hands = num_hands
+        _SpottingStream(chosen, num_hands)  # refuses options out of range now
         self._pause_s = pause_s
         self._hand_interval_s = hand_interval_s
 
@@ -104,7 +109,7 @@ class GestureRecorder:
             source.close()
             return
         self._takes.begin()
-        stream = _SpottingStream(self._options)
+        stream = _SpottingStream(self._options, self._num_hands)
         num_lost = 0
         ready_s = 0.0  # when the next prompt is due
         asked_s: float | None = None
@@ -156,11 +161,11 @@ class _Gesture:
 class _SpottingStream:
     """Finds gestures, and keeps the pictures of the one that is shown and how well the hand was seen in them."""
 
-    def __init__(self, options: GestureSegmenterOptions) -> None:
+    def __init__(self, options: GestureSegmenterOptions, num_hands: int) -> None:
         from hri.recognition import GestureSpotter
         from hri.vision import HandFinder
 
-        self.spotter = GestureSpotter(HandFinder(), dynamic=True, options=options)
+        self.spotter = GestureSpotter(HandFinder(), dynamic=True, options=options, max_hands=num_hands)
         self.gesture = _Gesture([], 0.0, 0.0)
         self._context_s = float(options.context_s)
         self._kept: deque[tuple[Frame, float, float]] = deque()

@@ -21,7 +21,7 @@ from hri.recognition.quality import mask_quality
 from hri.vision.landmarks import LandmarkTracker
 
 if TYPE_CHECKING:
-    from hri.recognition import GestureEvent, GestureStreamOptions
+    from hri.recognition import GestureEvent, GestureStream
 
 
 _MAX_HANDS = 1024
@@ -50,6 +50,8 @@ class Watcher:
         How often it is reported what a gesture looks like so far.
     reconnect_s : float
         For how long a camera that stalled is opened again and again; 0 gives up at once.
+    faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder, optional
+        Whether hands are those of the person whose face is seen, as of `GestureRecognizer.stream`.
     locale : str
         Passed on with decisions.
     model_id : str
@@ -68,6 +70,7 @@ class Watcher:
         hand_interval_s: float = 0.1,
         partial_interval_s: float = 0.5,
         reconnect_s: float = 0.0,
+        faces: Any = None,
         locale: str = "",
         model_id: str = "",
         on_result: Callable[[FrameResult, Decision | None], None] | None = None,
@@ -80,7 +83,8 @@ class Watcher:
             chosen.segmenter = segmenter
         chosen.max_pause_s, chosen.partial_interval_s = max_pause_s, partial_interval_s
         self._options = chosen
-        recognizer.stream(chosen)  # refuses options out of range now
+        self._faces = faces
+        recognizer.stream(chosen, faces=faces)  # refuses options out of range now
         self._intervals = {"hand_interval_s": hand_interval_s, "reconnect_s": reconnect_s}
         self._locale = locale
         self._model_id = model_id
@@ -98,8 +102,9 @@ class Watcher:
         with ExitStack() as stack:
             landmarks: LandmarkTracker | None = None
             if self._recognizer.options.source == "landmarks":
-                landmarks = stack.enter_context(LandmarkTracker())
-            stream = _DecidingStream(self._recognizer, self._options, landmarks, self._locale, self._model_id)
+                landmarks = stack.enter_context(LandmarkTracker(max_hands=self._recognizer.options.num_hands))
+            native = self._recognizer.stream(self._options, faces=self._faces)
+            stream = _DecidingStream(native, landmarks, self._locale, self._model_id)
             results = frame_results(source, stream, **self._intervals, model=self._model_id)
             for result in stack.enter_context(closing(results)):
                 decided = [event.decision for event in result.events if event.decision is not None]
@@ -120,13 +125,12 @@ class _DecidingStream:
 
     def __init__(
         self,
-        recognizer: GestureRecognizer,
-        options: GestureStreamOptions,
+        spotter: GestureStream,
         landmarks: LandmarkTracker | None,
         locale: str,
         model_id: str,
     ) -> None:
-        self.spotter = recognizer.stream(options)
+        self.spotter = spotter
         self._landmarks = landmarks
         self._locale = locale
         self._model_id = model_id
@@ -135,7 +139,7 @@ class _DecidingStream:
 
     def push(self, frame: Frame, time_s: float) -> list[Event]:
         self._time_s = time_s
-        points = None if self._landmarks is None else self._landmarks.find(frame)
+        points = [] if self._landmarks is None else self._landmarks.find_all(frame)
         return self._events(lambda: self._pushed(frame, time_s, points))
 
     def _pushed(self, frame: Frame, time_s: float, points: Any) -> list[GestureEvent]:

@@ -228,7 +228,10 @@ class GestureRecognizerKeywords(TypedDict, total=False):
     """Fields of `GestureRecognizerOptions`."""
 
     source: Literal["silhouettes", "landmarks"]
+    num_hands: int
+    relation_weight: float
     hands: _native.HandFinderOptions | HandFinderKeywords
+    use_faces: bool
     min_quality: float
     features: _native.HandFeatureOptions | HandFeatureKeywords
     model: Literal["svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf", "automatic"]

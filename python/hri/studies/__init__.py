@@ -6,6 +6,7 @@ from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.studies import (
     adaptation,
+    asl_gestures,
     classifiers,
     commands,
     commands_curve,
@@ -83,6 +84,7 @@ _MODULES = (
     hand_pairs,
     hands_in_rooms,
     sentences,
+    asl_gestures,
     gesture_sentences,
     knowledge,
     signs,

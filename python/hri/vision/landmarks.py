@@ -93,6 +93,62 @@ def find_landmarks(
     return found
 
 
+def find_landmark_pairs(
+    clip: Sequence[Frame], progress: Callable[[int, int], None] | None = None, *, each_alone: bool = False
+) -> dict[str, list[Landmarks | None]]:
+    """The joints of both hands in every frame of a clip, as `LandmarkTracker` finds them.
+
+    Parameters
+    ----------
+    clip, progress, each_alone
+        As for `find_landmarks`.
+
+    Returns
+    -------
+    dict of str to list of ndarray or None
+        "left" and "right": of the hand that was on that side of the picture when both were first seen. Labels stay with
+        the hands when these touch or cross (`hri.features.LandmarkPairTracker`).
+    """
+    from hri import _native
+
+    sides: dict[str, list[Landmarks | None]] = {"left": [], "right": []}
+    pairs = _native.LandmarkPairTracker()
+    with LandmarkTracker(each_alone=each_alone, max_hands=2) as tracker:
+        for done, frame in enumerate(clip, 1):
+            hands = tracker.find_all(frame)
+            for side, number in zip(sides.values(), pairs.push(hands, frame.shape[1]), strict=True):
+                side.append(None if number < 0 else hands[number])
+            if progress is not None:
+                progress(done, len(clip))
+    return sides
+
+
+def landmark_pair_features(
+    sides: dict[str, list[Landmarks | None]], frame_size: tuple[int, int], relation_weight: float
+) -> NDArray[np.float32]:
+    """Features of both hands, a row for every frame that shows one, as `GestureRecognizer.features` gives them.
+
+    Parameters
+    ----------
+    sides : dict
+        As `find_landmark_pairs` gives it.
+    frame_size : tuple of int
+        Width and height of the frames in pixels.
+    relation_weight : float
+        The option of `GestureRecognizer`.
+    """
+    from hri import _native
+
+    rows = []
+    for side in (sides["left"], sides["right"]):
+        of_side = np.full((len(side), len(_native.landmark_column_names())), np.nan, np.float32)
+        for row, points in zip(of_side, side, strict=True):
+            if points is not None:
+                row[:] = _native.landmark_features(points, *frame_size)
+        rows.append(of_side)
+    return np.asarray(_native.pair_rows(rows[0], rows[1], relation_weight))
+
+
 def landmark_features(landmarks: Sequence[Landmarks | None], frame_size: tuple[int, int]) -> NDArray[np.float32]:
     """Features of the frames that have landmarks, a row a frame, as `GestureRecognizer.features` gives them.
 

@@ -8,6 +8,7 @@
 #include "hri/features/hand/hand_finder_options.hpp"
 #include "hri/features/hand/hand_pair.hpp"
 #include "hri/features/hand/hand_track.hpp"
+#include "hri/features/hand/landmark_pair.hpp"
 #include "hri/features/hand/two_hand_features.hpp"
 #include "hri/htk/embedded_trainer.hpp"
 #include "hri/htk/feature_extractor.hpp"
@@ -59,7 +60,7 @@ using All = testing::Types<
     HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
     GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
     htk::HtkFeatureOptions, htk::EmbeddedTrainerOptions, TwoHandFeatureOptions,
-    SentenceRecognizerOptions>;
+    SentenceRecognizerOptions, LandmarkPairOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

@@ -27,15 +27,17 @@ class HRI_API HandFinder : public HandSource {
   HandFinder(const HandFinderOptions& options, ImageView background);
 
   /// With a finder of faces: in clips in which a face is seen, hands are found as that person's
-  /// (PersonHands), in others as without it. Streams do not look for faces. `person.max_hands` is
-  /// ignored: find() looks for one hand, find_pair() for both. Throws InvalidArgument without a
-  /// finder.
+  /// (PersonHands), in others as without it; in streams, while one is seen in at least half of the
+  /// last six looks. `person.max_hands` is ignored: find() looks for one hand, find_pair() for
+  /// both. Throws InvalidArgument without a finder.
   HandFinder(const HandFinderOptions& options, std::shared_ptr<const FaceFinder> faces,
              const PersonOptions& person = {});
 
   [[nodiscard]] const HandFinderOptions& options() const { return options_; }
 
   using HandSource::find;
+  using HandSource::find_pair;
+  using HandSource::stream;
   /// Learns from clips of min_frames or more; shorter clips, and those in which no hand stands out,
   /// are segmented picture by picture. Throws InvalidArgument for a frame that is not a picture of
   /// three channels (names its index).
@@ -46,14 +48,14 @@ class HRI_API HandFinder : public HandSource {
   /// when both were first seen; labels go with the hands when these touch or cross
   /// (HandPairTracker). Without a finder of faces, a face in view may be mistaken for a hand.
   [[nodiscard]] std::array<std::vector<HandObservation>, 2> find_pair(
-      Span<const ImageView> clip, const FrameProgress& progress = {}) const;
+      Span<const ImageView> clip, const FrameProgress& progress) const override;
 
   /// Learns colours from the last two seconds of the stream where `dynamic` and the options say
   /// so: after the first second, then looked after once a second, but never again in the middle of
   /// a gesture. New ones are taken when they show something that moves and the old ones do not, or
   /// show it more clearly. Until there are any, every picture is segmented by itself. Keeps copies
   /// of eight pictures.
-  [[nodiscard]] std::unique_ptr<HandStream> stream(bool dynamic) const override;
+  [[nodiscard]] std::unique_ptr<HandStream> stream(bool dynamic, int max_hands) const override;
 
  private:
   [[nodiscard]] std::vector<HandObservation> find(Span<const ImageView> clip, int max_hands,

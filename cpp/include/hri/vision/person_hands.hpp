@@ -72,8 +72,8 @@ class HRI_API PersonHands {
 
   /// The hands in every frame of a clip. Nothing where a face is seen in less than half of the
   /// frames in which it is looked for, or where frames differ in size; between those frames it
-  /// stays where it was. Throws InvalidArgument for a frame that is not a picture of three channels
-  /// (names its index).
+  /// stays where it was. Its side is the median of the clip, so that masks are of one size. Throws
+  /// InvalidArgument for a frame that is not a picture of three channels (names its index).
   [[nodiscard]] std::optional<std::vector<HandObservation>> find(
       Span<const ImageView> clip, const FaceFinder& faces,
       const FrameProgress& progress = {}) const;

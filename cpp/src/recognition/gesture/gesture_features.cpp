@@ -3,6 +3,7 @@
 #include "hri/recognition/gesture/gesture_features.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "hri/core/error.hpp"
 #include "hri/features/hand/hand_place.hpp"
@@ -57,6 +58,16 @@ MatrixF GestureFeatureComputer::compute(Span<const HandImage> frames) const {
 
 MatrixF GestureFeatureComputer::compute(Span<const HandObservation> hands) const {
   return rows_of(*this, hands);
+}
+
+MatrixF GestureFeatureComputer::compute_every(Span<const HandObservation> hands) const {
+  MatrixF rows(static_cast<Eigen::Index>(hands.size()), num_features());
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
+    float* const row = rows.data() + t * rows.cols();
+    if (!compute(hands[static_cast<std::size_t>(t)], {row, static_cast<std::size_t>(rows.cols())}))
+      rows.row(t).setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  return rows;
 }
 
 }  // namespace hri

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "hri/features/hand/pair_rows.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
 #include "recognition/gesture/gesture_verifier.hpp"
 
@@ -36,12 +37,32 @@ Decision GestureRecognizer::recognise_features(ConstMatrixRefF features) const {
   return calibration_.decide(s, score, labels_);
 }
 
+MatrixF GestureRecognizer::features(Span<const ImageView> clip, const HandSource& source,
+                                    const GestureRecognizerOptions& options) {
+  const GestureFeatureComputer computer(options.features, options.min_quality);
+  if (options.num_hands == 1)
+    return computer.compute(Span<const HandObservation>(source.find(clip)));
+  const auto sides = source.find_pair(clip);
+  return pair_rows(computer.compute_every(sides[0]), computer.compute_every(sides[1]),
+                   options.relation_weight);
+}
+
 Decision GestureRecognizer::recognise(Span<const HandObservation> hands) const {
+  require(options_.num_hands == 1, "the recogniser is one of both hands: give left and right");
   return recognise_features(front_end_->compute(hands));
 }
 
+Decision GestureRecognizer::recognise(Span<const HandObservation> left,
+                                      Span<const HandObservation> right) const {
+  require(options_.num_hands == 2, "the recogniser is one of one hand: give one");
+  return recognise_features(pair_rows(front_end_->compute_every(left),
+                                      front_end_->compute_every(right), options_.relation_weight));
+}
+
 Decision GestureRecognizer::recognise(Span<const ImageView> clip, const HandSource& source) const {
-  return recognise(source.find(clip));
+  if (options_.num_hands == 1) return recognise(source.find(clip));
+  const auto sides = source.find_pair(clip);
+  return recognise(sides[0], sides[1]);
 }
 
 void GestureRecognizer::save(const std::string& path) const { to_model_file().write(path); }

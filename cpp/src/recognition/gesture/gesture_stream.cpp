@@ -3,11 +3,14 @@
 #include "hri/recognition/gesture/gesture_stream.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "hri/core/error.hpp"
 #include "hri/features/hand/landmarks.hpp"
+#include "hri/features/hand/pair_rows.hpp"
 
 namespace hri {
 namespace {
@@ -18,6 +21,13 @@ constexpr double kSpare_s = 1.0;          // by how much rows are kept longer th
 bool learns_colours(const GestureRecognizer& recognizer) {
   return recognizer.is_dynamic() &&
          recognizer.options().hands.learning == ColourLearning::automatic;
+}
+
+// Masks of streams hold hands only, however small.
+HandPairOptions all_regions() {
+  HandPairOptions options;
+  options.min_area = 0;
+  return options;
 }
 
 }  // namespace
@@ -33,13 +43,16 @@ GestureStream::GestureStream(GestureRecognizer recognizer, std::unique_ptr<HandS
                              const GestureStreamOptions& options)
     : recognizer_(std::move(recognizer)),
       options_(validated(options)),
-      spotter_(std::move(hands), options.segmenter) {}
+      spotter_(std::move(hands), options.segmenter),
+      pair_(all_regions()) {}
 
 GestureStream::GestureStream(const GestureRecognizer& recognizer, const HandSource& source)
-    : GestureStream(recognizer, source.stream(recognizer.is_dynamic()), options_for(recognizer)) {}
+    : GestureStream(recognizer,
+                    source.stream(recognizer.is_dynamic(), recognizer.options().num_hands),
+                    options_for(recognizer)) {}
 
 const std::vector<GestureEvent>& GestureStream::push(ImageView bgr, double time_s,
-                                                     const MatrixF* landmarks_px) {
+                                                     Span<const MatrixF> landmarks_px) {
   events_.clear();
   const GestureSegment segment = spotter_.push(bgr, time_s);
   keep_row(bgr, time_s, landmarks_px);
@@ -72,6 +85,8 @@ const std::vector<GestureEvent>& GestureStream::finish() {
   before_.reset();
   count_ = 0;
   partial_s_ = 0;
+  pair_.reset();
+  landmark_pair_.reset();
   return events_;
 }
 
@@ -83,10 +98,12 @@ const std::vector<GestureEvent>& GestureStream::interrupt() {
   pending_.reset();
   before_.reset();
   count_ = 0;
+  pair_.reset();
+  landmark_pair_.reset();
   return events_;
 }
 
-void GestureStream::keep_row(ImageView bgr, double time_s, const MatrixF* landmarks_px) {
+void GestureStream::keep_row(ImageView bgr, double time_s, Span<const MatrixF> landmarks_px) {
   if (count_ == kMostRows) {
     first_ = (first_ + 1) % rows_.size();
     --count_;
@@ -98,14 +115,48 @@ void GestureStream::keep_row(ImageView bgr, double time_s, const MatrixF* landma
   }
   Row& now = row(count_++);
   now.time_s = time_s;
+  const bool pair = recognizer_.options().num_hands == 2;
+  const int num_features = recognizer_.options().source == GestureSource::landmarks
+                               ? kNumLandmarkFeatures
+                               : recognizer_.front_end().num_features();
+  now.features.resize(static_cast<std::size_t>(pair ? 2 * num_features : num_features));
+  now.hand = pair ? compute_pair(bgr, landmarks_px, now.features)
+                  : compute_hand(bgr, landmarks_px, now.features);
+}
+
+bool GestureStream::compute_hand(ImageView bgr, Span<const MatrixF> landmarks_px,
+                                 Span<float> row) const {
+  if (recognizer_.options().source == GestureSource::silhouettes)
+    return recognizer_.front_end().compute(spotter_.hand(), row);
+  if (landmarks_px.empty()) return false;
+  landmark_features(landmarks_px[0], bgr.width_px, bgr.height_px, row);
+  return true;
+}
+
+bool GestureStream::compute_pair(ImageView bgr, Span<const MatrixF> landmarks_px, Span<float> row) {
+  std::fill(row.begin(), row.end(), std::numeric_limits<float>::quiet_NaN());
+  const std::size_t length = row.size() / 2;
+  bool any = false;
   if (recognizer_.options().source == GestureSource::landmarks) {
-    now.features.resize(kNumLandmarkFeatures);
-    now.hand = landmarks_px != nullptr && landmarks_px->rows() > 0;
-    if (now.hand) landmark_features(*landmarks_px, bgr.width_px, bgr.height_px, now.features);
-    return;
+    const std::array<int, 2> found = landmark_pair_.push(landmarks_px, bgr.width_px);
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (found[side] < 0) continue;
+      landmark_features(landmarks_px[static_cast<std::size_t>(found[side])], bgr.width_px,
+                        bgr.height_px, row.subspan(side * length, length));
+      any = true;
+    }
+    return any;
   }
-  now.features.resize(static_cast<std::size_t>(recognizer_.front_end().num_features()));
-  now.hand = recognizer_.front_end().compute(spotter_.hand(), now.features);
+  const HandObservation& both = spotter_.hand();
+  if (both.mask.pixels.empty()) return false;
+  const std::array<PairedHand, 2>& hands = pair_.push(both.mask.view());
+  if (both.quality < recognizer_.options().min_quality) return false;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!hands[side].seen) continue;
+    any |= recognizer_.front_end().compute(HandImage{both.grey.view(), hands[side].mask.view()},
+                                           row.subspan(side * length, length));
+  }
+  return any;
 }
 
 void GestureStream::forget_rows(const GestureSegment& segment, double time_s) {
@@ -155,7 +206,12 @@ Decision GestureStream::recognise(double first_s, double last_s) const {
     if (!r.hand || r.time_s < first_s || r.time_s > last_s) continue;
     std::copy(r.features.begin(), r.features.end(), features.data() + used++ * features.cols());
   }
-  return recognizer_.recognise_features(features.topRows(used));
+  if (recognizer_.options().num_hands == 1 || used == 0)
+    return recognizer_.recognise_features(features.topRows(used));
+  const Eigen::Index length = features.cols() / 2;
+  return recognizer_.recognise_features(pair_rows(features.topRows(used).leftCols(length),
+                                                  features.topRows(used).rightCols(length),
+                                                  recognizer_.options().relation_weight));
 }
 
 // Where the gestures trained on pause, a segment is decided on by itself and with the one before

@@ -21,7 +21,13 @@ from hri.recognition.inputs import ClipInput, as_clips, as_frames, as_texts
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import mask_quality
-from hri.vision.landmarks import find_landmarks, landmark_features
+from hri.vision.faces import VARIABLE, face_finder
+from hri.vision.landmarks import (
+    find_landmark_pairs,
+    find_landmarks,
+    landmark_features,
+    landmark_pair_features,
+)
 
 if TYPE_CHECKING:
     from hri._native_vision import GestureStream, GestureStreamOptions
@@ -36,10 +42,10 @@ class GestureRecognizer(Recognizer):
     ----------
     **options
         Fields of ``hri.GestureRecognizerOptions``, for example ``model="svm"`` for still signs, ``model="trajectory"``
-        for dynamic gestures (the training clips decide by default), or ``source="landmarks"`` for the joints of the
-        hand, as MediaPipe finds them, instead of silhouettes. The colours of hand and background are learned from a
-        clip of eight frames or more; ``hands={"learning": "never"}`` looks for the hand in every picture by itself.
-        All are saved with the model. Defaults are the C++ library's.
+        for dynamic gestures (the training clips decide by default), ``num_hands=2`` for gestures of both hands, or
+        ``source="landmarks"`` for the joints of the hand, as MediaPipe finds them, instead of silhouettes. The colours
+        of hand and background are learned from a clip of eight frames or more; ``hands={"learning": "never"}`` looks
+        for the hand in every picture by itself. All are saved with the model. Defaults are the C++ library's.
 
     Attributes
     ----------
@@ -72,18 +78,28 @@ class GestureRecognizer(Recognizer):
         frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
         if self._by_landmarks:
             size = (frames[0].shape[1], frames[0].shape[0]) if frames else (1, 1)
+            if self.options.num_hands == 2:
+                return landmark_pair_features(find_landmark_pairs(frames), size, self.options.relation_weight)
             return landmark_features(find_landmarks(frames), size)
         from hri import _native_vision
 
-        return np.asarray(_native_vision.gesture_features(frames, self.options))
+        return np.asarray(_native_vision.gesture_features(frames, self.options, _face_finder(self.options)))
 
-    def observation_features(self, hands: Sequence[Any]) -> NDArray[np.float32]:
+    def observation_features(self, hands: Sequence[Any], right: Sequence[Any] | None = None) -> NDArray[np.float32]:
         """Features as `features` gives them, of hands that are found already (`HandObservation`).
 
-        Those of a quality below the option ``min_quality`` show no hand.
+        Those of a quality below the option ``min_quality`` show no hand. With ``num_hands=2``, `hands` are the left
+        hand of the picture in every frame and `right` the right one, as `hri.vision.find_hands` gives them.
+
+        Raises
+        ------
+        InvalidArgument
+            For one hand where two are wanted, or two where one is.
         """
-        computer = _native.GestureFeatureComputer(self.options.features, self.options.min_quality)
-        return np.asarray(computer.compute(list(hands)))
+        num_hands = self.options.num_hands
+        if (right is not None) != (num_hands == 2):
+            raise InvalidArgument(f"num_hands is {num_hands}: right must be given where it is 2, and only there")
+        return _observation_rows([hands] if right is None else [hands, right], self.options)
 
     @property
     def _by_landmarks(self) -> bool:
@@ -193,9 +209,10 @@ class GestureRecognizer(Recognizer):
 
         options = self._trained.options
         frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
-        hands = _native_vision.HandFinder(options.hands).find(frames)
-        rows = _native.GestureFeatureComputer(options.features, options.min_quality).compute(hands)
-        return replace(self.recognise_features(rows), quality=mask_quality(hands))
+        finder = _native_vision.HandFinder(options.hands, faces=_face_finder(options))
+        sides = finder.find_pair(frames) if options.num_hands == 2 else [finder.find(frames)]
+        surer = [max(hands, key=lambda hand: float(hand.quality)) for hands in zip(*sides, strict=True)]
+        return replace(self.recognise_features(_observation_rows(sides, options)), quality=mask_quality(surer))
 
     def recognise_features(self, rows: NDArray[np.float32]) -> Decision:
         """Recognise what `features` returned."""
@@ -207,13 +224,16 @@ class GestureRecognizer(Recognizer):
 
         return _native_vision.GestureStream.options_for(self._trained)
 
-    def stream(self, options: GestureStreamOptions | None = None) -> GestureStream:
+    def stream(self, options: GestureStreamOptions | None = None, *, faces: Any = None) -> GestureStream:
         """Decisions on pictures as they come; `hri.live.Watcher` takes care of cameras and events on top.
 
         Parameters
         ----------
         options : GestureStreamOptions, optional
             By default `stream_options`.
+        faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder, optional
+            Whether hands are those of the person whose face is seen, while one is (`hri.vision.faces.face_finder`); by
+            default as the option ``use_faces`` says.
 
         Examples
         --------
@@ -223,7 +243,8 @@ class GestureRecognizer(Recognizer):
         """
         from hri import _native_vision
 
-        return _native_vision.GestureStream(self._trained, options)
+        found = _face_finder(self._trained.options) if faces is None else face_finder(faces)
+        return _native_vision.GestureStream(self._trained, options, found)
 
     def decide(self, X: Sequence[ClipInput]) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
@@ -233,3 +254,24 @@ class GestureRecognizer(Recognizer):
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
         return cls._wrap(load_native(_native.GestureRecognizer.from_model_file, path, "gesture_recognizer"))
+
+
+def _face_finder(options: _native.GestureRecognizerOptions) -> Any:
+    """What finds faces, or None where `options` use none."""
+    if not options.use_faces:
+        return None
+    finder = face_finder("auto")
+    if finder is None:
+        raise InvalidArgument(
+            f"use_faces needs a cascade that finds faces: install opencv-data, or name one in {VARIABLE}"
+        )
+    return finder
+
+
+def _observation_rows(sides: Sequence[Sequence[Any]], options: _native.GestureRecognizerOptions) -> NDArray[np.float32]:
+    """Rows of one hand, or of the left and the right one, by what was found in every frame."""
+    computer = _native.GestureFeatureComputer(options.features, options.min_quality)
+    if len(sides) == 1:
+        return np.asarray(computer.compute(list(sides[0])))
+    left, right = (computer.compute_every(list(side)) for side in sides)
+    return np.asarray(_native.pair_rows(left, right, options.relation_weight))

@@ -5,6 +5,7 @@
 // has another camera or segmentation implements this.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -36,7 +37,7 @@ struct HandObservation {
 /// Called with how many frames of a clip are done, and of how many.
 using FrameProgress = std::function<void(int done, int total)>;
 
-/// The hand in one stream of pictures. Not to be shared by threads.
+/// The hand in one stream of pictures, or both in one mask. Not to be shared by threads.
 class HRI_API HandStream {
  public:
   HandStream() = default;
@@ -69,9 +70,23 @@ class HRI_API HandSource {
     return find(clip, {});
   }
 
-  /// A stream of its own. `dynamic` says that gestures are movements of the hand rather than signs
-  /// that it holds: then colours may be learned while it moves.
-  [[nodiscard]] virtual std::unique_ptr<HandStream> stream(bool dynamic) const = 0;
+  /// Both hands: that of the left side of the picture, then that of the right one, as they were
+  /// when both were first seen; labels go with the hands when these touch or cross. Throws
+  /// InvalidArgument where the source finds one hand only.
+  [[nodiscard]] virtual std::array<std::vector<HandObservation>, 2> find_pair(
+      Span<const ImageView> clip, const FrameProgress& progress) const;
+  [[nodiscard]] std::array<std::vector<HandObservation>, 2> find_pair(
+      Span<const ImageView> clip) const {
+    return find_pair(clip, {});
+  }
+
+  /// A stream of its own, whose masks hold up to `max_hands` hands (HandPairTracker decides which
+  /// is which). `dynamic` says that gestures are movements of the hand rather than signs that it
+  /// holds: then colours may be learned while it moves.
+  [[nodiscard]] virtual std::unique_ptr<HandStream> stream(bool dynamic, int max_hands) const = 0;
+  [[nodiscard]] std::unique_ptr<HandStream> stream(bool dynamic) const {
+    return stream(dynamic, 1);
+  }
 };
 
 }  // namespace hri

@@ -39,6 +39,8 @@ class HRI_API GestureFeatureComputer {
   /// The rows of those frames that show a hand.
   [[nodiscard]] MatrixF compute(Span<const HandImage> frames) const;
   [[nodiscard]] MatrixF compute(Span<const HandObservation> hands) const;
+  /// A row for every frame, all NaN where it shows no hand.
+  [[nodiscard]] MatrixF compute_every(Span<const HandObservation> hands) const;
 
  private:
   std::shared_ptr<const HandFeatureComputer> computer_;

@@ -56,7 +56,10 @@ constexpr auto enum_names(GestureSource) { return std::array{"silhouettes", "lan
 
 struct GestureRecognizerOptions {
   GestureSource source = GestureSource::silhouettes;
+  int num_hands = 1;
+  double relation_weight = 3;
   HandFinderOptions hands;
+  bool use_faces = false;
   double min_quality = 0.25;
   HandFeatureOptions features;
   GestureModel model = GestureModel::automatic;
@@ -75,7 +78,13 @@ struct GestureRecognizerOptions {
   template <class Self, class Visitor>
   static void visit(Self& o, Visitor&& v) {
     v("source", o.source, any_value, "what the features are taken of");
+    v("num_hands", o.num_hands, within(1, 2), "2: gestures are of both hands, or of either");
+    v("relation_weight", o.relation_weight, within(0, 1e6),
+      "of the way between two hands, in sides of the picture, beside their shapes, of length 1");
     v("hands", o.hands, any_value, "how hands are found in pictures");
+    v("use_faces", o.use_faces, any_value,
+      "where a face is seen, hands are those of that person; needs a finder of faces, to which a "
+      "palm may look like one");
     v("min_quality", o.min_quality, within(0, 1),
       "least quality of an observation that shows a hand: hands have more in any light, walls "
       "mostly less");
@@ -128,10 +137,18 @@ class HRI_API GestureRecognizer {
   /// The rows of `frames` that show a hand, see GestureFeatureComputer.
   static MatrixF features(const std::vector<HandImage>& frames, const HandFeatureOptions& options);
 
+  /// The rows of a clip (BGR) in which `source` finds the hand, or both, as `options` say.
+  static MatrixF features(Span<const ImageView> clip, const HandSource& source,
+                          const GestureRecognizerOptions& options);
+
   /// Recognises one gesture (a still is one frame) by hands that were found in its frames. No hand
-  /// in any frame gives no_input.
+  /// in any frame gives no_input. Throws InvalidArgument for a recogniser of both hands.
   [[nodiscard]] Decision recognise(Span<const HandObservation> hands) const;
-  /// The same by the frames themselves (BGR), in which `source` finds the hands.
+  /// The same by both hands (num_hands 2): spans of equal length, of the left and of the right
+  /// hand of the picture. Throws InvalidArgument where the number of hands is another.
+  [[nodiscard]] Decision recognise(Span<const HandObservation> left,
+                                   Span<const HandObservation> right) const;
+  /// The same by the frames themselves (BGR), in which `source` finds the hand, or both.
   [[nodiscard]] Decision recognise(Span<const ImageView> clip, const HandSource& source) const;
   [[nodiscard]] Decision recognise_features(ConstMatrixRefF features) const;
 

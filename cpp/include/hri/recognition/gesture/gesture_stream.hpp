@@ -23,6 +23,8 @@
 
 #include "hri/core/export.hpp"
 #include "hri/core/options.hpp"
+#include "hri/features/hand/hand_pair.hpp"
+#include "hri/features/hand/landmark_pair.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/gesture/gesture_spotter.hpp"
 
@@ -67,17 +69,19 @@ class HRI_API GestureStream {
   /// What suits a recogniser: whether its gestures begin at rest, and how their hands are found.
   static GestureStreamOptions options_for(const GestureRecognizer& recognizer);
 
-  /// Throws InvalidArgument for no stream of hands and options out of range.
+  /// `hands` gives masks of as many hands as the recogniser takes. Throws InvalidArgument for no
+  /// stream of hands and options out of range.
   GestureStream(GestureRecognizer recognizer, std::unique_ptr<HandStream> hands,
                 const GestureStreamOptions& options);
   /// Hands as the recogniser's options say, found by `source`.
   GestureStream(const GestureRecognizer& recognizer, const HandSource& source);
 
   /// The next picture (BGR) and its time; what happened with it, which is overwritten by the next
-  /// call. A recogniser of landmarks takes those of this picture, in pixels (kNumLandmarks rows,
-  /// null or no rows without a hand). Throws as GestureSpotter does.
+  /// call. A recogniser of landmarks takes those of the hands in this picture, in pixels
+  /// (kNumLandmarks rows each), the surest first: the first, or both. Throws as GestureSpotter and
+  /// LandmarkPairTracker do.
   const std::vector<GestureEvent>& push(ImageView bgr, double time_s,
-                                        const MatrixF* landmarks_px = nullptr);
+                                        Span<const MatrixF> landmarks_px = {});
 
   /// The stream has ended; preliminary decisions settle. The next stream may begin.
   const std::vector<GestureEvent>& finish();
@@ -93,14 +97,16 @@ class HRI_API GestureStream {
   struct Row {
     double time_s = 0;
     bool hand = false;
-    std::vector<float> features;
+    std::vector<float> features;  // of both hands: the left one's, the right one's; NaN: not seen
   };
   struct Span_s {
     double first_s = 0;
     double last_s = 0;
   };
 
-  void keep_row(ImageView bgr, double time_s, const MatrixF* landmarks_px);
+  void keep_row(ImageView bgr, double time_s, Span<const MatrixF> landmarks_px);
+  bool compute_hand(ImageView bgr, Span<const MatrixF> landmarks_px, Span<float> row) const;
+  bool compute_pair(ImageView bgr, Span<const MatrixF> landmarks_px, Span<float> row);
   void forget_rows(const GestureSegment& segment, double time_s);
   Row& row(std::size_t i) { return rows_[(first_ + i) % rows_.size()]; }
   [[nodiscard]] const Row& row(std::size_t i) const { return rows_[(first_ + i) % rows_.size()]; }
@@ -114,6 +120,8 @@ class HRI_API GestureStream {
   GestureRecognizer recognizer_;
   GestureStreamOptions options_;
   GestureSpotter spotter_;
+  HandPairTracker pair_;
+  LandmarkPairTracker landmark_pair_;
   std::vector<Row> rows_;  // a ring, of which `count_` from `first_` on are in use
   std::size_t first_ = 0, count_ = 0;
   std::optional<Span_s> before_;         // the segment before a pause
