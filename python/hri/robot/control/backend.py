@@ -20,6 +20,7 @@ from hri.robot.control.filming import Film, Image, OnFrame
 from hri.robot.control.playing import Playback, approach_to
 from hri.robot.control.state import Contact, Event, MotionLog, RobotState, SelfContact, SelfContacts
 from hri.robot.control.stopping import StopLatch
+from hri.robot.control.straining import PATIENCE_S, Straining
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.model.postures import require_posture
 from hri.robot.motion.checks import LIMIT_TOLERANCE_RAD, require_safe, require_safe_approach, require_within
@@ -52,7 +53,7 @@ class Robot(ABC):
     step_s : float
         Time from one command to the next.
     events : list of Event
-        What ended motions, oldest first.
+        What ended motions, and joints that could not follow, oldest first.
     on_command : callable of (time_s, positions_rad), optional
         Called before every command with the robot's time and where all joints are sent, in the thread that moves; must
         not raise. It may wait: the command is sent when it returns.
@@ -66,6 +67,7 @@ class Robot(ABC):
         self.on_command: Callable[[float, Mapping[str, float]], None] | None = None
         self._prepared: dict[Trajectory, NDArray[np.float64]] = {}
         self._touched = SelfContacts()
+        self._strain = Straining()
         self._stop = StopLatch()
         self._moves = threading.Lock()
         self._mover: int | None = None
@@ -304,6 +306,10 @@ class Robot(ABC):
         """Links that touch one another now; none for a robot without physics or such sensors."""
         return ()
 
+    def _straining(self) -> Iterable[str]:
+        """Joints at their greatest torque that are not where they were sent; none without such sensors."""
+        return ()
+
     def __enter__(self) -> Self:
         return self
 
@@ -413,6 +419,8 @@ class Robot(ABC):
                 self._touched.add(contact, self.time_s)
                 if log is not None:
                     log.touched.add(contact, self.time_s)
+            for name in self._strain.late(self._straining(), self.time_s):
+                self._event("lag", f"{name} has not followed for {PATIENCE_S:g} s, at its greatest torque", log)
         if log is not None and self._steps % max(1, round(log.period_s / self.step_s)) == 0:
             log.states.append(self._state())
 
