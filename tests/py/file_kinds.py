@@ -44,6 +44,7 @@ from hri.robot.motion.joint_trajectory import write_joint_trajectory
 from hri.robot.motion.pulse_csv import parse_pulse_csv, write_pulse_csv
 from hri.robot.motion.repair import repair_pulse_csv
 from hri.robot.motion.short_csv import check_short_csv, is_short_csv, write_short_csv
+from hri.session import read_recording
 from hri.studies.kept import read_kept
 from hri.studies.webcam import read_conditions
 
@@ -189,6 +190,7 @@ READERS: dict[str, Callable[[Any], object]] = {
     "form.csv": is_short_csv,
     "trajectory.json": read_joint_trajectory,
     "trajectory.mcap": read_joint_trajectory,
+    "session.mcap": read_recording,
     "checked.csv": check_short_csv,
     "kept.json": lambda path: read_kept(Path(path)),
     "conditions.toml": lambda path: read_conditions(["a"], Path(path)),

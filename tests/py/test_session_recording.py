@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import time
 from base64 import b64decode
 from collections.abc import Callable
 from pathlib import Path
@@ -12,6 +13,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import hri
 from conftest import RATE_HZ
@@ -21,6 +24,7 @@ from hri.live import ArraySource, ClipSource, Stalled
 from hri.robot import open_robot
 from hri.session import McapRecorder, Session, SessionOptions, decisions, read_recording, replay
 from session_people import MOTIONS, signing, speech, train_signs, train_words
+from test_hostile_files import hostile, only_hri_s_errors
 
 pytest.importorskip("cv2")
 pytest.importorskip("hri._native_vision")
@@ -210,6 +214,48 @@ def test_files_of_another_kind_are_refused(change: Callable[[bytes], bytes], tmp
         read_recording(path)
     with pytest.raises(IoError):
         read_recording(tmp_path / "none.mcap")
+
+
+@pytest.mark.parametrize("compression", ["LZ4", "ZSTD"])
+def test_a_small_file_that_unfolds_to_a_vast_one_is_refused_before_it_does(compression: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    out = writer.Writer(str(path), compression=writer.CompressionType[compression])
+    out.start()
+    out.add_metadata("hri.session", GOOD)
+    channel = out.register_channel("/hri/other", "json", 0)
+    out.add_message(channel, 0, bytes((1 << 27) + 1), 0)
+    out.finish()
+    assert path.stat().st_size < 1 << 20
+    begun = time.process_time()
+    with pytest.raises(FormatError, match=r"a\.mcap.*in a chunk"):
+        read_recording(path)
+    assert time.process_time() - begun < 0.1
+
+
+NEAR_JSON = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=3) | st.just([]) | st.just({})
+EVENTS = [
+    {"time": 1.0, "event": "motion_end", "mode": "robot", "message": "", "fault": False, "command": "flat"},
+    {"time": 2.0, "event": "asked", "mode": "session", "command": "resume"},
+    {"time": 3.0, "event": "tick", "mode": "session"},
+    {"time": 4.0, "event": "overflow", "mode": "speech", "lost": 3},
+]
+
+
+@hostile
+@given(
+    changes=st.lists(st.tuples(st.sampled_from([*GOOD, "more"]), NEAR_JSON), max_size=2),
+    option=st.tuples(st.sampled_from(["window_s", "fusion", "stop_labels"]), NEAR_JSON) | st.none(),
+    events=st.lists(st.tuples(st.sampled_from(EVENTS), st.sampled_from([*EVENTS[0], "x"]), NEAR_JSON), max_size=4),
+)
+def test_whatever_a_recording_says_it_is_replayed_or_refused(
+    tmp_path: Path, changes: list[Any], option: tuple[str, Any] | None, events: list[Any]
+) -> None:
+    about = GOOD | {name: json.dumps(value) for name, value in changes}
+    if option is not None:
+        about["options"] = json.dumps({"fusion": {}} | dict([option]))
+    rows = [("/hri/events", json.dumps(event | {name: value}).encode()) for event, name, value in events]
+    path = made(tmp_path / "a.mcap", about, rows)
+    only_hri_s_errors(lambda: list(replay(read_recording(path))))
 
 
 def test_a_replay_needs_the_recognisers_and_sound_samples(words: Any, tmp_path: Path) -> None:

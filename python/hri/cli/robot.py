@@ -206,8 +206,9 @@ def play(
     if log_path is not None:
         log.write(log_path)
         note(f"log: {log_path}")
-    if opened.events:
-        sys.exit(EXIT_FELL if opened.events[-1].kind == "fall" else EXIT_SIGNAL + signals[0])
+    ended = [event for event in opened.events if event.ended_motion]
+    if ended:
+        sys.exit(EXIT_FELL if ended[-1].kind == "fall" else EXIT_SIGNAL + signals[0])
 
 
 @robot.command(short_help="Film a motion.")

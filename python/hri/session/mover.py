@@ -259,7 +259,7 @@ class Mover:
             self._robot.end_motion()
         if job.steps == 0:
             self._note("motion_start", job, at_s, job.cause)
-        elif not job.halting and len(self._robot.events) > job.num_events:
+        elif not job.halting and any(event.ended_motion for event in self._robot.events[job.num_events :]):
             job.halting = True
             if job.halted_by is not None:
                 self._note("halt", job, at_s, job.halted_by)

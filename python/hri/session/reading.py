@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-import io
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import Any
 
 from hri.core.errors import Error, FormatError
 from hri.core.files import parse_json, read_bytes
+from hri.core.mcap_records import mcap_records
 from hri.core.optional import import_optional
 from hri.fusion import FusionOptions
 from hri.session.options import SessionOptions
@@ -20,6 +21,7 @@ from hri.session.recording import EVENTS, FORMAT, PCM_16, PCM_FLOAT, PICTURES, S
 
 MAX_BYTES = 1 << 31
 _MAX_RATE_HZ = 1_000_000
+_MAX_CHUNK_BYTES = 1 << 27
 
 
 @dataclass(frozen=True)
@@ -79,25 +81,42 @@ def read_recording(path: str | PathLike[str]) -> Recording:
     IoError
         For a file that cannot be read.
     FormatError
-        For another file, one that is damaged, or one of more than 2 GB; it names the message.
+        For another file, one that is damaged, or one that holds more than 2 GB, or more than
+        128 MB in a chunk; it names the message.
     """
-    mcap = import_optional("mcap.reader", "mcap", "to read a recorded session")
+    import_optional("mcap", "mcap", "to read a recorded session")
     path = Path(path)
-    data = io.BytesIO(read_bytes(path, MAX_BYTES))
+    data = read_bytes(path, MAX_BYTES)
     try:
-        reader = mcap.make_reader(data, validate_crcs=True)
-        about = next((one.metadata for one in reader.iter_metadata() if one.name == FORMAT), None)
-        if about is None:
-            raise wrong(path, "it has no metadata of a session")
-        recording = _begun(path, about)
-        topics = [EVENTS, SOUND, PICTURES]
-        for _, channel, message in reader.iter_messages(topics, log_time_order=False):
-            _add(recording, channel.topic, parse_json(message.data.decode(), f"{path}: {channel.topic}"))
+        recording = _begun(path, _about(path, data))
+        for topic, message in _messages(data):
+            _add(recording, topic, parse_json(message.decode(), f"{path}: {topic}"))
     except Error:
         raise
     except Exception as error:  # the library raises many kinds for what is damaged
         raise wrong(path, f"{type(error).__name__}: {error}") from error
     return recording
+
+
+def _about(path: Path, data: bytes) -> dict[str, str]:
+    from mcap.records import Metadata
+
+    for record in mcap_records(data, MAX_BYTES, _MAX_CHUNK_BYTES):
+        if isinstance(record, Metadata) and record.name == FORMAT:
+            return record.metadata
+    raise wrong(path, "it has no metadata of a session")
+
+
+def _messages(data: bytes) -> Iterator[tuple[str, bytes]]:
+    """Topic and content of what a replay needs, in the order of the file."""
+    from mcap.records import Channel, Message
+
+    topics: dict[int, str] = {}
+    for record in mcap_records(data, MAX_BYTES, _MAX_CHUNK_BYTES):
+        if isinstance(record, Channel) and record.topic in (EVENTS, SOUND, PICTURES):
+            topics[record.id] = record.topic
+        elif isinstance(record, Message) and record.channel_id in topics:
+            yield topics[record.channel_id], record.data
 
 
 def _begun(path: Path, about: dict[str, str]) -> Recording:

@@ -47,7 +47,7 @@ class Robot(CommandedJoints):
     step_s : float
         Time from one command to the next.
     events : list of Event
-        What ended motions, oldest first.
+        What ended motions, and joints that could not follow, oldest first.
     on_command : callable of (time_s, positions_rad), optional
         Called before every command with the robot's time and where all joints are sent, in the thread that moves; must
         not raise. It may wait: the command is sent when it returns.

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from hri.robot.control.braking import brake
 from hri.robot.control.state import Contact, Event, MotionLog, RobotState, SelfContact, SelfContacts
 from hri.robot.control.stopping import StopLatch
+from hri.robot.control.straining import PATIENCE_S, Straining
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.motion.checks import LIMIT_TOLERANCE_RAD
 
@@ -44,6 +45,7 @@ class CommandedJoints(ABC):
         self.events: list[Event] = []
         self.on_command: Callable[[float, Mapping[str, float]], None] | None = None
         self._touched = SelfContacts()
+        self._strain = Straining()
         self._stop = StopLatch()
         self._link_lost = False
         self._commanded: dict[str, float] = {}
@@ -84,6 +86,10 @@ class CommandedJoints(ABC):
         """Links that touch one another now; none for a robot without physics or such sensors."""
         return ()
 
+    def _straining(self) -> Iterable[str]:
+        """Joints at their greatest torque that are not where they were sent; none without such sensors."""
+        return ()
+
     def _brake(self, names: tuple[str, ...], before: list[float], now: list[float], log: MotionLog | None) -> None:
         """Bring joints to rest that were sent to these two positions, a step apart."""
         limits = self.table.limits_rad[[self.table.index(name) for name in names]] + _TOLERANCES_RAD
@@ -118,6 +124,8 @@ class CommandedJoints(ABC):
                 self._touched.add(contact, self.time_s)
                 if log is not None:
                     log.touched.add(contact, self.time_s)
+            for name in self._strain.late(self._straining(), self.time_s):
+                self._event("lag", f"{name} has not followed for {PATIENCE_S:g} s, at its greatest torque", log)
         if log is not None and self._steps % max(1, round(log.period_s / self.step_s)) == 0:
             log.states.append(self._state())
 

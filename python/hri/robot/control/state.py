@@ -58,11 +58,19 @@ class SelfContacts:
 
 @dataclass(frozen=True)
 class Event:
-    """Something that ended a motion: `kind` is "stop", "fall", or "fault", a robot that takes no commands."""
+    """Something that ended a motion: `kind` is "stop", "fall", or "fault", a robot that takes no commands.
+
+    "lag" ends none: a joint could not follow, for longer than a quarter of a second, at its greatest torque.
+    """
 
     time_s: float
     kind: str
     message: str
+
+    @property
+    def ended_motion(self) -> bool:
+        """Whether the motion under way ended by it."""
+        return self.kind != "lag"
 
 
 @dataclass(frozen=True)

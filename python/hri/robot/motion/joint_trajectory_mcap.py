@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Any
 
 from hri.core.errors import FormatError
+from hri.core.mcap_records import mcap_records
 from hri.core.optional import import_optional
 
 MESSAGE_TYPE = "trajectory_msgs/msg/JointTrajectory"
@@ -71,7 +71,7 @@ def _messages(data: bytes, max_bytes: int) -> Iterator[bytes]:
 
     schemas: dict[int, str] = {}
     ours: set[int] = set()
-    for record in _records(data, max_bytes):
+    for record in mcap_records(data, max_bytes, max_bytes):
         if isinstance(record, Schema):
             schemas[record.id] = record.name
         elif isinstance(record, Channel):
@@ -79,40 +79,6 @@ def _messages(data: bytes, max_bytes: int) -> Iterator[bytes]:
                 ours.add(record.id)
         elif isinstance(record, Message) and record.channel_id in ours:
             yield record.data
-
-
-def _records(data: bytes, max_bytes: int) -> Iterator[Any]:
-    """All records; a chunk is decompressed no further than it says it holds."""
-    from mcap.records import Chunk
-    from mcap.stream_reader import StreamReader, breakup_chunk
-
-    reader = StreamReader(io.BytesIO(data), emit_chunks=True, validate_crcs=True, record_size_limit=len(data))
-    left = max_bytes
-    for record in reader.records:
-        if not isinstance(record, Chunk):
-            yield record
-            continue
-        left -= record.uncompressed_size
-        if left < 0:
-            raise ValueError(f"holds more than {max_bytes} bytes")
-        yield from breakup_chunk(replace(record, compression="", data=_decompressed(record)), validate_crc=True)
-
-
-def _decompressed(chunk: Any) -> bytes:
-    size = chunk.uncompressed_size
-    if chunk.compression == "lz4":
-        lz4 = import_optional("lz4.frame", "mcap", "to read a motion from MCAP")
-        data: bytes = lz4.LZ4FrameDecompressor().decompress(chunk.data, max_length=size + 1)
-    elif chunk.compression == "zstd":
-        zstd = import_optional("zstandard", "mcap", "to read a motion from MCAP")
-        data = zstd.ZstdDecompressor().stream_reader(io.BytesIO(chunk.data)).read(size + 1)
-    elif chunk.compression == "":
-        data = chunk.data
-    else:
-        raise ValueError(f"compression {chunk.compression!r} is none of lz4, zstd")
-    if len(data) != size:
-        raise ValueError(f"a chunk holds {len(data)} bytes or more, not {size}")
-    return data
 
 
 def _decoder(definition: str) -> Callable[[bytes], Any]:

@@ -35,6 +35,9 @@ _GAIN_FREE_PER_S = 10.0
 _GAIN_FIXED_PER_S = 100.0
 _SETTLE_S = 1.0
 _BALANCE_STEPS = 5
+# Of a joint that cannot follow: the share of its torque that it uses, and how far it is from where it was sent.
+_STRAINING_SHARE = 0.98
+_STRAINING_RAD = 0.1
 
 
 class PyBulletRobot(Robot):
@@ -336,6 +339,16 @@ class PyBulletRobot(Robot):
             if point[9] > 0.0:
                 first, second = sorted((self._links[point[3]], self._links[point[4]]))
                 yield Contact(first, second, point[9])
+
+    def _straining(self) -> list[str]:
+        states = self._bullet.getJointStates(self._body, self._moving, physicsClientId=self._client)
+        most = _STRAINING_SHARE * self.table.max_torque_n_m
+        joints = zip(self._names, states, self._corrections, self._offsets, strict=True)
+        return [
+            name
+            for name, state, more, offset in joints
+            if abs(state[3]) >= most and abs(self._commanded[name] + more + offset - state[0]) > _STRAINING_RAD
+        ]
 
     def _on_feet_alone(self) -> bool:
         points = self._bullet.getContactPoints(self._body, self._floor, physicsClientId=self._client)
