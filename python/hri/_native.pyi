@@ -100,6 +100,8 @@ __all__: list[str] = [
     "Knn",
     "KnnOptions",
     "LEARNED_STILL_CHANGE",
+    "LandmarkPairOptions",
+    "LandmarkPairTracker",
     "Lattice",
     "LatticeOptions",
     "Lda",
@@ -203,6 +205,7 @@ __all__: list[str] = [
     "normalise_time",
     "num_threads",
     "orientation_histogram",
+    "pair_rows",
     "parse_wav",
     "possibilities",
     "possibility_of",
@@ -221,6 +224,7 @@ __all__: list[str] = [
     "spectral_envelope",
     "swt",
     "trace_contour",
+    "track_rows",
     "wavedec",
     "wavedec2",
     "wavelet_filters",
@@ -1962,6 +1966,66 @@ class TwoHandFeatureOptions:
         """
     @use_relation.setter
     def use_relation(self, arg1: typing.Any) -> None: ...
+
+class LandmarkPairOptions:
+    """
+    How landmarks of two hands are kept apart.
+
+    Parameters
+    ----------
+    min_apart : float, default 0.35
+        joints that lie closer to those of another hand are of the same hand, found twice; root mean square, in sizes of the hand; 0..10
+    num_kept_frames : int, default 10
+        frames for which the place of a hand out of sight is kept; 0..1000
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(self, *, min_apart: float = 0.35, num_kept_frames: int = 10) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def min_apart(self) -> float:
+        """
+        joints that lie closer to those of another hand are of the same hand, found twice; root mean square, in sizes of the hand
+        """
+    @min_apart.setter
+    def min_apart(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_kept_frames(self) -> int:
+        """
+        frames for which the place of a hand out of sight is kept
+        """
+    @num_kept_frames.setter
+    def num_kept_frames(self, arg1: typing.Any) -> None: ...
+
+class LandmarkPairTracker:
+    """
+    Tracks both hands in a stream of landmarks.
+    """
+    def __init__(self, options: LandmarkPairOptions = ...) -> None: ...
+    def push(
+        self,
+        hands: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        width_px: typing.SupportsInt | typing.SupportsIndex,
+    ) -> typing.Annotated[list[int], "FixedSize(2)"]:
+        """
+        Which of the hands found, each float32 of shape (21, 2) in pixels, is the left one of the picture, and which the right one; -1: not seen. Raises InvalidArgument.
+        """
+    def reset(self) -> None:
+        """
+        Forgets both hands.
+        """
 
 class TwoHandFeatureComputer:
     """
@@ -6492,8 +6556,14 @@ class GestureRecognizerOptions:
     ----------
     source : {'silhouettes', 'landmarks'}, default 'silhouettes'
         what the features are taken of
+    num_hands : int, default 1
+        2: gestures are of both hands, or of either; 1..2
+    relation_weight : float, default 3.0
+        of the way between two hands, in sides of the picture, beside their shapes, of length 1; 0..1000000
     hands : HandFinderOptions or dict
         how hands are found in pictures
+    use_faces : bool, default False
+        where a face is seen, hands are those of that person; needs a finder of faces, to which a palm may look like one
     min_quality : float, default 0.25
         least quality of an observation that shows a hand: hands have more in any light, walls mostly less; 0..1
     features : HandFeatureOptions or dict
@@ -6534,7 +6604,10 @@ class GestureRecognizerOptions:
         self,
         *,
         source: typing.Literal["silhouettes", "landmarks"] = "silhouettes",
+        num_hands: int = 1,
+        relation_weight: float = 3.0,
         hands: HandFinderOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        use_faces: bool = False,
         min_quality: float = 0.25,
         features: HandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
         model: typing.Literal["svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf", "automatic"] = "automatic",
@@ -6612,6 +6685,13 @@ class GestureRecognizerOptions:
     @num_components.setter
     def num_components(self, arg1: typing.Any) -> None: ...
     @property
+    def num_hands(self) -> int:
+        """
+        2: gestures are of both hands, or of either
+        """
+    @num_hands.setter
+    def num_hands(self, arg1: typing.Any) -> None: ...
+    @property
     def num_neighbours(self) -> int:
         """
         k of knn
@@ -6640,6 +6720,13 @@ class GestureRecognizerOptions:
     @rbf_sharpness.setter
     def rbf_sharpness(self, arg1: typing.Any) -> None: ...
     @property
+    def relation_weight(self) -> float:
+        """
+        of the way between two hands, in sides of the picture, beside their shapes, of length 1
+        """
+    @relation_weight.setter
+    def relation_weight(self, arg1: typing.Any) -> None: ...
+    @property
     def seed(self) -> int:
         """
         of everything random in training
@@ -6660,6 +6747,13 @@ class GestureRecognizerOptions:
         """
     @svm_cost.setter
     def svm_cost(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_faces(self) -> bool:
+        """
+        where a face is seen, hands are those of that person; needs a finder of faces, to which a palm may look like one
+        """
+    @use_faces.setter
+    def use_faces(self, arg1: typing.Any) -> None: ...
 
 class GestureFeatureComputer:
     """
@@ -6671,6 +6765,10 @@ class GestureFeatureComputer:
     def compute(self, hands: collections.abc.Sequence[HandObservation]) -> numpy.typing.NDArray[numpy.float32]:
         """
         float32, shape (num_hands, num_features).
+        """
+    def compute_every(self, hands: collections.abc.Sequence[HandObservation]) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        The same with a row for every frame, all NaN where it shows no hand.
         """
     @property
     def num_features(self) -> int:
@@ -9309,6 +9407,15 @@ def orientation_histogram(
     Histograms, float32; of several cells normalised by blocks, of one by its length.
     """
 
+def pair_rows(
+    left: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    right: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    relation_weight: typing.SupportsFloat | typing.SupportsIndex,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Rows of a gesture of both hands, float32, a row for every frame that shows a hand. left, right: rows of each in every frame, all NaN where it is not seen. Raises InvalidArgument.
+    """
+
 def parse_wav(data: bytes, name: str = "bytes") -> Wav: ...
 def possibilities(
     log_densities: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
@@ -9494,6 +9601,15 @@ def swt(
 def trace_contour(mask: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> numpy.typing.NDArray[numpy.int32]:
     """
     Outer outline of the largest region, clockwise in image axes: int32, shape (num_points, 2), x and y.
+    """
+
+def track_rows(
+    tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    scale_px: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    num_hands: typing.SupportsInt | typing.SupportsIndex = 2,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Rows of a gesture of which only places are known, for GestureRecognizer.fit_features: float32, shape (num_frames, num_features). tracks, scale_px: as of TwoHandFeatureComputer.compute. Raises InvalidArgument.
     """
 
 @typing.overload
