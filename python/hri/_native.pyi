@@ -6572,6 +6572,8 @@ class GestureRecognizerOptions:
         kind of the models; a trained recogniser says which one automatic became
     svm_cost : float, default 1.0
         C of the linear support vector machine (svm, trajectory); 0..1e+12, 0 excluded
+    turn_degrees : float, default 30.0
+        training gestures are also learned with the hand turned by so much to either side, in the plane of the picture (trajectory); 0: only as they are; 0..90
     rbf_cost : float, default 10.0
         C of rbf; 0..1e+12, 0 excluded
     rbf_sharpness : float, default 1.5
@@ -6586,7 +6588,7 @@ class GestureRecognizerOptions:
         size of the codebook (ptbhmm); 2..4096
     max_iterations : int, default 12
         iterations of Baum-Welch at most; 1..1000
-    false_reject_rate : float, default 0.02
+    false_reject_rate : float, default 0.05
         share of correct held-out gestures that the threshold may reject; 0..0.5
     seed : int, default 0
         of everything random in training; 0..2^64 - 1
@@ -6612,6 +6614,7 @@ class GestureRecognizerOptions:
         features: HandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
         model: typing.Literal["svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf", "automatic"] = "automatic",
         svm_cost: float = 1.0,
+        turn_degrees: float = 30.0,
         rbf_cost: float = 10.0,
         rbf_sharpness: float = 1.5,
         num_components: int = 40,
@@ -6619,7 +6622,7 @@ class GestureRecognizerOptions:
         num_states: int = 6,
         num_codewords: int = 64,
         max_iterations: int = 12,
-        false_reject_rate: float = 0.02,
+        false_reject_rate: float = 0.05,
         seed: int = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -6748,6 +6751,12 @@ class GestureRecognizerOptions:
     @svm_cost.setter
     def svm_cost(self, arg1: typing.Any) -> None: ...
     @property
+    def turn_degrees(self) -> float:
+        """
+        training gestures are also learned with the hand turned by so much to either side, in the plane of the picture (trajectory); 0: only as they are
+        """
+    @turn_degrees.setter
+    def turn_degrees(self, arg1: typing.Any) -> None: ...
     def use_faces(self) -> bool:
         """
         where a face is seen, hands are those of that person; needs a finder of faces, to which a palm may look like one

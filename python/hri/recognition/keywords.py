@@ -236,6 +236,7 @@ class GestureRecognizerKeywords(TypedDict, total=False):
     features: _native.HandFeatureOptions | HandFeatureKeywords
     model: Literal["svm", "bayes", "knn", "hmm", "ptbhmm", "trajectory", "rbf", "automatic"]
     svm_cost: float
+    turn_degrees: float
     rbf_cost: float
     rbf_sharpness: float
     num_components: int

@@ -4,10 +4,11 @@
 // Resampled-trajectory classifier, for dynamic gestures with few examples: a gesture is a
 // trajectory through shapes and places, one vector for a linear support vector machine. A gesture
 // that begins at rest, pauses and moves again is also learned from its final stroke alone, as a
-// signer in a stream may take up its starting pose long before. Clips held at their first frame are
-// negative examples, so that shape and light at the beginning count for nothing. Confidence
-// features are the margin, the distance to the mean trajectory, and the displacement of the hand;
-// non-gestures are learned from gestures and the rests before them.
+// signer in a stream may take up its starting pose long before. Copies with the hand turned stand
+// for the angles at which others hold theirs. Clips held at their first frame are negative
+// examples, so that shape and light at the beginning count for nothing. Confidence features are the
+// margin, the distance to the mean trajectory, and the displacement of the hand; non-gestures are
+// learned from gestures and the rests before them.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,6 +22,7 @@
 #include "recognition/gesture/gesture_scorer.hpp"
 #include "recognition/gesture/trajectory.hpp"
 #include "recognition/gesture/trajectory_centres.hpp"
+#include "recognition/gesture/turned_trajectories.hpp"
 
 namespace hri::detail {
 namespace {
@@ -28,7 +30,7 @@ namespace {
 constexpr const char* kMotion = "path.movement.";
 constexpr const char* kStartsAtRest = "path.starts_at_rest";
 constexpr const char* kPauses = "path.pauses";
-constexpr float kDistanceWeight = 0.5F;  // of the log of a squared distance, beside a margin
+constexpr float kDistanceWeight = 1.0F;  // of the log of a squared distance, beside a margin
 
 // How far gestures (1) and the rests before them (0) get.
 class Distances {
@@ -162,14 +164,16 @@ std::shared_ptr<const GestureScorer> train_trajectory_scorer(
     }
   }
   const auto num_classes = static_cast<int>(per_class.size());
+  // Of gestures as they were shown: turned copies would make far movements look usual.
+  TrajectoryCentres centres = TrajectoryCentres::train(trajectories, num_classes);
+  append_turned(options, num_columns, &trajectories);
   LinearSvmOptions svm;
   svm.cost = options.svm_cost;
   svm.seed = options.seed;
   svm.should_stop = should_stop;
-  return std::make_shared<TrajectoryScorer>(separate(trajectories, still, num_classes, svm),
-                                            TrajectoryCentres::train(trajectories, num_classes),
-                                            shape_scale, 2 * num_at_rest > num_gestures,
-                                            2 * num_pausing > num_gestures, distances.motion());
+  return std::make_shared<TrajectoryScorer>(
+      separate(trajectories, still, num_classes, svm), std::move(centres), shape_scale,
+      2 * num_at_rest > num_gestures, 2 * num_pausing > num_gestures, distances.motion());
 }
 
 std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& file,

@@ -64,6 +64,7 @@ struct GestureRecognizerOptions {
   HandFeatureOptions features;
   GestureModel model = GestureModel::automatic;
   double svm_cost = 1.0;
+  double turn_degrees = 30;
   double rbf_cost = 10;
   double rbf_sharpness = 1.5;
   int num_components = 40;
@@ -71,7 +72,7 @@ struct GestureRecognizerOptions {
   int num_states = 6;
   int num_codewords = 64;
   int max_iterations = 12;
-  double false_reject_rate = 0.02;
+  double false_reject_rate = 0.04;
   std::uint64_t seed = 0;
 
   static constexpr const char* kName = "GestureRecognizerOptions";
@@ -93,6 +94,9 @@ struct GestureRecognizerOptions {
       "kind of the models; a trained recogniser says which one automatic became");
     v("svm_cost", o.svm_cost, above(0, 1e12),
       "C of the linear support vector machine (svm, trajectory)");
+    v("turn_degrees", o.turn_degrees, within(0, 90),
+      "training gestures are also learned with the hand turned by so much to either side, in the "
+      "plane of the picture (trajectory); 0: only as they are");
     v("rbf_cost", o.rbf_cost, above(0, 1e12), "C of rbf");
     v("rbf_sharpness", o.rbf_sharpness, above(0, 1e6), "of its kernel, see RbfClassifierOptions");
     v("num_components", o.num_components, within(1, 1000),
