@@ -41,8 +41,11 @@ step "tables and results are up to date" "$python" tools/generate_tables.py --ch
 step "tables of options are up to date" "$python" tools/generate_option_tables.py --check
 step shellcheck shellcheck run tools/*.sh .ci/run
 # Only findings; the commands and counts of suppressed warnings are noise.
+# A configuration of its own: the one of the build may compile several files as one.
 tidy() {
-  "$python" .venv/bin/run-clang-tidy.py -clang-tidy-binary .venv/bin/clang-tidy -quiet -hide-progress -p build/dev \
+  cmake -S . -B build/tidy -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DHRI_BUILD_PYTHON=ON \
+    -DPython_EXECUTABLE="$PWD/$python" -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" >build/tidy.log || return
+  "$python" .venv/bin/run-clang-tidy.py -clang-tidy-binary .venv/bin/clang-tidy -quiet -hide-progress -p build/tidy \
     -checks="$checks" \
     -extra-arg=-Wno-ignored-optimization-argument -j "$(nproc)" "$PWD/(cpp/src|bindings)/.*\.cpp$" 2>/dev/null
 }

@@ -18,9 +18,8 @@ namespace {
 
 using Options = hri::CepstraOptions;
 using Computer = hri::CepstraComputer;
-using Stream = hri::CepstraStream;
 
-void bind_options(py::module_& m) {
+void bind_cepstra_options(py::module_& m) {
   auto cepstra = hri_bind::bind_options<Options>(m, "Cepstra of speech (MFCC, HFCC, LPCC).");
   cepstra
       .def_static("htk", &Options::htk, py::arg("sample_rate_hz") = 16000,
@@ -61,16 +60,19 @@ py::array_t<float> first_rows(const hri::MatrixF& rows, int count) {
   return out;
 }
 
-void bind_stream(py::module_& m) {
-  py::class_<Stream>(m, "CepstraStream",
-                     "Cepstra of audio that comes in blocks: the numbers of CepstraComputer, to "
-                     "the bit. One thread at a time.")
+void bind_cepstra_stream(py::module_& m) {
+  py::class_<hri::CepstraStream>(
+      m, "CepstraStream",
+      "Cepstra of audio that comes in blocks: the numbers of CepstraComputer, to "
+      "the bit. One thread at a time.")
       .def(py::init<const Options&>(), py::arg("options"))
-      .def_property_readonly("options", &Stream::options, "As passed, with defaults filled in.")
-      .def_property_readonly("num_features", &Stream::num_features, "Columns of the features.")
+      .def_property_readonly("options", &hri::CepstraStream::options,
+                             "As passed, with defaults filled in.")
+      .def_property_readonly("num_features", &hri::CepstraStream::num_features,
+                             "Columns of the features.")
       .def(
           "push",
-          [](Stream& self, const hri_bind::FloatArray& audio) {
+          [](hri::CepstraStream& self, const hri_bind::FloatArray& audio) {
             const auto samples = hri_bind::as_span(audio, "audio");
             hri::MatrixF rows(self.max_frames(samples.size()), self.num_features());
             int count = 0;
@@ -83,14 +85,14 @@ void bind_stream(py::module_& m) {
           py::arg("audio"), "Frames that are now complete, float32, shape (any, num_features).")
       .def(
           "finish",
-          [](Stream& self, bool keep_normalisation) {
+          [](hri::CepstraStream& self, bool keep_normalisation) {
             hri::MatrixF rows(self.max_frames(0), self.num_features());
             const int count = self.finish(rows, keep_normalisation);
             return first_rows(rows, count);
           },
           py::arg("keep_normalisation") = false,
           "The frames that are left; then a new utterance may begin.")
-      .def("reset", &Stream::reset, py::arg("keep_normalisation") = false,
+      .def("reset", &hri::CepstraStream::reset, py::arg("keep_normalisation") = false,
            "Ready for the next utterance; the running normalisation may go on.");
 }
 
@@ -123,9 +125,9 @@ void bind_linear_prediction(py::module_& m) {
 }  // namespace
 
 void bind_speech_features(py::module_& m) {
-  bind_options(m);
+  bind_cepstra_options(m);
   bind_computer(m);
-  bind_stream(m);
+  bind_cepstra_stream(m);
   bind_linear_prediction(m);
   m.def(
       "spectral_envelope",

@@ -80,7 +80,7 @@ void bind_models(py::module_& m) {
           "kind", [](const ModelSet& self) { return self.kind.text(); }, "Of the frames.");
 }
 
-void bind_words(py::module_& m) {
+void bind_htk_words(py::module_& m) {
   py::class_<Pronunciation>(m, "HtkPronunciation", "A word and the models that it is made of.")
       .def(py::init([](std::string word, std::vector<std::string> models,
                        const std::optional<std::string>& output, double probability) {
@@ -192,6 +192,6 @@ void bind_recognizer(py::module_& m) {
 
 void bind_htk_models(py::module_& m) {
   bind_models(m);
-  bind_words(m);
+  bind_htk_words(m);
   bind_recognizer(m);
 }

@@ -49,7 +49,7 @@ py::class_<Stream> bind_stream(py::module_& m, const char* name, const char* doc
   return cls;
 }
 
-void bind_streams(py::module_& m) {
+void bind_hmm_streams(py::module_& m) {
   bind_stream<hri::DiscreteHmmStream, hri::DiscreteHmm>(
       m, "DiscreteHmmStream", "Scores of several DiscreteHmm while the symbols still arrive.")
       .def("push", &hri::DiscreteHmmStream::push, py::arg("symbol"),
@@ -124,6 +124,6 @@ void bind_state_choice(py::module_& m) {
 }  // namespace
 
 void bind_hmm_tools(py::module_& m) {
-  bind_streams(m);
+  bind_hmm_streams(m);
   bind_state_choice(m);
 }

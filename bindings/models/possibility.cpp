@@ -23,7 +23,7 @@ using hri_bind::to_array;
 namespace {
 
 using Set = hri::PossibilisticHmmSet;
-using Options = hri::PossibilisticHmmOptions;
+using SetOptions = hri::PossibilisticHmmOptions;
 
 template <class Model>
 py::array_t<float> scores_of(const Model& self, const py::array& symbols) {
@@ -40,7 +40,7 @@ py::array_t<float> scores_of(const Model& self, const py::array& symbols) {
 void bind_set(py::module_& m) {
   using Rule = hri::PossibilisticRule;
   hri_bind::bind_options<Rule>(m, "How a PossibilisticHmmSet is scored.");
-  hri_bind::bind_options<Options>(m, "Options of PossibilisticHmmSet.");
+  hri_bind::bind_options<SetOptions>(m, "Options of PossibilisticHmmSet.");
   py::class_<Set> cls(
       m, "PossibilisticHmmSet",
       "Possibility-theory HMMs of all classes, trained and scaled together (thesis chapter 4).");
@@ -50,7 +50,7 @@ void bind_set(py::module_& m) {
           "by the largest over all classes and states (eq. 5.14).");
   cls.def_static(
       "train",
-      [](const std::vector<std::vector<py::array>>& per_class, Options o) {
+      [](const std::vector<std::vector<py::array>>& per_class, SetOptions o) {
         std::vector<std::vector<hri::SymbolSequence>> symbols;
         symbols.reserve(per_class.size());
         for (const auto& sequences : per_class) symbols.push_back(as_symbols(sequences));
@@ -65,7 +65,7 @@ void bind_set(py::module_& m) {
           "The set with one class more, which comes last; no other class is trained again.");
   cls.def(
       "with_class",
-      [](const Set& self, const std::vector<py::array>& sequences, Options o) {
+      [](const Set& self, const std::vector<py::array>& sequences, SetOptions o) {
         const std::vector<hri::SymbolSequence> symbols = as_symbols(sequences);
         o.should_stop = hri_bind::interrupted;
         const py::gil_scoped_release release;
@@ -220,7 +220,7 @@ void bind_fixed_point(py::module_& m) {
       .def_property_readonly("units", &Model::units, "Integer steps in one natural-log unit.");
 }
 
-void bind_stream(py::module_& m) {
+void bind_possibility_stream(py::module_& m) {
   using Stream = hri::PossibilisticHmmStream;
   py::class_<Stream>(m, "PossibilisticHmmStream",
                      "Scores of a PossibilisticHmmSet while the symbols come in.")
@@ -254,5 +254,5 @@ void bind_possibilistic(py::module_& m) {
   bind_set(m);
   bind_gaussian_set(m);
   bind_fixed_point(m);
-  bind_stream(m);
+  bind_possibility_stream(m);
 }

@@ -24,12 +24,12 @@ namespace {
 using hri_bind::as_span;
 using hri_bind::FloatArray;
 
-hri::ConnectedWordRecognizer train(const std::vector<FloatArray>& samples,
-                                   const std::vector<int>& sample_rates_hz,
-                                   const std::vector<std::string>& labels,
-                                   const std::vector<std::string>& groups,
-                                   const hri::ConnectedWordRecognizerOptions& options,
-                                   const std::function<void(int, int)>& progress) {
+hri::ConnectedWordRecognizer train_connected(const std::vector<FloatArray>& samples,
+                                             const std::vector<int>& sample_rates_hz,
+                                             const std::vector<std::string>& labels,
+                                             const std::vector<std::string>& groups,
+                                             const hri::ConnectedWordRecognizerOptions& options,
+                                             const std::function<void(int, int)>& progress) {
   hri::require(samples.size() == labels.size() && samples.size() == sample_rates_hz.size() &&
                    samples.size() == groups.size(),
                "X, sample_rate_hz, y and groups differ in length");
@@ -85,7 +85,7 @@ void bind_connected_words(py::module_& m) {
       .def_readonly("notes", &hri::Transcript::notes, "What was converted or assumed on the way.");
   py::class_<hri::ConnectedWordRecognizer>(m, "ConnectedWordRecognizer",
                                            "Connected words; hri.ConnectedWordRecognizer wraps it.")
-      .def_static("train", &train, py::arg("samples"), py::arg("sample_rates_hz"),
+      .def_static("train", &train_connected, py::arg("samples"), py::arg("sample_rates_hz"),
                   py::arg("labels"), py::arg("groups"), py::arg("options"),
                   py::arg("progress") = nullptr)
       .def_static(

@@ -14,6 +14,7 @@
 #include "core/paths.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
+#include "models/model_inputs.hpp"
 
 namespace py = pybind11;
 
@@ -24,12 +25,6 @@ using hri_bind::as_matrix;
 using hri_bind::as_span;
 using hri_bind::ByteArray;
 using hri_bind::FloatArray;
-
-// Polled once a training iteration: raises what Ctrl-C left pending.
-bool python_wants_to_stop() {
-  const py::gil_scoped_acquire gil;
-  return PyErr_CheckSignals() != 0;
-}
 
 hri::TrainingProgress with_gil(const std::function<void(int, int)>& progress) {
   if (!progress) return {};
@@ -105,7 +100,7 @@ hri::WordRecognizer with_word(const hri::WordRecognizer& self, const std::string
   const auto words = as_word_samples(clips, sample_rates_hz,
                                      std::vector<std::string>(clips.size(), label), {}, "clips");
   const py::gil_scoped_release release;
-  return self.with_word(words, python_wants_to_stop);
+  return self.with_word(words, hri_bind::interrupted);
 }
 
 hri::WordRecognizer train_words(
@@ -118,7 +113,7 @@ hri::WordRecognizer train_words(
   const auto words = as_word_samples(samples, sample_rates_hz, labels, groups, "X");
   const auto others = as_word_samples(fillers, filler_rates_hz, filler_labels, {}, "fillers");
   const py::gil_scoped_release release;
-  return hri::WordRecognizer::train(words, options, with_gil(progress), python_wants_to_stop,
+  return hri::WordRecognizer::train(words, options, with_gil(progress), hri_bind::interrupted,
                                     others, embedding);
 }
 
@@ -233,7 +228,7 @@ hri::GestureRecognizer train_gestures(const std::vector<FloatArray>& features,
     samples.push_back({as_matrix(features[i], "features"), labels[i], groups[i]});
   }
   const py::gil_scoped_release release;
-  return hri::GestureRecognizer::train(samples, options, with_gil(progress), python_wants_to_stop);
+  return hri::GestureRecognizer::train(samples, options, with_gil(progress), hri_bind::interrupted);
 }
 
 py::array_t<float> gesture_features(const std::vector<ByteArray>& greys,

@@ -32,11 +32,12 @@ std::vector<hri::SignedWordSpan> spans_of(const Spans& words) {
   return spans;
 }
 
-hri::SentenceRecognizer train(const std::vector<FloatArray>& tracks,
-                              const std::vector<Spans>& words, const std::vector<double>& scales_px,
-                              const std::vector<std::string>& groups,
-                              const hri::SentenceRecognizerOptions& options,
-                              const std::function<void(int, int)>& progress) {
+hri::SentenceRecognizer train_sentences(const std::vector<FloatArray>& tracks,
+                                        const std::vector<Spans>& words,
+                                        const std::vector<double>& scales_px,
+                                        const std::vector<std::string>& groups,
+                                        const hri::SentenceRecognizerOptions& options,
+                                        const std::function<void(int, int)>& progress) {
   hri::require(tracks.size() == words.size() && tracks.size() == scales_px.size() &&
                    tracks.size() == groups.size(),
                "X, y, scales_px and groups differ in length");
@@ -73,8 +74,9 @@ void bind_sentences(py::module_& m) {
       .def_readonly("log_score", &hri::RecognisedSentence::log_score, "Of the best path.");
   py::class_<hri::SentenceRecognizer>(m, "SentenceRecognizer",
                                       "Sentences of signs; hri.SentenceRecognizer wraps it.")
-      .def_static("train", &train, py::arg("tracks"), py::arg("words"), py::arg("scales_px"),
-                  py::arg("groups"), py::arg("options"), py::arg("progress") = nullptr)
+      .def_static("train", &train_sentences, py::arg("tracks"), py::arg("words"),
+                  py::arg("scales_px"), py::arg("groups"), py::arg("options"),
+                  py::arg("progress") = nullptr)
       .def_static(
           "load",
           [](const hri_bind::Path& path) { return hri::SentenceRecognizer::load(path.text); },

@@ -9,6 +9,7 @@
 
 #include "core/arrays.hpp"
 #include "core/options.hpp"
+#include "models/model_inputs.hpp"
 
 namespace py = pybind11;
 
@@ -16,12 +17,6 @@ namespace {
 
 using hri_bind::as_span;
 using hri_bind::FloatArray;
-
-// Polled before every word: raises what Ctrl-C left pending.
-bool python_wants_to_stop() {
-  const py::gil_scoped_acquire gil;
-  return PyErr_CheckSignals() != 0;
-}
 
 }  // namespace
 
@@ -49,7 +44,7 @@ void bind_speaker_adapter(py::module_& m) {
           },
           py::arg("audio"), py::arg("sample_rate_hz"), py::arg("label"))
       .def(
-          "update", [](hri::SpeakerAdapter& self) { self.update(python_wants_to_stop); },
+          "update", [](hri::SpeakerAdapter& self) { self.update(hri_bind::interrupted); },
           py::call_guard<py::gil_scoped_release>())
       .def("reset", &hri::SpeakerAdapter::reset)
       .def_property_readonly("update_due", &hri::SpeakerAdapter::update_due)

@@ -85,7 +85,7 @@ std::vector<hri::Endpoint> finish(hri::Endpointer& self) {
   return events;
 }
 
-void bind_streams(py::module_& m) {
+void bind_end_point_streams(py::module_& m) {
   hri_bind::bind_options<hri::EndpointerOptions>(m,
                                                  "When an utterance in a stream begins and ends.");
   py::class_<hri::Endpoint>(m, "Endpoint",
@@ -122,5 +122,5 @@ void bind_streams(py::module_& m) {
 
 void bind_end_points(py::module_& m) {
   bind_clips(m);
-  bind_streams(m);
+  bind_end_point_streams(m);
 }

@@ -99,7 +99,7 @@ class Collector {
 };
 
 template <class T>
-void bind_stream(py::module_& m, const char* name) {
+void bind_wavelet_stream(py::module_& m, const char* name) {
   using Stream = hri::WaveletStream<T>;
   py::class_<Stream>(m, name, "The transform of a signal that arrives in pieces.")
       .def(py::init<const hri::WaveletStreamOptions&>(), py::arg("options"))
@@ -178,7 +178,7 @@ void bind_shrinkage(py::module_& m) {
       "Details with a threshold applied.");
 }
 
-void bind_options(py::module_& m) {
+void bind_wavelet_options(py::module_& m) {
   hri_bind::bind_options<hri::ShrinkageOptions>(m, "Noise reduction by wavelets.");
   hri_bind::bind_options<hri::WaveletStreamOptions>(m,
                                                     "What a stream of samples is transformed by.");
@@ -188,13 +188,13 @@ void bind_options(py::module_& m) {
 
 // After bind_wavelets(), whose Border it uses.
 void bind_wavelet_tools(py::module_& m) {
-  bind_options(m);
+  bind_wavelet_options(m);
   bind_packets<float>(m);
   bind_packets<double>(m);
   m.def("frequency_order", &hri::frequency_order, py::arg("level"),
         "Natural indices of a level's nodes by rising frequency.");
-  bind_stream<float>(m, "WaveletStream32");
-  bind_stream<double>(m, "WaveletStream64");
+  bind_wavelet_stream<float>(m, "WaveletStream32");
+  bind_wavelet_stream<double>(m, "WaveletStream64");
   bind_shrinkage<float>(m);
   bind_shrinkage<double>(m);
 }

@@ -4,6 +4,7 @@
 // Any model file: what loads must decide, within memory and time, and what it decides are numbers.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <vector>
 
@@ -23,10 +24,21 @@
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
 #include "hri/models/possibility/possibilistic_gaussian_hmm.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
+#include "hri/recognition/sentence/connected_word_recognizer.hpp"
+#include "hri/recognition/sentence/sentence_recognizer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "model_bytes.hpp"
 
 namespace {
+
+// Ends the program, as a crash does: words that were found without a score that is a number.
+template <class Sentence>
+void check_sentence(const Sentence& sentence) {
+  if (!std::isfinite(sentence.log_score)) std::abort();
+  for (const auto& word : sentence.words) {
+    if (!std::isfinite(word.log_score)) std::abort();
+  }
+}
 
 using hri::MatrixF;
 using hri::ModelFile;
@@ -63,6 +75,19 @@ void use(const ModelFile& file) {
         hri::fuzzing::expect_typed_errors(
             [&] { hri::fuzzing::check(gestures.recognise_features(rows(n, dim))); });
       }
+    }
+  } else if (kind == "connected_word_recognizer") {
+    static const std::vector<float> kTone = tone();
+    const auto words = hri::ConnectedWordRecognizer::from_model_file(file);
+    for (const int num_words : {0, 2})
+      check_sentence(words.recognise({kTone.data(), kTone.size()}, 8000, num_words));
+  } else if (kind == "sentence_recognizer") {
+    const auto signs = hri::SentenceRecognizer::from_model_file(file);
+    for (const int dim : {6, 12}) {
+      hri::fuzzing::expect_typed_errors([&] { check_sentence(signs.recognise(rows(12, dim))); });
+      hri::fuzzing::expect_typed_errors([&] {
+        check_sentence(signs.recognise_spans(rows(12, dim), {{"", 1, 5}, {"", 6, 11}}));
+      });
     }
   } else if (kind == "codebook") {
     const auto book = hri::Codebook::read(file, kPrefix);
