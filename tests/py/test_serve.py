@@ -256,7 +256,7 @@ def test_an_oversized_message_ends_the_connection_alone(
         page.socket.send(bytes(LIMITS.max_message_bytes + 1))
         with pytest.raises(ConnectionClosed) as closed:
             page.await_message(lambda m: False)
-        # The rest of the message, which nobody reads any more, may reset the connection before the reason is there.
+        # The rest of the message, which is not read any more, may reset the connection before the reason is there.
         assert closed.value.rcvd is None or closed.value.rcvd.code == 1009
     time.sleep(0.2)
     assert "too large" in notes.text

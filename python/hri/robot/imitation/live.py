@@ -94,7 +94,7 @@ class LiveImitation:
         Parameters
         ----------
         person : SeenPerson or None
-            None where nobody is seen.
+            None where no person is seen.
         time_s : float
             Earlier than before: another stream has begun.
 
