@@ -13,6 +13,7 @@
 #include "hri/htk/embedded_trainer.hpp"
 #include "hri/htk/feature_extractor.hpp"
 #include "hri/language/connected_decoder.hpp"
+#include "hri/language/lattice.hpp"
 #include "hri/language/ngram_model.hpp"
 #include "hri/models/adaptation/map_adaptation.hpp"
 #include "hri/models/classifiers/distance_classifier.hpp"
@@ -32,6 +33,7 @@
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/gesture/gesture_stream.hpp"
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
+#include "hri/recognition/sentence/connected_word_stream.hpp"
 #include "hri/recognition/sentence/sentence_recognizer.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
@@ -60,7 +62,7 @@ using All = testing::Types<
     HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
     GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
     htk::HtkFeatureOptions, htk::EmbeddedTrainerOptions, TwoHandFeatureOptions,
-    SentenceRecognizerOptions, LandmarkPairOptions>;
+    SentenceRecognizerOptions, LandmarkPairOptions, LatticeOptions, ConnectedWordStreamOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {
