@@ -14,6 +14,7 @@ from pocketsphinx import Config, Decoder
 
 from hri import ConnectedWordRecognizer, read_audio
 from hri.language import Grammar, count_word_errors
+from hri.signal import resample
 from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 from timing import Bench, Timed, medians
 
@@ -30,6 +31,8 @@ SPEAKERS = 4
 NEW_SPEAKERS = (4, 5, 6)
 STRINGS = 10
 LENGTH = 5
+RATE_HZ = 16000
+"""That of PocketSphinx's model."""
 BUDGET = 0.02
 JSGF = f"#JSGF V1.0;\ngrammar digits;\npublic <digits> = ( {' | '.join(DIGITS)} )+;\n"
 
@@ -47,7 +50,8 @@ def _trained(words: list[str], **options: object) -> ConnectedWordRecognizer:
 def _strings(words: tuple[str, ...]) -> tuple[list[np.ndarray], list[list[str]], int]:
     """Strings of words by speakers who were not trained on, with pauses of 0.2 s and a little noise."""
     rng = np.random.default_rng(0)
-    sounds, labels, rate = [], [], 0
+    sounds: list[np.ndarray] = []
+    labels: list[list[str]] = []
     for number in range(STRINGS):
         voice = make_speaker(NEW_SPEAKERS[number % len(NEW_SPEAKERS)])
         labels.append([str(word) for word in rng.choice(words, LENGTH)])
@@ -55,8 +59,9 @@ def _strings(words: tuple[str, ...]) -> tuple[list[np.ndarray], list[list[str]],
         rate = clips[0].sample_rate_hz
         pause = np.zeros(rate // 5, np.float32)
         sound = np.concatenate([pause, *(part for clip in clips for part in (clip.samples, pause))])
-        sounds.append((sound + 1e-3 * rng.standard_normal(len(sound))).astype(np.float32))
-    return sounds, labels, rate
+        sound = (sound + 1e-3 * rng.standard_normal(len(sound))).astype(np.float32)
+        sounds.append(resample(sound, rate, RATE_HZ))
+    return sounds, labels, RATE_HZ
 
 
 def connected_digits() -> Timed:
@@ -67,7 +72,6 @@ def connected_digits() -> Timed:
     """
     sounds, labels, rate = _strings(tuple(DIGITS))
     ours = _trained(DIGITS).set_grammar(Grammar.parse(JSGF, "digits"))
-    assert rate == 16000, "PocketSphinx's model is of 16 kHz"
     peer = Decoder(Config(lm=None, loglevel="FATAL"))
     peer.add_jsgf_string("digits", JSGF)
     peer.activate_search("digits")
