@@ -6588,7 +6588,7 @@ class GestureRecognizerOptions:
         size of the codebook (ptbhmm); 2..4096
     max_iterations : int, default 12
         iterations of Baum-Welch at most; 1..1000
-    false_reject_rate : float, default 0.05
+    false_reject_rate : float, default 0.04
         share of correct held-out gestures that the threshold may reject; 0..0.5
     seed : int, default 0
         of everything random in training; 0..2^64 - 1
@@ -6622,7 +6622,7 @@ class GestureRecognizerOptions:
         num_states: int = 6,
         num_codewords: int = 64,
         max_iterations: int = 12,
-        false_reject_rate: float = 0.05,
+        false_reject_rate: float = 0.04,
         seed: int = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -6757,6 +6757,7 @@ class GestureRecognizerOptions:
         """
     @turn_degrees.setter
     def turn_degrees(self, arg1: typing.Any) -> None: ...
+    @property
     def use_faces(self) -> bool:
         """
         where a face is seen, hands are those of that person; needs a finder of faces, to which a palm may look like one
