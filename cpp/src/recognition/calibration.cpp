@@ -75,36 +75,10 @@ float quantile(const std::vector<float>& sorted, double share) {
   return sorted[std::min(rank, sorted.size() - 1)];
 }
 
-// How many standard deviations below the mean of a normal distribution so large a share (0 < share
-// <= 0.5) begins.
-double deviations_below(double share) {
-  double low = 0;
-  double high = 40;  // beyond which the share is 0 in double
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(middle / std::sqrt(2.0)) > share ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-float normal_quantile(const std::vector<float>& scores, double share) {
-  const auto count = static_cast<double>(scores.size());
-  double sum = 0;
-  for (const float score : scores) sum += static_cast<double>(score);
-  const double mean = sum / count;
-  double squares = 0;
-  for (const float score : scores)
-    squares += (static_cast<double>(score) - mean) * (static_cast<double>(score) - mean);
-  return static_cast<float>(mean - deviations_below(share) * std::sqrt(squares / count));
-}
-
 // Of all classes, from the scores of right decisions, sorted, and of other words.
 float threshold_of(const std::vector<float>& right, const RejectionRates& rates,
                    std::vector<float> others) {
-  const bool normal =
-      rates.normal && right.size() >= Calibration::kFewestNormal && rates.false_reject > 0;
-  const float least =
-      normal ? normal_quantile(right, rates.false_reject) : quantile(right, rates.false_reject);
+  const float least = quantile(right, rates.false_reject);
   if (others.empty() || rates.false_accept >= 1) return least;
   const float most = std::max(least, quantile(right, rates.max_false_reject));
   std::sort(others.begin(), others.end());

@@ -124,25 +124,6 @@ TEST(Calibration, RejectsMoreWhereOtherWordsWouldPass) {
   EXPECT_EQ(threshold({0.02, 0.2, 1}, near), least);
 }
 
-// The lowest of a few scores says less of those to come than all of them do.
-TEST(Calibration, FitsANormalDistributionToFewScores) {
-  std::vector<HeldOut> samples;
-  for (int i = 0; i < 40; ++i) {
-    VectorF scores = VectorF::Zero(2);
-    scores[i % 2] = 1;
-    samples.push_back({scores, i % 2, i % 4 < 2 ? 1.0F : 3.0F});  // mean 2, deviation 1
-  }
-  RejectionRates rates;
-  rates.false_reject = 0.05;
-  rates.normal = true;
-  EXPECT_NEAR(Calibration::fit(samples, rates).threshold(), 2 - 1.644854, 1e-5);
-  rates.false_reject = 0;  // nothing right may be rejected
-  EXPECT_EQ(Calibration::fit(samples, rates).threshold(), 1.0);
-  rates.false_reject = 0.05;
-  samples.resize(Calibration::kFewestNormal - 1);
-  EXPECT_EQ(Calibration::fit(samples, rates).threshold(), 1.0);
-}
-
 TEST(Calibration, PutsEachClassAboveItsFalseAlarms) {
   // Class 0 has 5 % of false alarms, all less sure than right decisions; class 1 has none.
   const std::vector<HeldOut> samples = with_false_alarms(1000, 50, 4, 2);

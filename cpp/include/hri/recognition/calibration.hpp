@@ -30,9 +30,6 @@ struct RejectionRates {
   double false_reject = 0.02;      ///< of right decisions: so many in any case
   double max_false_reject = 0.02;  ///< and so many where others are accepted too often
   double false_accept = 1;         ///< of other words
-  /// The quantile is that of the normal distribution fitted to the scores of right decisions: with
-  /// few of them their own hangs on the lowest one or two.
-  bool normal = false;
 };
 
 class HRI_API Calibration {
@@ -44,19 +41,15 @@ class HRI_API Calibration {
   /// No class threshold lies below: a decision that is more likely wrong than right is not sure.
   static constexpr float kMinClassThreshold = 0.5F;
 
-  /// Right decisions that a normal distribution is fitted to, at least.
-  static constexpr std::size_t kFewestNormal = 10;
-
   Calibration() = default;
 
   /// Fits the scale to the least negative log-likelihood of `held_out`, and the threshold to the
   /// quantile rates.false_reject (0..0.5) of the score of its correct decisions, or as far beyond,
   /// up to rates.max_false_reject, as it takes to accept no more than rates.false_accept of
-  /// `others`, scores of words outside the vocabulary. rates.normal needs kFewestNormal right
-  /// decisions and a quantile above 0, else counts for nothing. A class threshold is the least
-  /// confidence at which the class keeps to kMaxFalseAlarmRate, or the largest that keeps to
-  /// kMaxMissRate where both cannot be met, but at least kMinClassThreshold. Falls back to scale 1
-  /// and no thresholds where `held_out` is empty or never right.
+  /// `others`, scores of words outside the vocabulary. A class threshold is the least confidence at
+  /// which the class keeps to kMaxFalseAlarmRate, or the largest that keeps to kMaxMissRate where
+  /// both cannot be met, but at least kMinClassThreshold. Falls back to scale 1 and no thresholds
+  /// where `held_out` is empty or never right.
   static Calibration fit(const std::vector<HeldOut>& held_out, const RejectionRates& rates,
                          std::vector<float> others = {});
 

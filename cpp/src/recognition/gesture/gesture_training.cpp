@@ -170,10 +170,7 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
   if (progress) progress(num_folds, num_folds + 1);
   result.scorer_ = detail::train_gesture_scorer(all, result.options_, should_stop);
   result.verifier_ = trials.learn_verifier();
-  RejectionRates rates;
-  rates.false_reject = options.false_reject_rate;
-  rates.normal = result.options_.model == GestureModel::trajectory;  // trained on few clips
-  result.calibration_ = Calibration::fit(trials.held_out(), rates);
+  result.calibration_ = Calibration::fit(trials.held_out(), {options.false_reject_rate});
   if (progress) progress(num_folds + 1, num_folds + 1);
   return result;
 }
