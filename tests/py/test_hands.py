@@ -168,15 +168,19 @@ def webcam_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_studies_of_webcam_clips_run_whole(webcam_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(webcam, "SEEDS", (0,))
+    monkeypatch.setattr(webcam, "ANGLES", (0.0, 30.0))
+    monkeypatch.setattr(webcam, "NUM_SPLITS", 2)
 
     def run(name: str, **only: tuple[str, ...]) -> dict:
         return hri.studies.run_study(hri.studies.get_study(name), webcam_dir, lambda *_: None, only)
 
-    folds = run("webcam-gestures", source=("silhouettes",))
-    assert folds["rows"][0]["accuracy_mean"] == 1.0 and folds["passed"]
-    left_out = run("webcam-conditions", source=("silhouettes",))
-    assert [row["left out"] for row in left_out["rows"]].count("all clips") == 1 and len(left_out["rows"]) > 3
+    nested = run("webcam-gestures", source=("silhouettes",))
+    assert nested["rows"][-1]["left out"] == "all clips" and nested["rows"][-1]["accuracy_mean"] == 1.0
+    assert nested["passed"] and len(nested["rows"]) > 3
+    assert set(nested["chosen_degrees"].values()) <= {0.0, 30.0}
+    curve = run("webcam-conditions", source=("silhouettes",))
+    assert [row["trained on"] for row in curve["rows"]] == [3, 5, 7]
+    assert all(len(row["per_fold"]) == 2 for row in curve["rows"])
     light = run("webcam-light", light=("gamma 2",))
     assert set(light["drops"]) == {"as recorded", "gamma 2"}
 
