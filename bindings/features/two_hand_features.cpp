@@ -54,6 +54,7 @@ void bind_two_hand_features(py::module_& m) {
           "push",
           [](hri::LandmarkPairTracker& self, const std::vector<FloatArray>& hands, int width_px) {
             std::vector<hri::MatrixF> points;
+            points.reserve(hands.size());
             for (const FloatArray& hand : hands) points.emplace_back(as_matrix(hand, "hands"));
             return self.push(points, width_px);
           },

@@ -177,6 +177,7 @@ void bind_lattice(py::module_& m) {
           "entries",
           [](const hri::ConfusionSlot& self) {
             std::vector<std::pair<int, double>> entries;
+            entries.reserve(self.entries.size());
             for (const auto& entry : self.entries)
               entries.emplace_back(entry.model, entry.probability);
             return entries;
@@ -186,9 +187,11 @@ void bind_lattice(py::module_& m) {
       .def(py::init([](const std::vector<std::tuple<int, std::int64_t, bool>>& nodes,
                        const std::vector<std::tuple<int, int, double, double>>& arcs) {
              std::vector<hri::Lattice::Node> made_nodes;
+             made_nodes.reserve(nodes.size());
              for (const auto& [model, frame, is_silence] : nodes)
                made_nodes.push_back({model, frame, is_silence});
              std::vector<hri::Lattice::Arc> made_arcs;
+             made_arcs.reserve(arcs.size());
              for (const auto& [from, to, acoustic, weight] : arcs)
                made_arcs.push_back({from, to, acoustic, weight});
              return hri::Lattice(std::move(made_nodes), std::move(made_arcs));

@@ -103,6 +103,7 @@ void bind_stream(py::module_& m) {
              const std::vector<FloatArray>& landmarks) {
             const auto picture = hri_bind::as_image(bgr, 3, "picture");
             std::vector<hri::MatrixF> hands;
+            hands.reserve(landmarks.size());
             for (const FloatArray& points : landmarks)
               hands.emplace_back(hri_bind::as_matrix(points, "landmarks"));
             const py::gil_scoped_release release;

@@ -75,6 +75,7 @@ Lattice WordLattice::to_lattice(const std::vector<std::string>& labels,
     nodes.push_back(node);
   }
   std::vector<Lattice::Arc> made;
+  made.reserve(arcs.size());
   for (const Arc& arc : arcs) {
     made.push_back({numbers[static_cast<std::size_t>(arc.from)],
                     numbers[static_cast<std::size_t>(arc.to)], arc.log_acoustic, arc.log_weight});

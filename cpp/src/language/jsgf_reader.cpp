@@ -18,8 +18,9 @@ namespace {
 using Kind = GrammarExpression::Kind;
 
 constexpr int kMostDepth = 400;  // of brackets and rules within each other
-const std::string kBlanks = " \t\r\n";
-const std::string kMarks = "()[]|*+;=";
+// Both fit into a string itself: nothing is allocated.
+const std::string kBlanks = " \t\r\n";   // NOLINT(bugprone-throwing-static-initialization)
+const std::string kMarks = "()[]|*+;=";  // NOLINT(bugprone-throwing-static-initialization)
 
 bool is_blank(char c) { return kBlanks.find(c) != std::string::npos; }
 

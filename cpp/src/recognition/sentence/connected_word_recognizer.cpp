@@ -190,6 +190,7 @@ Transcript ConnectedWordRecognizer::recognise_begun(const ScoredRecording& recor
 
 Slots ConnectedWordRecognizer::slots_of(const std::vector<TranscribedWord>& words) const {
   std::vector<std::string> sentence;
+  // NOLINTNEXTLINE(performance-inefficient-vector-operation): a sentence is short
   for (const TranscribedWord& word : words) sentence.push_back(word.label);
   return grammar_->slots_of(sentence).value_or(Slots());
 }

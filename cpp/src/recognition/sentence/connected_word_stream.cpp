@@ -97,6 +97,7 @@ void ConnectedWordStream::search_so_far(std::vector<ConnectedWordResult>* result
   std::size_t num_decided = 0;
   result.transcript = recognizer_.recognise_begun(scored, &num_decided);
   std::vector<std::string> decided;
+  // NOLINTNEXTLINE(performance-inefficient-vector-operation): a sentence is short
   for (std::size_t i = 0; i < num_decided; ++i) decided.push_back(result.transcript.words[i].label);
   // What was decided twice, behind what was stable before.
   const auto same =
