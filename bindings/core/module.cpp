@@ -5,6 +5,7 @@
 // hri._native_vision.
 #include <pybind11/pybind11.h>
 
+#include "core/errors.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/threads.hpp"
 #include "hri/core/version.hpp"
@@ -66,16 +67,6 @@ PyObject* make_error(py::module_& m, const char* name, PyObject* base, PyObject*
   return type;
 }
 
-// A message names files, whose names need not be text: it is read as Python reads these names.
-void raise(PyObject* type, const std::exception& error) {
-  const std::string text = error.what();
-  PyObject* message =
-      PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<py::ssize_t>(text.size()));
-  if (message == nullptr) return;  // MemoryError is set
-  PyErr_SetObject(type, message);
-  Py_DECREF(message);
-}
-
 void bind_errors(py::module_& m) {
   PyObject* root = make_error(m, "Error", PyExc_Exception, nullptr, "Root of hri's errors.");
   g_invalid_argument = make_error(m, "InvalidArgument", root, PyExc_ValueError,
@@ -90,11 +81,11 @@ void bind_errors(py::module_& m) {
     try {
       if (p) std::rethrow_exception(p);
     } catch (const hri::InvalidArgument& e) {
-      raise(g_invalid_argument, e);
+      hri_bind::raise(g_invalid_argument, e);
     } catch (const hri::FormatError& e) {
-      raise(g_format_error, e);
+      hri_bind::raise(g_format_error, e);
     } catch (const hri::IoError& e) {
-      raise(g_io_error, e);
+      hri_bind::raise(g_io_error, e);
     } catch (const hri::Interrupted& e) {
       // A pending KeyboardInterrupt raised by the stop check would otherwise be reported twice.
       PyErr_Clear();

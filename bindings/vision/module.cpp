@@ -4,6 +4,7 @@
 // hri._native_vision: what needs OpenCV. Its errors are the classes of hri._native.
 #include <pybind11/pybind11.h>
 
+#include "core/errors.hpp"
 #include "hri/core/error.hpp"
 
 namespace py = pybind11;
@@ -31,11 +32,11 @@ PYBIND11_MODULE(_native_vision, m) {
     try {
       if (p) std::rethrow_exception(p);
     } catch (const hri::InvalidArgument& e) {
-      PyErr_SetString(invalid_argument, e.what());
+      hri_bind::raise(invalid_argument, e);
     } catch (const hri::FormatError& e) {
-      PyErr_SetString(format_error, e.what());
+      hri_bind::raise(format_error, e);
     } catch (const hri::IoError& e) {
-      PyErr_SetString(io_error, e.what());
+      hri_bind::raise(io_error, e);
     }
   });
   bind_vision(m);

@@ -13,10 +13,10 @@ pytest.importorskip("pybullet")
 LEGS = [name for name in HOAP2.names if "leg" in name]
 
 
-def test_a_joint_is_told_after_a_quarter_of_a_second_and_once_until_it_follows_again() -> None:
+def test_a_joint_is_reported_after_a_quarter_of_a_second_and_once_until_it_follows_again() -> None:
     straining = Straining()
-    told = [straining.late(["knee"] if step != 70 else [], 0.01 * step) for step in range(150)]
-    assert [step for step, names in enumerate(told) if names] == [25, 96]
+    reported = [straining.late(["knee"] if step != 70 else [], 0.01 * step) for step in range(150)]
+    assert [step for step, names in enumerate(reported) if names] == [25, 96]
     assert straining.late(["knee", "hip"], 1.5) == [] and straining.late(["hip"], 1.8) == ["hip"]
 
 

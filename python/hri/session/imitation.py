@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,10 @@ from hri.features import HandPairTracker
 from hri.robot import HOAP2, JointTable
 from hri.robot.imitation import LiveImitation, SeenPerson
 from hri.session.feeds import Recorder
-from hri.vision import Face, PersonHands, PersonOptions
 from hri.vision.faces import face_finder
+
+if TYPE_CHECKING:
+    from hri.vision import Face
 
 Frame = NDArray[np.uint8]
 
@@ -51,6 +53,8 @@ class PersonTracker:
         if found is None:
             raise InvalidArgument("imitation needs OpenCV's cascade for faces: Debian's opencv-data has one")
         self._faces: Faces = found
+        from hri.vision import PersonHands, PersonOptions  # which load OpenCV
+
         self._hands = PersonHands(PersonOptions(max_hands=2))
         self._pair = HandPairTracker()
         self._face: Face | None = None

@@ -30,7 +30,10 @@ namespace {
 constexpr const char* kMotion = "path.movement.";
 constexpr const char* kStartsAtRest = "path.starts_at_rest";
 constexpr const char* kPauses = "path.pauses";
-constexpr float kDistanceWeight = 1.0F;  // of the log of a squared distance, beside a margin
+constexpr const char* kWeight = "path.distance_weight";
+// Of the log of a squared distance, beside a margin; and in files that do not say.
+constexpr float kDistanceWeight = 1.0F;
+constexpr float kFormerDistanceWeight = 0.5F;
 
 // How far gestures (1) and the rests before them (0) get.
 class Distances {
@@ -60,11 +63,13 @@ class Distances {
 
 class TrajectoryScorer : public GestureScorer {
  public:
-  TrajectoryScorer(LinearSvm svm, TrajectoryCentres centres, float shape_scale, bool starts_at_rest,
-                   bool pauses, LogisticRegression motion)
+  TrajectoryScorer(LinearSvm svm, TrajectoryCentres centres, float shape_scale,
+                   float distance_weight, bool starts_at_rest, bool pauses,
+                   LogisticRegression motion)
       : svm_(std::move(svm)),
         centres_(std::move(centres)),
         shape_scale_(shape_scale),
+        distance_weight_(distance_weight),
         starts_at_rest_(starts_at_rest),
         pauses_(pauses),
         motion_(std::move(motion)) {}
@@ -80,7 +85,7 @@ class TrajectoryScorer : public GestureScorer {
     const VectorF trajectory = trajectory_vector(rows, shape_scale_);
     Eigen::Index best = 0;
     const float nearness =
-        scores.maxCoeff(&best) - kDistanceWeight * centres_.log_distance(trajectory, best);
+        scores.maxCoeff(&best) - distance_weight_ * centres_.log_distance(trajectory, best);
     if (motion_.dim() == 0) return nearness;
     const double distance = max_displacement(trajectory);
     const double odds = motion_.log_odds({&distance, 1});
@@ -90,6 +95,7 @@ class TrajectoryScorer : public GestureScorer {
     svm_.write(file, "path.svm.");
     centres_.write(file);
     file.set_number("path.shape_scale", shape_scale_);
+    file.set_number(kWeight, distance_weight_);
     file.set_integer(kStartsAtRest, starts_at_rest_ ? 1 : 0);
     file.set_integer(kPauses, pauses_ ? 1 : 0);
     if (motion_.dim() > 0) motion_.write(file, kMotion);
@@ -101,6 +107,7 @@ class TrajectoryScorer : public GestureScorer {
   LinearSvm svm_;
   TrajectoryCentres centres_;
   float shape_scale_;
+  float distance_weight_;
   bool starts_at_rest_;
   bool pauses_;
   LogisticRegression motion_;  // against rest; empty where nothing was learned
@@ -171,9 +178,10 @@ std::shared_ptr<const GestureScorer> train_trajectory_scorer(
   svm.cost = options.svm_cost;
   svm.seed = options.seed;
   svm.should_stop = should_stop;
-  return std::make_shared<TrajectoryScorer>(
-      separate(trajectories, still, num_classes, svm), std::move(centres), shape_scale,
-      2 * num_at_rest > num_gestures, 2 * num_pausing > num_gestures, distances.motion());
+  return std::make_shared<TrajectoryScorer>(separate(trajectories, still, num_classes, svm),
+                                            std::move(centres), shape_scale, kDistanceWeight,
+                                            2 * num_at_rest > num_gestures,
+                                            2 * num_pausing > num_gestures, distances.motion());
 }
 
 std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& file,
@@ -187,12 +195,16 @@ std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& fil
   }
   if (!(shape_scale > 0) || !std::isfinite(shape_scale))
     fail(ErrorKind::format, file.name() + ": field 'path.shape_scale' is out of range");
+  const float weight =
+      file.has(kWeight) ? static_cast<float>(file.number(kWeight)) : kFormerDistanceWeight;
+  if (!(weight >= 0 && weight <= 1e6F))
+    fail(ErrorKind::format, file.name() + ": field '" + kWeight + "' is out of range");
   LogisticRegression motion;  // written where training clips began at rest
   if (file.has(std::string(kMotion) + "weights")) motion = LogisticRegression::read(file, kMotion);
   if (motion.dim() > 1)
     fail(ErrorKind::format, file.name() + ": field '" + kMotion + "weights' is too long");
   TrajectoryCentres centres = TrajectoryCentres::read(file, svm.dim(), num_classes);
-  return std::make_shared<TrajectoryScorer>(std::move(svm), std::move(centres), shape_scale,
+  return std::make_shared<TrajectoryScorer>(std::move(svm), std::move(centres), shape_scale, weight,
                                             file.integer(kStartsAtRest) != 0,
                                             file.integer(kPauses) != 0, std::move(motion));
 }

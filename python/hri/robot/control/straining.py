@@ -11,11 +11,11 @@ PATIENCE_S = 0.25
 
 
 class Straining:
-    """Tells of each joint once, until it follows again."""
+    """Reports each joint once, until it follows again."""
 
     def __init__(self) -> None:
         self._since_s: dict[str, float] = {}
-        self._told: set[str] = set()
+        self._reported: set[str] = set()
 
     def late(self, names: Iterable[str], time_s: float) -> list[str]:
         """Of the joints that cannot follow at this moment, those whose patience ends now.
@@ -28,11 +28,11 @@ class Straining:
             Later than in the call before.
         """
         self._since_s = {name: self._since_s.get(name, time_s) for name in names}
-        self._told.intersection_update(self._since_s)
+        self._reported.intersection_update(self._since_s)
         late = [
             name
             for name, since_s in self._since_s.items()
-            if time_s - since_s > PATIENCE_S - 1e-9 and name not in self._told
+            if time_s - since_s > PATIENCE_S - 1e-9 and name not in self._reported
         ]
-        self._told.update(late)
+        self._reported.update(late)
         return late
