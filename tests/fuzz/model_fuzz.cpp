@@ -79,8 +79,11 @@ void use(const ModelFile& file) {
   } else if (kind == "connected_word_recognizer") {
     static const std::vector<float> kTone = tone();
     const auto words = hri::ConnectedWordRecognizer::from_model_file(file);
-    for (const int num_words : {0, 2})
-      check_sentence(words.recognise({kTone.data(), kTone.size()}, 8000, num_words));
+    hri::TranscriptionQuery query;
+    for (const int num_words : {0, 2}) {
+      query.num_words = num_words;
+      check_sentence(words.recognise({kTone.data(), kTone.size()}, 8000, query));
+    }
   } else if (kind == "sentence_recognizer") {
     const auto signs = hri::SentenceRecognizer::from_model_file(file);
     for (const int dim : {6, 12}) {
