@@ -26,7 +26,7 @@ using Slots = std::map<std::string, std::string>;
 class HRI_API Grammar {
  public:
   /// Reads a grammar: `#JSGF V1.0;`, `grammar name;`, rules `<name> = ...;`, of which any of the
-  /// public ones is a sentence. ( ), [ ], |, *, +, /weights/ of alternatives and <NULL> mean what
+  /// public ones is a sentence. ( ), [ ], |, *, +, /weights/ of alternatives and `<NULL>` mean what
   /// they do in JSGF. A tag {slot=value} sets a slot where the expansion before it is said, {slot}
   /// sets it to the words said; of two of one slot the later one counts. Throws IoError, and
   /// FormatError naming file and line for another form, imports, rules that are not defined or hold
