@@ -260,6 +260,19 @@ def test_stop_is_not_lost_while_a_session_begins(words: Any, robot: Robot, live:
         assert of(events, "ignored")[-1].fields["reason"] == "stopped until resume"
 
 
+def test_stop_of_before_a_session_comes_before_what_is_heard(words: Any, robot: Robot) -> None:
+    class Late(Session):
+        def _deliver_to(self, queue: EventQueue) -> None:
+            time.sleep(0.5)
+            super()._deliver_to(queue)
+
+    session = Late(words, robot=robot, motions=MOTIONS)
+    begun = session.run(ArraySource(speech([("flat", 0.8)], 2.5), RATE_HZ), live=True)
+    session.stop()
+    events = list(begun)
+    assert [e.event for e in of(events, "stop", "fused", "ignored")] == ["stop", "fused", "ignored"]
+
+
 def test_what_was_asked_for_between_two_sessions_is_not_asked_for_again(words: Any, robot: Robot) -> None:
     session = Session(words, robot=robot, motions=MOTIONS)
     sound = speech([("flat", 0.8)], 2.5)

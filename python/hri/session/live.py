@@ -74,7 +74,7 @@ class EventQueue:
 
 
 class LiveFeeds:
-    """Runs each feed in a thread of its own; one that is lost is opened again until `close`.
+    """Runs each feed in a thread of its own, from `start` on; one that is lost is opened again until `close`.
 
     Parameters
     ----------
@@ -92,6 +92,9 @@ class LiveFeeds:
         self._threads = [
             threading.Thread(target=self._run, args=(feed,), daemon=True, name=f"hri-{feed.mode}") for feed in feeds
         ]
+
+    def start(self) -> None:
+        """Begin; what is put in the queue before comes before all that is heard and seen."""
         for thread in self._threads:
             thread.start()
 
@@ -100,7 +103,8 @@ class LiveFeeds:
         self._closed.set()
         until_s = time.monotonic() + _CLOSE_S
         for thread in self._threads:
-            thread.join(max(0.0, until_s - time.monotonic()))
+            if thread.ident is not None:  # it was started
+                thread.join(max(0.0, until_s - time.monotonic()))
 
     def _run(self, feed: Feed[Any]) -> None:
         try:

@@ -323,7 +323,8 @@ class Session:
             logic = self._logic(body)
             live = LiveFeeds(self._feeds(sound, pictures, clock, recorder), self.options.retry_s)
             stack.callback(live.close)
-            self._deliver_to(live.queue)
+            self._deliver_to(live.queue)  # a STOP of before the first word stops what that word asks for
+            live.start()
 
             def decide() -> None:
                 try:
