@@ -42,7 +42,7 @@ PYTHON = {
     "evaluation": {"core", "signal", "media", "datasets", "recognition"},
     "fusion": {"core", "io", "models", "recognition.decision"},
     "robot": {"core", "media"},
-    "session": {"core", "media", "signal", "features", "vision", "recognition", "live", "fusion", "robot"},
+    "session": {"core", "media", "signal", "features", "vision", "recognition", "live", "fusion", "robot", "language"},
     "serve": {"core", "io", "media", "signal", "recognition", "live", "robot", "session"},
 }
 PYTHON["studies"] = {*PYTHON}

@@ -95,6 +95,9 @@ def describe(event: Event) -> str:
         return f"{at}{label}  ({modes}; {fields['rule']}; {fields['why']})"
     if event.event == "say":
         return f"{at}robot: {fields['text']}"
+    if event.event == "sentence":
+        near = f"  (nearest: {' '.join(fields['nearest'])}, {fields['distance']:.2f})" if fields["nearest"] else ""
+        return f"{at}sentence: {' '.join(fields['words'])}{near}"
     if event.event in ("ignored", "stop", "rest"):
         name = f" {fields['label']}" if fields["label"] else ""
         return f"{at}{event.event.upper() if event.event == 'stop' else event.event}{name}: {fields['reason']}"

@@ -13,6 +13,7 @@ from hri.core.files import read_csv
 from hri.language.word_errors import NIST_COSTS, align_words
 
 SIGNS_COLUMN = "signs"
+ANSWER_COLUMN = "answer"
 MAX_DISTANCE = 0.5
 
 
@@ -26,10 +27,13 @@ class StoredSentence:
         As a recogniser names them.
     texts : mapping of str to str
         What it says, by language code, such as "en" and "hi".
+    answer : tuple of str
+        Gestures that a robot answers with, one after the other.
     """
 
     words: tuple[str, ...]
     texts: Mapping[str, str] = field(default_factory=dict)
+    answer: tuple[str, ...] = ()
 
     def text(self, language: str = "en") -> str:
         """What it says in a language, else its words."""
@@ -87,6 +91,8 @@ class KnowledgeBase:
     def read(cls, path: str | PathLike[str], max_distance: float = MAX_DISTANCE) -> KnowledgeBase:
         """From a CSV file with the column ``signs``, words with blanks between, and a column for each language.
 
+        A column ``answer`` may name gestures, with blanks between, that a robot answers with.
+
         Raises
         ------
         FormatError
@@ -109,8 +115,9 @@ class KnowledgeBase:
                 raise FormatError(f"{name}: row {number}: must have {len(header)} cells, and words in '{SIGNS_COLUMN}'")
             if any(stored.words == words for stored in sentences):
                 raise FormatError(f"{name}: row {number}: '{' '.join(words)}' stands in an earlier row too")
-            texts = {language: cells[language] for language in header if language != SIGNS_COLUMN and cells[language]}
-            sentences.append(StoredSentence(words, texts))
+            languages = (name for name in header if name not in (SIGNS_COLUMN, ANSWER_COLUMN))
+            texts = {language: cells[language] for language in languages if cells[language]}
+            sentences.append(StoredSentence(words, texts, tuple(cells.get(ANSWER_COLUMN, "").split())))
         if not sentences:
             raise FormatError(f"{name}: no rows")
         return cls(sentences, max_distance)

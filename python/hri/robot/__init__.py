@@ -34,6 +34,7 @@ from hri.robot.motion.short_csv import read_short_csv, write_short_csv
 from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
 from hri.robot.nao.gestures import NaoGesture, nao_gesture, nao_gesture_trajectory
 from hri.robot.nao.robot import NaoqiRobot
+from hri.robot.simulation.eyesight import Screen
 from hri.robot.simulation.gallery import write_gallery
 from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
 
@@ -58,6 +59,7 @@ __all__ = [
     "Physics",
     "Robot",
     "RobotState",
+    "Screen",
     "SelfContact",
     "Touch",
     "Trajectory",

@@ -9,6 +9,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from hri.fusion import ASK
+from hri.language import KnowledgeBase, StoredMatch
 from hri.recognition.decision import NO_INPUT, UNKNOWN
 from hri.session.options import SessionOptions
 from hri.session.pairing import Pair
@@ -19,7 +20,10 @@ LISTENING = "listening"
 CONFIRMING = "confirming"
 ACTING = "acting"
 STOPPED = "stopped"
-STATES = (IDLE, ATTENDING, LISTENING, CONFIRMING, ACTING, STOPPED)
+SENTENCE = "sentence"
+STATES = (IDLE, ATTENDING, LISTENING, CONFIRMING, ACTING, STOPPED, SENTENCE)
+MAX_SENTENCE_WORDS = 64
+_NOT_UNDERSTOOD = "I did not understand that."
 
 SAY = "say"
 MOVE = "move"
@@ -38,16 +42,22 @@ class Action:
     ----------
     kind : str
         "say" (voice and screen), "move" (carry out `label`), "rest" (end the motion under way), "stop" (end it, and let
-        none begin), "resume", "ignored" (a decision that is no command now), or "state".
+        none begin), "resume", "ignored" (a decision that is no command now), "sentence" (one has ended), or "state".
     label : str
         Of a "move", or of what was ignored.
     text : str
         What to say, the state that is new, or why.
+    words : tuple of str
+        Of a sentence.
+    nearest : StoredMatch, optional
+        The stored sentence nearest to them, however far.
     """
 
     kind: str
     label: str = ""
     text: str = ""
+    words: tuple[str, ...] = ()
+    nearest: StoredMatch | None = None
 
 
 class Dialogue:
@@ -61,6 +71,8 @@ class Dialogue:
                another command replaces it, and after `confirm_s` nothing is done
     acting     the robot moves: "no" ends the motion, another command is ignored
     stopped    no motion begins until `resume`, or one of `resume_labels`
+    sentence   words and signs are collected until one of `sentence_end_labels`; then the robot says the stored sentence
+               that is nearest to them, and moves as its answer names
     ========== ================================================================================================
 
     STOP counts in each of them.
@@ -70,16 +82,27 @@ class Dialogue:
     options : SessionOptions, optional
     motions : collection of str
         Labels that the robot has a motion for.
+    knowledge : KnowledgeBase, optional
+        Stored sentences; without them a sentence is said as its words.
     """
 
-    def __init__(self, options: SessionOptions | None = None, motions: Collection[str] = ()) -> None:
+    def __init__(
+        self,
+        options: SessionOptions | None = None,
+        motions: Collection[str] = (),
+        knowledge: KnowledgeBase | None = None,
+    ) -> None:
         self._options = options or SessionOptions()
         self._motions = frozenset(motions)
+        self._knowledge = knowledge
         self.state = IDLE
         self._active = False
         self._attend_until_s = -math.inf
         self._answer_until_s = -math.inf
         self._asked: tuple[str, ...] = ()
+        self._words: list[str] = []
+        self._sentence_until_s = -math.inf
+        self._answers: list[str] = []
 
     def activity(self, active: bool, time_s: float) -> list[Action]:
         """Something is being said or shown, or waits to be decided on; or no longer."""
@@ -96,6 +119,8 @@ class Dialogue:
             return self._go(IDLE)
         if self.state == CONFIRMING and time_s > self._answer_until_s and not self._active:
             return [Action(SAY, text="No answer: I do nothing."), *self._calm()]
+        if self.state == SENTENCE and time_s > self._sentence_until_s and not self._active:
+            return [Action(SAY, text="The sentence has no end: I do nothing."), *self._calm()]
         return []
 
     def decide(self, pair: Pair, time_s: float) -> list[Action]:
@@ -118,6 +143,8 @@ class Dialogue:
             return [Action(IGNORE, label, "the robot moves")]
         if self.state == CONFIRMING:
             return self._answer(pair, time_s)
+        if self.state == SENTENCE or label in self._options.sentence_begin_labels:
+            return self._collect(label, time_s)
         return self._command(pair, time_s)
 
     def moved(self, message: str, fault: bool) -> list[Action]:
@@ -125,11 +152,14 @@ class Dialogue:
         said = [Action(SAY, text=message)] if message else []
         if fault:
             return [*said, *self.halt(message)]
+        if self.state == ACTING and self._answers and not message:
+            return [Action(MOVE, self._answers.pop(0))]
         return [*said, *(self._calm() if self.state == ACTING else [])]
 
     def halt(self, why: str, label: str = "") -> list[Action]:
         """STOP."""
         self._asked = ()
+        self._answers = []
         return [Action(STOP, label, why), *self._go(STOPPED)]
 
     def resume(self) -> list[Action]:
@@ -149,7 +179,7 @@ class Dialogue:
             if not attended:
                 return [Action(IGNORE, fused.label, "not preceded by the wake word"), *self._calm()]
         if fused.status == UNKNOWN:
-            return [Action(SAY, text="I did not understand that."), *self._calm()]
+            return [Action(SAY, text=_NOT_UNDERSTOOD), *self._calm()]
         if fused.label in self._options.control_labels:
             return [Action(IGNORE, fused.label, "nothing was asked"), *self._calm()]
         if fused.label not in self._motions:
@@ -157,6 +187,34 @@ class Dialogue:
         if self._options.confirm_below == 1 or fused.confidence < self._options.confirm_below:
             return self._ask((fused.label,), time_s)
         return self._move(fused.label)
+
+    def _collect(self, label: str, time_s: float) -> list[Action]:
+        """A word or sign that begins a sentence, is of it, or ends it; a rejected one is a word that is not known."""
+        if self.state == SENTENCE and label in self._options.sentence_end_labels:
+            return self._read()
+        self._sentence_until_s = time_s + self._options.sentence_s
+        if label in self._options.sentence_begin_labels:
+            self._words = []
+        elif len(self._words) < MAX_SENTENCE_WORDS:
+            self._words.append(label)
+        else:
+            return [Action(SAY, text="The sentence is too long: I do nothing."), *self._calm()]
+        return self._go(SENTENCE)
+
+    def _read(self) -> list[Action]:
+        """The sentence has ended: say it, and answer by motions."""
+        words = tuple(self._words)
+        nearest = self._knowledge.nearest(words) if self._knowledge is not None and words else None
+        text, answers = " ".join(words) or _NOT_UNDERSTOOD, []
+        if self._knowledge is not None and nearest is not None:
+            known = nearest.distance <= self._knowledge.max_distance
+            text = nearest.sentence.text(self._options.language) if known else _NOT_UNDERSTOOD
+            answers = [label for label in nearest.sentence.answer if known and label in self._motions]
+        said = [Action(SENTENCE, words=words, nearest=nearest), Action(SAY, text=text)]
+        if not answers:
+            return [*said, *self._calm()]
+        self._answers = answers[1:]
+        return [*said, *self._go(ACTING), Action(MOVE, answers[0])]
 
     def _answer(self, pair: Pair, time_s: float) -> list[Action]:
         label, status = pair.fused.label, pair.fused.status
@@ -184,6 +242,7 @@ class Dialogue:
     def _calm(self) -> list[Action]:
         """Back to where the next command is waited for."""
         self._asked = ()
+        self._answers = []
         return self._go(LISTENING if self._active and not self._options.wake_labels else IDLE)
 
     def _go(self, state: str) -> list[Action]:

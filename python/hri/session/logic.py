@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection
 from typing import Any, Protocol
 
 from hri.fusion import LearnedFusion
+from hri.language import KnowledgeBase
 from hri.live import Event
 from hri.live import events as kinds
 from hri.recognition.decision import RECOGNISED, plain
@@ -25,6 +26,7 @@ IGNORED = "ignored"
 STOP = "stop"
 REST = "rest"
 RESUMED = "resumed"
+SENTENCE = "sentence"
 ASKED = "asked"
 TICK = "tick"
 BY_BUTTON = "asked for"
@@ -93,6 +95,8 @@ class SessionLogic:
         Gets what the robot says.
     fusion : LearnedFusion, optional
         In place of ``options.rule``.
+    knowledge : KnowledgeBase, optional
+        Stored sentences.
     """
 
     def __init__(
@@ -102,11 +106,12 @@ class SessionLogic:
         labels: Collection[str],
         on_say: Callable[[str], None] | None = None,
         fusion: LearnedFusion | None = None,
+        knowledge: KnowledgeBase | None = None,
     ) -> None:
         self._body = body
         self._on_say = on_say
         self.pairer = Pairer(options, fusion)
-        self.dialogue = Dialogue(options, labels)
+        self.dialogue = Dialogue(options, labels, knowledge)
         self._unsettled: set[str] = set()
         self._state = self.dialogue.state
 
@@ -203,12 +208,22 @@ class SessionLogic:
             return session_event(time_s, SAY, text=action.text)
         if action.kind == acts.RESUME:
             return session_event(time_s, RESUMED)
+        if action.kind == acts.SENTENCE:
+            return sentence_event(action, time_s)
         return session_event(time_s, action.kind, label=action.label, reason=action.text)
 
 
 def session_event(time_s: float, kind: str, **fields: Any) -> Event:
     """An event of the session itself."""
     return Event(time_s, kind, fields, mode="session")
+
+
+def sentence_event(action: Action, time_s: float) -> Event:
+    """The event of a sentence that has ended."""
+    found = action.nearest
+    nearest = [] if found is None else list(found.sentence.words)
+    distance = None if found is None else round(found.distance, 4)
+    return session_event(time_s, SENTENCE, words=list(action.words), nearest=nearest, distance=distance)
 
 
 def fused_event(pair: Pair, time_s: float) -> Event:

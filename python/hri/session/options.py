@@ -11,8 +11,9 @@ from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.fusion import RULES, FusionOptions
 
-_POSITIVE = ("onset_s", "max_wait_s", "attend_s", "confirm_s", "retry_s")
-_LABELS = ("wake_labels", "yes_labels", "no_labels", "resume_labels", "imitate_labels")
+_POSITIVE = ("onset_s", "max_wait_s", "attend_s", "confirm_s", "sentence_s", "retry_s")
+_SENTENCE_LABELS = ("sentence_begin_labels", "sentence_end_labels")
+_LABELS = ("wake_labels", "yes_labels", "no_labels", "resume_labels", "imitate_labels", *_SENTENCE_LABELS)
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,13 @@ class SessionOptions:
         What ends STOP; () leaves that to `Session.resume`.
     imitate_labels : tuple of str
         Commands from which on the robot moves its arms as the person before the camera does, until "no" or STOP.
+    sentence_begin_labels, sentence_end_labels : tuple of str
+        Between one of the first and one of the second words and signs are no commands but a sentence, as section 5.1 of
+        the thesis has it; () for both: there are no sentences.
+    sentence_s : float
+        Longest time in a sentence from one word or sign to the next, above 0; then it is dropped.
+    language : str
+        Of the texts of stored sentences, by code.
     retry_s : float
         How often a source that vanished is opened again, above 0.
 
@@ -69,6 +77,10 @@ class SessionOptions:
     no_labels: tuple[str, ...] = ("no",)
     resume_labels: tuple[str, ...] = ()
     imitate_labels: tuple[str, ...] = ()
+    sentence_begin_labels: tuple[str, ...] = ()
+    sentence_end_labels: tuple[str, ...] = ()
+    sentence_s: float = 10.0
+    language: str = "en"
     retry_s: float = 0.5
 
     def __post_init__(self) -> None:
@@ -96,8 +108,16 @@ class SessionOptions:
             for label in labels:
                 if meaning.setdefault(label, name) != name:
                     raise InvalidArgument(f"SessionOptions.{name}: {label!r} is one of {meaning[label]}, too")
+        if bool(self.sentence_begin_labels) != bool(self.sentence_end_labels):
+            raise InvalidArgument("SessionOptions.sentence_begin_labels and sentence_end_labels go together")
 
     @property
     def control_labels(self) -> frozenset[str]:
         """Labels that lead the dialogue and are no commands: they belong to nothing said or shown beside them."""
-        return frozenset((*self.wake_labels, *self.yes_labels, *self.no_labels, *self.resume_labels))
+        answers = (*self.yes_labels, *self.no_labels)
+        return frozenset((*self.wake_labels, *answers, *self.resume_labels, *self.sentence_labels))
+
+    @property
+    def sentence_labels(self) -> frozenset[str]:
+        """Labels that begin and end a sentence."""
+        return frozenset((*self.sentence_begin_labels, *self.sentence_end_labels))

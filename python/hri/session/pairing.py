@@ -155,7 +155,8 @@ class Pairer:
         if self._is_sure_stop(decision):
             return [self._alone(observation, "STOP waits for nothing")]
         if decision.status == RECOGNISED and decision.label in self._options.control_labels:
-            return [*self._resolve(), self._alone(observation, "it leads the dialogue")]
+            before = self._flushed(stream) if decision.label in self._options.sentence_labels else self._resolve()
+            return [*before, self._alone(observation, "it leads the dialogue")]
         if decision.status == NO_INPUT:  # belongs to nothing, and must not take the place of what does
             return [*self._resolve(), self._alone(observation, "no input")]
         stream.waiting.append(observation)
@@ -165,6 +166,12 @@ class Pairer:
         """Forget what waits, as after STOP."""
         for stream in self._streams.values():
             stream.waiting.clear()
+
+    def _flushed(self, stream: _Stream) -> Iterator[Pair]:
+        """What was said or shown before a sentence begins or ends comes first, though something may belong to it."""
+        yield from self._resolve()
+        while stream.waiting:
+            yield self._alone(stream.waiting.pop(0), "a sentence begins or ends")
 
     def _pass(self, mode: str, time_s: float) -> None:
         if mode not in self._streams:

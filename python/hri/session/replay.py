@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.fusion import LearnedFusion
+from hri.language import KnowledgeBase
 from hri.live import Event, Listener, Watcher
 from hri.live.events import OVERFLOW
 from hri.live.frames import TimedFrame
@@ -27,7 +28,7 @@ from hri.session.reading import Message, Recording, wrong
 from hri.session.recording import PCM_16, PCM_FLOAT
 from hri.signal import EndpointerOptions
 
-REPEATED = ("fused", "state", "say", "ignored", "stop", "rest", "resumed")
+REPEATED = ("fused", "state", "say", "ignored", "stop", "rest", "resumed", "sentence")
 """Events of a session that a replay repeats."""
 _GIVEN = (MOTION_END, ASKED, TICK, OVERFLOW)
 _SAME_S = 1e-3
@@ -44,6 +45,7 @@ def replay(
     words: WordRecognizer | None = None,
     signs: GestureRecognizer | None = None,
     fusion: LearnedFusion | None = None,
+    knowledge: KnowledgeBase | None = None,
 ) -> Iterator[Event]:
     """The events of a recorded session, recognised and decided on anew; no robot moves.
 
@@ -56,18 +58,21 @@ def replay(
         Needed where sound or pictures were recorded.
     fusion : LearnedFusion, optional
         Needed where one decided.
+    knowledge : KnowledgeBase, optional
+        Needed where sentences were looked up in one.
 
     Raises
     ------
     InvalidArgument
-        For a recogniser or a fusion that is missing, or a fusion where none decided.
+        For a recogniser, a fusion or stored sentences that are missing, or are there and were not then.
     FormatError
         For samples or pictures that are damaged.
     """
     feeds: dict[str, Feed[Any]] = {}
-    if (fusion is None) != ("fusion" not in recording.models):
-        needs = "was recorded with a learned fusion, and needs it" if fusion is None else "was recorded without one"
-        raise InvalidArgument(f"{recording.path}: {needs}")
+    for name, given_now, what in (("fusion", fusion, "a learned fusion"), ("knowledge", knowledge, "stored sentences")):
+        if (given_now is None) != (name not in recording.models):
+            needs = f"with {what}, and needs the same" if given_now is None else f"without {what}"
+            raise InvalidArgument(f"{recording.path}: was recorded {needs}")
     if recording.sound:
         if words is None:
             raise InvalidArgument(f"{recording.path}: sound was recorded, and needs a recogniser of words")
@@ -80,7 +85,7 @@ def replay(
         segmenter = None if recording.segmenter is None else GestureSegmenterOptions(**recording.segmenter)
         seen = Watcher(signs, segmenter, model_id=recording.models.get("gesture", ""))
         feeds["gesture"] = Feed("gesture", _Streams(recording, "gesture"), seen.watch)
-    logic = SessionLogic(recording.options, NoRobot(reports=False), recording.labels, fusion=fusion)
+    logic = SessionLogic(recording.options, NoRobot(reports=False), recording.labels, fusion=fusion, knowledge=knowledge)
     streams = {mode: feed.events() for mode, feed in feeds.items()}
     for given in recording.events:
         if given["mode"] in ("session", "robot") and given["event"] not in _GIVEN:

@@ -15,6 +15,7 @@ from typing import Any, Protocol
 
 from hri.core.errors import Error, FormatError, InvalidArgument
 from hri.fusion import LearnedFusion
+from hri.language import KnowledgeBase
 from hri.live import AudioSource, Event, FrameSource, Listener, Watcher
 from hri.recognition import GestureRecognizer, GestureSegmenterOptions, WordRecognizer
 from hri.robot import NAO, Robot, Trajectory, gesture_trajectory, load_gestures, nao_gesture_trajectory
@@ -81,21 +82,25 @@ class Session:
     on_say : callable of str, optional
         Gets what the robot says, in the thread that decides; it must not wait.
     model_ids : mapping of mode to str, optional
-        Which models decide, and which learned fusion ("fusion"); passed on with decisions.
+        Which models decide, which learned fusion ("fusion") and stored sentences ("knowledge"); passed on with
+        decisions.
     fusion : LearnedFusion, optional
         Fuses words and signs in place of ``options.rule``.
     faces : FaceFinder, optional
         Finds the person who is imitated (``options.imitate_labels``); by default by OpenCV's cascade.
+    knowledge : KnowledgeBase, optional
+        Stored sentences: what the robot says at the end of one (``options.sentence_end_labels``) and answers with.
 
     Attributes
     ----------
     refused : dict of str to str
-        Labels of the vocabulary that the robot has no motion for, and why.
+        Labels of the vocabulary, and of answers, that the robot has no motion for, and why.
 
     Raises
     ------
     InvalidArgument
-        Without any recogniser, or for a label of the options that neither knows.
+        Without any recogniser, for a label of the options that neither knows, and for stored sentences where no
+        label begins one.
     NotFittedError
         For a recogniser or a fusion that is not trained.
     """
@@ -114,6 +119,7 @@ class Session:
         model_ids: Mapping[str, str] | None = None,
         fusion: LearnedFusion | None = None,
         faces: Faces | None = None,
+        knowledge: KnowledgeBase | None = None,
     ) -> None:
         if words is None and signs is None:
             raise InvalidArgument("a session needs a recogniser of words or of gestures")
@@ -121,7 +127,8 @@ class Session:
         self._robot = robot
         self._on_say = on_say
         self._labels = {str(label) for one in (words, signs) if one is not None for label in one.classes_}
-        for label in self.options.wake_labels + self.options.resume_labels + self.options.imitate_labels:
+        chosen = self.options
+        for label in (*chosen.wake_labels, *chosen.resume_labels, *chosen.imitate_labels, *chosen.sentence_labels):
             if label not in self._labels:
                 raise InvalidArgument(f"{label!r} is in no vocabulary: {', '.join(sorted(self._labels))}")
         self._fusion = fusion
@@ -129,6 +136,11 @@ class Session:
         if fusion is not None:
             _ = fusion.reliability_  # refuses one that is not trained now
             ids.setdefault("fusion", fusion.kind)
+        self._knowledge = knowledge
+        if knowledge is not None:
+            if not chosen.sentence_begin_labels:
+                raise InvalidArgument("knowledge: stored sentences need labels that begin and end one")
+            ids.setdefault("knowledge", f"{len(knowledge.sentences)} sentences")
         self._endpointer, self._segmenter = endpointer, segmenter
         self._listener = None if words is None else Listener(words, endpointer, model_id=ids.get("speech", ""))
         self._watcher = None if signs is None else Watcher(signs, segmenter, model_id=ids.get("gesture", ""))
@@ -238,7 +250,7 @@ class Session:
             guided = Guided(self._imitator.joint_names, self._imitator.target_at)
             found |= dict.fromkeys(self.options.imitate_labels, guided)
         led = {*self.options.control_labels, *self.options.fusion.stop_labels, *found}
-        for label in sorted(self._labels - led):
+        for label in sorted((self._labels - led) | self._answers()):
             if motions is None and label not in load_gestures():
                 self.refused[label] = "no gesture has this name"
             elif motions is not None and label not in motions:
@@ -254,6 +266,11 @@ class Session:
                     self.refused[label] = str(error)
         return found
 
+    def _answers(self) -> set[str]:
+        """Gestures that stored sentences are answered with."""
+        stored = () if self._knowledge is None else self._knowledge.sentences
+        return {label for sentence in stored for label in sentence.answer}
+
     def _about(self) -> dict[str, Any]:
         given = {"endpointer": self._endpointer, "segmenter": self._segmenter}
         return {
@@ -264,10 +281,10 @@ class Session:
         }
 
     def _commands(self) -> Collection[str]:
-        return self._labels if self._robot is None else self._motions.keys()
+        return self._labels | self._answers() if self._robot is None else self._motions.keys()
 
     def _logic(self, body: Body) -> SessionLogic:
-        return SessionLogic(self.options, body, self._commands(), self._on_say, self._fusion)
+        return SessionLogic(self.options, body, self._commands(), self._on_say, self._fusion, self._knowledge)
 
     @contextmanager
     def _begun(self, clock: Clock | None, recorder: SessionRecorder | None) -> Iterator[Body]:

@@ -29,6 +29,7 @@ from hri.robot.model.postures import base_pose
 from hri.robot.model.urdf import urdf_text
 from hri.robot.motion.trajectory import Trajectory
 from hri.robot.simulation import scene
+from hri.robot.simulation.eyesight import Screen, Shot, Sight, camera_of
 
 # A base that stands on its feet needs soft joints; arms on a held base follow better with stiff.
 _GAIN_FREE_PER_S = 10.0
@@ -86,6 +87,7 @@ class PyBulletRobot(Robot):
         self._locked = frozenset(locked)
         self._balance = Balance(table, _GAIN_FREE_PER_S) if self._physics.balance and not fixed_base else None
         self._since_balance = 0
+        self._sight = Sight(self._bullet, self._client)
         try:
             self._build()
         except BaseException:
@@ -133,12 +135,65 @@ class PyBulletRobot(Robot):
         far = (sorted(pair) for pair in pairs if len(pair) == 2 and pair not in self.table.adjoining)
         return sorted((joints.get(first, "base"), joints.get(second, "base")) for first, second in far)
 
+    def put_screen(self, screen: Screen) -> None:
+        """Put a screen before the robot, in place of another one; nothing collides with it.
+
+        Parameters
+        ----------
+        screen : Screen
+        """
+        self._require_open()
+        self._sight.put(screen)
+
+    def see(self, camera: str) -> Image:
+        """What a camera of the robot sees: the floor, its own arms, and a screen.
+
+        Parameters
+        ----------
+        camera : str
+            As the table names it: NAO's are "CameraTop" and "CameraBottom".
+
+        Returns
+        -------
+        ndarray of uint8, shape (height, width, 3)
+            RGB, of the camera's own size and angles of view.
+
+        Raises
+        ------
+        InvalidArgument
+            For a camera that the robot does not have.
+        """
+        self._require_open()
+        entry = camera_of(self.table, camera)
+        # A robot that holds its torso sees the same while its joints are where they were.
+        still = tuple(self._joint_positions().values()) if self._fixed_base else None
+        return self._sight.look(entry, self._link_pose(entry.link), still, self._picture)
+
+    def _link_pose(self, name: str) -> Pose:
+        """Of the link's frame in the world."""
+        index = next(index for index, link in self._links.items() if link == name)
+        if index == -1:
+            position, turn = self._base()
+        else:
+            position, turn = self._bullet.getLinkState(
+                self._body, index, computeForwardKinematics=1, physicsClientId=self._client
+            )[4:6]
+        pose = np.eye(4)
+        pose[:3, :3] = np.array(self._bullet.getMatrixFromQuaternion(turn)).reshape(3, 3)
+        pose[:3, 3] = position
+        return pose
+
     def _render(self, width: int, height: int) -> Image:
         scene.check_size(width, height)
         bullet = self._bullet
         eye, target = scene.camera(self._base()[0] if not self._fixed_base else None)
         view = bullet.computeViewMatrix(eye.tolist(), target.tolist(), scene.UP)
         projection = bullet.computeProjectionMatrixFOV(scene.FIELD_OF_VIEW_DEG, width / height, 0.1, 5.0)
+        return self._picture(width, height, view, projection)[0]
+
+    def _picture(self, width: int, height: int, view: Any, projection: Any) -> Shot:
+        """A picture, and the number of the body that each pixel shows, below 0 for none."""
+        bullet = self._bullet
         _, _, pixels, _, mask = bullet.getCameraImage(
             width,
             height,
@@ -154,8 +209,8 @@ class PyBulletRobot(Robot):
             physicsClientId=self._client,
         )
         image = np.asarray(pixels, dtype=np.uint8).reshape(height, width, 4)[:, :, :3]
-        nothing = np.asarray(mask).reshape(height, width, 1) < 0
-        return np.where(nothing, scene.backdrop(width, height), image)
+        bodies = np.asarray(mask, dtype=np.int32).reshape(height, width)
+        return np.where(bodies[..., np.newaxis] < 0, scene.backdrop(width, height), image), bodies
 
     def _close(self) -> None:
         if self._client >= 0:

@@ -16,6 +16,7 @@ FIELD_OF_VIEW_DEG = 34.0  # vertical
 TO_LIGHT = (0.62, 0.42, 0.95)
 FLOOR_COLOUR = (0.80, 0.85, 0.90)
 FLOOR_HALF_M = 0.36
+SCREEN_COLOUR = (0.10, 0.10, 0.12)
 WALK_HALF_M = 3.0  # of the floor of a robot that walks; the camera goes with it
 SKY_TOP = (0.86, 0.91, 0.96)
 SKY_BOTTOM = (0.97, 0.98, 0.99)
