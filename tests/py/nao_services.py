@@ -170,13 +170,16 @@ class VideoDevice:
             raise RuntimeError(f"ALVideoDevice: {handle} is not subscribed")
         camera, fps, (width, height) = self.subscribers[handle]
         self.number += not (self.frozen or self.number == len(self.frames) - 1)
-        picture = np.full((height, width, 3), 30 + camera, dtype=np.uint8)
-        picture[0, self.number % width] = (1, 128, 255)
-        if self.frames:
-            picture = self.frames[self.number]
-        pixels = picture.tobytes()[: -5 if self.broken else None]
+        pixels = self.picture(camera, width, height).tobytes()[: -5 if self.broken else None]
         seconds, part_s = divmod(1000 + self.number / fps, 1.0)
         return (width, height, 3, 13, int(seconds), int(1e6 * part_s), pixels, camera, 0.53, 0.42, -0.53, -0.42)
+
+    def picture(self, camera, width, height):
+        if self.frames:
+            return self.frames[self.number]
+        picture = np.full((height, width, 3), 30 + camera, dtype=np.uint8)
+        picture[0, self.number % width] = (1, 128, 255)
+        return picture
 
     def releaseImage(self, handle):
         return handle in self.subscribers
@@ -222,9 +225,14 @@ class Nao:
     """A service directory with the services named; `close` switches it off."""
 
     def __init__(
-        self, services=("ALMotion", "ALTextToSpeech", "ALVideoDevice", "ALAudioDevice"), url="tcp://127.0.0.1:0"
+        self,
+        services=("ALMotion", "ALTextToSpeech", "ALVideoDevice", "ALAudioDevice"),
+        url="tcp://127.0.0.1:0",
+        motion=None,
+        video=None,
     ):
-        self.motion, self.voice, self.video, self.audio = Motion(), TextToSpeech(), VideoDevice(), AudioDevice()
+        self.motion, self.video = motion or Motion(), video or VideoDevice()
+        self.voice, self.audio = TextToSpeech(), AudioDevice()
         known = {
             "ALMotion": self.motion,
             "ALTextToSpeech": self.voice,

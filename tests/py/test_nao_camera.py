@@ -125,6 +125,11 @@ def test_a_gesture_of_the_vocabulary_is_naos_own(nao):
 
 def test_commands_move_a_real_nao(nao, hri, tmp_path):
     pytest.importorskip("click")
+    pytest.importorskip("hri._native_vision")
+    from session_people import train_signs
+
+    model = tmp_path / "signs.hri"
+    train_signs().save(model)
     turn = tmp_path / "turn.csv"
     turn.write_text("time_s,HeadYaw\n0,0\n0.3,6\n0.6,6\n", encoding="utf-8")
     ran = hri("robot", "play", turn, "--robot", "nao", "--url", nao.url, "--wake-up", "--rest")
@@ -134,6 +139,8 @@ def test_commands_move_a_real_nao(nao, hri, tmp_path):
     url = nao.url
     nao.close()
     failed = hri("robot", "play", turn, "--robot", "nao", "--url", url)
+    assert (failed.code, failed.out) == (3, "") and "no NAO can be reached" in failed.err
+    failed = hri("session", "--robot", "nao", "--url", url, "--camera", "nao", "--no-speech", "--gesture-model", model)
     assert (failed.code, failed.out) == (3, "") and "no NAO can be reached" in failed.err
     failed = hri("robot", "play", turn, "--robot", "nao", "--url", "nao.local")
     assert (failed.code, failed.out) == (3, "") and "no address of a NAO" in failed.err

@@ -21,6 +21,8 @@ from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.fusion import RULES, FusionOptions, LearnedFusion
+from hri.language import KnowledgeBase
+from hri.language.knowledge import MAX_DISTANCE
 from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
 from hri.media import kind_of_file
 from hri.recognition import GestureRecognizer, WordRecognizer
@@ -64,6 +66,23 @@ _NAO = "nao"
     metavar="LABEL",
     help="From this word or sign on the arms move as yours do, until no or STOP.",
 )
+@click.option("--sentence-begin", multiple=True, metavar="LABEL", help="From this word or sign on comes a sentence.")
+@click.option("--sentence-end", multiple=True, metavar="LABEL", help="It ends with this one, and is said.")
+@click.option(
+    "--knowledge",
+    "knowledge_path",
+    type=_MODEL,
+    metavar="CSV",
+    help="Stored sentences, of which the nearest is said: columns signs, en, hi, ..., and answer: gestures in return.",
+)
+@click.option(
+    "--max-distance",
+    type=click.FloatRange(0, 1),
+    default=MAX_DISTANCE,
+    show_default=True,
+    help="Words farther from every stored sentence are none of them.",
+)
+@click.option("--language", default="en", show_default=True, help="Of what stored sentences say.")
 @click.option(
     "--confirm-below", type=float, default=0.5, show_default=True, help="Ask for what is less sure; 1: always."
 )
@@ -104,6 +123,11 @@ def session(
     stop_threshold: float | None,
     resume: tuple[str, ...],
     imitate: tuple[str, ...],
+    sentence_begin: tuple[str, ...],
+    sentence_end: tuple[str, ...],
+    knowledge_path: Path | None,
+    max_distance: float,
+    language: str,
     confirm_below: float,
     window_s: float,
     rule: str,
@@ -127,12 +151,14 @@ def session(
       hri session
       hri session --wake robot --resume start --record class.mcap
       hri session --imitate follow --gui
+      hri session --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri session --backend kinematic --json words.wav signs.mp4
       hri session --replay class.mcap
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
     if replay_path is not None:
-        _replay(replay_path, speech_model, gesture_model, fusion_path, as_json)
+        known = (knowledge_path, max_distance)
+        _replay(replay_path, speech_model, gesture_model, fusion_path, known, as_json)
         return
     if url is not None and table is not NAO:
         raise click.UsageError("--url is of a real NAO: add --robot nao")
@@ -151,12 +177,16 @@ def session(
         wake_labels=wake,
         resume_labels=resume,
         imitate_labels=imitate,
+        sentence_begin_labels=sentence_begin,
+        sentence_end_labels=sentence_end,
+        language=language,
         confirm_below=confirm_below,
     )
     ids: dict[str, str] = {}
     words = load_model(WordRecognizer, "speech", speech_model, ids) if with_speech else None
     signs = load_model(GestureRecognizer, "gesture", gesture_model, ids) if with_gesture else None
     learned = None if fusion_path is None else load_model(LearnedFusion, "fusion", fusion_path, ids)
+    stored = _stored(knowledge_path, max_distance, ids)
     with ExitStack() as stack:
         robot: Robot | None = None
         if url is not None:
@@ -166,7 +196,7 @@ def session(
         note("preparing the robot's motions")
         # NAO hears itself: a question that names a word would be answered by it.
         say = robot.say_later if isinstance(robot, NaoqiRobot) and microphone_name != _NAO else None
-        made = Session(words, signs, robot, options, on_say=say, model_ids=ids, fusion=learned)
+        made = Session(words, signs, robot, options, on_say=say, model_ids=ids, fusion=learned, knowledge=stored)
         for label, why in made.refused.items():
             note(f"no motion for {label}: {why}")
         hear: Any = None
@@ -197,7 +227,12 @@ def _microphone(name: str | None, stall_s: float, url: str | None) -> Microphone
 
 
 def _replay(
-    path: Path, speech_model: Path | None, gesture_model: Path | None, fusion_path: Path | None, as_json: bool
+    path: Path,
+    speech_model: Path | None,
+    gesture_model: Path | None,
+    fusion_path: Path | None,
+    known: tuple[Path | None, float],
+    as_json: bool,
 ) -> None:
     """Decide once more; exit code 1 where a decision differs."""
     recording = read_recording(path)
@@ -205,13 +240,14 @@ def _replay(
     words = load_model(WordRecognizer, "speech", speech_model, ids) if recording.sound else None
     signs = load_model(GestureRecognizer, "gesture", gesture_model, ids) if recording.pictures else None
     learned = None if fusion_path is None else load_model(LearnedFusion, "fusion", fusion_path, ids)
+    stored = _stored(*known, ids)
     for mode, name in ids.items():
         if name != recording.models.get(mode):
             note(f"{mode}: recorded with {recording.models.get(mode) or 'another model'}, replayed with {name}")
     again: list[dict[str, Any]] = []
 
     def kept() -> Any:
-        for event in replay(recording, words, signs, learned):
+        for event in replay(recording, words, signs, learned, stored):
             again.append(event.to_dict())
             yield event
 
@@ -239,8 +275,21 @@ def _files(files: tuple[Path, ...]) -> tuple[Path | None, Path | None]:
     return found.get("a sound file"), found.get("a video")
 
 
+def _stored(path: Path | None, max_distance: float, ids: dict[str, str]) -> KnowledgeBase | None:
+    """Stored sentences; the name and hash of their file and how near words must be to them go into `ids`."""
+    if path is None:
+        return None
+    ids["knowledge"] = f"{_named(path)} within {max_distance:g}"
+    return KnowledgeBase.read(path, max_distance)
+
+
+def _named(path: Path) -> str:
+    """Name and hash of a file."""
+    return f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
+
+
 def load_model(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
     """The recogniser or fusion in a model file; its name and hash go into `ids`."""
     chosen = path or kept_model(mode)
-    ids[mode] = f"{chosen.name}:{hashlib.sha256(read_bytes(chosen, MAX_MODEL_BYTES)).hexdigest()[:12]}"
+    ids[mode] = _named(chosen)
     return kind.load(chosen)
