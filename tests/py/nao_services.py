@@ -153,6 +153,8 @@ class VideoDevice:
         self.broken = False
         self.frames = []
         self.number = 0
+        self.paced = False  # set: `frames` come again and again, by the clock
+        self.begun_s = 0.0
 
     def subscribeCamera(self, name, camera, resolution, colours, fps):
         if camera not in (0, 1) or colours != 13 or resolution not in (0, 1, 2):
@@ -160,6 +162,7 @@ class VideoDevice:
         if len(self.subscribers) >= 8:
             raise RuntimeError("ALVideoDevice: too many subscribers")
         handle = f"{name}_{len(self.subscribers)}"
+        self.begun_s = time.monotonic()
         self.subscribers[handle] = (camera, fps, self.SIZES[resolution])
         return handle
 
@@ -169,7 +172,10 @@ class VideoDevice:
         if handle not in self.subscribers:
             raise RuntimeError(f"ALVideoDevice: {handle} is not subscribed")
         camera, fps, (width, height) = self.subscribers[handle]
-        self.number += not (self.frozen or self.number == len(self.frames) - 1)
+        if self.paced:
+            self.number = int((time.monotonic() - self.begun_s) * fps) % len(self.frames)
+        else:
+            self.number += not (self.frozen or self.number == len(self.frames) - 1)
         pixels = self.picture(camera, width, height).tobytes()[: -5 if self.broken else None]
         seconds, part_s = divmod(1000 + self.number / fps, 1.0)
         return (width, height, 3, 13, int(seconds), int(1e6 * part_s), pixels, camera, 0.53, 0.42, -0.53, -0.42)

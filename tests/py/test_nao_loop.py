@@ -104,17 +104,16 @@ def test_nao_sees_a_sentence_says_it_and_answers_by_gestures(nao: SimulatedNao, 
 
 
 def test_a_nao_switched_off_in_mid_motion_is_told_and_the_session_lives_on_until_it_is_back() -> None:
-    drawn = signing([("flat", 1.0)], 4.0, hold_s=1.2)
-    frames = [cv2.resize(frame, (640, 480)) for frame in drawn]
+    frames = [frame[20:140] for frame in signing([("flat", 1.0)], 4.0, hold_s=1.2)]
     first = Nao()
-    first.video.frames = frames
+    first.video.frames, first.video.paced = frames, True
     url = first.url
     sway = Trajectory(["HeadYaw"], 2.0, [[0.0], [1.0], [0.0]])
     stall, told, moved, later = [], [], [], None
     with NaoqiRobot(url, timeout_s=3.0) as robot:
         session = Session(signs=train_signs(), robot=robot, motions={"flat": sway}, on_say=robot.say_later)
         thread = in_mid_motion(first, first.close)
-        for event in session.run(pictures=lambda: NaoCamera(url, fps=round(FPS), stall_s=2.0), live=True):
+        for event in session.run(pictures=lambda: NaoCamera(url, size=(160, 120), fps=round(FPS)), live=True):
             stall += [event.fields["message"]] if event.event == "stall" else []
             told += [event.fields["text"]] if event.event == "say" else []
             moved += [event.fields] if event.event == "motion_end" else []
@@ -122,7 +121,7 @@ def test_a_nao_switched_off_in_mid_motion_is_told_and_the_session_lives_on_until
                 thread.join()
                 assert robot.stopped and len(first.motion.sent) < 80
                 later = Nao(url=url)
-                later.video.frames = frames
+                later.video.frames, later.video.paced = frames, True
                 session.resume()
             assert event.time < 90.0
             if len(moved) == 2:

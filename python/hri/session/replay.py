@@ -85,7 +85,9 @@ def replay(
         segmenter = None if recording.segmenter is None else GestureSegmenterOptions(**recording.segmenter)
         seen = Watcher(signs, segmenter, model_id=recording.models.get("gesture", ""))
         feeds["gesture"] = Feed("gesture", _Streams(recording, "gesture"), seen.watch)
-    logic = SessionLogic(recording.options, NoRobot(reports=False), recording.labels, fusion=fusion, knowledge=knowledge)
+    logic = SessionLogic(
+        recording.options, NoRobot(reports=False), recording.labels, fusion=fusion, knowledge=knowledge
+    )
     streams = {mode: feed.events() for mode, feed in feeds.items()}
     for given in recording.events:
         if given["mode"] in ("session", "robot") and given["event"] not in _GIVEN:
