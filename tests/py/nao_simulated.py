@@ -20,7 +20,7 @@ CYCLE_S = 0.02
 
 @qi.multiThreaded()
 class SimulatedMotion(Motion):
-    """ALMotion whose joints are those of the simulation: a cycle of it goes by with every call, on a slow computer, too."""
+    """ALMotion with the joints of the simulation: a cycle goes by with every call, on a slow computer, too."""
 
     def __init__(self, robot, busy):
         super().__init__()

@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("qi")
 pytest.importorskip("pybullet")
 pytest.importorskip("hri._native_vision")
-cv2 = pytest.importorskip("cv2")
+pytest.importorskip("cv2")
 
 import hri
 from drawn_hands import FPS

@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 pytest.importorskip("pybullet")
-cv2 = pytest.importorskip("cv2")
+pytest.importorskip("cv2")
+
+import cv2
 
 from hri.core.errors import InvalidArgument
 from hri.robot import NAO, Screen
@@ -40,7 +42,8 @@ def eye_m(robot: PyBulletRobot) -> np.ndarray:
     head = np.array(robot.link_positions_m()["HeadPitch"])
     x, _, z = TOP.origin_m
     pitch = LEVEL["HeadPitch"]
-    return head + (x * math.cos(pitch) + z * math.sin(pitch), 0.0, z * math.cos(pitch) - x * math.sin(pitch))
+    there = (x * math.cos(pitch) + z * math.sin(pitch), 0.0, z * math.cos(pitch) - x * math.sin(pitch))
+    return np.add(head, there)
 
 
 def marked(at: tuple[float, float]) -> np.ndarray:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The clips of `webcam` as NAO sees them: on a screen, by the camera of its simulation; against the clips themselves."""
+"""The clips of `webcam` on a screen, as the simulated NAO sees them, against the clips themselves."""
 
 from __future__ import annotations
 

@@ -74,8 +74,8 @@ class Screen:
         InvalidArgument
             For anything else.
         """
-        sides = getattr(picture, "shape", ())
-        if len(sides) != 3 or sides[2] != 3 or picture.dtype != np.uint8 or not 2 <= min(sides[:2]):
+        sides: tuple[int, ...] = getattr(picture, "shape", ())
+        if len(sides) != 3 or sides[2] != 3 or picture.dtype != np.uint8 or min(sides[:2]) < 2:
             raise InvalidArgument("a picture is uint8 of the shape (height, width, 3), 2 x 2 pixels at least")
         if max(sides) > MAX_SIDE_PX:
             raise InvalidArgument(f"a picture has {MAX_SIDE_PX} pixels a side at most, got {sides[1]} x {sides[0]}")
