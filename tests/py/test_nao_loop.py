@@ -103,19 +103,19 @@ def test_nao_sees_a_sentence_says_it_and_answers_by_gestures(nao: SimulatedNao, 
         assert len(asked) < 2 or np.abs(np.diff(asked)).max() / robot.step_s <= NAO.max_speed_rad_s
 
 
-def test_a_nao_switched_off_in_mid_motion_is_told_and_the_session_lives_on_until_it_is_back() -> None:
+def test_a_nao_switched_off_in_mid_motion_leaves_the_session_alive_until_it_is_back() -> None:
     frames = [frame[20:140] for frame in signing([("flat", 1.0)], 4.0, hold_s=1.2)]
     first = Nao()
     first.video.frames, first.video.paced = frames, True
     url = first.url
     sway = Trajectory(["HeadYaw"], 2.0, [[0.0], [1.0], [0.0]])
-    stall, told, moved, later = [], [], [], None
+    stall, texts, moved, later = [], [], [], None
     with NaoqiRobot(url, timeout_s=3.0) as robot:
         session = Session(signs=train_signs(), robot=robot, motions={"flat": sway}, on_say=robot.say_later)
         thread = in_mid_motion(first, first.close)
         for event in session.run(pictures=lambda: NaoCamera(url, size=(160, 120), fps=round(FPS)), live=True):
             stall += [event.fields["message"]] if event.event == "stall" else []
-            told += [event.fields["text"]] if event.event == "say" else []
+            texts += [event.fields["text"]] if event.event == "say" else []
             moved += [event.fields] if event.event == "motion_end" else []
             if (event.event, event.fields.get("state")) == ("state", "stopped"):
                 thread.join()
@@ -130,7 +130,7 @@ def test_a_nao_switched_off_in_mid_motion_is_told_and_the_session_lives_on_until
     assert later is not None
     later.close()
     assert [one["completed"] for one in moved] == [False, True] and moved[0]["fault"]
-    assert any("does not obey" in text and url in text for text in told) and "Ready." in told
+    assert any("does not obey" in text and url in text for text in texts) and "Ready." in texts
     assert any("NAO at" in message for message in stall), "the camera went with it"
     begun = [asked["HeadYaw"] for _, asked in later.motion.sent]
     assert abs(begun[0]) < 0.01 and max(begun) > 0.9 and later.motion.clamped == []
