@@ -60,6 +60,32 @@ def test_a_scene_is_printed_recorded_and_replayed(hri, scene: Path, tmp_path: Pa
     assert [row["final"] for row in rows(again.out) if row["event"] == "fused"] == ["flat", "stop"]
 
 
+def test_a_sentence_is_looked_up_recorded_and_replayed(hri, scene: Path, tmp_path: Path) -> None:
+    pytest.importorskip("mcap")
+    stored, said, kept = tmp_path / "stored.csv", tmp_path / "sentence.wav", tmp_path / "kept.mcap"
+    stored.write_text("signs,en,hi,answer\nflat flat,Flat and flat.,दो बार,wave\nfar away,Far.,,\n", encoding="utf-8")
+    stream = speech([("stop", 1.5), ("flat", 3.5), ("flat", 5.5), ("tall", 7.5)], 9.5)
+    write_wav_pcm16(str(said), stream, RATE_HZ)
+    known = ("--knowledge", stored, "--max-distance", "0.3")
+    asked = ("--sentence-begin", "stop", "--sentence-end", "tall", "--stop", "halt", "--language", "hi", *known)
+    model = ("--speech-model", scene / "words.hri")
+    done = hri("session", *model, "--backend", "kinematic", *asked, "--record", kept, said)
+    assert done.code == 0
+    printed = rows(done.out)
+    (sentence,) = [row for row in printed if row["event"] == "sentence"]
+    assert (sentence["words"], sentence["nearest"], sentence["distance"]) == (["flat", "flat"],) * 2 + (0.0,)
+    assert [row["text"] for row in printed if row["event"] == "say"] == ["दो बार"]
+    assert [(r["label"], r["completed"]) for r in printed if r["event"] == "motion_end"] == [("wave", True)]
+    shown = describe(Event(3.0, "sentence", {"words": ["a"], "nearest": ["a", "b"], "distance": 0.4}, mode="session"))
+    assert "sentence: a  (nearest: a b, 0.40)" in shown
+    again = hri("session", *model, *known, "--replay", kept)
+    assert again.code == 0 and "all as recorded" in again.err and "replayed with" not in again.err
+    without = hri("session", *model, "--replay", kept)
+    assert without.code == 3 and "was recorded with stored sentences, and needs them" in without.err
+    refused = hri("session", *model, "--backend", "none", *known, said)
+    assert refused.code == 3 and "need labels that begin and end one" in refused.err
+
+
 def test_a_replay_by_other_models_that_decides_otherwise_fails(hri, scene: Path, tmp_path: Path) -> None:
     pytest.importorskip("mcap")
     import hri as package

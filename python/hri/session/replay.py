@@ -69,9 +69,10 @@ def replay(
         For samples or pictures that are damaged.
     """
     feeds: dict[str, Feed[Any]] = {}
-    for name, given_now, what in (("fusion", fusion, "a learned fusion"), ("knowledge", knowledge, "stored sentences")):
-        if (given_now is None) != (name not in recording.models):
-            needs = f"with {what}, and needs the same" if given_now is None else f"without {what}"
+    needed = (("fusion", fusion, "a learned fusion", "it"), ("knowledge", knowledge, "stored sentences", "them"))
+    for name, present, what, them in needed:
+        if (present is None) != (name not in recording.models):
+            needs = f"with {what}, and needs {them}" if present is None else f"without {what}"
             raise InvalidArgument(f"{recording.path}: was recorded {needs}")
     if recording.sound:
         if words is None:
