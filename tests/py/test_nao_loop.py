@@ -104,14 +104,15 @@ def test_nao_sees_a_sentence_says_it_and_answers_by_gestures(nao: SimulatedNao, 
 
 
 def test_a_nao_switched_off_in_mid_motion_leaves_the_session_alive_until_it_is_back() -> None:
-    frames = [frame[20:140] for frame in signing([("flat", 1.0)], 4.0, hold_s=1.2)]
+    frames = [frame[20:140] for frame in signing([("flat", 0.4)], 3.0, hold_s=1.2)]
     first = Nao()
     first.video.frames, first.video.paced = frames, True
     url = first.url
-    sway = Trajectory(["HeadYaw"], 2.0, [[0.0], [1.0], [0.0]])
+    sway = Trajectory(["HeadYaw"], 0.8, [[0.0], [0.4], [0.0]])
     stall, texts, moved, later = [], [], [], None
     with NaoqiRobot(url, timeout_s=3.0) as robot:
         session = Session(signs=train_signs(), robot=robot, motions={"flat": sway}, on_say=robot.say_later)
+        assert "flat" in session.motions
         thread = in_mid_motion(first, first.close)
         for event in session.run(pictures=lambda: NaoCamera(url, size=(160, 120), fps=round(FPS)), live=True):
             stall += [event.fields["message"]] if event.event == "stall" else []
@@ -123,7 +124,7 @@ def test_a_nao_switched_off_in_mid_motion_leaves_the_session_alive_until_it_is_b
                 later = Nao(url=url)
                 later.video.frames, later.video.paced = frames, True
                 session.resume()
-            assert event.time < 90.0
+            assert event.time < 60.0
             if len(moved) == 2:
                 break
         assert not robot.stopped
@@ -133,4 +134,4 @@ def test_a_nao_switched_off_in_mid_motion_leaves_the_session_alive_until_it_is_b
     assert any("does not obey" in text and url in text for text in texts) and "Ready." in texts
     assert any("NAO at" in message for message in stall), "the camera went with it"
     begun = [asked["HeadYaw"] for _, asked in later.motion.sent]
-    assert abs(begun[0]) < 0.01 and max(begun) > 0.9 and later.motion.clamped == []
+    assert abs(begun[0]) < 0.01 and max(begun) > 0.35 and later.motion.clamped == []
