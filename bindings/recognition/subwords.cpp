@@ -27,14 +27,15 @@ using hri_bind::FloatArray;
 std::vector<hri::WordSample> as_words(const std::vector<FloatArray>& samples,
                                       const std::vector<int>& sample_rates_hz,
                                       const std::vector<std::string>& labels,
-                                      const std::vector<std::string>& groups) {
+                                      const std::vector<std::string>& groups,
+                                      const std::string& list) {
   hri::require(samples.size() == labels.size() && samples.size() == sample_rates_hz.size() &&
                    samples.size() == groups.size(),
                "X, sample_rate_hz, y and groups differ in length");
   std::vector<hri::WordSample> words;
   words.reserve(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::string name = "X[" + std::to_string(i) + "]";
+    const std::string name = list + "[" + std::to_string(i) + "]";
     words.push_back(
         {as_span(samples[i], name.c_str()), sample_rates_hz[i], labels[i], groups[i], name});
   }
@@ -48,7 +49,7 @@ SubwordRecognizer train_subwords(const std::vector<FloatArray>& samples,
                                  const hri::htk::Dictionary& lexicon,
                                  const hri::SubwordRecognizerOptions& options,
                                  const std::function<void(int, int)>& progress) {
-  const auto words = as_words(samples, sample_rates_hz, labels, groups);
+  const auto words = as_words(samples, sample_rates_hz, labels, groups, "X");
   hri::TrainingProgress with_gil;
   if (progress) {
     with_gil = [&progress](int done, int total) {
@@ -66,7 +67,7 @@ SubwordRecognizer with_spelled_word(const SubwordRecognizer& self, const std::st
                                     const std::vector<int>& sample_rates_hz) {
   const std::vector<std::string> labels(samples.size(), label);
   const std::vector<std::string> groups(samples.size());
-  const auto words = as_words(samples, sample_rates_hz, labels, groups);
+  const auto words = as_words(samples, sample_rates_hz, labels, groups, "clips");
   const py::gil_scoped_release release;
   return self.with_word(label, pronunciations, words, hri_bind::interrupted);
 }

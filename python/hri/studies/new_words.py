@@ -191,8 +191,8 @@ def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(WORD
 STUDIES = (
     Study(
         "new-words",
-        "words that nobody recorded, added by their spelling to units of other words by other speakers, with 0, 1 and 3 "
-        "recordings by the user; beside synthetic voices and models of whole words; leave one of 4 speakers out",
+        "words that nobody recorded, added by their spelling to units of other words by other speakers, with 0, 1 and "
+        "3 recordings by the user; beside synthetic voices and models of whole words; leave one of 4 speakers out",
         (*(WORD_FOLDERS[name] for name in WORDS), ENGLISH_WORDS),
         "without recordings, a larger share of the new words than a recogniser trained on synthetic voices alone",
         _run,
