@@ -8715,19 +8715,23 @@ class SubwordRecognizerOptions:
     ----------
     words : WordRecognizerOptions or dict
         front end and warped copies as of isolated words; models and rejection are not used
-    num_states : int, default 3
+    num_states : int, default 2
         left-right states of a unit, and of silence; 1..10
-    num_mixtures : int, default 4
+    num_mixtures : int, default 1
         Gaussians of a state; 1..64
     num_passes : int, default 4
         passes of embedded Baum-Welch with every number of Gaussians, which doubles from 1; 1..100
-    variance_floor : float, default 0.1
-        share of the variance of all frames; 0..1, 0 excluded
+    variance_floor : float, default 1.0
+        share of the variance of all frames; wide Gaussians leave room for neighbours that a unit had not in training; 0..1, 0 excluded
     num_folds : int, default 4
         groups of speakers that are held out for confidences and rejection at most; 0, 1: none, and no word is rejected; 0..10
     false_reject_rate : float, default 0.05
         share of correct held-out words that the threshold may reject; 0..0.5
-    prior_frames : float, default 10.0
+    num_word_folds : int, default 5
+        groups of words that are left out, with speakers, to choose unrecorded_bonus; 0, 1: it is not chosen; 0..20
+    unrecorded_bonus : float, default 0.0
+        added to the score of words added without recordings, as units fit the words better that they were trained on; 0..1000
+    prior_frames : float, default 3.0
         recordings of an added word move the means of its units from their own, which weigh as much as so many frames; 0..1000000, 0 excluded
     num_adaptations : int, default 3
         passes in which they do; 1..100
@@ -8745,13 +8749,15 @@ class SubwordRecognizerOptions:
         self,
         *,
         words: WordRecognizerOptions | collections.abc.Mapping[str, typing.Any] = ...,
-        num_states: int = 3,
-        num_mixtures: int = 4,
+        num_states: int = 2,
+        num_mixtures: int = 1,
         num_passes: int = 4,
-        variance_floor: float = 0.1,
+        variance_floor: float = 1.0,
         num_folds: int = 4,
         false_reject_rate: float = 0.05,
-        prior_frames: float = 10.0,
+        num_word_folds: int = 5,
+        unrecorded_bonus: float = 0.0,
+        prior_frames: float = 3.0,
         num_adaptations: int = 3,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -8803,6 +8809,13 @@ class SubwordRecognizerOptions:
     @num_states.setter
     def num_states(self, arg1: typing.Any) -> None: ...
     @property
+    def num_word_folds(self) -> int:
+        """
+        groups of words that are left out, with speakers, to choose unrecorded_bonus; 0, 1: it is not chosen
+        """
+    @num_word_folds.setter
+    def num_word_folds(self, arg1: typing.Any) -> None: ...
+    @property
     def prior_frames(self) -> float:
         """
         recordings of an added word move the means of its units from their own, which weigh as much as so many frames
@@ -8810,9 +8823,16 @@ class SubwordRecognizerOptions:
     @prior_frames.setter
     def prior_frames(self, arg1: typing.Any) -> None: ...
     @property
+    def unrecorded_bonus(self) -> float:
+        """
+        added to the score of words added without recordings, as units fit the words better that they were trained on
+        """
+    @unrecorded_bonus.setter
+    def unrecorded_bonus(self, arg1: typing.Any) -> None: ...
+    @property
     def variance_floor(self) -> float:
         """
-        share of the variance of all frames
+        share of the variance of all frames; wide Gaussians leave room for neighbours that a unit had not in training
         """
     @variance_floor.setter
     def variance_floor(self, arg1: typing.Any) -> None: ...

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Words that nobody recorded: by their spelling and units of other words, beside synthetic voices that say them."""
+"""Words that were never recorded: by their spelling and units of other words, beside synthetic voices that say them."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def _of_units(
     fold: _Fold, more: Sequence[Clip], language: str, spellings: dict[str, str]
 ) -> Iterator[tuple[tuple[str, int], Row]]:
     clips = [*fold.train, *more]
-    # Nothing is rejected here, so nobody needs to be held out for a threshold.
+    # Nothing is rejected here, so no speaker needs to be held out for a threshold.
     base = _fit(SubwordRecognizer(num_folds=0), clips, language=language, spellings=spellings)
     for label in sorted({label for label, _, _ in more} - {label for label, _, _ in fold.train}):
         base.remove_word(label)
@@ -191,7 +191,7 @@ def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(WORD
 STUDIES = (
     Study(
         "new-words",
-        "words that nobody recorded, added by their spelling to units of other words by other speakers, with 0, 1 and "
+        "words never recorded, added by their spelling to units of other words by other speakers, with 0, 1 and "
         "3 recordings by the user; beside synthetic voices and models of whole words; leave one of 4 speakers out",
         (*(WORD_FOLDERS[name] for name in WORDS), ENGLISH_WORDS),
         "without recordings, a larger share of the new words than a recogniser trained on synthetic voices alone",

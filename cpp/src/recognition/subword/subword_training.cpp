@@ -148,7 +148,7 @@ class SubwordTrainer {
     }
   }
 
-  // Gives their number; 0 where nobody can be held out.
+  // Gives their number; 0 where no speaker can be held out.
   int assign_folds(const std::vector<WordSample>& samples, int most) {
     if (most < 2) return 0;
     std::vector<int> classes;
