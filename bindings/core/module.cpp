@@ -42,6 +42,7 @@ void bind_connected_words(py::module_& m);
 void bind_htk_files(py::module_& m);
 void bind_htk_models(py::module_& m);
 void bind_htk_training(py::module_& m);
+void bind_subwords(py::module_& m);
 void bind_sentences(py::module_& m);
 
 namespace {
@@ -137,5 +138,6 @@ PYBIND11_MODULE(_native, m) {
   bind_htk_files(m);
   bind_htk_models(m);
   bind_htk_training(m);
+  bind_subwords(m);
   bind_sentences(m);
 }

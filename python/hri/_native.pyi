@@ -152,6 +152,8 @@ __all__: list[str] = [
     "SpeechEmbeddingOptions",
     "StateChoice",
     "StateChoiceOptions",
+    "SubwordRecognizer",
+    "SubwordRecognizerOptions",
     "TWO_HAND_TRACK_COLUMNS",
     "Topology",
     "TrainingReport",
@@ -8704,6 +8706,198 @@ class HtkEditScript:
         """
         Commands.
         """
+
+class SubwordRecognizerOptions:
+    """
+    Options of SubwordRecognizer.
+
+    Parameters
+    ----------
+    words : WordRecognizerOptions or dict
+        front end and warped copies as of isolated words; models and rejection are not used
+    num_states : int, default 2
+        left-right states of a unit, and of silence; 1..10
+    num_mixtures : int, default 1
+        Gaussians of a state; 1..64
+    num_passes : int, default 4
+        passes of embedded Baum-Welch with every number of Gaussians, which doubles from 1; 1..100
+    variance_floor : float, default 1.0
+        share of the variance of all frames; wide Gaussians leave room for neighbours that a unit had not in training; 0..1, 0 excluded
+    num_folds : int, default 4
+        groups of speakers that are held out for confidences and rejection at most; 0, 1: none, and no word is rejected; 0..10
+    false_reject_rate : float, default 0.05
+        share of correct held-out words that the threshold may reject; 0..0.5
+    num_word_folds : int, default 5
+        groups of words that are left out, with speakers, to choose unrecorded_bonus; 0, 1: it is not chosen; 0..20
+    unrecorded_bonus : float, default 0.0
+        added to the score of words added without recordings, as units fit the words better that they were trained on; 0..1000
+    prior_frames : float, default 3.0
+        recordings of an added word move the means of its units from their own, which weigh as much as so many frames; 0..1000000, 0 excluded
+    num_adaptations : int, default 3
+        passes in which they do; 1..100
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        words: WordRecognizerOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        num_states: int = 2,
+        num_mixtures: int = 1,
+        num_passes: int = 4,
+        variance_floor: float = 1.0,
+        num_folds: int = 4,
+        false_reject_rate: float = 0.05,
+        num_word_folds: int = 5,
+        unrecorded_bonus: float = 0.0,
+        prior_frames: float = 3.0,
+        num_adaptations: int = 3,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def false_reject_rate(self) -> float:
+        """
+        share of correct held-out words that the threshold may reject
+        """
+    @false_reject_rate.setter
+    def false_reject_rate(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_adaptations(self) -> int:
+        """
+        passes in which they do
+        """
+    @num_adaptations.setter
+    def num_adaptations(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_folds(self) -> int:
+        """
+        groups of speakers that are held out for confidences and rejection at most; 0, 1: none, and no word is rejected
+        """
+    @num_folds.setter
+    def num_folds(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_mixtures(self) -> int:
+        """
+        Gaussians of a state
+        """
+    @num_mixtures.setter
+    def num_mixtures(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_passes(self) -> int:
+        """
+        passes of embedded Baum-Welch with every number of Gaussians, which doubles from 1
+        """
+    @num_passes.setter
+    def num_passes(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_states(self) -> int:
+        """
+        left-right states of a unit, and of silence
+        """
+    @num_states.setter
+    def num_states(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_word_folds(self) -> int:
+        """
+        groups of words that are left out, with speakers, to choose unrecorded_bonus; 0, 1: it is not chosen
+        """
+    @num_word_folds.setter
+    def num_word_folds(self, arg1: typing.Any) -> None: ...
+    @property
+    def prior_frames(self) -> float:
+        """
+        recordings of an added word move the means of its units from their own, which weigh as much as so many frames
+        """
+    @prior_frames.setter
+    def prior_frames(self, arg1: typing.Any) -> None: ...
+    @property
+    def unrecorded_bonus(self) -> float:
+        """
+        added to the score of words added without recordings, as units fit the words better that they were trained on
+        """
+    @unrecorded_bonus.setter
+    def unrecorded_bonus(self, arg1: typing.Any) -> None: ...
+    @property
+    def variance_floor(self) -> float:
+        """
+        share of the variance of all frames; wide Gaussians leave room for neighbours that a unit had not in training
+        """
+    @variance_floor.setter
+    def variance_floor(self, arg1: typing.Any) -> None: ...
+    @property
+    def words(self) -> WordRecognizerOptions:
+        """
+        front end and warped copies as of isolated words; models and rejection are not used
+        """
+    @words.setter
+    def words(self, arg1: typing.Any) -> None: ...
+
+class SubwordRecognizer:
+    """
+    Words of sub-word units; hri.SubwordRecognizer wraps it.
+    """
+    @staticmethod
+    def from_model_file(file: ModelFile) -> SubwordRecognizer: ...
+    @staticmethod
+    def load(path: str | bytes | os.PathLike[str]) -> SubwordRecognizer: ...
+    @staticmethod
+    def train(
+        samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        labels: collections.abc.Sequence[str],
+        groups: collections.abc.Sequence[str],
+        lexicon: HtkDictionary,
+        options: SubwordRecognizerOptions,
+        progress: collections.abc.Callable[[int, int], None] | None = None,
+    ) -> SubwordRecognizer: ...
+    def recognise(
+        self,
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    ) -> Decision: ...
+    def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
+    def scores(
+        self,
+        audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        sample_rate_hz: typing.SupportsInt | typing.SupportsIndex,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def to_model_file(self) -> ModelFile: ...
+    def with_word(
+        self,
+        label: str,
+        pronunciations: collections.abc.Sequence[collections.abc.Sequence[str]],
+        samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+        sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+    ) -> SubwordRecognizer: ...
+    def without_word(self, label: str) -> SubwordRecognizer: ...
+    @property
+    def labels(self) -> list[str]: ...
+    @property
+    def lexicon(self) -> HtkDictionary: ...
+    @property
+    def options(self) -> SubwordRecognizerOptions:
+        """
+        As trained, with what training chose.
+        """
+    @property
+    def threshold(self) -> float:
+        """
+        Decision.score from which a word is recognised.
+        """
+    @property
+    def units(self) -> list[str]: ...
 
 class SentenceRecognizerOptions:
     """

@@ -21,7 +21,7 @@ CPP = {
     "features": {"core", "signal"},
     "models": {"core", "io"},
     "language": {"core", "io", "models"},
-    "recognition": {"core", "io", "signal", "features", "models", "language"},
+    "recognition": {"core", "io", "signal", "features", "models", "language", "htk"},
     "htk": {"core", "io", "signal", "features", "models", "language"},
     "vision": {"core", "io", "signal", "features"},
 }
@@ -37,7 +37,7 @@ PYTHON = {
     "vision": {"core", "features", "media"},
     "datasets": {"core", "media"},
     "synthetic": {"core", "io", "signal", "media", "datasets"},
-    "recognition": {"core", "io", "media", "vision", "language"},
+    "recognition": {"core", "io", "media", "vision", "language", "htk"},
     "live": {"core", "io", "signal", "media", "datasets", "vision", "recognition"},
     "evaluation": {"core", "signal", "media", "datasets", "recognition"},
     "fusion": {"core", "io", "models", "recognition.decision"},

@@ -33,11 +33,18 @@ COMMANDS = {
         "hri.cli.connected:train_connected",
         "Train a recogniser of connected words, on isolated ones.",
     ),
+    "train-units": (
+        "hri.cli.units:train_units",
+        "Train a recogniser to which words are added by their spelling.",
+    ),
     "train-sentences": (
         "hri.cli.sentences:train_sentences",
         "Train a recogniser of signed sentences, on tracks of both hands.",
     ),
-    "add-word": ("hri.cli.vocabulary:add_word", "Add a word to a trained recogniser, from few recordings."),
+    "add-word": (
+        "hri.cli.vocabulary:add_word",
+        "Add a word to a trained recogniser, from few recordings or by its spelling.",
+    ),
     "remove-word": ("hri.cli.vocabulary:remove_word", "Remove a word from a trained recogniser."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
     "transcribe": ("hri.cli.connected:transcribe", "Recognise several words in one recording, with their times."),

@@ -18,7 +18,7 @@ from hri.core.errors import Error, InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.fusion import RULES, FusedDecision, FusionOptions, LearnedFusion, fuse
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, kind_of_file, write_image
-from hri.recognition import Decision, GestureRecognizer, WordRecognizer
+from hri.recognition import Decision, GestureRecognizer, load
 from hri.recognition.decision import RECOGNISED
 
 _file = click.Path(exists=True, dir_okay=False)
@@ -29,7 +29,9 @@ _file = click.Path(exists=True, dir_okay=False)
 @click.option("--speech", type=_file, help="A recording of one spoken word.")
 @click.option("--gesture", type=click.Path(exists=True), help="A picture, video or folder of pictures of one sign.")
 @click.option(
-    "--speech-model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user."
+    "--speech-model",
+    type=_file,
+    help="A model from 'hri train speech' or 'hri train-units'; the default is the one kept per user by the first.",
 )
 @click.option("--gesture-model", type=_file, help="The same for gestures.")
 @click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
@@ -91,7 +93,7 @@ def recognise(
     learned = None if fusion_path is None else LearnedFusion.load(fusion_path)
     heard = seen = None
     if speech is not None:
-        words = WordRecognizer.load(speech_model or kept_model("speech"))
+        words = load(speech_model or kept_model("speech"), "speech")
         heard = words.recognise(speech)
         _describe(heard, speech, top)
     if gesture is not None:

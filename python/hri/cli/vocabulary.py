@@ -11,15 +11,16 @@ import click
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.recognizers import kept_model
+from hri.core.errors import InvalidArgument
 from hri.media import read_audio
-from hri.recognition import WordRecognizer
+from hri.recognition import SubwordRecognizer, WordRecognizer, load
 
 _model_option = click.option(
     "--model",
     "model_path",
     type=click.Path(exists=True, dir_okay=False),
     metavar="MODEL",
-    help="A model from 'hri train speech'; the default is the one kept per user.",
+    help="A model from 'hri train speech' or 'hri train-units'; the default is the one kept per user by the first.",
 )
 _out_option = click.option(
     "--out", "-o", type=OutputFile(), metavar="MODEL", help="The new model file; the default replaces the old one."
@@ -29,24 +30,46 @@ _out_option = click.option(
 @click.command("add-word")
 @_model_option
 @click.option("--label", required=True, help="The new word.")
-@click.argument("files", nargs=-1, required=True, type=click.Path(exists=True, dir_okay=False), metavar="FILE...")
+@click.option(
+    "--spelling", metavar="TEXT", help="How the word is written; for models from 'hri train-units', without recordings."
+)
+@click.option(
+    "--language", default="en", show_default=True, help="With --spelling: which language, as espeak-ng calls it."
+)
+@click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False), metavar="[FILE]...")
 @_out_option
 @json_option
 def add_word(
-    model_path: str | None, label: str, files: tuple[str, ...], out: str | None, json_path: str | None
+    model_path: str | None,
+    label: str,
+    spelling: str | None,
+    language: str,
+    files: tuple[str, ...],
+    out: str | None,
+    json_path: str | None,
 ) -> None:
-    """Add a word to a trained recogniser, from few recordings of it: three suffice.
+    """Add a word to a trained recogniser, from few recordings of it or by its spelling.
 
-    The models of the other words stay as they are; nothing is trained again.
+    Three recordings suffice. A model from 'hri train-units' takes a spelling, and recordings beside it if there are
+    any. The models of the other words stay as they are; nothing is trained again.
 
     \b
     Examples:
       hri add-word --label dance dance1.wav dance2.wav dance3.wav
       hri add-word --model digits.hri --label dance dance*.wav -o more.hri
+      hri add-word --model units.hri --label dance --spelling dance
     """
+    if not files and spelling is None:
+        raise click.UsageError("give recordings of the word, or --spelling")
     words, target = _open(model_path, out)
     clips = [read_audio(path) for path in files]
-    words.add_word(label, [clip.samples for clip in clips], [clip.sample_rate_hz for clip in clips])
+    if isinstance(words, SubwordRecognizer):
+        for phone, other in words.add_word(label, spelling, language=language, clips=clips).items():
+            note(f"no recording had the phone {phone}: {other} stands for it")
+    elif spelling is not None:
+        raise InvalidArgument("a word is added by its spelling to a model from 'hri train-units', not to one of words")
+    else:
+        words.add_word(label, clips)
     _keep(words, target, json_path)
 
 
@@ -68,12 +91,12 @@ def remove_word(model_path: str | None, label: str, out: str | None, json_path: 
     _keep(words, target, json_path)
 
 
-def _open(model_path: str | None, out: str | None) -> tuple[WordRecognizer, Path]:
+def _open(model_path: str | None, out: str | None) -> tuple[WordRecognizer | SubwordRecognizer, Path]:
     source = kept_model("speech") if model_path is None else Path(model_path)
-    return WordRecognizer.load(source), source if out is None else Path(out)
+    return load(source, "speech"), source if out is None else Path(out)
 
 
-def _keep(words: WordRecognizer, target: Path, json_path: str | None) -> None:
+def _keep(words: WordRecognizer | SubwordRecognizer, target: Path, json_path: str | None) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     words.save(target)
     labels = [str(label) for label in words.classes_]

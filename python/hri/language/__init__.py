@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Language: n-gram models of words, networks of words, the decoder of connected words, and word errors.
+"""Language: pronunciations, n-gram models and networks of words, the decoder of connected words, word errors.
 
 The decoder knows models by their chains and by the log scores of their states; `hri.ConnectedWordRecognizer` puts it
 behind a front end.
@@ -24,6 +24,7 @@ from hri._native import (
     WordNetwork,
 )
 from hri.language.knowledge import KnowledgeBase, StoredMatch, StoredSentence, choose_max_distance
+from hri.language.pronunciation import closest_phone, pronounce, split_phones
 from hri.language.word_errors import AlignedWord, WordErrors, align_words, count_word_errors
 
 __all__ = [
@@ -49,5 +50,8 @@ __all__ = [
     "WordNetwork",
     "align_words",
     "choose_max_distance",
+    "closest_phone",
     "count_word_errors",
+    "pronounce",
+    "split_phones",
 ]

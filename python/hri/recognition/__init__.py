@@ -19,6 +19,7 @@ from hri._native import (
     SequenceModelOptions,
     SpeakerAdapterOptions,
     SpeechEmbeddingOptions,
+    SubwordRecognizerOptions,
     WordRecognizerOptions,
 )
 from hri.core.lazy import loader
@@ -37,6 +38,7 @@ from hri.recognition.sentence import (
     Transcript,
     UtteranceResult,
 )
+from hri.recognition.subword import SubwordRecognizer
 from hri.recognition.word import (
     FillerWord,
     SpeakerAdapter,
@@ -83,6 +85,8 @@ __all__ = [
     "SpeakerAdapterOptions",
     "SpeechEmbedding",
     "SpeechEmbeddingOptions",
+    "SubwordRecognizer",
+    "SubwordRecognizerOptions",
     "TranscribedWord",
     "Transcript",
     "Utterance",

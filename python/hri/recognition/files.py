@@ -10,19 +10,24 @@ from typing import Literal, overload
 from hri.core.errors import FormatError
 from hri.io import ModelFile
 from hri.recognition.gesture import GestureRecognizer
+from hri.recognition.subword import SubwordRecognizer
 from hri.recognition.word import WordRecognizer
 
 Mode = Literal["speech", "gesture"]
-_MODES: dict[str, Mode] = {"word_recognizer": "speech", "gesture_recognizer": "gesture"}
+_MODES: dict[str, Mode] = {
+    "word_recognizer": "speech",
+    "subword_recognizer": "speech",
+    "gesture_recognizer": "gesture",
+}
 
 
 @overload
-def load(path: str | PathLike[str]) -> WordRecognizer | GestureRecognizer: ...
+def load(path: str | PathLike[str]) -> WordRecognizer | SubwordRecognizer | GestureRecognizer: ...
 @overload
-def load(path: str | PathLike[str], mode: Literal["speech"]) -> WordRecognizer: ...
+def load(path: str | PathLike[str], mode: Literal["speech"]) -> WordRecognizer | SubwordRecognizer: ...
 @overload
 def load(path: str | PathLike[str], mode: Literal["gesture"]) -> GestureRecognizer: ...
-def load(path: str | PathLike[str], mode: Mode | None = None) -> WordRecognizer | GestureRecognizer:
+def load(path: str | PathLike[str], mode: Mode | None = None) -> WordRecognizer | SubwordRecognizer | GestureRecognizer:
     """Read a recogniser of words or of gestures.
 
     Parameters
@@ -44,4 +49,6 @@ def load(path: str | PathLike[str], mode: Mode | None = None) -> WordRecognizer 
     if found is None or mode not in (None, found):
         wanted = "recogniser" if mode is None else f"recogniser of {mode}"
         raise FormatError(f"{fspath(path)}: holds a {kind!r}, which is no {wanted}")
-    return WordRecognizer.load(path) if found == "speech" else GestureRecognizer.load(path)
+    if found == "gesture":
+        return GestureRecognizer.load(path)
+    return SubwordRecognizer.load(path) if kind == "subword_recognizer" else WordRecognizer.load(path)

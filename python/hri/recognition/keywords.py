@@ -333,3 +333,19 @@ class SentenceRecognizerKeywords(TypedDict, total=False):
     known_language_scale: float
     decoder: _native.ConnectedDecoderOptions | ConnectedDecoderKeywords
     seed: int
+
+
+class SubwordRecognizerKeywords(TypedDict, total=False):
+    """Fields of `SubwordRecognizerOptions`."""
+
+    words: _native.WordRecognizerOptions | WordRecognizerKeywords
+    num_states: int
+    num_mixtures: int
+    num_passes: int
+    variance_floor: float
+    num_folds: int
+    false_reject_rate: float
+    num_word_folds: int
+    unrecorded_bonus: float
+    prior_frames: float
+    num_adaptations: int

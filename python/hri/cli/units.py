@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri train-units``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from hri.cli.messages import note
+from hri.cli.output import OutputFile, json_option, say, write_json
+from hri.cli.progress import progress_bars
+from hri.cli.recognizers import (
+    default_model,
+    load_dataset,
+    naming_options,
+    options_option,
+    parse_options,
+    pattern_option,
+)
+from hri.core.errors import InvalidArgument
+from hri.htk import Dictionary
+from hri.media import read_audio
+from hri.recognition import SubwordRecognizer
+
+MODE = "units"
+"""Under which name the model is kept per user."""
+
+
+@click.command("train-units")
+@click.option(
+    "--data",
+    required=True,
+    type=click.Path(exists=True, file_okay=False),
+    help="Folder of recordings of one word each.",
+)
+@pattern_option
+@click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
+@click.option(
+    "--language", default="en", show_default=True, help="Which language the words are of, as espeak-ng calls it."
+)
+@click.option(
+    "--spelling",
+    "spellings",
+    multiple=True,
+    metavar="LABEL=TEXT",
+    help="How a word is written whose label is not; may be given several times.",
+)
+@click.option(
+    "--dictionary",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="FILE",
+    help="Pronunciations, a line a word, as HTK's dictionaries; words that it has not are pronounced by espeak-ng.",
+)
+@options_option
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
+@json_option
+def train_units(
+    data: str,
+    pattern: str | None,
+    out: str | None,
+    language: str,
+    spellings: tuple[str, ...],
+    dictionary: str | None,
+    options: tuple[str, ...],
+    seed: int,
+    json_path: str | None,
+) -> None:
+    """Train models of phones on recordings of words, to which words are added by their spelling.
+
+    \b
+    Examples:
+      hri train-units --data spoken/ --out units.hri
+      hri train-units --data spoken/ --language hi --spelling ghar=घर --out units.hri
+      hri add-word --model units.hri --label dance --spelling dance
+      hri recognise --speech-model units.hri dance.wav
+    """
+    fields = parse_options((f"words.seed={seed}", *options))
+    with naming_options():
+        recognizer = SubwordRecognizer(**fields)
+    written = dict(_split(spelling) for spelling in spellings)
+    lexicon = None if dictionary is None else Dictionary.read(dictionary)
+    dataset = load_dataset(data, "speech", pattern)
+    for label in written:
+        if label not in dataset.labels:
+            raise InvalidArgument(f"--spelling {label}: no recording has this label")
+    path = default_model(MODE) if out is None else Path(out)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    clips = [read_audio(sample.path) for sample in dataset.samples]
+    with progress_bars() as progress:
+        recognizer.fit(
+            clips,
+            [sample.label for sample in dataset.samples],
+            language=language,
+            spellings=written,
+            dictionary=lexicon,
+            groups=[sample.person for sample in dataset.samples],
+            progress=lambda done, total: progress("training", done, total),
+        )
+    recognizer.save(path)
+    say(str(path), json_path)
+    note(f"{len(dataset)} recordings, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
+    note(f"{len(recognizer.units)} units: {' '.join(recognizer.units)}")
+    write_json(json_path, {"model": str(path), "labels": dataset.labels, "units": list(recognizer.units)})
+
+
+def _split(spelling: str) -> tuple[str, str]:
+    label, equals, text = spelling.partition("=")
+    if not (label and equals and text):
+        raise InvalidArgument(f"--spelling {spelling!r} is not LABEL=TEXT")
+    return label, text
