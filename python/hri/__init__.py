@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from hri.fusion.fuse import fuse
     from hri.media import Audio, Clip, read_audio, read_frames
     from hri.recognition import (
+        CommandRecognizer,
         ConnectedWordRecognizer,
         Decision,
         GestureRecognizer,
@@ -87,6 +88,7 @@ else:
             "hri.fusion": ("FusedDecision", "fuse"),
             "hri.media": ("Audio", "Clip", "read_audio", "read_frames"),
             "hri.recognition": (
+                "CommandRecognizer",
                 "ConnectedWordRecognizer",
                 "Decision",
                 "GestureRecognizer",
@@ -116,6 +118,7 @@ __all__ = [
     "Audio",
     "CepstraOptions",
     "Clip",
+    "CommandRecognizer",
     "ConnectedWordRecognizer",
     "Dataset",
     "Decision",

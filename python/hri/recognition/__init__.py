@@ -28,6 +28,7 @@ from hri.recognition.gesture import GestureRecognizer
 from hri.recognition.held_out_report import ConfusedPair, HeldOutReport
 from hri.recognition.sentence import (
     Alternative,
+    CommandRecognizer,
     ConnectedWordRecognizer,
     ConnectedWordStream,
     RecognisedSentence,
@@ -56,6 +57,7 @@ else:
 __all__ = [
     "LEARNED_STILL_CHANGE",
     "Alternative",
+    "CommandRecognizer",
     "ConfusedPair",
     "ConnectedWordRecognizer",
     "ConnectedWordRecognizerOptions",

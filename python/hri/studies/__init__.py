@@ -30,6 +30,7 @@ from hri.studies import (
     mask_quality,
     noise,
     parity,
+    robot_commands,
     robot_motions,
     sentences,
     session,
@@ -59,6 +60,7 @@ _MODULES = (
     commands,
     commands_curve,
     connected_words,
+    robot_commands,
     htk_thesis,
     htk_training,
     noise,
@@ -97,6 +99,7 @@ _MODULES = (
     session_talk,
     imitation,
     parity,
+    robot_commands,
     robot_motions,
 )
 
