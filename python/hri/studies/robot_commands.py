@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -61,7 +62,7 @@ def _run(data_dir: Path, progress: Progress, *, takes: int | None = None) -> dic
             [sound for _, _, sound in train],
             [label for label, _, _ in train],
             groups=[person for _, person, _ in train],
-            progress=lambda done, total, fold=fold: within(progress, str(fold))("training", done, total),
+            progress=partial(within(progress, f"part {fold + 1}"), "training"),
         )
         commands = CommandRecognizer(words, grammar)
         for person in held_out:

@@ -146,7 +146,7 @@ class _Walk:
         )
 
     def _rows(self) -> Floats:
-        times = _PERIOD_S * np.arange(round(self._times[-1] / _PERIOD_S) + 1)
+        times = _PERIOD_S * np.arange(round(self._times[-1] / _PERIOD_S) + 1, dtype=np.float64)
         keys = minimum_jerk(np.array(self._times), np.array(self._keys), times)
         for begin_s, foot in self._swings:
             part = np.clip((times - begin_s) / _SWING_S, 0.0, 1.0)
@@ -155,5 +155,5 @@ class _Walk:
 
     def _from_standing(self, crouched: Floats) -> Floats:
         """From straight legs to a pose, every joint by itself: the soles stay level."""
-        times = _PERIOD_S * np.arange(round(_CROUCH_S / _PERIOD_S) + 1)
+        times = _PERIOD_S * np.arange(round(_CROUCH_S / _PERIOD_S) + 1, dtype=np.float64)
         return minimum_jerk(np.array([0.0, _CROUCH_S]), np.stack((np.zeros_like(crouched), crouched)), times)
