@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Connected words: whole recordings to words, against PocketSphinx by the same grammar, and against real time."""
+"""Connected words: whole recordings to words, against PocketSphinx, real time, and PTBHMM against HMM."""
 
 from __future__ import annotations
 
@@ -123,7 +123,26 @@ def loop_of_100_words() -> Timed:
     return statistics.median(took), BUDGET * seconds, details
 
 
+def connected_ptbhmm() -> Timed:
+    """A frame of 10 strings of 5 English digits, from samples to words, by PTBHMMs; the peer is HMMs.
+
+    Both are trained on the same synthetic voices, decode the same strings, and give confidences.
+    """
+    sounds, labels, rate = _strings(tuple(DIGITS))
+    models = [_trained(DIGITS, words={"model": kind}) for kind in ("ptbhmm", "hmm")]
+
+    def by(model: ConnectedWordRecognizer) -> list[list[str]]:
+        return [list(model.recognise(sound, rate).labels) for sound in sounds]
+
+    errors = [count_word_errors(labels, by(model)).rate for model in models]
+    frame_s = models[0].options.words.cepstra.frame_shift_ms / 1000
+    frames = sum(len(sound) for sound in sounds) / rate / frame_s
+    ours, peer = medians(lambda: by(models[0]), lambda: by(models[1]), 5)
+    return ours / frames, peer / frames, {"word_error_rate": errors[0], "peer_word_error_rate": errors[1]}
+
+
 BENCHES = (
     Bench("connected_digits", connected_digits, "PocketSphinx"),
+    Bench("connected_ptbhmm", connected_ptbhmm, "own HMMs"),
     Bench("loop_of_100_words", loop_of_100_words, "0.02 of real time"),
 )

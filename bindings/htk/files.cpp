@@ -170,12 +170,13 @@ void bind_labels(py::module_& m) {
           },
           "Its score.");
   py::class_<Transcription>(m, "HtkTranscription", "The labels of one recording.")
-      .def(py::init([](std::vector<Label> labels) {
+      .def(py::init([](std::vector<Label> labels, std::vector<std::vector<Label>> others) {
              Transcription made;
-             made.alternatives.front() = std::move(labels);
+             made.alternatives = std::move(others);
+             made.alternatives.insert(made.alternatives.begin(), std::move(labels));
              return made;
            }),
-           py::arg("labels"))
+           py::arg("labels"), py::arg("others") = std::vector<std::vector<Label>>())
       .def_static(
           "read", [](const Path& path) { return Transcription::read(path.text); }, py::arg("path"),
           "Reads a label file; raises FormatError naming file and line.")

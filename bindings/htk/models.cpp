@@ -185,7 +185,24 @@ void bind_recognizer(py::module_& m) {
             const py::gil_scoped_release release;
             return self.recognise(frames);
           },
-          py::arg("observations"), "The best sentence of frames, shape (num_frames, num_columns).");
+          py::arg("observations"), "The best sentence of frames, shape (num_frames, num_columns).")
+      .def(
+          "lattice",
+          [](const Recognizer& self, const FloatArray& observations,
+             const hri::LatticeOptions& options) {
+            const auto frames = hri_bind::as_matrix(observations, "observations");
+            const py::gil_scoped_release release;
+            return self.lattice(frames, options);
+          },
+          py::arg("observations"),
+          py::arg_v("options", hri::LatticeOptions{1000, 200000},
+                    "LatticeOptions(beam=1000, max_arcs=200000)"),
+          "All sentences near the best; model i is the pronunciation of words[i].")
+      .def("n_best", &Recognizer::n_best, py::arg("lattice"), py::arg("count"),
+           py::call_guard<py::gil_scoped_release>(),
+           "At most `count` (1..1000) sentences of a lattice of this recogniser that differ in "
+           "their words, the best first.")
+      .def_property_readonly("words", &Recognizer::words, "Of every pronunciation.");
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from hri.fusion.fuse import fuse
     from hri.media import Audio, Clip, read_audio, read_frames
     from hri.recognition import (
+        CommandRecognizer,
         ConnectedWordRecognizer,
         Decision,
         GestureRecognizer,
@@ -88,6 +89,7 @@ else:
             "hri.fusion": ("FusedDecision", "fuse"),
             "hri.media": ("Audio", "Clip", "read_audio", "read_frames"),
             "hri.recognition": (
+                "CommandRecognizer",
                 "ConnectedWordRecognizer",
                 "Decision",
                 "GestureRecognizer",
@@ -118,6 +120,7 @@ __all__ = [
     "Audio",
     "CepstraOptions",
     "Clip",
+    "CommandRecognizer",
     "ConnectedWordRecognizer",
     "Dataset",
     "Decision",

@@ -5905,6 +5905,10 @@ class Grammar:
         """
         Its sentences as a WordNetwork; model i is labels[i].
         """
+    def sentences(self, most: typing.SupportsInt | typing.SupportsIndex = 10000) -> list[list[str]]:
+        """
+        Every sentence once, as lists of words, in the grammar's order; raises InvalidArgument for more than `most`, and for repetitions, which have no end.
+        """
     def slots_of(self, sentence: collections.abc.Sequence[str]) -> dict[str, str] | None:
         """
         The slots of a list of words; None for what is no sentence of the grammar.
@@ -7278,7 +7282,7 @@ class ConnectedWordRecognizerOptions:
     Parameters
     ----------
     words : WordRecognizerOptions or dict
-        front end, models and augmentation as of isolated words, models of the kind hmm; what these reject words by is not used
+        front end, models and augmentation as of isolated words; ptbhmm: the same densities as possibilities over codewords, num_codewords for every column of the features; what these reject words by is not used
     silence_states : int, default 3
         left-right states of silence; 1..64
     silence_mixtures : int, default 4
@@ -7433,7 +7437,7 @@ class ConnectedWordRecognizerOptions:
     @property
     def words(self) -> WordRecognizerOptions:
         """
-        front end, models and augmentation as of isolated words, models of the kind hmm; what these reject words by is not used
+        front end, models and augmentation as of isolated words; ptbhmm: the same densities as possibilities over codewords, num_codewords for every column of the features; what these reject words by is not used
         """
     @words.setter
     def words(self, arg1: typing.Any) -> None: ...
@@ -8125,7 +8129,11 @@ class HtkTranscription:
         """
         Reads a label file; raises FormatError naming file and line.
         """
-    def __init__(self, labels: collections.abc.Sequence[HtkLabel]) -> None: ...
+    def __init__(
+        self,
+        labels: collections.abc.Sequence[HtkLabel],
+        others: collections.abc.Sequence[collections.abc.Sequence[HtkLabel]] = [],
+    ) -> None: ...
     def to_text(self) -> str:
         """
         The text of a label file.
@@ -8466,9 +8474,24 @@ class HtkRecognizer:
         lattice: HtkWordLattice,
         options: ConnectedDecoderOptions = ...,
     ) -> None: ...
+    def lattice(
+        self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], options: LatticeOptions = ...
+    ) -> Lattice:
+        """
+        All sentences near the best; model i is the pronunciation of words[i].
+        """
+    def n_best(self, lattice: Lattice, count: typing.SupportsInt | typing.SupportsIndex) -> list[HtkRecognisedSentence]:
+        """
+        At most `count` (1..1000) sentences of a lattice of this recogniser that differ in their words, the best first.
+        """
     def recognise(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> HtkRecognisedSentence:
         """
         The best sentence of frames, shape (num_frames, num_columns).
+        """
+    @property
+    def words(self) -> list[str]:
+        """
+        Of every pronunciation.
         """
 
 class HtkFlatStart:

@@ -142,8 +142,8 @@ def test_what_cannot_be_done_is_refused(words: ConnectedWordRecognizer, sentence
         words.recognise(sentence, RATE_HZ, num_words=0)
     with pytest.raises(InvalidArgument, match="differ in length"):
         ConnectedWordRecognizer().fit([sentence], ["1", "2"], sample_rate_hz=RATE_HZ)
-    with pytest.raises(InvalidArgument, match=r"words\.model must be hmm"):
-        ConnectedWordRecognizer(words={"model": "ptbhmm"})
+    with pytest.raises(InvalidArgument, match=r"words\.use_network must be false"):
+        ConnectedWordRecognizer(words={"use_network": True})
 
 
 def test_command_line_trains_and_transcribes(hri, spoken: Path, sentence: np.ndarray, tmp_path: Path) -> None:
@@ -168,6 +168,9 @@ def test_command_line_trains_and_transcribes(hri, spoken: Path, sentence: np.nda
     assert WordLattice.read(tmp_path / "lattices" / "number.slf").times_s
     streamed = [json.loads(line) for line in hri("transcribe", "--stream", file).out.splitlines()]
     assert streamed[-1]["event"] == "final" and streamed[-1]["text"] == "1 2 2 1"
+    refused = hri("transcribe", file, "--grammar", tmp_path / "tones.jsgf", "--robot", tmp_path / "wave.mp4")
+    assert refused.code == 3 and "the slot 'count' says nothing about a gesture" in refused.err
+    (tmp_path / "tones.jsgf").write_text(GRAMMAR.replace("{count}", "{times=2}"))
     film = hri("transcribe", file, "--grammar", tmp_path / "tones.jsgf", "--robot", tmp_path / "wave.mp4")
     assert film.code == 0 and (tmp_path / "wave.mp4").stat().st_size > 10000
     assert hri("transcribe").code == 2 and hri("transcribe", file, "--robot", "a.mp4").code == 2

@@ -10,8 +10,8 @@ import pytest
 from conftest import robot_data
 from hri.robot import HOAP2, NAO, JointTable, Physics, link_poses
 from hri.robot.control.getting_up import GettingUp
-from hri.robot.control.mass_centre import MassCentre
 from hri.robot.model.kinematics import rotation_about
+from hri.robot.model.mass_centre import MassCentre
 
 STEP_S = 0.01
 

@@ -128,6 +128,23 @@ def test_tools_lead_from_recordings_to_word_errors(hri, coded: Path, tmp_path: P
         for number, label in enumerate(entry[1].labels):
             assert abs(label.first / 1e7 - number) <= 0.25 and len(sentence) * 1e7 >= label.last
 
+    # The three best sentences, the best of which is the one above, and the lattice that they come from.
+    arguments = ("-n", 4, 3, "-z", "lat", "-l", "lattices", "-i", "best.mlf", "dict", "list", *tests)
+    assert hri("htk", "vite", *macros, "-w", "wdnet", *arguments).code == 0
+    pairs = zip(MasterLabelFile.read("best.mlf").entries, MasterLabelFile.read("found.mlf").entries, strict=True)
+    for (path, best), (_, one) in pairs:
+        sentences = [[label.name for label in labels] for labels in best.alternatives]
+        assert sentences[0] == [label.name for label in one.labels] and len({tuple(s) for s in sentences}) == 3
+        scores = [sum(label.score for label in labels) for labels in best.alternatives]
+        assert scores == sorted(scores, reverse=True)
+        assert scores[0] == pytest.approx(sum(label.score for label in one.labels), abs=1e-3)
+        lattice = WordLattice.read(str(Path(path).with_suffix(".lat")))
+        assert len(lattice.times_s) == len(lattice.words) > len(sentences[0])
+    one_best = hri("htk", "vite", *macros, "-w", "wdnet", "-n", 2, "-l", "*", "-i", "one.mlf", "dict", "list", *tests)
+    assert one_best.code == 0 and len(MasterLabelFile.read("one.mlf").entries[0][1].alternatives) == 1
+    for wrong in (("-n", 0), ("-n", 2, 1001), ("-z", "lat"), ("-n", 2, "-z", "lat", "-l", "*")):
+        assert hri("htk", "vite", *macros, "-w", "wdnet", *wrong, "dict", "list", tests[0]).code == 2
+
     # Alignment of what was said gives the same scores.
     Path("words.mlf").write_text('#!MLF!#\n"*/sentence1.lab"\n"7"\n"7"\nrise\n.\n')
     aligned = hri(

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "hri/core/error.hpp"
@@ -13,6 +14,7 @@ namespace hri::htk {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+constexpr int kMostSentences = 1000;
 
 // A model that pronunciations name.
 struct Unit {
@@ -182,30 +184,73 @@ Recognizer::Recognizer(const ModelSet& models, const Dictionary& dictionary,
   network_ = NetworkBuilder(lattice, numbers).build();
 }
 
-RecognisedSentence Recognizer::recognise(ConstMatrixRefF observations) const {
+// By states of the chains.
+MatrixF Recognizer::scores(ConstMatrixRefF observations) const {
   const GaussianEmissions& emissions = emissions_.front();
   require(observations.cols() == dim(),
           "the frames have another number of columns than the models");
-  MatrixF scores(observations.rows(), emissions.num_states());
-  emissions.compute(observations, scores);
-  ConnectedDecoder decoder(chains_, network_, options_);
-  std::vector<float> frame(columns_.size());
-  for (Eigen::Index t = 0; t < scores.rows(); ++t) {
-    for (std::size_t c = 0; c < columns_.size(); ++c) frame[c] = scores(t, columns_[c]);
-    decoder.push(frame);
+  MatrixF of_hmms(observations.rows(), emissions.num_states());
+  emissions.compute(observations, of_hmms);
+  MatrixF result(observations.rows(), static_cast<Eigen::Index>(columns_.size()));
+  for (Eigen::Index t = 0; t < result.rows(); ++t) {
+    for (Eigen::Index c = 0; c < result.cols(); ++c)
+      result(t, c) = of_hmms(t, columns_[static_cast<std::size_t>(c)]);
   }
+  return result;
+}
+
+std::vector<RecognisedWord> Recognizer::words_of(const std::vector<DecodedWord>& words) const {
+  std::vector<RecognisedWord> result;
+  for (const DecodedWord& word : words) {
+    const Pronunciation& entry = pronunciations_[static_cast<std::size_t>(word.model)];
+    result.push_back({entry.word, entry.has_output ? entry.output : entry.word, word.first_frame,
+                      word.last_frame, word.log_score});
+  }
+  return result;
+}
+
+RecognisedSentence Recognizer::recognise(ConstMatrixRefF observations) const {
+  const MatrixF of_states = scores(observations);
+  ConnectedDecoder decoder(chains_, network_, options_);
+  for (Eigen::Index t = 0; t < of_states.rows(); ++t) decoder.push(row_span(of_states, t));
   std::vector<DecodedWord> words = decoder.take_decided();
   const DecodedSentence rest = decoder.finish();
   words.insert(words.end(), rest.words.begin(), rest.words.end());
-  RecognisedSentence sentence;
-  sentence.complete = rest.complete;
-  sentence.log_score = rest.log_score;
-  for (const DecodedWord& word : words) {
-    const Pronunciation& entry = pronunciations_[static_cast<std::size_t>(word.model)];
-    sentence.words.push_back({entry.word, entry.has_output ? entry.output : entry.word,
-                              word.first_frame, word.last_frame, word.log_score});
+  return {rest.complete, rest.log_score, words_of(words)};
+}
+
+Lattice Recognizer::lattice(ConstMatrixRefF observations, const LatticeOptions& options) const {
+  return Lattice::decode(chains_, network_, scores(observations), options_, options);
+}
+
+std::vector<RecognisedSentence> Recognizer::n_best(const Lattice& lattice, int count) const {
+  require(count >= 1 && count <= kMostSentences, "count must lie in 1..1000");
+  std::vector<RecognisedSentence> result;
+  if (lattice.empty()) return result;
+  const std::set<std::string> different = [this] {
+    const std::vector<std::string> all = words();
+    return std::set<std::string>(all.begin(), all.end());
+  }();
+  // Sentences that differ in pronunciations alone come one behind the other, and count once.
+  const bool are_unique = different.size() == pronunciations_.size();
+  std::set<std::vector<std::string>> known;
+  for (const DecodedSentence& found : lattice.n_best(are_unique ? count : kMostSentences)) {
+    std::vector<RecognisedWord> words = words_of(found.words);
+    std::vector<std::string> names;
+    names.reserve(words.size());
+    for (const RecognisedWord& word : words) names.push_back(word.word);
+    if (!known.insert(std::move(names)).second) continue;
+    result.push_back({true, found.log_score, std::move(words)});
+    if (static_cast<int>(result.size()) == count) break;
   }
-  return sentence;
+  return result;
+}
+
+std::vector<std::string> Recognizer::words() const {
+  std::vector<std::string> result;
+  result.reserve(pronunciations_.size());
+  for (const Pronunciation& entry : pronunciations_) result.push_back(entry.word);
+  return result;
 }
 
 }  // namespace hri::htk

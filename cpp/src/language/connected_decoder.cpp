@@ -51,6 +51,17 @@ WordChain WordChain::of(const MarkovChain& chain, double final_stay, bool is_sil
   return result;
 }
 
+WordChain WordChain::possibilities() const {
+  WordChain result = *this;
+  result.log_start.array() -= log_start.maxCoeff();
+  for (Eigen::Index i = 0; i < log_exit.size(); ++i) {
+    const double largest = std::max(log_transition.row(i).maxCoeff(), log_exit[i]);
+    result.log_transition.row(i).array() -= largest;
+    result.log_exit[i] -= largest;
+  }
+  return result;
+}
+
 struct ConnectedDecoder::State {
   State(const std::vector<WordChain>& chains, const WordNetwork& network,
         const ConnectedDecoderOptions& of_decoder)

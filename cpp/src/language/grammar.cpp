@@ -89,6 +89,62 @@ class SentenceWalk {
   std::unordered_map<std::uint64_t, std::uint64_t> before_;  // by place; of all seen
 };
 
+constexpr std::size_t kMostVisits = 10000000;  // of nodes, by all paths
+
+// All paths from the first node to the last one.
+class SentenceList {
+ public:
+  SentenceList(const GrammarGraph& graph, std::size_t most)
+      : graph_(graph), most_(most), next_(graph.nodes.size()), is_open_(graph.nodes.size()) {
+    for (const GrammarGraph::Arc& arc : graph.arcs)
+      next_[static_cast<std::size_t>(arc.from)].push_back(arc.to);
+  }
+
+  std::vector<std::vector<std::string>> run() {
+    std::vector<std::pair<std::size_t, std::size_t>> path;  // nodes, and the arc to take next
+    const auto enter = [&](std::size_t node) {
+      require(!is_open_[node], "the grammar repeats words: its sentences have no end");
+      require(++num_visits_ <= kMostVisits, "the grammar has too many sentences to list them");
+      is_open_[node] = true;
+      if (!graph_.nodes[node].word.empty()) words_.push_back(graph_.nodes[node].word);
+      path.emplace_back(node, 0);
+      if (node + 1 == next_.size()) add();
+    };
+    enter(0);
+    while (!path.empty()) {
+      const auto [node, taken] = path.back();
+      if (taken < next_[node].size()) {
+        ++path.back().second;
+        enter(static_cast<std::size_t>(next_[node][taken]));
+        continue;
+      }
+      if (!graph_.nodes[node].word.empty()) words_.pop_back();
+      is_open_[node] = false;
+      path.pop_back();
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add() {
+    if (!known_.insert(words_).second) return;
+    if (known_.size() > most_) {
+      fail(ErrorKind::invalid_argument,
+           "the grammar has more than " + std::to_string(most_) + " sentences");
+    }
+    found_.push_back(words_);
+  }
+
+  const GrammarGraph& graph_;
+  std::size_t most_;
+  std::vector<std::vector<int>> next_;
+  std::vector<bool> is_open_;
+  std::size_t num_visits_ = 0;
+  std::vector<std::string> words_;
+  std::set<std::vector<std::string>> known_;
+  std::vector<std::vector<std::string>> found_;
+};
+
 }  // namespace
 
 Grammar Grammar::parse(const std::string& text, const std::string& name) {
@@ -114,6 +170,10 @@ std::optional<Slots> Grammar::slots_of(const std::vector<std::string>& sentence)
   return SentenceWalk(*graph_, sentence).run();
 }
 
+std::vector<std::vector<std::string>> Grammar::sentences(std::size_t most) const {
+  return SentenceList(*graph_, most).run();
+}
+
 WordNetwork Grammar::network(const std::vector<std::string>& labels, int silence,
                              int unknown) const {
   std::vector<int> models;
@@ -128,17 +188,16 @@ WordNetwork Grammar::network(const std::vector<std::string>& labels, int silence
     arcs.push_back({node, quiet, 0});
     arcs.push_back({quiet, node, 0});
   };
+  std::unordered_map<std::string, int> model_of{{"", WordNetwork::kNull}};
+  for (const std::string& label : labels)
+    model_of.emplace(label, static_cast<int>(model_of.size()) - 1);
   for (const GrammarGraph::Node& node : graph_->nodes) {
-    int model = WordNetwork::kNull;
-    if (!node.word.empty()) {
-      const auto found = std::find(labels.begin(), labels.end(), node.word);
-      if (found == labels.end()) {
-        fail(ErrorKind::invalid_argument,
-             "the grammar has the word '" + node.word + "', which is no label");
-      }
-      model = static_cast<int>(found - labels.begin());
+    const auto found = model_of.find(node.word);
+    if (found == model_of.end()) {
+      fail(ErrorKind::invalid_argument,
+           "the grammar has the word '" + node.word + "', which is no label");
     }
-    add(model);
+    add(found->second);
   }
   const int final = static_cast<int>(graph_->nodes.size()) - 1;
   // Behind every word stands a null node, where it may be silent.

@@ -11,6 +11,7 @@ namespace hri::detail {
 namespace {
 
 constexpr std::size_t kMostNodes = 1000000;
+constexpr std::size_t kMostCharacters = 16000000;  // of words and tags, each where it stands
 
 class GraphBuilder {
  public:
@@ -34,8 +35,14 @@ class GraphBuilder {
   int add(const GrammarGraph::Node& node) {
     if (graph_.nodes.size() >= kMostNodes)
       fail(ErrorKind::format, name_ + ": the grammar has more than a million nodes");
+    count(node.word.size());
     graph_.nodes.push_back(node);
     return static_cast<int>(graph_.nodes.size()) - 1;
+  }
+  void count(std::size_t num_characters) {
+    num_characters_ += num_characters;
+    if (num_characters_ > kMostCharacters)
+      fail(ErrorKind::format, name_ + ": the grammar is too large where its rules are written out");
   }
   void connect(int from, int to, double log_weight = 0) {
     graph_.arcs.push_back({from, to, log_weight});
@@ -75,6 +82,7 @@ class GraphBuilder {
       }
       case Kind::tag: {
         const auto tag = static_cast<int>(graph_.tags.size());
+        count(e.slot.size() + e.value.size());
         graph_.tags.push_back({e.slot, e.value});
         const int entry = add({"", GrammarGraph::Mark::opens, tag});
         const Ends inside = expand(*e.parts.front());
@@ -99,6 +107,7 @@ class GraphBuilder {
 
   const std::string& name_;
   GrammarGraph graph_;
+  std::size_t num_characters_ = 0;
 };
 
 }  // namespace

@@ -50,7 +50,8 @@ struct GrammarGraph {
   std::vector<Arc> arcs;
   std::vector<Tag> tags;
 
-  /// Throws FormatError that begins with `name` for more than a million nodes.
+  /// Throws FormatError that begins with `name` for more than a million nodes, or 16 million
+  /// characters of words and tags.
   static GrammarGraph of(const GrammarPart& sentence, const std::string& name);
 };
 

@@ -62,7 +62,7 @@ GrammarPart JsgfReader::read() {
   if (sentences.size() == 1) return sentences.front();
   const bool may_be_empty = std::any_of(sentences.begin(), sentences.end(),
                                         [](const GrammarPart& p) { return p->may_be_empty; });
-  return make_part(Kind::choice, std::move(sentences), may_be_empty);
+  return joined(Kind::choice, std::move(sentences), may_be_empty, line_);
 }
 
 void JsgfReader::read_header() {
@@ -175,6 +175,15 @@ void JsgfReader::read_rules() {
   }
 }
 
+// What walks through the tree, and its end, call themselves as deep as it is.
+GrammarPart JsgfReader::joined(Kind kind, std::vector<GrammarPart> parts, bool may_be_empty,
+                               std::int64_t line) const {
+  GrammarPart made = make_part(kind, std::move(parts), may_be_empty);
+  if (made->depth > kMostGrammarDepth)
+    refuse(line, "rules, tags and repetitions stand in each other too deep");
+  return made;
+}
+
 const GrammarPart& JsgfReader::part_of(const std::string& name, std::int64_t line, int depth) {
   const auto found = rules_.find(name);
   if (found == rules_.end()) refuse(line, "<" + name + "> is not defined");
@@ -217,7 +226,7 @@ GrammarPart JsgfReader::choice(std::size_t* at, int depth) {
   if (parts.size() == 1) return parts.front();
   const bool may_be_empty =
       std::any_of(parts.begin(), parts.end(), [](const GrammarPart& p) { return p->may_be_empty; });
-  GrammarExpression made = *make_part(Kind::choice, std::move(parts), may_be_empty);
+  GrammarExpression made = *joined(Kind::choice, std::move(parts), may_be_empty, line);
   for (const double weight : weights) made.log_weights.push_back(std::log(weight / sum));
   return std::make_shared<const GrammarExpression>(std::move(made));
 }
@@ -231,10 +240,7 @@ GrammarPart JsgfReader::sequence(std::size_t* at, int depth) {
   if (parts.size() == 1) return parts.front();
   const bool may_be_empty =
       std::all_of(parts.begin(), parts.end(), [](const GrammarPart& p) { return p->may_be_empty; });
-  GrammarPart made = make_part(Kind::sequence, std::move(parts), may_be_empty);
-  if (made->depth > kMostGrammarDepth)
-    refuse(tokens_[*at].line, "rules stand in each other too deep");
-  return made;
+  return joined(Kind::sequence, std::move(parts), may_be_empty, tokens_[*at].line);
 }
 
 GrammarPart JsgfReader::item(std::size_t* at, int depth) {
@@ -256,7 +262,7 @@ GrammarPart JsgfReader::item(std::size_t* at, int depth) {
       refuse(tokens_[*at].line,
              "a bracket of line " + std::to_string(token.line) + " is not closed");
     ++*at;
-    if (is_option) part = make_part(Kind::option, {part}, true);
+    if (is_option) part = joined(Kind::option, {part}, true, token.line);
   }
   while (is_mark(*at, '*') || is_mark(*at, '+') || tokens_[*at].kind == Token::Kind::tag) {
     const Token& mark = tokens_[*at];
@@ -268,7 +274,8 @@ GrammarPart JsgfReader::item(std::size_t* at, int depth) {
     if (part->may_be_empty)
       refuse(mark.line, "what is repeated here may be empty: a cycle without words");
     const bool at_least_one = mark.text[0] == '+';
-    part = make_part(at_least_one ? Kind::one_or_more : Kind::none_or_more, {part}, !at_least_one);
+    part = joined(at_least_one ? Kind::one_or_more : Kind::none_or_more, {part}, !at_least_one,
+                  mark.line);
   }
   return part;
 }
@@ -284,7 +291,7 @@ GrammarPart JsgfReader::tagged(GrammarPart inside, const Token& tag) const {
   if (!is_slot_name(slot))
     refuse(tag.line, "a tag is {slot} or {slot=value}, a slot letters, digits and _");
   const bool may_be_empty = inside->may_be_empty;
-  GrammarExpression made = *make_part(Kind::tag, {std::move(inside)}, may_be_empty);
+  GrammarExpression made = *joined(Kind::tag, {std::move(inside)}, may_be_empty, tag.line);
   made.slot = slot;
   made.value = std::move(value);
   return std::make_shared<const GrammarExpression>(std::move(made));

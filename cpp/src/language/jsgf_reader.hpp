@@ -47,6 +47,8 @@ class JsgfReader {
   std::string until(char last, const char* what);
   void read_rules();
   [[nodiscard]] bool is_mark(std::size_t at, char mark) const;
+  GrammarPart joined(GrammarExpression::Kind kind, std::vector<GrammarPart> parts,
+                     bool may_be_empty, std::int64_t line) const;
   const GrammarPart& part_of(const std::string& rule, std::int64_t line, int depth);
   GrammarPart choice(std::size_t* at, int depth);
   GrammarPart sequence(std::size_t* at, int depth);

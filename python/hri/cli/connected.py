@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-import numpy as np
 
 from hri.cli.live_screen import device_option, microphone, stall_option
 from hri.cli.messages import note
@@ -34,7 +33,6 @@ from hri.recognition.sentence.recognizer import UNKNOWN
 
 MODE = "connected"
 """Under which name the model is kept per user."""
-MOST_TIMES = 10
 SILENCE = "<sil>"
 """The word of silence in lattices."""
 
@@ -127,7 +125,7 @@ def train_connected(
     "film",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="Film HOAP-2 as it performs the command: slot 'gesture', and 'times', of the grammar.",
+    help="Film HOAP-2 as it performs the command: slots 'gesture', 'side', 'times', or 'walk' and 'steps'.",
 )
 @click.option(
     "--stream",
@@ -169,10 +167,7 @@ def transcribe(
         raise click.UsageError("name a recording, or add --stream for the microphone")
     if film is not None and (grammar is None or len(files) != 1 or stream):
         raise click.UsageError("--robot goes with --grammar and one recording")
-    path = Path(model) if model is not None else default_model(MODE)
-    if not path.is_file():
-        raise InvalidArgument("there is no model of connected words yet: run 'hri train-connected --data DIR'")
-    recognizer = ConnectedWordRecognizer.load(path)
+    recognizer = ConnectedWordRecognizer.load(connected_model() if model is None else model)
     if grammar is not None:
         recognizer.set_grammar(Grammar.load(grammar))
     if stream:
@@ -204,6 +199,14 @@ def transcribe(
     write_json(json_path, found)
 
 
+def connected_model() -> Path:
+    """The model kept per user. Raises InvalidArgument that says how to make it when there is none."""
+    path = default_model(MODE)
+    if not path.is_file():
+        raise InvalidArgument("there is no model of connected words yet: run 'hri train-connected --data DIR'")
+    return path
+
+
 def _follow(recognizer: ConnectedWordRecognizer, source: AudioSource, wake: str) -> None:
     """A line of JSON for every result until the source ends."""
     stream = ConnectedWordStream(recognizer, source.sample_rate_hz, wake_word=wake)
@@ -224,19 +227,14 @@ def _follow(recognizer: ConnectedWordRecognizer, source: AudioSource, wake: str)
 
 
 def _film(transcript: Transcript, path: Path) -> None:
-    from hri.robot import Trajectory, gesture_trajectory, render_video
+    from hri.robot import command_trajectory, needs_feet, render_video
 
-    slots = transcript.slots
-    if "gesture" not in slots or any(word.unknown for word in transcript.words):
-        note("robot: not moved, no command with a gesture was understood")
+    if not transcript.slots or any(word.unknown for word in transcript.words):
+        note("robot: not moved, no command with slots was understood")
         return
-    times = slots.get("times", "1")
-    if not (times.isdecimal() and 1 <= int(times) <= MOST_TIMES):
-        raise InvalidArgument(f"the slot 'times' is {times!r}, must be a number from 1 to {MOST_TIMES}")
-    once = gesture_trajectory(slots["gesture"])
-    motion = Trajectory(once.joint_names, once.period_s, np.tile(once.positions_rad, (int(times), 1)))
+    motion = command_trajectory(transcript.slots)
     make_folder(path.parent)
-    render_video(motion, path)
+    render_video(motion, path, fixed_base=not needs_feet(motion))
     note(f"robot: {path}")
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import click
 
+from hri.cli.connected import connected_model
 from hri.cli.live_screen import camera, events_json_option, microphone, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
@@ -21,11 +22,11 @@ from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.fusion import RULES, FusionOptions, LearnedFusion
-from hri.language import KnowledgeBase
+from hri.language import Grammar, KnowledgeBase
 from hri.language.knowledge import MAX_DISTANCE
 from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
 from hri.media import kind_of_file
-from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.recognition import CommandRecognizer, ConnectedWordRecognizer, GestureRecognizer, WordRecognizer
 from hri.robot import BACKENDS, NAO, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot, stopped_by_signals
 from hri.session import (
     McapRecorder,
@@ -48,6 +49,13 @@ _NAO = "nao"
 @click.command()
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option("--speech-model", type=_MODEL, help="From 'hri train speech'; the default is the one kept per user.")
+@click.option(
+    "--grammar",
+    "grammar_path",
+    type=_MODEL,
+    metavar="JSGF",
+    help="Commands of several words with slots; --speech-model is then from 'hri train-connected'.",
+)
 @click.option("--gesture-model", type=_MODEL, help="The same for gestures.")
 @click.option("--no-speech", is_flag=True, help="Signs only: use no microphone.")
 @click.option("--no-gesture", is_flag=True, help="Words only: use no camera.")
@@ -97,6 +105,7 @@ _NAO = "nao"
     help="The robot with physics, without, or no robot.",
 )
 @click.option("--gui", is_flag=True, help="Show the robot in a window (pybullet).")
+@click.option("--stand", is_flag=True, help="The robot stands on its feet and can walk (pybullet).")
 @click.option(
     "--robot",
     "table",
@@ -112,6 +121,7 @@ _NAO = "nao"
 def session(
     files: tuple[Path, ...],
     speech_model: Path | None,
+    grammar_path: Path | None,
     gesture_model: Path | None,
     no_speech: bool,
     no_gesture: bool,
@@ -134,6 +144,7 @@ def session(
     fusion_path: Path | None,
     backend: str,
     gui: bool,
+    stand: bool,
     table: JointTable,
     url: str | None,
     record_path: str | None,
@@ -152,13 +163,14 @@ def session(
       hri session --wake robot --resume start --record class.mcap
       hri session --imitate follow --gui
       hri session --sentence-begin start --sentence-end end --knowledge sentences.csv
+      hri session --grammar robot.jsgf --stand --gui --no-gesture
       hri session --backend kinematic --json words.wav signs.mp4
       hri session --replay class.mcap
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
     if replay_path is not None:
         known = (knowledge_path, max_distance)
-        _replay(replay_path, speech_model, gesture_model, fusion_path, known, as_json)
+        _replay(replay_path, speech_model, grammar_path, gesture_model, fusion_path, known, as_json)
         return
     if url is not None and table is not NAO:
         raise click.UsageError("--url is of a real NAO: add --robot nao")
@@ -183,7 +195,7 @@ def session(
         confirm_below=confirm_below,
     )
     ids: dict[str, str] = {}
-    words = load_model(WordRecognizer, "speech", speech_model, ids) if with_speech else None
+    words = load_words(speech_model, grammar_path, ids) if with_speech else None
     signs = load_model(GestureRecognizer, "gesture", gesture_model, ids) if with_gesture else None
     learned = None if fusion_path is None else load_model(LearnedFusion, "fusion", fusion_path, ids)
     stored = _stored(knowledge_path, max_distance, ids)
@@ -192,7 +204,7 @@ def session(
         if url is not None:
             robot = stack.enter_context(NaoqiRobot(url))
         elif backend != _NO_ROBOT:
-            robot = stack.enter_context(open_robot(backend, gui=gui, table=table))
+            robot = stack.enter_context(open_robot(backend, gui=gui, fixed_base=not stand, table=table))
         note("preparing the robot's motions")
         # NAO hears itself: a question that names a word would be answered by it.
         say = robot.say_later if isinstance(robot, NaoqiRobot) and microphone_name != _NAO else None
@@ -229,6 +241,7 @@ def _microphone(name: str | None, stall_s: float, url: str | None) -> Microphone
 def _replay(
     path: Path,
     speech_model: Path | None,
+    grammar_path: Path | None,
     gesture_model: Path | None,
     fusion_path: Path | None,
     known: tuple[Path | None, float],
@@ -237,7 +250,7 @@ def _replay(
     """Decide once more; exit code 1 where a decision differs."""
     recording = read_recording(path)
     ids: dict[str, str] = {}
-    words = load_model(WordRecognizer, "speech", speech_model, ids) if recording.sound else None
+    words = load_words(speech_model, grammar_path, ids) if recording.sound else None
     signs = load_model(GestureRecognizer, "gesture", gesture_model, ids) if recording.pictures else None
     learned = None if fusion_path is None else load_model(LearnedFusion, "fusion", fusion_path, ids)
     stored = _stored(*known, ids)
@@ -279,17 +292,28 @@ def _stored(path: Path | None, max_distance: float, ids: dict[str, str]) -> Know
     """Stored sentences; the name and hash of their file and how near words must be to them go into `ids`."""
     if path is None:
         return None
-    ids["knowledge"] = f"{_named(path)} within {max_distance:g}"
+    ids["knowledge"] = f"{_name_and_hash(path)} within {max_distance:g}"
     return KnowledgeBase.read(path, max_distance)
 
 
-def _named(path: Path) -> str:
-    """Name and hash of a file."""
-    return f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
+def load_words(path: Path | None, grammar_path: Path | None, ids: dict[str, str]) -> WordRecognizer | CommandRecognizer:
+    """What recognises words, or commands of several words by a grammar, whose name and hash are part of the id."""
+    if grammar_path is None:
+        recognizer: WordRecognizer = load_model(WordRecognizer, "speech", path, ids)
+        return recognizer
+    commands = CommandRecognizer(
+        load_model(ConnectedWordRecognizer, "speech", path or connected_model(), ids), Grammar.load(grammar_path)
+    )
+    ids["speech"] += f" {_name_and_hash(grammar_path)}"
+    return commands
 
 
 def load_model(kind: type[Any], mode: str, path: Path | None, ids: dict[str, str]) -> Any:
     """The recogniser or fusion in a model file; its name and hash go into `ids`."""
     chosen = path or kept_model(mode)
-    ids[mode] = _named(chosen)
+    ids[mode] = _name_and_hash(chosen)
     return kind.load(chosen)
+
+
+def _name_and_hash(path: Path) -> str:
+    return f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"

@@ -85,6 +85,7 @@ def decision_fields(decision: Decision, locale: str, model: str) -> dict[str, An
             {"label": entry.label, "probability": entry.probability, "log_score": entry.log_score}
             for entry in decision.nbest
         ],
+        "slots": dict(decision.slots),
         "notes": list(decision.notes),
         "model": model,
     }

@@ -14,7 +14,7 @@ from hri.live.attention import COMMAND, WAKE, Attention, AttentionTracker
 from hri.live.events import Event, decision_fields
 from hri.live.sources import AudioSource
 from hri.live.utterances import Samples, UtteranceFinder
-from hri.recognition import WordRecognizer
+from hri.recognition import CommandRecognizer, WordRecognizer
 from hri.signal import EndpointerOptions
 
 
@@ -23,10 +23,11 @@ class Listener:
 
     Parameters
     ----------
-    recognizer : WordRecognizer
+    recognizer : WordRecognizer or CommandRecognizer
         Trained or loaded.
     options : EndpointerOptions, optional
-        When an utterance begins and ends. By default its `activity` is the recogniser's own.
+        When an utterance begins and ends. By default its `activity` is the recogniser's own, and commands of several
+        words end with a longer pause.
     attention : Attention, optional
         Which utterances are commands: by default every one, with the model's own threshold.
     level_interval_s : float
@@ -44,7 +45,7 @@ class Listener:
 
     def __init__(
         self,
-        recognizer: WordRecognizer,
+        recognizer: WordRecognizer | CommandRecognizer,
         options: EndpointerOptions | None = None,
         *,
         attention: Attention | None = None,
@@ -57,8 +58,7 @@ class Listener:
         if wake and wake not in labels:
             raise InvalidArgument(f"wake word '{wake}' is not in the vocabulary: {', '.join(labels)}")
         self._recognizer = recognizer
-        chosen = options or EndpointerOptions(activity=recognizer.options.activity)
-        self._finder = UtteranceFinder(chosen, level_interval_s)
+        self._finder = UtteranceFinder(options or _endpointer_of(recognizer), level_interval_s)
         self._locale = locale
         self._model_id = model_id
 
@@ -89,3 +89,9 @@ class Listener:
             return Event(event.time, events.DECISION, fields, decision)
         # Without a decision, so that callers who act on decisions do not act on these.
         return Event(event.time, events.WAKE if meant == WAKE else events.IGNORED, fields | {"final": ""})
+
+
+def _endpointer_of(recognizer: WordRecognizer | CommandRecognizer) -> EndpointerOptions:
+    if isinstance(recognizer, CommandRecognizer):
+        return recognizer.endpointer
+    return EndpointerOptions(activity=recognizer.options.activity)

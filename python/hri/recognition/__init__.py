@@ -29,6 +29,7 @@ from hri.recognition.gesture import GestureRecognizer
 from hri.recognition.held_out_report import ConfusedPair, HeldOutReport
 from hri.recognition.sentence import (
     Alternative,
+    CommandRecognizer,
     ConnectedWordRecognizer,
     ConnectedWordStream,
     RecognisedSentence,
@@ -58,6 +59,7 @@ else:
 __all__ = [
     "LEARNED_STILL_CHANGE",
     "Alternative",
+    "CommandRecognizer",
     "ConfusedPair",
     "ConnectedWordRecognizer",
     "ConnectedWordRecognizerOptions",

@@ -51,6 +51,8 @@ class Decision:
         How good the signal was, measured on it alone: of speech the estimated ratio of speech to noise in dB, of a
         gesture the mean quality of the masks of the hand, 0..1. None where it was not measured. No part of what was
         decided: decisions of other quality may be equal.
+    slots : dict of str to str
+        What a command of several words says beside its label, see `hri.CommandRecognizer`; else empty.
     """
 
     mode: str
@@ -62,6 +64,7 @@ class Decision:
     notes: tuple[str, ...] = ()
     class_threshold: float = 0.0
     quality: float | None = field(default=None, compare=False)
+    slots: dict[str, str] = field(default_factory=dict, hash=False)
 
     def __repr__(self) -> str:
         return summary(

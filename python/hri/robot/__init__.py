@@ -11,6 +11,7 @@ from hri.robot.model.physics import Physics
 from hri.robot.model.postures import POSTURES
 from hri.robot.model.urdf import urdf_text
 from hri.robot.motion.checks import check_pulse_csv, check_trajectory, require_safe
+from hri.robot.motion.commands import command_trajectory, mirrored, needs_feet
 from hri.robot.motion.gestures import (
     GESTURE_JOINTS,
     Gesture,
@@ -32,6 +33,7 @@ from hri.robot.motion.self_collision import Touch, self_collisions
 from hri.robot.motion.shaping import concatenate, resample, slow_to_limits, smooth, spline
 from hri.robot.motion.short_csv import read_short_csv, write_short_csv
 from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
+from hri.robot.motion.walking import walking_trajectory
 from hri.robot.nao.gestures import NaoGesture, nao_gesture, nao_gesture_trajectory
 from hri.robot.nao.robot import NaoqiRobot
 from hri.robot.simulation.eyesight import Screen
@@ -66,13 +68,16 @@ __all__ = [
     "TrajectoryError",
     "check_pulse_csv",
     "check_trajectory",
+    "command_trajectory",
     "concatenate",
     "gesture_trajectory",
     "joint_trajectory_message",
     "link_poses",
     "load_gestures",
+    "mirrored",
     "nao_gesture",
     "nao_gesture_trajectory",
+    "needs_feet",
     "open_robot",
     "plot_trajectory",
     "read_joint_trajectory",
@@ -91,6 +96,7 @@ __all__ = [
     "stopped_by_signals",
     "trajectory_of_message",
     "urdf_text",
+    "walking_trajectory",
     "with_nao_arms",
     "write_gallery",
     "write_joint_trajectory",

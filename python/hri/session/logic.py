@@ -234,6 +234,7 @@ def fused_event(pair: Pair, time_s: float) -> Event:
         "first_s": round(pair.first_s, 4),
         "last_s": round(pair.last_s, 4),
         "final": fused.label if fused.status == RECOGNISED else "",
+        "slots": _slots_of(pair),
         "status": fused.status,
         "confidence": fused.confidence,
         "rule": fused.rule,
@@ -247,6 +248,13 @@ def fused_event(pair: Pair, time_s: float) -> Event:
         "nbest": [{"label": entry.label, "probability": entry.probability} for entry in fused.nbest],
     }
     return session_event(time_s, FUSED, **plain(fields))
+
+
+def _slots_of(pair: Pair) -> dict[str, str]:
+    """Of the command that was decided on, where it was spoken."""
+    spoken = pair.fused.speech
+    decided = pair.fused.status == RECOGNISED and spoken is not None and spoken.label == pair.fused.label
+    return dict(spoken.slots) if decided and spoken is not None else {}
 
 
 def moved_event(moved: Moved) -> Event:

@@ -20,7 +20,7 @@ from hri.live.events import OVERFLOW
 from hri.live.frames import TimedFrame
 from hri.live.sources import Stalled
 from hri.media import decode_image
-from hri.recognition import GestureRecognizer, GestureSegmenterOptions, WordRecognizer
+from hri.recognition import CommandRecognizer, GestureRecognizer, GestureSegmenterOptions, WordRecognizer
 from hri.session.feeds import Alignment, Arrival, Feed
 from hri.session.live import PASSING
 from hri.session.logic import ASKED, MOTION_END, TICK, NoRobot, SessionLogic
@@ -42,7 +42,7 @@ def decisions(events: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def replay(
     recording: Recording,
-    words: WordRecognizer | None = None,
+    words: WordRecognizer | CommandRecognizer | None = None,
     signs: GestureRecognizer | None = None,
     fusion: LearnedFusion | None = None,
     knowledge: KnowledgeBase | None = None,

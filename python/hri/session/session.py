@@ -17,8 +17,17 @@ from hri.core.errors import Error, FormatError, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
 from hri.live import AudioSource, Event, FrameSource, Listener, Watcher
-from hri.recognition import GestureRecognizer, GestureSegmenterOptions, WordRecognizer
-from hri.robot import NAO, Robot, Trajectory, gesture_trajectory, load_gestures, nao_gesture_trajectory
+from hri.recognition import CommandRecognizer, GestureRecognizer, GestureSegmenterOptions, WordRecognizer
+from hri.robot import (
+    NAO,
+    Robot,
+    Trajectory,
+    command_trajectory,
+    gesture_trajectory,
+    load_gestures,
+    nao_gesture_trajectory,
+    needs_feet,
+)
 from hri.session.feeds import Arrival, Clock, Feed, merge
 from hri.session.feeds import Recorder as StreamRecorder
 from hri.session.imitation import Faces, ImitatingTap, Imitator
@@ -65,7 +74,7 @@ class Session:
 
     Parameters
     ----------
-    words : WordRecognizer, optional
+    words : WordRecognizer or CommandRecognizer, optional
         Trained or loaded; needed for sound.
     signs : GestureRecognizer, optional
         Trained or loaded; needed for pictures.
@@ -73,8 +82,9 @@ class Session:
         Moved by `run`, and left open. Without one nothing moves, and every command counts as carried out.
     options : SessionOptions, optional
     motions : mapping of str to Trajectory or Guided, optional
-        What the robot does for a label; by default the gesture of the same name. Trajectories are checked here, from
-        where the joints are: those that the robot cannot make are left out, and `refused` says why.
+        What the robot does for a label; by default what the slots of a command say (`hri.robot.command_trajectory`), or
+        the gesture of the same name. Trajectories are checked here, from where the joints are: those that the robot
+        cannot make are left out, and `refused` says why.
     endpointer : EndpointerOptions, optional
         When a word begins and ends; see `hri.live.Listener`.
     segmenter : GestureSegmenterOptions, optional
@@ -107,7 +117,7 @@ class Session:
 
     def __init__(
         self,
-        words: WordRecognizer | None = None,
+        words: WordRecognizer | CommandRecognizer | None = None,
         signs: GestureRecognizer | None = None,
         robot: Robot | None = None,
         options: SessionOptions | None = None,
@@ -142,6 +152,7 @@ class Session:
                 raise InvalidArgument("knowledge: stored sentences need labels that begin and end one")
             ids.setdefault("knowledge", f"{len(knowledge.sentences)} sentences")
         self._endpointer, self._segmenter = endpointer, segmenter
+        self._slots = words.commands_ if isinstance(words, CommandRecognizer) else {}
         self._listener = None if words is None else Listener(words, endpointer, model_id=ids.get("speech", ""))
         self._watcher = None if signs is None else Watcher(signs, segmenter, model_id=ids.get("gesture", ""))
         self._imitator: Imitator | None = None
@@ -251,15 +262,16 @@ class Session:
             found |= dict.fromkeys(self.options.imitate_labels, guided)
         led = {*self.options.control_labels, *self.options.fusion.stop_labels, *found}
         for label in sorted((self._labels - led) | self._answers()):
-            if motions is None and label not in load_gestures():
+            if motions is None and not self._slots.get(label) and label not in load_gestures():
                 self.refused[label] = "no gesture has this name"
             elif motions is not None and label not in motions:
                 self.refused[label] = "it is in no motion"
             else:
-                own = nao_gesture_trajectory if self._robot.table.name == NAO.name else gesture_trajectory
                 try:
-                    motion = motions[label] if motions is not None else own(label)
+                    motion = motions[label] if motions is not None else self._own_motion(label, self._robot)
                     if isinstance(motion, Trajectory):
+                        if needs_feet(motion) and not self._robot.on_feet:
+                            raise InvalidArgument("the robot's torso is held, and it cannot walk")
                         self._robot.prepare(motion)
                     found[label] = motion
                 except (FormatError, InvalidArgument) as error:
@@ -270,6 +282,12 @@ class Session:
         """Gestures that stored sentences are answered with."""
         stored = () if self._knowledge is None else self._knowledge.sentences
         return {label for sentence in stored for label in sentence.answer}
+
+    def _own_motion(self, label: str, robot: Robot) -> Trajectory:
+        """By the slots of a command, or the gesture of this name."""
+        own = nao_gesture_trajectory if robot.table.name == NAO.name else gesture_trajectory
+        slots = self._slots.get(label)
+        return command_trajectory(slots, robot.table, own) if slots else own(label)
 
     def _about(self) -> dict[str, Any]:
         given = {"endpointer": self._endpointer, "segmenter": self._segmenter}

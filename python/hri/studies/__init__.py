@@ -32,6 +32,7 @@ from hri.studies import (
     new_words,
     noise,
     parity,
+    robot_commands,
     robot_motions,
     sentences,
     session,
@@ -61,6 +62,7 @@ _MODULES = (
     commands,
     commands_curve,
     connected_words,
+    robot_commands,
     htk_thesis,
     htk_training,
     noise,
@@ -101,6 +103,7 @@ _MODULES = (
     session_talk,
     imitation,
     parity,
+    robot_commands,
     robot_motions,
 )
 

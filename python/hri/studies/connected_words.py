@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Connected digits: strings joined from isolated recordings of one speaker, who was not trained on.
 
-English and Hindi digits; in noise, by a bigram, by a grammar, and with words that are not in the vocabulary.
+English and Hindi digits; in noise, by a bigram, by a grammar, with words that are not in the vocabulary, and by
+possibility-theory HMMs.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ TOLERANCE_S = 0.05
 LOOP, KNOWN, ISOLATED = "any number of words", "number known", "isolated words"
 FREE, BIGRAM = "digits in a row of 3 choices, any order", "digits in a row of 3 choices, bigram"
 GRAMMAR = "one of the strings and 200 others, by a grammar"
+POSSIBILISTIC = "any number of words, PTBHMM"
 MISSED, UNKNOWN = "3 of 10 words not trained on", "3 of 10 words not trained on, unknown words on"
 NOISES_DB = (20, 10)
 """Signal to noise, white noise."""
@@ -56,7 +58,7 @@ class DigitString:
     times_s: list[tuple[float, float]]
 
 
-def _joined(clips: Sequence[Clip], pause_ms: float, rng: np.random.Generator) -> DigitString:
+def join_clips(clips: Sequence[Clip], pause_ms: float, rng: np.random.Generator) -> DigitString:
     """The clips as they are, with pauses between them and quiet noise under all."""
     rate_hz = clips[0][2].sample_rate_hz
     edge, pause = (np.zeros(round(ms * rate_hz / 1000), np.float32) for ms in (EDGE_MS, pause_ms))
@@ -79,7 +81,7 @@ def _strings(clips: Sequence[Clip], pause_ms: float) -> list[DigitString]:
     strings = []
     while left:
         count = int(order.integers(1, MAX_DIGITS + 1))
-        strings.append(_joined(left[:count], pause_ms, noise))
+        strings.append(join_clips(left[:count], pause_ms, noise))
         left = left[count:]
     return strings
 
@@ -103,7 +105,7 @@ def _rows_of_choices(clips: Sequence[Clip], labels: Sequence[str], pause_ms: flo
             if place is None:
                 break
             string.append(left.pop(place))
-        strings.append(_joined(string, pause_ms, rng))
+        strings.append(join_clips(string, pause_ms, rng))
     return strings
 
 
@@ -131,7 +133,8 @@ def _directory(strings: Sequence[DigitString], labels: Sequence[str]) -> Grammar
     )
 
 
-def _noisy(string: DigitString, snr_db: float, rng: np.random.Generator) -> DigitString:
+def with_noise(string: DigitString, snr_db: float, rng: np.random.Generator) -> DigitString:
+    """The same in white noise, so many dB below it."""
     power = float(np.mean(np.square(string.samples, dtype=np.float64)))
     noise = np.sqrt(power * 10 ** (-snr_db / 10)) * rng.standard_normal(len(string.samples))
     return replace(string, samples=(string.samples + noise).astype(np.float32))
@@ -222,7 +225,7 @@ def _measure(measured: Measured, person: str, test: Sequence[Clip], recognizer: 
     strings = _strings(test, longest)
     for snr_db in NOISES_DB:
         rng = np.random.default_rng([SEED, 4, snr_db])
-        noisy = [_noisy(string, snr_db, rng) for string in strings]
+        noisy = [with_noise(string, snr_db, rng) for string in strings]
         measured.add(longest, f"{LOOP}, white noise at {snr_db} dB", person, noisy, _by(recognizer, rate_hz))
     directed = copy.deepcopy(recognizer).set_grammar(_directory(strings, labels))
     measured.add(longest, GRAMMAR, person, strings, _by(directed, rate_hz))
@@ -230,6 +233,15 @@ def _measure(measured: Measured, person: str, test: Sequence[Clip], recognizer: 
     measured.add(longest, FREE, person, rows, _by(recognizer, rate_hz))
     weighted = copy.deepcopy(recognizer).set_language(_language(labels)).set_decoder(language_scale=LANGUAGE_SCALE)
     measured.add(longest, BIGRAM, person, rows, _by(weighted, rate_hz))
+
+
+def _measure_possibilities(
+    measured: Measured, person: str, train: Sequence[Clip], test: Sequence[Clip], progress: Progress
+) -> None:
+    """The same densities as possibilities over codewords."""
+    model = _fitted(train, progress, words={"model": "ptbhmm"})
+    for pause_ms in PAUSES_MS:
+        measured.add(pause_ms, POSSIBILISTIC, person, _strings(test, pause_ms), _by(model, test[0][2].sample_rate_hz))
 
 
 def _measure_unknown(
@@ -263,6 +275,7 @@ def _run(data_dir: Path, progress: Progress, *, source: str, takes: int | None =
         penalties[person] = recognizer.insertion_penalty
         _measure(measured, person, test, recognizer)
         _measure_unknown(measured, person, train, test, part)
+        _measure_possibilities(measured, person, train, test, part)
     rows = [_row("", ISOLATED, isolated)]
     rows += [_row(*key, measured.errors[key], measured.times[key]) for key in measured.errors]
     most = max(PAUSES_MS)
@@ -283,8 +296,8 @@ def _study(name: str, source: str, what: str) -> Study:
     return Study(
         name,
         f"{what} in strings of 1 to 7, joined with pauses of 0, 100 and 300 ms, each of 4 speakers held out, in noise, "
-        "by a bigram, by a grammar, and with words that were not trained on: word errors and word times, beside the "
-        "errors on isolated digits",
+        "by a bigram, by a grammar, with words that were not trained on, and by PTBHMMs: word errors and word times, "
+        "beside the errors on isolated digits",
         (WORD_FOLDERS[source],),
         "with pauses of 300 ms and any number of words, a word error rate at most 2 points above that of isolated "
         "digits, and 95 % of the beginnings and ends of words within 50 ms",

@@ -63,6 +63,46 @@ TEST(Grammar, ReadsWhatJsgfHas) {
   EXPECT_FALSE(two.slots_of({"c"}));
 }
 
+TEST(Grammar, ListsItsSentences) {
+  const Grammar grammar = Grammar::parse(kCommands, "commands.jsgf");
+  const auto sentences = grammar.sentences();
+  ASSERT_EQ(sentences.size(), 32U);  // [please], and 2 x (1 + 3 x 2) ways to walk or 2 hands
+  EXPECT_EQ(sentences.front(),
+            (std::vector<std::string>{"please", "go", "forward", "one", "step"}));
+  EXPECT_EQ(sentences.back(), (std::vector<std::string>{"raise", "the", "right", "hand"}));
+  for (const auto& sentence : sentences) EXPECT_TRUE(grammar.slots_of(sentence));
+  EXPECT_THROW((void)grammar.sentences(31), InvalidArgument);
+  EXPECT_EQ(Grammar::parse(kHead + "public <s> = a | [b] a | b a;", "file").sentences().size(), 2U);
+  for (const std::string& endless : {"a+", "[a] b*"}) {
+    EXPECT_THROW((void)Grammar::parse(kHead + "public <s> = " + endless + ";", "f").sentences(),
+                 InvalidArgument);
+  }
+  std::string options;
+  for (int i = 0; i < 40; ++i) options += "[<NULL>] ";
+  EXPECT_THROW((void)Grammar::parse(kHead + "public <s> = a " + options + ";", "f").sentences(),
+               InvalidArgument);
+}
+
+TEST(Grammar, RefusesWhatGrowsBeyondBounds) {
+  std::string tags = "public <s> = a ";
+  for (int i = 0; i < 100000; ++i) tags += "{t}";
+  EXPECT_EQ(refusal(tags + ";"),
+            "file: line 3: rules, tags and repetitions stand in each other too deep");
+  std::string rules = "<r0> = a;";
+  for (int i = 1; i < 3000; ++i)
+    rules += "<r" + std::to_string(i) + "> = [<r" + std::to_string(i - 1) + ">];";
+  EXPECT_NE(refusal(rules + "public <s> = <r2999>;").find("too deep"), std::string::npos);
+  std::string copies = "<c0> = a {slot=" + std::string(3000, 'v') + "};";
+  for (int i = 1; i < 6; ++i) {
+    const std::string inner = "<c" + std::to_string(i - 1) + "> ";
+    copies += "<c" + std::to_string(i) + "> =";
+    for (int k = 0; k < 9; ++k) copies += " " + inner;
+    copies += ";";
+  }
+  EXPECT_EQ(refusal(copies + "public <s> = <c5>;"),
+            "file: the grammar is too large where its rules are written out");
+}
+
 TEST(Grammar, MakesANetworkOfItsSentencesAlone) {
   using namespace testing_data;
   const Grammar grammar = Grammar::parse(kHead + "public <s> = ( /3/ a b | /1/ b a );", "file");

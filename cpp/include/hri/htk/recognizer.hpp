@@ -15,6 +15,7 @@
 #include "hri/htk/model_set.hpp"
 #include "hri/htk/word_lattice.hpp"
 #include "hri/language/connected_decoder.hpp"
+#include "hri/language/lattice.hpp"
 #include "hri/language/word_emissions.hpp"
 
 namespace hri::htk {
@@ -47,9 +48,22 @@ class HRI_API Recognizer {
   /// number of columns, and values not finite.
   [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF observations) const;
 
+  /// All sentences near the best; model i is the pronunciation i, whose word is words()[i]. Throws
+  /// InvalidArgument as recognise() and Lattice::decode() do.
+  [[nodiscard]] Lattice lattice(ConstMatrixRefF observations,
+                                const LatticeOptions& options = {1000, 200000}) const;
+  /// At most `count` (1..1000) sentences of a lattice of this recogniser that differ in their
+  /// words, whatever their pronunciations, the best first; none of an empty lattice.
+  [[nodiscard]] std::vector<RecognisedSentence> n_best(const Lattice& lattice, int count) const;
+  /// Of every pronunciation.
+  [[nodiscard]] std::vector<std::string> words() const;
+
   [[nodiscard]] int dim() const { return emissions_.front().dim(); }
 
  private:
+  [[nodiscard]] MatrixF scores(ConstMatrixRefF observations) const;
+  [[nodiscard]] std::vector<RecognisedWord> words_of(const std::vector<DecodedWord>& words) const;
+
   ConnectedDecoderOptions options_;
   std::vector<GaussianEmissions> emissions_;  // one
   std::vector<Pronunciation> pronunciations_;

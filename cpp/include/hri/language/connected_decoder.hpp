@@ -53,6 +53,9 @@ struct HRI_API WordChain {
   /// 1 - final_stay, whatever the chain says of it. Throws InvalidArgument for other topologies and
   /// for final_stay outside 0..1, 1 excluded.
   static WordChain of(const MarkovChain& chain, double final_stay, bool is_silence = false);
+  /// The same in possibilities: what may come first, and what may follow each state, its exit among
+  /// it, is divided by its largest value (thesis eq. 5.14).
+  [[nodiscard]] WordChain possibilities() const;
 };
 
 /// One word, or silence, of a decoded sentence.

@@ -42,9 +42,13 @@ class HRI_API Grammar {
   /// alternatives count that stand first.
   [[nodiscard]] std::optional<Slots> slots_of(const std::vector<std::string>& sentence) const;
 
-  /// Its sentences; model i is the word labels[i]. With a `silence` model it may stand before,
-  /// between and after words; with the number of an `unknown` word, sentences of this alone are
-  /// allowed, too. Throws InvalidArgument for a word that labels do not have.
+  /// Every sentence once, in the order in which the grammar has them, with its weights left aside.
+  /// Throws InvalidArgument for more than `most`, and for repetitions, which have no end.
+  [[nodiscard]] std::vector<std::vector<std::string>> sentences(std::size_t most = 10000) const;
+
+  /// Its sentences as a network; model i is the word labels[i]. With a `silence` model it may stand
+  /// before, between and after words; with the number of an `unknown` word, sentences of this alone
+  /// are allowed, too. Throws InvalidArgument for a word that labels do not have.
   [[nodiscard]] WordNetwork network(const std::vector<std::string>& labels,
                                     int silence = WordNetwork::kNoSilence,
                                     int unknown = WordNetwork::kNull) const;

@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kKind = "connected_word_recognizer";
 constexpr const char* kLanguage = "language";
 constexpr const char* kGrammar = "grammar";
+constexpr const char* kCodebook = "codebook.";
 
 std::string prefix_of(std::size_t model) { return "hmm." + std::to_string(model) + "."; }
 
@@ -27,6 +28,7 @@ ModelFile ConnectedWordRecognizer::to_model_file() const {
   detail::write_options(options_, file);
   for (std::size_t m = 0; m < models().size(); ++m) models()[m].write(file, prefix_of(m));
   file.set_vector("final_stays", final_stays_);
+  if (possibilities_ != nullptr) possibilities_->codebook().write(file, kCodebook);
   if (language_ != nullptr) file.set_text(kLanguage, language_->to_arpa());
   if (grammar_ != nullptr) file.set_text(kGrammar, grammar_->text());
   return file;
@@ -54,7 +56,11 @@ ConnectedWordRecognizer ConnectedWordRecognizer::read(const ModelFile& file) {
   for (std::size_t m = 0; m <= labels.size(); ++m)
     models.push_back(GaussianMixtureHmm::read(file, prefix_of(m)));
   const VectorD final_stays = file.vector_d("final_stays");
-  ConnectedWordRecognizer result(options, std::move(labels), std::move(models), final_stays);
+  std::optional<MultiStreamCodebook> codebook;
+  if (options.words.model == SequenceModelKind::ptbhmm)
+    codebook = MultiStreamCodebook::read(file, kCodebook);
+  ConnectedWordRecognizer result(options, std::move(labels), std::move(models), final_stays,
+                                 std::move(codebook));
   if (file.has(kLanguage)) {
     result =
         result.with_language(NGramModel::parse(file.text(kLanguage), file.name() + ": language"));

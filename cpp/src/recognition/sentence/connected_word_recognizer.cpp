@@ -23,7 +23,6 @@ ConnectedWordRecognizerOptions with_rate(ConnectedWordRecognizerOptions options)
 }  // namespace
 
 const char* ConnectedWordRecognizerOptions::conflict() const {
-  if (words.model != SequenceModelKind::hmm) return "words.model must be hmm";
   if (words.front_end != FrontEndKind::cepstra) return "words.front_end must be cepstra";
   if (words.use_network) return "words.use_network must be false";
   return nullptr;
@@ -41,7 +40,8 @@ std::string Transcript::text() const {
 ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOptions& options,
                                                  std::vector<std::string> labels,
                                                  std::vector<GaussianMixtureHmm> models,
-                                                 const VectorD& final_stays)
+                                                 const VectorD& final_stays,
+                                                 std::optional<MultiStreamCodebook> codebook)
     : options_(with_rate(validated(options))),
       labels_(std::move(labels)),
       final_stays_(final_stays),
@@ -54,10 +54,16 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
           "final_stays must have a value for each model");
   require(emissions_->dim() == front_end_->num_features(),
           "the models and the front end differ in their features");
+  const bool is_possibilistic = options_.words.model == SequenceModelKind::ptbhmm;
+  require(codebook.has_value() == is_possibilistic,
+          "there must be a codebook exactly where words.model is ptbhmm");
+  if (is_possibilistic) {
+    possibilities_ = std::make_shared<const CodedPossibilities>(*emissions_, std::move(*codebook));
+  }
   for (std::size_t m = 0; m < num_models; ++m) {
-    chains_.push_back(WordChain::of(this->models()[m].chain(),
-                                    final_stays_[static_cast<Eigen::Index>(m)],
-                                    m + 1 == num_models));
+    WordChain chain = WordChain::of(
+        this->models()[m].chain(), final_stays_[static_cast<Eigen::Index>(m)], m + 1 == num_models);
+    chains_.push_back(is_possibilistic ? chain.possibilities() : std::move(chain));
   }
   if (options_.unknown_words) {
     chains_.push_back(
@@ -118,7 +124,11 @@ ScoredRecording ConnectedWordRecognizer::score(Span<const float> audio, int samp
   if (sentence.samples.empty()) return recording;
   const MatrixF frames = front_end_->frames(std::move(sentence.samples));
   MatrixF known(frames.rows(), emissions_->num_states());
-  emissions_->compute(frames, known);
+  if (possibilities_ != nullptr) {
+    possibilities_->compute(frames, known);
+  } else {
+    emissions_->compute(frames, known);
+  }
   if (options_.unknown_words) {
     known.conservativeResize(Eigen::NoChange, known.cols() + chains_.back().log_start.size());
     detail::score_unknown(states_of_words(), options_.unknown_rank, &known);

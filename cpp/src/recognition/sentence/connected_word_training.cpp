@@ -29,12 +29,33 @@ constexpr int kNoFold = -1;
 constexpr int kDefaultRateHz = 16000;
 constexpr int kSpeakersPerMixture = 2;
 constexpr int kMaxMixtures = 4;
+constexpr Eigen::Index kMaxCodedFrames = 20000;  // that codebooks of a column each are trained on
 
 // The models of a training, before they are a recogniser.
 struct TrainedWords {
   std::vector<GaussianMixtureHmm> models;
   VectorD final_stays;
+  std::optional<MultiStreamCodebook> codebook;  // of the kind ptbhmm
 };
+
+// Frames at even distances, of all sequences one behind the other: as many as codebooks need.
+MatrixF sampled_frames(const ClassSequences& sequences) {
+  Eigen::Index num_frames = 0;
+  for (const auto& of_class : sequences) {
+    for (const MatrixF& frames : of_class) num_frames += frames.rows();
+  }
+  const Eigen::Index step = (num_frames + kMaxCodedFrames - 1) / kMaxCodedFrames;
+  MatrixF result((num_frames + step - 1) / step, sequences.front().front().cols());
+  Eigen::Index at = 0;
+  for (const auto& of_class : sequences) {
+    for (const MatrixF& frames : of_class) {
+      for (Eigen::Index t = 0; t < frames.rows(); ++t, ++at) {
+        if (at % step == 0) result.row(at / step) = frames.row(t);
+      }
+    }
+  }
+  return result;
+}
 
 // Forced alignment: where words that are known lie in frames.
 class Aligner {
@@ -214,12 +235,16 @@ class SentenceTrainer {
           detail::final_stay(*models[c], sequences[c]);
     });
     for (auto& model : models) trained.models.push_back(std::move(*model));
+    if (options_.words.model == SequenceModelKind::ptbhmm)
+      trained.codebook = detail::train_column_codebooks(sampled_frames(sequences),
+                                                        options_.words.num_codewords, should_stop_);
     return trained;
   }
 
   [[nodiscard]] ConnectedWordRecognizer recognizer(const ConnectedWordRecognizerOptions& options,
                                                    TrainedWords trained) const {
-    return {options, labels_, std::move(trained.models), trained.final_stays};
+    return {options, labels_, std::move(trained.models), trained.final_stays,
+            std::move(trained.codebook)};
   }
 
   // On strings of every fold, by models of the others.

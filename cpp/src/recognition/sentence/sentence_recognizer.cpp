@@ -29,17 +29,6 @@ WordChain between_chain(const MarkovChain& chain, double stay) {
   return result;
 }
 
-// What may follow a state, its exit among it, as possibilities: the largest is 1.
-WordChain possibilities(WordChain chain) {
-  chain.log_start.array() -= chain.log_start.maxCoeff();
-  for (Eigen::Index i = 0; i < chain.log_exit.size(); ++i) {
-    const double largest = std::max(chain.log_transition.row(i).maxCoeff(), chain.log_exit[i]);
-    chain.log_transition.row(i).array() -= largest;
-    chain.log_exit[i] -= largest;
-  }
-  return chain;
-}
-
 // The best path of a word through frames whose states have the scores from `column` on.
 double best_path(const WordChain& chain, ConstMatrixRefF log_emissions, Eigen::Index column) {
   const Eigen::Index n = chain.log_start.size();
@@ -96,7 +85,7 @@ SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
     const MarkovChain& chain = this->models()[m].chain();
     const double stay = final_stays_[static_cast<Eigen::Index>(m)];
     WordChain states = m + 1 < num_models ? WordChain::of(chain, stay) : between_chain(chain, stay);
-    chains_.push_back(is_possibilistic ? possibilities(std::move(states)) : std::move(states));
+    chains_.push_back(is_possibilistic ? states.possibilities() : std::move(states));
   }
   const auto between = static_cast<int>(labels_.size());
   network_ = std::make_shared<const WordNetwork>(

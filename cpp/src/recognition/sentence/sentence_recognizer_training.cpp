@@ -258,11 +258,7 @@ class SentenceTrainer {
       frames.middleRows(next, one.frames.rows()) = one.frames;
       next += one.frames.rows();
     }
-    CodebookOptions options;
-    options.num_codewords = options_.num_codewords;
-    options.should_stop = should_stop_;
-    const std::vector<int> widths(static_cast<std::size_t>(frames.cols()), 1);
-    return MultiStreamCodebook::train_lbg(frames, widths, options);
+    return detail::train_column_codebooks(frames, options_.num_codewords, should_stop_);
   }
 
   [[nodiscard]] std::shared_ptr<const NGramModel> language_without(int fold) const {

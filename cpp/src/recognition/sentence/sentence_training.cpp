@@ -51,6 +51,15 @@ MatrixF frames_of_rows(const TwoHandFeatureOptions& options, ConstMatrixRefF row
 
 }  // namespace
 
+MultiStreamCodebook train_column_codebooks(ConstMatrixRefF frames, int num_codewords,
+                                           const StopCheck& should_stop) {
+  CodebookOptions options;
+  options.num_codewords = num_codewords;
+  options.should_stop = should_stop;
+  const std::vector<int> widths(static_cast<std::size_t>(frames.cols()), 1);
+  return MultiStreamCodebook::train_lbg(frames, widths, options);
+}
+
 int num_word_errors(const std::vector<int>& truth, const std::vector<int>& found) {
   std::vector<int> row(found.size() + 1);
   for (std::size_t j = 0; j < row.size(); ++j) row[j] = static_cast<int>(j);

@@ -18,6 +18,10 @@ int num_word_errors(const std::vector<int>& truth, const std::vector<int>& found
 /// paths of the sequences.
 double final_stay(const GaussianMixtureHmm& model, const std::vector<MatrixF>& sequences);
 
+/// One codebook a column of `frames`, by LBG.
+MultiStreamCodebook train_column_codebooks(ConstMatrixRefF frames, int num_codewords,
+                                           const StopCheck& should_stop);
+
 /// Features of tracks by the scale, 0: that of the tracks; or rows with their deltas. Throws
 /// InvalidArgument as SentenceRecognizer::train() does.
 MatrixF sentence_frames(const SentenceRecognizerOptions& options, ConstMatrixRefF input,

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sentences: several words in one recording, spoken or signed."""
 
+from hri.recognition.sentence.commands import CommandRecognizer
 from hri.recognition.sentence.recognizer import (
     Alternative,
     ConnectedWordRecognizer,
@@ -13,6 +14,7 @@ from hri.recognition.sentence.stream import ConnectedWordStream, UtteranceResult
 
 __all__ = [
     "Alternative",
+    "CommandRecognizer",
     "ConnectedWordRecognizer",
     "ConnectedWordStream",
     "RecognisedSentence",

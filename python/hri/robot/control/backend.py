@@ -65,6 +65,11 @@ class Robot(CommandedJoints):
         """Whether `stop` was called, and `resume` not since."""
         return self._stop.engaged
 
+    @property
+    def on_feet(self) -> bool:
+        """Whether it stands on its feet, free to walk and to fall; False where its torso is held."""
+        return False
+
     def perform(
         self,
         trajectory: Trajectory,

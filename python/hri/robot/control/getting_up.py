@@ -18,8 +18,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.robot.control.mass_centre import MassCentre
 from hri.robot.model.joints import Joint, JointTable
+from hri.robot.model.mass_centre import MassCentre
 
 _MOST_RAD = 0.3
 _LEAN_PER_M = 10.0  # rad at the waist for a metre that the capture point is behind the soles' middle

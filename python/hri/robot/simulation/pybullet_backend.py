@@ -94,6 +94,11 @@ class PyBulletRobot(Robot):
             self.close()
             raise
 
+    @property
+    def on_feet(self) -> bool:
+        """As of `Robot`."""
+        return not self._fixed_base
+
     def _state(self) -> RobotState:
         bullet = self._bullet
         position, turn = self._base()

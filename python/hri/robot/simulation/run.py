@@ -80,8 +80,9 @@ def render_video(
     size: tuple[int, int] = (480, 360),
     progress: Callable[[int, int], None] | None = None,
     table: JointTable = HOAP2,
+    fixed_base: bool = True,
 ) -> int:
-    """Film a motion, from its first row on, the torso held.
+    """Film a motion, from its first row on.
 
     Parameters
     ----------
@@ -93,6 +94,8 @@ def render_video(
     size : width and height in pixels
     progress : callable of (frames made, frames in all), optional
     table : JointTable
+    fixed_base : bool
+        The torso is held; else the robot stands on its feet, as for walking.
 
     Returns
     -------
@@ -114,10 +117,10 @@ def render_video(
         if progress is not None:
             progress(len(frames), max(total, len(frames)))
 
-    with open_robot(backend, table=table) as robot:
+    with open_robot(backend, fixed_base=fixed_base, table=table) as robot:
         total = int(trajectory.duration_s * fps + 1e-6) + 1
         first = trajectory.positions_rad[0].tolist()
-        robot.reset(dict(zip(trajectory.joint_names, first, strict=True)))
+        robot.reset(dict(zip(trajectory.joint_names, first, strict=True)), None if fixed_base else "standing")
         robot.perform(trajectory, keep, fps, size)
     write_video(path, frames, fps)
     return len(frames)

@@ -231,14 +231,38 @@ TEST(ConnectedWordRecognizer, RefusesWhatItCannotTrainOn) {
   samples.push_back({silence, kRateHz, "nothing", "low"});
   EXPECT_THROW(ConnectedWordRecognizer::train(samples, small_options()), InvalidArgument);
   EXPECT_THROW(ConnectedWordRecognizer::train({}, small_options()), InvalidArgument);
-  ConnectedWordRecognizerOptions options = small_options();
-  options.words.model = SequenceModelKind::ptbhmm;
-  EXPECT_THROW(ConnectedWordRecognizer::train(clips().samples, options), InvalidArgument);
   const std::vector<float> audio = sentence(kWords, 0);
   EXPECT_THROW((void)trained().recognise(audio, 10), InvalidArgument);
   EXPECT_THROW((void)trained().recognise(audio, kRateHz, {-1}), InvalidArgument);
   EXPECT_THROW((void)trained().recognise(audio, kRateHz, {1001}), InvalidArgument);
   EXPECT_THROW((void)trained().recognise({}, kRateHz), InvalidArgument);
+}
+
+// A codeword more or less changes no word, and what is scored are possibilities.
+TEST(ConnectedWordRecognizer, DecodesByPossibilities) {
+  ConnectedWordRecognizerOptions options = small_options();
+  options.words.model = SequenceModelKind::ptbhmm;
+  options.words.num_codewords = 32;
+  const auto possibilistic = ConnectedWordRecognizer::train(clips().samples, options);
+  const std::vector<float> audio = sentence(kWords, 0.1);
+  EXPECT_EQ(labels_of(possibilistic.recognise(audio, kRateHz)), kWords);
+  const ScoredRecording scored = possibilistic.score(audio, kRateHz);
+  // In every column the state that fits best has possibility 1; columns join by the product.
+  EXPECT_LE(scored.log_emissions.maxCoeff(), 0);
+  EXPECT_NE(trained().score(audio, kRateHz).log_emissions, scored.log_emissions);
+  for (const WordChain& chain : possibilistic.chains()) {
+    EXPECT_EQ(chain.log_start.maxCoeff(), 0);
+    for (Eigen::Index i = 0; i < chain.log_exit.size(); ++i)
+      EXPECT_EQ(std::max(chain.log_transition.row(i).maxCoeff(), chain.log_exit[i]), 0);
+  }
+  const std::vector<std::uint8_t> bytes = possibilistic.to_model_file().serialise();
+  const auto loaded = ConnectedWordRecognizer::from_model_file(ModelFile::parse(bytes, "m.hri"));
+  EXPECT_EQ(loaded.to_model_file().serialise(), bytes);
+  EXPECT_EQ(loaded.recognise(audio, kRateHz).log_score,
+            possibilistic.recognise(audio, kRateHz).log_score);
+  ModelFile without_rule = possibilistic.to_model_file();
+  without_rule.set_text("words.model", "hmm");
+  EXPECT_THROW((void)ConnectedWordRecognizer::from_model_file(without_rule), FormatError);
 }
 
 TEST(ConnectedWordRecognizer, IsInterrupted) {

@@ -3,8 +3,9 @@
 //
 // Connected words, trained on isolated ones: recordings of each speaker are joined to strings whose
 // word boundaries are known, and one HMM a word and one of silence are trained on the frames of
-// these strings. Cepstra are normalised over the utterance, so that a model trained on words by
-// themselves would meet other cepstra in a sentence; here training and decoding see the same.
+// these strings, or as many possibility-theory HMMs. Cepstra are normalised over the utterance, so
+// that a model trained on words by themselves would meet other cepstra in a sentence; here training
+// and decoding see the same.
 #pragma once
 
 #include <memory>
@@ -21,6 +22,7 @@
 #include "hri/language/lattice.hpp"
 #include "hri/language/ngram_model.hpp"
 #include "hri/language/word_emissions.hpp"
+#include "hri/models/codebook/multi_stream_codebook.hpp"
 #include "hri/recognition/training.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 
@@ -46,7 +48,8 @@ struct HRI_API ConnectedWordRecognizerOptions {
   template <class Self, class Visitor>
   static void visit(Self& o, Visitor&& v) {
     v("words", o.words, any_value,
-      "front end, models and augmentation as of isolated words, models of the kind hmm; what these "
+      "front end, models and augmentation as of isolated words; ptbhmm: the same densities as "
+      "possibilities over codewords, num_codewords for every column of the features; what these "
       "reject words by is not used");
     v("silence_states", o.silence_states, within(1, 64), "left-right states of silence");
     v("silence_mixtures", o.silence_mixtures, within(1, 64), "Gaussians of each of them");
@@ -134,11 +137,13 @@ class SentenceFrontEnd;
 class HRI_API ConnectedWordRecognizer {
  public:
   /// From trained parts: `models` are those of the sorted `labels` and behind them that of silence;
-  /// `final_stays` the probability of each to stay in its last state. Throws InvalidArgument for
-  /// parts that do not fit each other, and options out of range.
+  /// `final_stays` the probability of each to stay in its last state; `codebook` is that of the
+  /// kind ptbhmm. Throws InvalidArgument for parts that do not fit each other, and options out of
+  /// range.
   ConnectedWordRecognizer(const ConnectedWordRecognizerOptions& options,
                           std::vector<std::string> labels, std::vector<GaussianMixtureHmm> models,
-                          const VectorD& final_stays);
+                          const VectorD& final_stays,
+                          std::optional<MultiStreamCodebook> codebook = std::nullopt);
 
   /// Trains on isolated words. Throws InvalidArgument as WordRecognizer::train() does; Interrupted.
   static ConnectedWordRecognizer train(const std::vector<WordSample>& samples,
@@ -209,6 +214,7 @@ class HRI_API ConnectedWordRecognizer {
   VectorD final_stays_;
   std::shared_ptr<const detail::SentenceFrontEnd> front_end_;
   std::shared_ptr<const GaussianEmissions> emissions_;
+  std::shared_ptr<const CodedPossibilities> possibilities_;  // of the kind ptbhmm
   std::vector<WordChain> chains_;
   std::shared_ptr<const NGramModel> language_;
   std::shared_ptr<const Grammar> grammar_;

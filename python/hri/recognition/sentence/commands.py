@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Commands of several words with slots: the sentences of a grammar, decided on like words."""
+
+from __future__ import annotations
+
+import copy
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri import _native
+from hri.language import Grammar
+from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision, NBest
+from hri.recognition.inputs import AudioInput
+from hri.recognition.sentence.recognizer import Alternative, ConnectedWordRecognizer
+
+MOST_SENTENCES = 10_000
+NUM_ALTERNATIVES = 20
+
+
+class CommandRecognizer:
+    """Decide which command of a grammar was said; the decision carries its slots.
+
+    Sentences with the same slots are one command: its label is the sentence of them that stands first in the grammar.
+    A sentence without slots, such as "stop", is a command by itself.
+
+    Parameters
+    ----------
+    words : ConnectedWordRecognizer
+        Trained or loaded; it is not changed. With ``unknown_words`` what is no command may be rejected; without, the
+        nearest command is taken.
+    grammar : Grammar
+        Its words are labels of `words`; it repeats nothing, so that its sentences can be listed.
+
+    Attributes
+    ----------
+    classes_ : ndarray of str
+        The labels of all commands, sorted.
+    commands_ : dict of str to dict of str to str
+        The slots of each.
+
+    Raises
+    ------
+    InvalidArgument
+        For a word that is no label, for repetitions and for more than 10 000 sentences.
+    NotFittedError
+        For words that are not trained.
+    """
+
+    mode = "speech"
+
+    def __init__(self, words: ConnectedWordRecognizer, grammar: Grammar) -> None:
+        self._words = copy.copy(words).set_grammar(grammar)
+        self.commands_: dict[str, dict[str, str]] = {}
+        self._label_of: dict[tuple[str, ...], str] = {}
+        by_slots: dict[tuple[tuple[str, str], ...], str] = {}
+        for sentence in grammar.sentences(MOST_SENTENCES):
+            text = " ".join(sentence)
+            slots = grammar.slots_of(sentence) or {}
+            label = by_slots.setdefault(tuple(sorted(slots.items())), text) if slots else text
+            self.commands_.setdefault(label, dict(slots))
+            self._label_of[tuple(sentence)] = label
+        self.classes_: NDArray[np.str_] = np.array(sorted(self.commands_))
+
+    @property
+    def words(self) -> ConnectedWordRecognizer:
+        """What recognises the words, by the grammar."""
+        return self._words
+
+    @property
+    def endpointer(self) -> _native.EndpointerOptions:
+        """When a command has ended: pauses between its words do not end it."""
+        fields = _native.ConnectedWordStreamOptions().endpointer.as_dict()
+        return _native.EndpointerOptions(**{**fields, "activity": self._words.options.words.activity})
+
+    def recognise(self, audio: AudioInput, sample_rate_hz: int | None = None) -> Decision:
+        """Decide on one utterance.
+
+        Parameters
+        ----------
+        audio : path, Audio, or array of shape (num_samples,)
+        sample_rate_hz : int, optional
+            Of an array.
+
+        Returns
+        -------
+        Decision
+            ``nbest`` are the commands among the `NUM_ALTERNATIVES` best sentences; their probabilities are shares of
+            exp(``confidence_scale`` x log score) among these, added up over sentences of the same command, and
+            ``confidence`` is that of the best. "unknown" where a word was none of the vocabulary, or what was said is
+            too short for any sentence.
+
+        Raises
+        ------
+        InvalidArgument, FormatError, IoError
+            As of `ConnectedWordRecognizer.recognise`.
+        """
+        found = self._words.recognise(audio, sample_rate_hz, num_alternatives=NUM_ALTERNATIVES)
+        if not found.words:
+            return Decision(self.mode, NO_INPUT, NO_INPUT, 0.0, notes=found.notes)
+        nbest = self._nbest(found.alternatives or (Alternative(found.words, found.log_score),))
+        # Words below `min_confidence` count as unknown, too.
+        label = UNKNOWN if not found.complete else self._label_of.get(found.labels, UNKNOWN)
+        if label == UNKNOWN:
+            return Decision(self.mode, UNKNOWN, UNKNOWN, 0.0, found.log_score, nbest, found.notes)
+        confidence = next((entry.probability for entry in nbest if entry.label == label), 0.0)
+        slots = self.commands_[label]
+        return Decision(
+            self.mode, label, RECOGNISED, confidence, found.log_score, nbest, found.notes, slots=dict(slots)
+        )
+
+    def _nbest(self, alternatives: tuple[Alternative, ...]) -> tuple[NBest, ...]:
+        """Commands in falling order; sentences that are none have a share and no place."""
+        log_scores = np.array([alternative.log_score for alternative in alternatives])
+        weights = np.exp(self._words.options.confidence_scale * (log_scores - log_scores.max()))
+        shares: dict[str, float] = {}
+        best: dict[str, float] = {}
+        for alternative, weight, log_score in zip(alternatives, weights / weights.sum(), log_scores, strict=True):
+            label = self._label_of.get(tuple(word.label for word in alternative.words))
+            if label is not None:
+                shares[label] = shares.get(label, 0.0) + float(weight)
+                best[label] = max(best.get(label, -np.inf), float(log_score))
+        order = sorted(shares, key=lambda label: (-shares[label], label))
+        return tuple(NBest(label, shares[label], best[label]) for label in order)

@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Commands of several words with slots: decided on, and carried out in a session."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conftest import RATE_HZ, tone_word
+from hri import CommandRecognizer, Decision, Session
+from hri.core.errors import InvalidArgument
+from hri.datasets import Dataset
+from hri.io import write_wav_pcm16
+from hri.language import Grammar
+from hri.live import ArraySource
+from hri.recognition import ConnectedWordRecognizer
+from hri.robot import open_robot
+from hri.session import SessionOptions
+from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
+
+ROOT = Path(__file__).parents[2]
+GRAMMAR = """#JSGF V1.0;
+grammar tones;
+public <command> = ( 1 {side=left} | 2 {side=right} ) 1 {gesture=up} [ 2 {times=2} ]
+                 | ( 2 2 {walk=forward} | 2 2 2 {walk=forward} ) {steps=2} | 1;
+"""
+OPTIONS = {
+    "words": {"num_states": 5, "num_vtlp_factors": 1, "num_noisy_copies": 1, "min_snr_db": 10.0},
+    "max_words": 3,
+}
+
+
+def tones(words: str) -> np.ndarray:
+    """Words by a speaker who was not trained on, with quiet before and behind."""
+    clips = [tone_word(575, 800 if word == "1" else -350, 50 + i) for i, word in enumerate(words.split())]
+    quiet = np.resize(clips[0][: RATE_HZ // 5], 3 * RATE_HZ // 2)
+    return np.concatenate([quiet, *(clip[RATE_HZ // 10 : 4 * RATE_HZ // 5] for clip in clips), quiet])
+
+
+@pytest.fixture(scope="module")
+def words(spoken: Path) -> ConnectedWordRecognizer:
+    samples = Dataset.load(spoken).samples
+    return ConnectedWordRecognizer(**OPTIONS).fit(
+        [s.path for s in samples], [s.label for s in samples], groups=[s.person for s in samples]
+    )
+
+
+@pytest.fixture(scope="module")
+def commands(words: ConnectedWordRecognizer) -> CommandRecognizer:
+    return CommandRecognizer(words, Grammar.parse(GRAMMAR, "tones.jsgf"))
+
+
+def test_a_decision_carries_the_slots_of_its_command(commands: CommandRecognizer) -> None:
+    assert list(commands.classes_) == ["1", "1 1", "1 1 2", "2 1", "2 1 2", "2 2"]
+    assert commands.commands_["2 2"] == {"walk": "forward", "steps": "2"}  # and "2 2 2" is the same command
+    found = commands.recognise(tones("2 1 2"), RATE_HZ)
+    assert (found.label, found.status) == ("2 1 2", "recognised")
+    assert found.slots == {"side": "right", "gesture": "up", "times": "2"}
+    assert found.nbest[0].label == "2 1 2" and found.confidence == found.nbest[0].probability > 0.5
+    assert 0.99 < sum(entry.probability for entry in found.nbest) <= 1.0 + 1e-9
+    assert commands.recognise(tones("2 2 2"), RATE_HZ).label == "2 2"
+    assert commands.recognise(tones("1"), RATE_HZ).slots == {}
+    assert json.loads(json.dumps(found.to_dict()))["slots"]["side"] == "right"
+    assert commands.recognise(np.zeros(RATE_HZ, np.float32), RATE_HZ).status == "no_input"
+    assert len({found, Decision("speech", "a", "recognised", 1.0)}) == 2
+
+
+def test_words_of_no_confidence_are_no_command(words: ConnectedWordRecognizer) -> None:
+    model = ConnectedWordRecognizer(**OPTIONS, min_confidence=1.0, confidence_scale=1e-6, choose_penalty=False)
+    clips = [tone_word(500 + 20 * i, 800 if i % 2 else -350, i) for i in range(8)]
+    model.fit(clips, [str(1 + (i + 1) % 2) for i in range(8)], sample_rate_hz=RATE_HZ)
+    found = CommandRecognizer(model, Grammar.parse(GRAMMAR, "g")).recognise(tones("2 1 2"), RATE_HZ)
+    assert (found.label, found.status, found.slots) == ("unknown", "unknown", {})
+    with pytest.raises(InvalidArgument, match="its sentences have no end"):
+        CommandRecognizer(words, Grammar.parse("#JSGF V1.0;\ngrammar g;\npublic <s> = 1+;", "g"))
+    with pytest.raises(InvalidArgument, match="the word 'walk', which is no label"):
+        CommandRecognizer(words, Grammar.parse("#JSGF V1.0;\ngrammar g;\npublic <s> = walk;", "g"))
+
+
+def test_a_session_raises_the_right_arm_twice(commands: CommandRecognizer) -> None:
+    stream = tones("2 1 2")
+    with open_robot("kinematic") as robot:
+        session = Session(commands, robot=robot, options=SessionOptions(confirm_below=0.0))
+        assert session.refused == {"2 2": "the robot's torso is held, and it cannot walk"}
+        raised: list[tuple[float, float]] = []
+        follow = robot._command
+
+        def watched(positions: dict[str, float]) -> None:
+            raised.append((positions.get("rarm_joint_1", np.nan), positions.get("larm_joint_1", np.nan)))
+            follow(positions)
+
+        robot._command = watched  # type: ignore[method-assign]
+        events = list(session.run(ArraySource(stream, RATE_HZ)))
+    fused = next(event for event in events if event.event == "fused")
+    assert fused.fields["final"] == "2 1 2" and fused.fields["slots"]["times"] == "2"
+    assert [event.fields["completed"] for event in events if event.event == "motion_end"] == [True]
+    right, left = np.array(raised).T
+    down, up = np.nanmax(right), np.nanmin(right)
+    high = right < 0.5 * (down + up)
+    assert np.count_nonzero(np.diff(high.astype(int)) == 1) == 2  # twice up
+    assert np.nanmax(left) - np.nanmin(left) < 1e-6
+
+
+def test_a_session_walks_two_steps_from_the_command_line(hri, words: ConnectedWordRecognizer, tmp_path: Path) -> None:
+    pytest.importorskip("pybullet")
+    words.save(tmp_path / "words.hri")
+    (tmp_path / "tones.jsgf").write_text(GRAMMAR)
+    write_wav_pcm16(str(tmp_path / "said.wav"), tones("2 2"), RATE_HZ)
+    given = ("--speech-model", tmp_path / "words.hri", "--grammar", tmp_path / "tones.jsgf", "--confirm-below", 0)
+    done = hri("session", *given, "--stand", tmp_path / "said.wav")
+    assert done.code == 0, done.err
+    rows = [json.loads(line) for line in done.out.splitlines()]
+    (fused,) = [row for row in rows if row["event"] == "fused"]
+    assert fused["slots"] == {"walk": "forward", "steps": "2"}
+    (ended,) = [row for row in rows if row["event"] == "motion_end"]
+    assert ended["completed"] and ended["label"] == "2 2" and ended["message"] == ""
+    begun = next(row for row in rows if row["event"] == "motion_start")
+    assert ended["time"] - begun["time"] > 7.0
+    held = hri("session", *given, "--backend", "kinematic", tmp_path / "said.wav")
+    assert "no motion for 2 2: the robot's torso is held, and it cannot walk" in held.err
+    no_feet = hri("session", *given, "--backend", "kinematic", "--stand", tmp_path / "said.wav")
+    assert no_feet.code != 0 and "the kinematic backend cannot stand on its feet" in no_feet.err
+
+
+HINDI = {
+    **{"aage": "आगे", "baar": "बार", "baayaan": "बायाँ", "chaar": "चार", "chalo": "चलो", "daayaan": "दायाँ", "do": "दो"},
+    **{"ek": "एक", "haath": "हाथ", "kadam": "कदम", "namaste": "नमस्ते", "paanch": "पाँच", "peeche": "पीछे"},
+    **{"ruko": "रुको", "teen": "तीन", "upar": "ऊपर"},
+}
+SAID = {
+    "robot.jsgf": ("go forward three steps", "raise the right hand"),
+    "robot_hi.jsgf": ("teen kadam aage chalo", "daayaan haath upar"),
+}
+EXPECTED = ({"walk": "forward", "steps": "3"}, {"side": "right", "gesture": "up"})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SAID)
+def test_example_grammars_understand_synthetic_voices(name: str, tmp_path: Path) -> None:
+    grammar = Grammar.load(ROOT / "examples" / "commands" / name)
+    texts = {word: word for word in grammar.words}
+    if name == "robot_hi.jsgf":
+        texts = HINDI
+    language = "hi" if name == "robot_hi.jsgf" else "en"
+    made = make_speech_corpus(tmp_path, {language: texts}, num_speakers=4, takes=1)
+    words = ConnectedWordRecognizer(words={"num_vtlp_factors": 1}).fit(
+        [s.path for s in made.samples], [s.label for s in made.samples], groups=[s.person for s in made.samples]
+    )
+    commands = CommandRecognizer(words, grammar)
+    for sentence, slots in zip(SAID[name], EXPECTED, strict=True):
+        clips = [speak(texts[word], language, make_speaker(9)) for word in sentence.split()]
+        pause = np.zeros(clips[0].sample_rate_hz // 10, np.float32)
+        sound = np.concatenate([part for clip in clips for part in (pause, clip.samples)])
+        found = commands.recognise(sound, clips[0].sample_rate_hz)
+        assert (found.label, found.slots) == (sentence, slots)
