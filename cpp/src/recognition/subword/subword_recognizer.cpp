@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "hri/core/error.hpp"
@@ -152,14 +154,17 @@ SubwordRecognizer SubwordRecognizer::without_word(const std::string& label) cons
     fail(ErrorKind::invalid_argument, "there is no word '" + label + "'");
   require(labels_.size() > 2, "two words at least must be left");
   htk::Dictionary rest;
+  std::set<std::string> used;
   for (const htk::Pronunciation& entry : lexicon_.entries) {
-    if (entry.word != label) rest.entries.push_back(entry);
+    if (entry.word == label) continue;
+    used.insert(entry.models.begin(), entry.models.end());
+    rest.entries.push_back(entry);
   }
   UnitModels kept;
-  const std::string own = label + kOwnUnit;
   for (std::size_t u = 0; u < units_.names.size(); ++u) {
-    if (units_.names[u].compare(0, own.size(), own) == 0) continue;
-    kept.names.push_back(units_.names[u]);
+    const std::string& name = units_.names[u];
+    if (name.find(kOwnUnit) != std::string::npos && used.count(name) == 0) continue;
+    kept.names.push_back(name);
     kept.models.push_back(units_.models[u]);
     kept.final_stays.push_back(units_.final_stays[u]);
   }

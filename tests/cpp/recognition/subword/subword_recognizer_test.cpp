@@ -149,6 +149,9 @@ TEST(SubwordRecognizer, MovesTheUnitsOfAWordTowardsItsRecordings) {
   EXPECT_TRUE(with.unrecorded().empty());
   EXPECT_EQ(with.units().names.size(), trained().units().names.size() + 3);
   EXPECT_EQ(with.without_word("new").units().names, trained().units().names);
+  // A word whose name begins alike keeps its units.
+  const SubwordRecognizer both = with.with_word("new/0", wrong, samples);
+  EXPECT_EQ(both.without_word("new").units().names.size(), with.units().names.size());
   // Other words keep their models.
   EXPECT_EQ(with.scores(test, kRateHz).head(4), without.scores(test, kRateHz).head(4));
 }
