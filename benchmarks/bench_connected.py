@@ -37,9 +37,9 @@ BUDGET = 0.02
 JSGF = f"#JSGF V1.0;\ngrammar digits;\npublic <digits> = ( {' | '.join(DIGITS)} )+;\n"
 
 
-def _trained(words: list[str], **options: object) -> ConnectedWordRecognizer:
+def _trained(vocabulary: list[str], **options: object) -> ConnectedWordRecognizer:
     with tempfile.TemporaryDirectory() as folder:
-        samples = make_speech_corpus(folder, {"en": words}, num_speakers=SPEAKERS, takes=1).samples
+        samples = make_speech_corpus(folder, {"en": vocabulary}, num_speakers=SPEAKERS, takes=1).samples
         clips = [read_audio(sample.path) for sample in samples]
         return ConnectedWordRecognizer(**options).fit(
             clips, [sample.label for sample in samples], groups=[sample.person for sample in samples]

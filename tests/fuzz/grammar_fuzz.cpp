@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any bytes as a grammar in JSGF. Sentences drawn from its network are sentences of the grammar, and
-// those that it lists too.
+// Any bytes as a grammar in JSGF. Sentences drawn from its network are sentences of the grammar,
+// and those that it lists too.
 #include <algorithm>
 
 #include "fuzzing.hpp"
