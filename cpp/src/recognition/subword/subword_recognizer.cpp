@@ -47,6 +47,7 @@ SubwordRecognizer::SubwordRecognizer(const SubwordRecognizerOptions& options,
   std::stable_sort(lexicon_.entries.begin(), lexicon_.entries.end(),
                    [](const auto& a, const auto& b) { return a.word < b.word; });
   std::vector<std::string> words;
+  words.reserve(lexicon_.entries.size());
   for (const htk::Pronunciation& entry : lexicon_.entries) words.push_back(entry.word);
   labels_ = sorted_labels(words);
   bonuses_ = VectorF::Zero(static_cast<Eigen::Index>(labels_.size()));

@@ -89,9 +89,9 @@ htk::Dictionary entries_of(const htk::Dictionary& lexicon, const std::vector<std
 
 class SubwordTrainer {
  public:
-  SubwordTrainer(SubwordRecognizerOptions options, std::vector<std::string> labels,
+  SubwordTrainer(const SubwordRecognizerOptions& options, std::vector<std::string> labels,
                  const htk::Dictionary& lexicon, StopCheck should_stop)
-      : options_(std::move(options)),
+      : options_(options),
         labels_(std::move(labels)),
         lexicon_(entries_of(lexicon, labels_)),
         should_stop_(std::move(should_stop)) {}
@@ -219,6 +219,7 @@ class SubwordTrainer {
     score_fold(fold, detail::train_units(rest, options_, should_stop_), samples,
                [&](int truth, const std::vector<std::string>& labels, const VectorF& scores) {
                  std::vector<bool> is_new;
+                 is_new.reserve(labels.size());
                  for (const std::string& label : labels)
                    is_new.push_back(left_out(label_index(labels_, label)));
                  bonus->add(scores, is_new,
