@@ -7,9 +7,9 @@ from __future__ import annotations
 from os import PathLike, fspath
 from typing import Literal, overload
 
-from hri.core.errors import FormatError
 from hri.io import ModelFile
 from hri.recognition.gesture import GestureRecognizer
+from hri.recognition.loading import another_kind, refuse_recordings
 from hri.recognition.subword import SubwordRecognizer
 from hri.recognition.word import WordRecognizer
 
@@ -18,6 +18,12 @@ _MODES: dict[str, Mode] = {
     "word_recognizer": "speech",
     "subword_recognizer": "speech",
     "gesture_recognizer": "gesture",
+}
+
+_WANTED: dict[Mode | None, str] = {
+    None: "recogniser of words or of gestures",
+    "speech": "word recogniser",
+    "gesture": "gesture recogniser",
 }
 
 
@@ -44,11 +50,13 @@ def load(path: str | PathLike[str], mode: Mode | None = None) -> WordRecognizer 
     IoError
         For one that cannot be read.
     """
-    kind = ModelFile.read(fspath(path)).kind
+    text = fspath(path)
+    wanted = _WANTED[mode]
+    refuse_recordings(text, wanted)
+    kind = ModelFile.read(text).kind
     found = _MODES.get(kind)
     if found is None or mode not in (None, found):
-        wanted = "recogniser" if mode is None else f"recogniser of {mode}"
-        raise FormatError(f"{fspath(path)}: holds a {kind!r}, which is no {wanted}")
+        raise another_kind(text, kind, wanted)
     if found == "gesture":
         return GestureRecognizer.load(path)
     return SubwordRecognizer.load(path) if kind == "subword_recognizer" else WordRecognizer.load(path)

@@ -37,9 +37,7 @@ def load_native(make: Callable[[ModelFile], Any], path: str | PathLike[str], kin
     """
     text = fspath(path)
     wanted = _KINDS[kind][0]
-    kind_of_path = kind_of_file(Path(text))
-    if kind_of_path not in ("", "a model"):
-        raise FormatError(f"{text} is {kind_of_path}, and a {wanted} is needed here: train makes one, save writes it")
+    refuse_recordings(text, wanted)
     try:
         recognizer = make(ModelFile.read(text))
         _log.info("%s: a %s of %d labels", text, wanted, len(recognizer.labels))
@@ -48,8 +46,22 @@ def load_native(make: Callable[[ModelFile], Any], path: str | PathLike[str], kin
         found = _found_kind(text)
         if found == kind or found not in _KINDS:
             raise
-        name, taken_by = _KINDS[found]
-        raise FormatError(f"{text} is a {name}, and a {wanted} is needed here; {taken_by}") from error
+        raise another_kind(text, found, wanted) from error
+
+
+def refuse_recordings(path: str, wanted: str) -> None:
+    """Raise a FormatError for a file that by its name is a sound, a picture or a film, and no model."""
+    kind_of_path = kind_of_file(Path(path))
+    if kind_of_path not in ("", "a model"):
+        raise FormatError(f"{path} is {kind_of_path}, and a {wanted} is needed here: train makes one, save writes it")
+
+
+def another_kind(path: str, found: str, wanted: str) -> FormatError:
+    """What to raise for a model of the kind `found` in place of what is wanted."""
+    if found not in _KINDS:
+        return FormatError(f"{path}: holds a {found!r}, and a {wanted} is needed here")
+    name, taken_by = _KINDS[found]
+    return FormatError(f"{path} is a {name}, and a {wanted} is needed here; {taken_by}")
 
 
 def _found_kind(path: str) -> str:
