@@ -14,6 +14,7 @@ from hri.robot import (
     HOAP2,
     NAO,
     MotionLog,
+    Physics,
     Trajectory,
     check_trajectory,
     command_trajectory,
@@ -25,6 +26,7 @@ from hri.robot import (
 )
 from hri.robot.model.arm import SIDES
 from hri.robot.model.leg import leg_angles, leg_of
+from hri.studies.robot_motions import offsets
 
 
 def test_a_leg_brings_a_level_sole_to_its_place() -> None:
@@ -75,6 +77,34 @@ def test_the_robot_walks_three_steps() -> None:
         alone = [links for state in log.states if len(links := {c.link for c in state.contacts}) == 1]
         changes = 1 + sum(a != b for a, b in itertools.pairwise(alone))
         assert changes == 4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("sign", "physics", "least_m", "most_turn_deg"),
+    [
+        (1, Physics(friction=0.6), 0.11, 2.0),
+        (-1, Physics(), 0.11, 2.0),
+        (1, Physics(joint_offsets_rad=offsets(600)), 0.09, 6.0),
+        (1, Physics(joint_offsets_rad=offsets(601)), 0.09, 6.0),
+        (1, Physics(joint_offsets_rad=offsets(602)), 0.09, 6.0),
+    ],
+)
+def test_it_walks_on_smooth_floors_backward_and_with_joints_that_are_off(
+    sign: int, physics: Physics, least_m: float, most_turn_deg: float
+) -> None:
+    pytest.importorskip("pybullet")
+    walk = walking_trajectory(3, 0.04 * sign)
+    idle = [name for name in HOAP2.names if name not in walk.joint_names]
+    with open_robot("pybullet", fixed_base=False, locked=idle, physics=physics) as robot:
+        begin = robot.state()
+        log = MotionLog(0.05)
+        assert robot.perform(walk, log=log)
+        end = robot.state()
+        assert least_m < sign * (end.base_position_m[0] - begin.base_position_m[0]) < 0.125
+        assert np.degrees(np.abs([state.base_rpy_rad[:2] for state in log.states]).max()) < 2.0
+        assert abs(np.degrees(end.base_rpy_rad[2] - begin.base_rpy_rad[2])) < most_turn_deg
+        assert not any(event.kind == "fall" for event in robot.events) and robot.self_contacts == []
 
 
 def test_slots_choose_the_arm_and_how_often() -> None:
