@@ -56,3 +56,17 @@ function(hri_precompile target)
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
+
+# With HRI_UNITY_BUILD, sources of one folder are compiled as one. So their names are unique in the folder, those in
+# unnamed namespaces, too. Sources that have compiler options of their own stand apart.
+function(hri_unite target)
+  if(HRI_UNITY_BUILD)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    foreach(source IN LISTS ARGN)
+      get_filename_component(folder "${source}" DIRECTORY)
+      file(RELATIVE_PATH folder "${PROJECT_SOURCE_DIR}" "${folder}")
+      string(REPLACE "/" "_" folder "${folder}")
+      set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}")
+    endforeach()
+  endif()
+endfunction()

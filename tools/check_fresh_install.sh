@@ -16,7 +16,7 @@ pip=(-m pip --quiet --disable-pip-version-check)
 # What is packed and how it installs does not depend on how fast it is.
 PATH=$work/tools/bin:$PATH "$work/tools/bin/python" "${pip[@]}" wheel --no-build-isolation --no-deps \
   --config-settings cmake.build-type=Debug --config-settings cmake.define.CMAKE_CXX_FLAGS_DEBUG=-O0 \
-  --config-settings cmake.define.HRI_UNITY_BINDINGS=ON --wheel-dir "$work/wheels" "$work/source"
+  --config-settings cmake.define.HRI_UNITY_BUILD=ON --wheel-dir "$work/wheels" "$work/source"
 "$python" -m venv "$work/venv"
 "$work/venv/bin/python" "${pip[@]}" install "numpy==1.24.*" "$work"/wheels/libhri-*.whl
 

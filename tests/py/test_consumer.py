@@ -19,8 +19,8 @@ from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("HRI_BUILD_DIR")
-# Builds of the whole core that are tried once take half the time to compile.
-UNOPTIMISED = ("-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
+# Builds of the whole core that are tried once take a fraction of the time to compile.
+UNOPTIMISED = ("-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DHRI_UNITY_BUILD=ON")
 
 pytestmark = [
     pytest.mark.slow,

@@ -9,11 +9,11 @@
 namespace hri::htk::detail {
 namespace {
 
-constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 double log_add(double a, double b) {
   if (a < b) std::swap(a, b);
-  return b == kImpossible ? a : a + std::log1p(std::exp(b - a));
+  return b == kNever ? a : a + std::log1p(std::exp(b - a));
 }
 
 // Frames on the shortest way from the entry to the exit: breadth first.
@@ -47,7 +47,7 @@ LogChain::LogChain(const MatrixD& transitions) : min_frames(shortest(transitions
     exit.push_back(logs(i + 1, n + 1));
     for (Eigen::Index j = 0; j < n; ++j) {
       const double log_weight = logs(i + 1, j + 1);
-      if (log_weight == kImpossible) continue;
+      if (log_weight == kNever) continue;
       next[static_cast<std::size_t>(i)].push_back({static_cast<int>(j), log_weight});
       previous[static_cast<std::size_t>(j)].push_back({static_cast<int>(i), log_weight});
     }
@@ -76,7 +76,7 @@ std::int64_t CompositePass::begin(const std::vector<const LogChain*>& units) {
 
 // Backward scores at the entries of units at a point; those at its frame are known.
 void CompositePass::enter(std::int64_t point) {
-  std::fill(enter_.begin(), enter_.end(), kImpossible);
+  std::fill(enter_.begin(), enter_.end(), kNever);
   const auto num_frames = static_cast<std::int64_t>(rows_.size());
   const bool at_end = point == num_frames;
   const Row row = at_end ? Row() : rows_[static_cast<std::size_t>(point)];
@@ -91,7 +91,7 @@ void CompositePass::enter(std::int64_t point) {
                                  beta_[row.at(state)]);
     }
     enter_[static_cast<std::size_t>(u)] = score;
-    if (score == kImpossible && first_of(u) <= row.first) break;
+    if (score == kNever && first_of(u) <= row.first) break;
   }
 }
 
@@ -116,31 +116,31 @@ bool CompositePass::add_row(std::int64_t frame, double beam) {
   int low = later.end > later.first ? unit_of(later.first) : num_units();
   int high = later.end > later.first ? unit_of(later.end - 1) : -1;
   for (int u = 0; u < num_units(); ++u) {
-    if (enter_[static_cast<std::size_t>(u) + 1] == kImpossible) continue;
+    if (enter_[static_cast<std::size_t>(u) + 1] == kNever) continue;
     low = std::min(low, u);
     high = std::max(high, u);
   }
   if (high < low) return false;
   Row row{beta_.size(), first_of(low), first_of(high + 1)};
-  double best = kImpossible;
+  double best = kNever;
   for (int state = row.first; state < row.end; ++state) {
     beta_.push_back(backward_score(state, later));
     best = std::max(best, beta_.back());
   }
-  if (best == kImpossible) return false;
+  if (best == kNever) return false;
   if (beam > 0) {
     for (std::size_t k = row.offset; k < beta_.size(); ++k) {
-      if (beta_[k] < best - beam) beta_[k] = kImpossible;
+      if (beta_[k] < best - beam) beta_[k] = kNever;
     }
   }
   // States at the ends that lead nowhere are not kept.
-  while (beta_.back() == kImpossible) {
+  while (beta_.back() == kNever) {
     beta_.pop_back();
     --row.end;
   }
   std::ptrdiff_t dead = 0;
   const auto begin = beta_.begin() + static_cast<std::ptrdiff_t>(row.offset);
-  while (*(begin + dead) == kImpossible) ++dead;
+  while (*(begin + dead) == kNever) ++dead;
   beta_.erase(begin, begin + dead);
   row.first += static_cast<int>(dead);
   rows_[t] = row;
@@ -153,7 +153,7 @@ double CompositePass::backward(std::int64_t num_frames, double beam, const Densi
   log_b_.clear();
   enter(num_frames);
   for (std::int64_t t = num_frames - 1; t >= 0; --t) {
-    if (!add_row(t, beam)) return kImpossible;
+    if (!add_row(t, beam)) return kNever;
     const Row& row = rows_[static_cast<std::size_t>(t)];
     log_b_.resize(beta_.size());
     densities(t, row.first, row.end, log_b_.data() + row.offset);
@@ -167,11 +167,11 @@ double CompositePass::backward(std::int64_t num_frames, double beam, const Densi
 // before, and models passed without a frame.
 void CompositePass::leave(std::int64_t point, const Row& before,
                           const std::vector<MatrixD*>& counts) {
-  std::fill(reached_.begin(), reached_.end(), kImpossible);
+  std::fill(reached_.begin(), reached_.end(), kNever);
   if (point == 0) reached_.front() = 0;
   for (int u = point == 0 ? 0 : unit_of(before.first); u < num_units(); ++u) {
     const auto at = static_cast<std::size_t>(u);
-    if (first_of(u) >= before.end && reached_[at] == kImpossible) break;
+    if (first_of(u) >= before.end && reached_[at] == kNever) break;
     const LogChain& chain = *units_[at];
     const double after = enter_[at + 1] - log_probability_;
     const Eigen::Index exit = chain.num_states() + 1;
@@ -212,7 +212,7 @@ void CompositePass::advance(std::int64_t frame, const Row& before,
     }
     gamma_[s] = std::exp(score + after);
     // What the backward pass left out is not passed here.
-    next_alpha_[s] = beta_[row.at(state)] == kImpossible ? kImpossible : score + log_b;
+    next_alpha_[s] = beta_[row.at(state)] == kNever ? kNever : score + log_b;
   }
 }
 

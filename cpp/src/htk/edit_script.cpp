@@ -8,13 +8,14 @@
 #include <cmath>
 
 #include "hri/core/error.hpp"
+#include "htk/model_text.hpp"
 #include "htk/text_lines.hpp"
 
 namespace hri::htk {
 namespace {
 
-constexpr int kMostStates = 4098;
-constexpr int kMostMixtures = 4096;
+using detail::kMostMixtures;
+using detail::kMostStates;
 constexpr std::size_t kMostItems = 100000;  // of all lists
 
 class ScriptReader {

@@ -7,10 +7,12 @@
 #include <limits>
 #include <numeric>
 
+#include "core/numbers.hpp"
+
 namespace hri::htk::detail {
 namespace {
 
-constexpr double kLog2Pi = 1.8378770664093454835606594728112;
+using hri::detail::kLog2Pi;
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kLeastWeight = 1e-5;  // HTK's MINMIX: below, a component has no weight
 

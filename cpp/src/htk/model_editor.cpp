@@ -10,13 +10,14 @@
 #include "hri/core/error.hpp"
 #include "hri/htk/edit_script.hpp"
 #include "hri/htk/labels.hpp"
+#include "htk/model_text.hpp"
 #include "htk/shared_parameters.hpp"
 
 namespace hri::htk {
 namespace {
 
 constexpr double kPerturbation = 0.2;  // standard deviations
-constexpr std::size_t kMostMixtures = 4096;
+using detail::kMostMixtures;
 
 // Where something stands in a set: the model, and what of it the item names.
 struct Place {
@@ -191,7 +192,7 @@ class Editor {
       if (made.empty()) refuse("a mixture has no Gaussian with weight");
       const std::size_t count =
           static_cast<std::size_t>(command.num_mixtures) + (command.is_more ? made.size() : 0);
-      if (count > kMostMixtures)
+      if (count > std::size_t{kMostMixtures})
         refuse("a mixture would have more than " + std::to_string(kMostMixtures) + " Gaussians");
       split_up_to(count, &made);
       for (std::size_t c = 0; c < made.size(); ++c) made[c].number = static_cast<int>(c) + 1;

@@ -17,8 +17,8 @@ namespace {
 using detail::ModelToken;
 using detail::ModelTokens;
 
-constexpr int kMostStates = 4098;
-constexpr int kMostMixtures = 4096;
+using detail::kMostMixtures;
+using detail::kMostStates;
 constexpr int kMostColumns = 65536;
 constexpr double kSumTolerance = 1e-2;  // of probabilities in a few digits
 // Values of all definitions, and of all uses of macros: a file could name one macro a million

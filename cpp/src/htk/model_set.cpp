@@ -6,12 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri::htk {
 namespace {
 
-constexpr double kLog2Pi = 1.8378770664093454835606594728112;
+using hri::detail::kLog2Pi;
 
 double gconst_of(const VectorD& variance) {
   return static_cast<double>(variance.size()) * kLog2Pi + variance.array().log().sum();

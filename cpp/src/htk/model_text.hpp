@@ -9,6 +9,10 @@
 
 namespace hri::htk::detail {
 
+// Of what is read: far above anything in use.
+constexpr int kMostStates = 4098;
+constexpr int kMostMixtures = 4096;
+
 /// <KEYWORD>, ~o and the like, "name", a number or a word.
 struct ModelToken {
   enum class Kind : std::uint8_t { end, keyword, macro, name, word };

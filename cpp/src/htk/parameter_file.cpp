@@ -11,7 +11,7 @@
 namespace hri::htk {
 namespace {
 
-constexpr std::size_t kHeader = 12;
+constexpr std::size_t kHeaderBytes = 12;
 constexpr float kLargest = 32767;  // of the integers of _C and IREFC
 constexpr int kExtraSamples = 4;   // that scale and offset of _C count as
 
@@ -36,7 +36,7 @@ class Reader {
 
   ParameterFile read() {
     ParameterFile file;
-    if (bytes_.size() < kHeader) refuse("the header takes 12 bytes");
+    if (bytes_.size() < kHeaderBytes) refuse("the header takes 12 bytes");
     const std::uint32_t count = long_word();
     const std::uint32_t period = long_word();
     const std::uint16_t sample_bytes = word();
@@ -106,14 +106,14 @@ class Reader {
       refuse(std::to_string(columns) + " columns cannot be " + kind.text());
     at_ = 0;
     if (kind.has(kCompressed) && count <= kExtraSamples) refuse("no frame is left beside _C");
-    const std::uint64_t size = kHeader + std::uint64_t{count} * sample_bytes +
+    const std::uint64_t size = kHeaderBytes + std::uint64_t{count} * sample_bytes +
                                (kind.has(kChecksum) ? std::uint64_t{2} : std::uint64_t{0});
     if (bytes_.size() != size)
       refuse("the header says " + std::to_string(size) + " bytes, the file has " +
              std::to_string(bytes_.size()));
     const std::uint32_t frames = count - (kind.has(kCompressed) ? kExtraSamples : 0);
     file->values.resize(static_cast<Eigen::Index>(frames), columns);
-    at_ = kHeader;
+    at_ = kHeaderBytes;
   }
 
   void check_sum(ParameterKind kind) {
@@ -124,7 +124,7 @@ class Reader {
       at_ -= 2;
       refuse("the checksum is wrong: the file is damaged");
     }
-    at_ = kHeader;
+    at_ = kHeaderBytes;
   }
 
   void read_values(ParameterFile* file) {

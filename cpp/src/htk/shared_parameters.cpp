@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "htk/shared_parameters.hpp"
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri::htk::detail {
 namespace {
 
-constexpr double kLog2Pi = 1.8378770664093454835606594728112;
+using hri::detail::kLog2Pi;
 
 }  // namespace
 

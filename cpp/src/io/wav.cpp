@@ -24,7 +24,7 @@ struct Format {
   std::uint16_t bits = 0;
 };
 
-std::uint32_t little_endian(const std::uint8_t* p, unsigned num_bytes) {
+std::uint32_t whole_number(const std::uint8_t* p, unsigned num_bytes) {
   std::uint32_t value = 0;
   for (unsigned i = 0; i < num_bytes; ++i) value |= static_cast<std::uint32_t>(p[i]) << (8 * i);
   return value;
@@ -38,14 +38,14 @@ Format parse_format(Span<const std::uint8_t> chunk, const std::string& name) {
   if (chunk.size() < 16)
     refuse(name, "field 'fmt ' has " + std::to_string(chunk.size()) + " bytes, needs 16");
   Format f;
-  f.tag = static_cast<std::uint16_t>(little_endian(chunk.data(), 2));
-  f.num_channels = static_cast<std::uint16_t>(little_endian(chunk.data() + 2, 2));
-  f.sample_rate_hz = little_endian(chunk.data() + 4, 4);
-  f.bits = static_cast<std::uint16_t>(little_endian(chunk.data() + 14, 2));
+  f.tag = static_cast<std::uint16_t>(whole_number(chunk.data(), 2));
+  f.num_channels = static_cast<std::uint16_t>(whole_number(chunk.data() + 2, 2));
+  f.sample_rate_hz = whole_number(chunk.data() + 4, 4);
+  f.bits = static_cast<std::uint16_t>(whole_number(chunk.data() + 14, 2));
   if (f.tag == kExtensible) {
     if (chunk.size() < 40)
       refuse(name, "field 'fmt ' is extensible but has " + std::to_string(chunk.size()) + " bytes");
-    f.tag = static_cast<std::uint16_t>(little_endian(chunk.data() + 24, 2));
+    f.tag = static_cast<std::uint16_t>(whole_number(chunk.data() + 24, 2));
   }
   if (f.num_channels < 1 || f.num_channels > 64) {
     refuse(name, "field 'channels' must lie in 1..64, is " + std::to_string(f.num_channels));
@@ -78,7 +78,7 @@ double decode(const std::uint8_t* p, const Format& f) {
   }
   if (f.bits == 8) return (static_cast<double>(*p) - 128.0) / 128.0;  // the one unsigned format
   // Shifted to the top, the sign bit comes to stand where int32 has it.
-  const std::uint32_t raw = little_endian(p, f.bits / 8U) << (32U - f.bits);
+  const std::uint32_t raw = whole_number(p, f.bits / 8U) << (32U - f.bits);
   return static_cast<double>(static_cast<std::int32_t>(raw)) / 2147483648.0;
 }
 
@@ -129,7 +129,7 @@ Wav parse_wav(Span<const std::uint8_t> bytes, const std::string& name) {
   std::size_t at = 12;
   while (at + 8 <= bytes.size()) {
     const std::uint8_t* id = bytes.data() + at;
-    const std::uint32_t declared = little_endian(id + 4, 4);
+    const std::uint32_t declared = whole_number(id + 4, 4);
     const auto rest = bytes.subspan(at + 8, bytes.size() - at - 8);
     if (std::memcmp(id, "fmt ", 4) == 0) {
       if (declared > rest.size()) refuse(name, "field 'fmt ' runs beyond the end of the file");

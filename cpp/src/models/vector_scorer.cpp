@@ -10,7 +10,7 @@
 namespace hri {
 namespace {
 
-constexpr double kMaxWeight = 1e6;
+constexpr double kMaxClassWeight = 1e6;
 constexpr double kMaxVectors = 1e9;
 constexpr double kMaxPenalty = 1e12;
 
@@ -176,7 +176,7 @@ VectorScorer VectorScorer::without_class(int index) const {
 }
 
 VectorScorer VectorScorer::with_weight(double weight) const {
-  require(weight > 0 && weight <= kMaxWeight, "weight must lie in 0..1e6");
+  require(weight > 0 && weight <= kMaxClassWeight, "weight must lie in 0..1e6");
   VectorScorer result = *this;
   result.weight_ = weight;
   return result;
@@ -203,7 +203,7 @@ VectorScorer VectorScorer::read(const ModelFile& file, const std::string& prefix
   const double weight = file.number(prefix + "weight");
   if (means.rows() != num_classes || means.cols() != lda.dim() || fillers.cols() != lda.dim() ||
       softmax.num_classes() != num_classes || softmax.dim() != lda.dim() ||
-      !(weight > 0 && weight <= kMaxWeight) || !(per_class > 0 && per_class <= kMaxVectors) ||
+      !(weight > 0 && weight <= kMaxClassWeight) || !(per_class > 0 && per_class <= kMaxVectors) ||
       !(penalty > 0 && penalty <= kMaxPenalty)) {
     fail(ErrorKind::format, file.name() + ": field '" + prefix + "means' does not fit");
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 #include "signal/word_bounds.hpp"
@@ -12,7 +13,7 @@
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using detail::kPi;
 constexpr double kRumbleHz = 60;
 constexpr std::array<double, kMaxActivityBands + 1> kEdgesHz{100, 500, 1000, 2000, 3800, 7500};
 constexpr double kLowHz = 1000;

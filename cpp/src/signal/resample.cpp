@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 #include "signal/resample_kernel.hpp"
@@ -15,7 +16,7 @@
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using detail::kPi;
 constexpr double kKaiserBeta = 7.0;  // about 70 dB of stop band
 constexpr int kZeroCrossings = 32;   // on each side, at the lower rate
 constexpr double kPassBand = 0.95;   // cut-off as a share of the lower Nyquist rate

@@ -10,11 +10,11 @@
 namespace hri {
 namespace {
 
-constexpr int kMaxLevels = 20;  // a million nodes
+constexpr int kMaxPacketLevels = 20;  // a million nodes
 
 template <class T>
 void require_tree(const WaveletPackets<T>& packets) {
-  require(packets.levels.size() >= 2 && packets.levels.size() <= kMaxLevels + 1,
+  require(packets.levels.size() >= 2 && packets.levels.size() <= kMaxPacketLevels + 1,
           "packets must have 1..20 levels below the signal");
   for (std::size_t l = 0; l < packets.levels.size(); ++l) {
     require(packets.levels[l].rows() == Eigen::Index{1} << l && packets.levels[l].cols() > 0,
@@ -93,7 +93,7 @@ template <class T>
 WaveletPackets<T> wavelet_packets(Span<const T> x, const Wavelet& wavelet, Border border,
                                   int num_levels) {
   require(!x.empty(), "signal must not be empty");
-  require(num_levels >= 1 && num_levels <= kMaxLevels, "num_levels must lie in 1..20");
+  require(num_levels >= 1 && num_levels <= kMaxPacketLevels, "num_levels must lie in 1..20");
   const auto filters = detail::analysis_filters<T>(wavelet);
   WaveletPackets<T> packets;
   packets.levels.push_back(
@@ -112,7 +112,7 @@ WaveletPackets<T> wavelet_packets(Span<const T> x, const Wavelet& wavelet, Borde
 }
 
 std::vector<std::size_t> frequency_order(int level) {
-  require(level >= 0 && level <= kMaxLevels, "level must lie in 0..20");
+  require(level >= 0 && level <= kMaxPacketLevels, "level must lie in 0..20");
   std::vector<std::size_t> order(std::size_t{1} << static_cast<unsigned>(level));
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i ^ (i >> 1U);
   return order;

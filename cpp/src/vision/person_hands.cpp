@@ -74,7 +74,7 @@ int median(const std::array<int, kCentreBins>& counts) {
 }
 
 // Working memory of one thread.
-struct Workspace {
+struct PersonWorkspace {
   cv::Mat smooth, ycrcb, scores;
   std::vector<const std::uint8_t*> face;  // pixels of its middle
   GreyImage raw, cleaned, best, one;
@@ -83,13 +83,13 @@ struct Workspace {
   detail::ChromaHistogram skin, room, hand;
 };
 
-Workspace& workspace() {
-  thread_local Workspace w;
+PersonWorkspace& person_workspace() {
+  thread_local PersonWorkspace w;
   return w;
 }
 
 // Fills the histograms of skin and room; gives the median of the face's brightness.
-int learn(const Surroundings& around, Workspace* w) {
+int learn(const Surroundings& around, PersonWorkspace* w) {
   w->skin.clear();
   w->room.clear();
   w->face.clear();
@@ -131,7 +131,7 @@ int learn(const Surroundings& around, Workspace* w) {
 }
 
 // Fills the scores of all pixels, and `raw` with what may be a hand.
-void score(const Surroundings& around, int brightness, double min_log_ratio, Workspace* w) {
+void score(const Surroundings& around, int brightness, double min_log_ratio, PersonWorkspace* w) {
   const cv::Mat ratios = detail::log_ratios(w->skin, w->room);
   w->scores.create(w->ycrcb.size(), CV_32F);
   for (int y = 0; y < w->ycrcb.rows; ++y) {
@@ -160,7 +160,7 @@ struct Candidate {
   double distance = 0;  // from the face
 };
 
-Candidate rate(const Region& region, const Surroundings& around, Workspace* w) {
+Candidate rate(const Region& region, const Surroundings& around, PersonWorkspace* w) {
   std::fill(w->one.pixels.begin(), w->one.pixels.end(), std::uint8_t{0});
   w->finder.fill(region, &w->one);
   double sum = 0, sum_x = 0, sum_y = 0;
@@ -181,7 +181,8 @@ Candidate rate(const Region& region, const Surroundings& around, Workspace* w) {
 }
 
 // Leaves the most likely regions in `best`, and gives them, the most likely first.
-std::vector<Region> choose(const PersonOptions& options, const Surroundings& around, Workspace* w) {
+std::vector<Region> choose(const PersonOptions& options, const Surroundings& around,
+                           PersonWorkspace* w) {
   detail::majority(w->raw, 1, &w->counts, &w->cleaned);
   detail::resize(&w->one, w->cleaned.width_px, w->cleaned.height_px);
   const double face_area = around.side * around.side;
@@ -211,7 +212,7 @@ std::vector<Region> choose(const PersonOptions& options, const Surroundings& aro
 }
 
 // Adds the colours of the hands to those of the face.
-void learn_hands(Workspace* w) {
+void learn_hands(PersonWorkspace* w) {
   w->hand.clear();
   const std::uint8_t* set = w->best.pixels.data();
   for (int y = 0; y < w->ycrcb.rows; ++y) {
@@ -223,7 +224,7 @@ void learn_hands(Workspace* w) {
 }
 
 // Of the mask in the rectangle of a region, grown by half its sides.
-double quality(const Region& region, const Workspace& w) {
+double quality(const Region& region, const PersonWorkspace& w) {
   const int across = (region.right - region.left + 1) / 2;
   const int down = (region.bottom - region.top + 1) / 2;
   const int left = std::max(0, region.left - across);
@@ -306,7 +307,7 @@ void PersonHands::extract(ImageView bgr, const Face& face, HandObservation* out)
   around.centre_x = x - around.box.x;
   around.centre_y = y - around.box.y;
 
-  Workspace& w = workspace();
+  PersonWorkspace& w = person_workspace();
   cv::GaussianBlur(small(around.box), w.smooth, cv::Size(3, 3), 0);
   cv::cvtColor(w.smooth, w.ycrcb, cv::COLOR_BGR2YCrCb);
   const int brightness = learn(around, &w);

@@ -183,7 +183,7 @@ double ellipticity(const GreyImage& mask, const Region& found) {
 }
 
 // Working memory of one thread.
-struct Workspace {
+struct SilhouetteWorkspace {
   detail::Shrinker shrinker;
   detail::Smoother smoother;
   detail::ColourImage small, smooth;
@@ -194,7 +194,7 @@ struct Workspace {
 };
 
 // Fills w.candidates with what may be a hand by its size, the largest first.
-void find_candidates(const SilhouetteOptions& options, Workspace* w) {
+void find_candidates(const SilhouetteOptions& options, SilhouetteWorkspace* w) {
   const auto total = static_cast<double>(w->cleaned.pixels.size());
   w->candidates.clear();
   for (const Region& r : w->finder.find(w->cleaned)) {
@@ -212,7 +212,7 @@ void find_candidates(const SilhouetteOptions& options, Workspace* w) {
 }
 
 // Of more candidates than hands the one most like an ellipse is a face.
-void remove_face(Workspace* w, int max_hands) {
+void remove_face(SilhouetteWorkspace* w, int max_hands) {
   if (static_cast<int>(w->candidates.size()) <= max_hands) return;
   std::size_t face = 0;
   double best = -1;
@@ -228,8 +228,8 @@ void remove_face(Workspace* w, int max_hands) {
   w->candidates.erase(w->candidates.begin() + static_cast<std::ptrdiff_t>(face));
 }
 
-Workspace& workspace() {
-  thread_local Workspace w;
+SilhouetteWorkspace& silhouette_workspace() {
+  thread_local SilhouetteWorkspace w;
   return w;
 }
 
@@ -249,7 +249,7 @@ SilhouetteExtractor::SilhouetteExtractor(const SilhouetteOptions& options, Image
   auto kept = std::make_shared<Background>();
   kept->width_px = background.width_px;
   kept->height_px = background.height_px;
-  Workspace& w = workspace();
+  SilhouetteWorkspace& w = silhouette_workspace();
   w.shrinker.shrink(background, options_.max_side_px, &w.small);
   w.smoother.smooth(w.small, options_.blur_px, &kept->smooth);
   background_ = std::move(kept);
@@ -275,7 +275,7 @@ void SilhouetteExtractor::extract(ImageView bgr, HandObservation* out) const {
              " pixels, the background " + std::to_string(background_->width_px) + " x " +
              std::to_string(background_->height_px));
   }
-  Workspace& w = workspace();
+  SilhouetteWorkspace& w = silhouette_workspace();
   w.shrinker.shrink(bgr, options_.max_side_px, &w.small);
   detail::to_grey(w.small, &out->grey);
   out->repaired = false;

@@ -126,7 +126,7 @@ TEST_F(Faults, TrainingLeavesNothing) {
     options.num_noisy_copies = 0;
     for (const int threads : {1, 2}) {
       set_num_threads(threads);
-      expect_no_leak(100, [&] { WordRecognizer::train(clips.samples, options); });
+      expect_no_leak(40, [&] { WordRecognizer::train(clips.samples, options); });
     }
   }
   set_num_threads(0);

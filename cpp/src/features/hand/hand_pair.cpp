@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri {
@@ -13,9 +14,9 @@ namespace {
 
 constexpr double kSlowing = 0.7;  // of the way of a hand that is not seen, each frame
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
-double squared(double v) { return v * v; }
+using detail::squared;
 
 }  // namespace
 

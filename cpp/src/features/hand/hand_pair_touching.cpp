@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/numbers.hpp"
 #include "hri/features/hand/hand_pair.hpp"
 
 namespace hri {
@@ -23,11 +24,11 @@ constexpr int kNumRounds = 2;  // of moving one shape, then the other
 constexpr int kCoarse_px = 4;
 constexpr int kMostUnseen = 2;  // frames after which hands are not thought to touch
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
-double squared(double v) { return v * v; }
+using detail::squared;
 
-struct Place {
+struct Spot {
   double x = 0, y = 0;
 };
 
@@ -124,8 +125,8 @@ void HandPairTracker::settle(Track* hand, double x, double y) {
 
 void HandPairTracker::split_region() {
   finder_.keep(regions_[0], &region_);
-  std::array<Place, 2> before;
-  std::array<Place, 2> expected;
+  std::array<Spot, 2> before;
+  std::array<Spot, 2> expected;
   for (int side = 0; side < 2; ++side) {
     Track& t = tracks_[at(side)];
     before[at(side)] = {t.x, t.y};

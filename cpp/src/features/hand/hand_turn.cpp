@@ -6,13 +6,14 @@
 #include <array>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "hri/features/hand/landmarks.hpp"
 
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using detail::kPi;
 
 double radians(double degrees) { return degrees * kPi / 180; }
 

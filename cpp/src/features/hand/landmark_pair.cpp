@@ -5,14 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri {
 namespace {
 
-constexpr float kSlowing = 0.7F;  // of the way of a hand that is not seen, each frame
+constexpr float kPairSlowing = 0.7F;  // of the way of a hand that is not seen, each frame
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 // Root mean square distance of joints from those of another hand.
 double apart(const MatrixF& a, const MatrixF& b) {
@@ -104,8 +105,8 @@ void LandmarkPairTracker::miss(std::size_t side) {
   }
   t.joints.col(0).array() += t.dx;
   t.joints.col(1).array() += t.dy;
-  t.dx *= kSlowing;
-  t.dy *= kSlowing;
+  t.dx *= kPairSlowing;
+  t.dy *= kPairSlowing;
 }
 
 // Mean square distance from where the hand's way would lead it; 0 of a hand that is not known.

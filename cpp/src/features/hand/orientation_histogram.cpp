@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "core/simd.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri {
 namespace {
 
-constexpr float kPi = 3.14159265358979F;
+constexpr auto kPiF = static_cast<float>(detail::kPi);
 constexpr float kClip = 0.2F;
 constexpr float kFlat = 0.1F;  // length below which a block counts as flat, in units of the image
 constexpr float kLargest = 1e6F;  // sums of squares of gradients of larger values may overflow
@@ -50,7 +51,7 @@ Share share_of(float position) {
 }
 
 // Working memory of one thread.
-struct Workspace {
+struct CellWorkspace {
   std::vector<Share> columns;
   std::vector<float> x, y, magnitude;  // gradients of one row
   std::vector<float> position;         // their angles, then the shares of the upper of two bins
@@ -63,7 +64,7 @@ struct Workspace {
 };
 
 HRI_SIMD_CLONES void row_gradients(const float* above, const float* row, const float* below,
-                                   std::size_t count, Workspace* w) {
+                                   std::size_t count, CellWorkspace* w) {
   float* gx = w->x.data();
   float* gy = w->y.data();
   float* magnitude = w->magnitude.data();
@@ -74,12 +75,12 @@ HRI_SIMD_CLONES void row_gradients(const float* above, const float* row, const f
   }
 }
 
-HRI_SIMD_CLONES void row_bins(std::size_t count, float num_bins, Workspace* w) {
+HRI_SIMD_CLONES void row_bins(std::size_t count, float num_bins, CellWorkspace* w) {
   float* position = w->position.data();
   int* bin = w->bin.data();
   for (std::size_t i = 0; i < count; ++i) {
-    const float angle = position[i] < 0 ? position[i] + kPi : position[i];
-    const float place = angle / kPi * num_bins - 0.5F;
+    const float angle = position[i] < 0 ? position[i] + kPiF : position[i];
+    const float place = angle / kPiF * num_bins - 0.5F;
     const auto nearer_zero = static_cast<int>(place);
     const int whole = nearer_zero - (static_cast<float>(nearer_zero) > place ? 1 : 0);
     position[i] = place - static_cast<float>(whole);
@@ -88,7 +89,7 @@ HRI_SIMD_CLONES void row_bins(std::size_t count, float num_bins, Workspace* w) {
 }
 
 // Shares out the gradients of one row, each among 2 x 2 cells and 2 bins.
-void add_row(const Workspace& w, std::size_t count, Share row, int num_cells, int num_bins,
+void add_row(const CellWorkspace& w, std::size_t count, Share row, int num_cells, int num_bins,
              float* cells) {
   const std::ptrdiff_t cell_row = static_cast<std::ptrdiff_t>(num_cells + 2) * num_bins;
   float* top = cells + (row.first + 1) * cell_row;
@@ -154,8 +155,8 @@ void orientation_histogram(ConstMatrixRefF image, const OrientationHistogramOpti
   require(rows >= std::max(3, n) && cols >= std::max(3, n),
           "image must have at least 3 and num_cells rows and columns");
   check_values(image);
-  thread_local Workspace workspace;
-  Workspace& w = workspace;
+  thread_local CellWorkspace workspace;
+  CellWorkspace& w = workspace;
   const int bins = options.num_bins;
   const std::ptrdiff_t cell_row = static_cast<std::ptrdiff_t>(n + 2) * bins;
   w.cells.assign(static_cast<std::size_t>((n + 2) * cell_row), 0.0F);

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kLeastShare = 0.2;  // of the frames, for a hand that takes part
-enum Side : std::size_t { kLeft, kRight };
+enum Side : std::size_t { kLeftHand, kRightHand };
 
 bool seen(ConstMatrixRefF rows, Index t) { return !std::isnan(rows(t, 0)); }
 
@@ -64,16 +64,16 @@ MatrixF pair_rows(ConstMatrixRefF left, ConstMatrixRefF right, double relation_w
     const bool l = seen(left, t);
     const bool r = seen(right, t);
     if (l || r) frames.push_back(t);
-    count[kLeft] += l ? 1 : 0;
-    count[kRight] += r ? 1 : 0;
+    count[kLeftHand] += l ? 1 : 0;
+    count[kRightHand] += r ? 1 : 0;
   }
   const auto num_frames = static_cast<Index>(frames.size());
   const Index num_shapes = left.cols() - kNumPlaceColumns;
   MatrixF out = MatrixF::Zero(num_frames, num_pair_features(static_cast<int>(left.cols())));
   if (num_frames == 0) return out;
   const double least = kLeastShare * static_cast<double>(num_frames);
-  const bool alone = count[kLeft] < least || count[kRight] < least;
-  const bool left_alone = alone && count[kLeft] > count[kRight];
+  const bool alone = count[kLeftHand] < least || count[kRightHand] < least;
+  const bool left_alone = alone && count[kLeftHand] > count[kRightHand];
   const ConstMatrixRefF& first = left_alone ? left : right;
   const std::vector<Index> of_first = rows_that_stay(first, frames);
   for (Index i = 0; i < num_frames; ++i) {

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstring>
 
+#include "core/numbers.hpp"
+
 namespace hri {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 }  // namespace
 

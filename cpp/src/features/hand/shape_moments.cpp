@@ -11,15 +11,15 @@ namespace hri {
 namespace {
 
 // Sums of x^1 .. x^3 over the pixels of a row; int64 holds them for rows of 65535 pixels.
-struct RowSums {
+struct MomentSums {
   std::int64_t count = 0;
   std::int64_t x = 0;
   std::int64_t x2 = 0;
   std::int64_t x3 = 0;
 };
 
-RowSums row_sums(const std::uint8_t* row, int width) {
-  RowSums s;
+MomentSums row_sums(const std::uint8_t* row, int width) {
+  MomentSums s;
   for (std::int64_t x = 0; x < width; ++x) {
     if (row[x] == 0) continue;
     ++s.count;
@@ -30,7 +30,7 @@ RowSums row_sums(const std::uint8_t* row, int width) {
   return s;
 }
 
-void add_row(const RowSums& s, double y, ShapeMoments* m) {
+void add_row(const MomentSums& s, double y, ShapeMoments* m) {
   const auto n = static_cast<double>(s.count);
   const auto x = static_cast<double>(s.x);
   const auto x2 = static_cast<double>(s.x2);
@@ -74,7 +74,7 @@ ShapeMoments shape_moments(ImageView mask) {
   ShapeMoments m;
   if (mask.empty()) return m;
   for (int y = 0; y < mask.height_px; ++y) {
-    const RowSums sums = row_sums(mask.row(y), mask.width_px);
+    const MomentSums sums = row_sums(mask.row(y), mask.width_px);
     if (sums.count != 0) add_row(sums, y, &m);
   }
   if (m.m00 > 0) centre(&m);

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using detail::kPi;
 constexpr int kNumRadii = 129;  // 0, 1/128, ..., 1: at scale 3 a period is 20 of them
 constexpr int kNumContourPoints = 512;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "features/speech/cepstra_workspace.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
@@ -12,8 +13,8 @@
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDecibelsPerNeper = 4.342944819032518;  // of power: 10 / ln 10
+using detail::kDecibelsPerNeper;
+using detail::kPi;
 
 CepstraOptions checked(const CepstraOptions& options) {
   validate(options);

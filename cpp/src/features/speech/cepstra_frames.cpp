@@ -6,6 +6,7 @@
 #include <array>
 #include <cfloat>
 
+#include "core/numbers.hpp"
 #include "features/speech/cepstra_kernels.hpp"
 #include "features/speech/cepstra_workspace.hpp"
 #include "hri/core/error.hpp"
@@ -16,7 +17,7 @@ namespace hri {
 namespace {
 
 constexpr std::size_t kMostLanes = 16;
-constexpr double kDecibelsPerNeper = 4.342944819032518;  // of power: 10 / ln 10
+using detail::kDecibelsPerNeper;
 
 }  // namespace
 

@@ -12,9 +12,9 @@
 namespace hri {
 namespace {
 
-constexpr std::size_t kMostWindow = 10;
+constexpr std::size_t kMostDeltaFrames = 10;
 
-CepstraOptions checked(const CepstraOptions& o) {
+CepstraOptions checked_for_stream(const CepstraOptions& o) {
   require(o.normalisation == Normalisation::none || is_running(o.normalisation),
           "normalisation of a stream must be none or a running one");
   require(o.top_db == 0, "top_db needs the whole utterance, and must be 0 for a stream");
@@ -23,7 +23,8 @@ CepstraOptions checked(const CepstraOptions& o) {
 
 }  // namespace
 
-CepstraStream::CepstraStream(const CepstraOptions& options) : computer_(checked(options)) {
+CepstraStream::CepstraStream(const CepstraOptions& options)
+    : computer_(checked_for_stream(options)) {
   const auto lanes = static_cast<std::size_t>(num_lanes());
   frames_.resize(lanes);
   statics_.resize(static_cast<Eigen::Index>(lanes), computer_.num_static());
@@ -139,7 +140,7 @@ int CepstraStream::advance(bool ended, MatrixRefF out, int written) {
     const std::ptrdiff_t known = done_[order - 1];
     const int first = static_cast<int>(order - 1) * width;
     for (std::ptrdiff_t& t = done_[order]; t < known && (ended || t + window < known); ++t) {
-      std::array<const float*, 2 * kMostWindow + 1> around{};
+      std::array<const float*, 2 * kMostDeltaFrames + 1> around{};
       for (std::ptrdiff_t k = 0; k <= 2 * window; ++k) {
         const auto at = std::clamp<std::ptrdiff_t>(t + k - window, 0, known - 1);
         around[static_cast<std::size_t>(k)] = row(at) + first;

@@ -12,7 +12,7 @@
 namespace hri {
 namespace {
 
-CepstraOptions checked(const CepstraOptions& options) {
+CepstraOptions checked_for_log_mel(const CepstraOptions& options) {
   validate(options);
   require(options.kind == CepstraKind::filter_bank && options.padding == FramePadding::none &&
               options.pre_emphasis == 0 && !options.remove_dc,
@@ -30,7 +30,7 @@ int fft_size(const CepstraOptions& options) {
 }  // namespace
 
 LogMel::LogMel(const CepstraOptions& options)
-    : options_(checked(options)),
+    : options_(checked_for_log_mel(options)),
       frame_length_(options.samples_of(options.frame_length_ms)),
       frame_shift_(options.samples_of(options.frame_shift_ms)),
       fft_(fft_size(options)),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "hri/models/row_checks.hpp"
 #include "models/classifiers/class_statistics.hpp"
@@ -13,7 +14,7 @@
 namespace hri {
 namespace {
 
-constexpr double kLog2Pi = 1.8378770664093454835606594728112;
+using detail::kLog2Pi;
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri {
@@ -37,7 +38,7 @@ void check(ConstMatrixRefD rows, Span<const int> yes, Span<const double> row_wei
 }
 
 // log(1 + exp(x)) without overflow.
-double softplus(double x) { return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x))); }
+using detail::softplus;
 
 // A penalised fit on standardised columns, of which the last is 1 for the bias.
 class Newton {

@@ -16,7 +16,7 @@ namespace hri {
 namespace {
 
 constexpr Eigen::Index kMaxRows = 20000;
-constexpr double kConstant = 1;  // of the kernel, in place of a bias
+constexpr double kKernelConstant = 1;  // of the kernel, in place of a bias
 
 constexpr Eigen::Index kNearest = 3;
 
@@ -98,7 +98,7 @@ RbfClassifier RbfClassifier::train(ConstMatrixRefF rows, Span<const int> classes
     model.usual_[c] = usual.nearest > 0 ? usual.nearest : static_cast<float>(model.spread_);
     model.variances_[c] = usual.variance;
   }
-  kernel = (kernel.array() * (-model.sharpness_ / model.spread_)).exp() + kConstant;
+  kernel = (kernel.array() * (-model.sharpness_ / model.spread_)).exp() + kKernelConstant;
   kernel.diagonal().array() += 1.0 / options.cost;
   Eigen::MatrixXd wanted = Eigen::MatrixXd::Constant(count, num_classes, -1.0);
   for (Eigen::Index r = 0; r < count; ++r) wanted(r, classes[static_cast<std::size_t>(r)]) = 1.0;
@@ -122,7 +122,7 @@ VectorF RbfClassifier::squared_distances(Span<const float> row) const {
 VectorF RbfClassifier::decision_values(Span<const float> row) const {
   const auto scale = static_cast<float>(-sharpness_ / spread_);
   const VectorF kernel =
-      (squared_distances(row).array() * scale).exp() + static_cast<float>(kConstant);
+      (squared_distances(row).array() * scale).exp() + static_cast<float>(kKernelConstant);
   return weights_ * kernel;
 }
 

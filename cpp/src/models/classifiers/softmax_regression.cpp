@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "core/lbfgs.hpp"
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "hri/models/row_checks.hpp"
 
 namespace hri {
 namespace {
 
-constexpr double kConstant = 1e-6;   // deviation below which a column counts as constant
-constexpr double kTolerance = 1e-6;  // of the value, that an iteration has to gain
+constexpr double kConstantColumn = 1e-6;  // deviation below which a column counts as constant
+constexpr double kTolerance = 1e-6;       // of the value, that an iteration has to gain
 
 using Parameters = Eigen::Map<const MatrixD>;  // a row a class: weights, then the bias
 
@@ -59,7 +60,7 @@ class Loss {
   double penalty_;
 };
 
-double softplus(double x) { return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x))); }
+using detail::softplus;
 
 // The same where one class is new: x are its weights, then its bias; `rivals` is the log of the sum
 // over the other classes, of every row.
@@ -113,7 +114,7 @@ SoftmaxRegression SoftmaxRegression::train(ConstMatrixRefF rows, Span<const int>
   for (Eigen::Index c = 0; c < dim; ++c) {
     const double deviation =
         std::sqrt((rows.col(c).cast<double>().array() - mean[c]).square().sum() / count);
-    const bool constant = deviation <= kConstant * (1.0 + std::abs(mean[c]));
+    const bool constant = deviation <= kConstantColumn * (1.0 + std::abs(mean[c]));
     result.scale_[c] = constant ? 0.0F : static_cast<float>(1.0 / deviation);
   }
   result.weights_ = MatrixF::Zero(num_classes, dim);

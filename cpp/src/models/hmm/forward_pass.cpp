@@ -12,12 +12,12 @@
 namespace hri::detail {
 namespace {
 
-// A value below kDanger is 0 exactly, or the step is taken again in wider arithmetic. One step
-// makes no value smaller than kDanger * kSmallestStep, which is a normal number, so that nothing
-// vanishes unseen.
-constexpr double kDanger = 1e-260;
+// A value below kStepDanger is 0 exactly, or the step is taken again in wider arithmetic. One step
+// makes no value smaller than kStepDanger * kSmallestStep, which is a normal number, so that
+// nothing vanishes unseen.
+constexpr double kStepDanger = 1e-260;
 constexpr double kSmallestStep = 1e-40;
-constexpr double kRescale = 1e-50;
+constexpr double kStepRescale = 1e-50;
 
 // long double of x86 reaches 1e-4932. Steps have at most three factors of 4.9e-324 or more.
 constexpr bool kHasExtended = std::numeric_limits<long double>::min_exponent10 < -4900;
@@ -88,11 +88,11 @@ bool ForwardPass::step_scaled(const MarkovChain& chain, const double* b) {
     std::copy_n(chain.start().data(), num_states_, next_.data());
     spread = dense_kernels().emit(b, static_cast<std::ptrdiff_t>(next_.size()), next_.data());
   }
-  if (spread.smallest < kDanger) return false;
+  if (spread.smallest < kStepDanger) return false;
   std::swap(now_, next_);
   sum_ = spread.sum;
   started_ = true;
-  if (sum_ < kRescale && sum_ > 0) {
+  if (sum_ < kStepRescale && sum_ > 0) {
     // By a power of two, which rounds nothing.
     const int power = -std::ilogb(sum_);
     const double scale = std::ldexp(1.0, power);

@@ -12,8 +12,8 @@
 namespace hri {
 namespace {
 
-constexpr Eigen::Index kBlock = 1024;  // rows between two looks whether to stop
-constexpr double kWideVariance = 25;   // times the variance of all rows
+constexpr Eigen::Index kRowsBetweenLooks = 1024;  // rows between two looks whether to stop
+constexpr double kWideVariance = 25;              // times the variance of all rows
 
 MixtureBank with_wide_component(const MixtureBank& bank, const GlobalStatistics& all,
                                 double weight) {
@@ -46,12 +46,12 @@ GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtu
   const double certain = 1;
   TrainingReport local;
   VectorD densities(rows.rows());
-  detail::PaddedMatrix shares(kBlock, options.num_mixtures, 0);
+  detail::PaddedMatrix shares(kRowsBetweenLooks, options.num_mixtures, 0);
   for (int iteration = 0; iteration < options.max_iterations && !local.converged; ++iteration) {
     MixtureAccumulator accumulator(1, options.num_mixtures, bank.dim());
-    for (Eigen::Index first = 0; first < rows.rows(); first += kBlock) {
+    for (Eigen::Index first = 0; first < rows.rows(); first += kRowsBetweenLooks) {
       poll(options.should_stop);
-      const auto block = rows.middleRows(first, std::min(kBlock, rows.rows() - first));
+      const auto block = rows.middleRows(first, std::min(kRowsBetweenLooks, rows.rows() - first));
       double* of_block = densities.data() + first;
       detail::log_densities_of_finite(bank, block, of_block, 1, shares.row(0), shares.stride());
       accumulator.add(block, {&certain, 0, shares.row(0), shares.stride()});

@@ -8,13 +8,14 @@
 #include <string>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "models/hmm/forward_pass.hpp"
 
 namespace hri {
 namespace {
 
-constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
+using detail::kMinusInf;
 
 int width_of(const DiscreteHmm& model) { return model.num_symbols(); }
 int width_of(const GaussianMixtureHmm& model) { return model.dim(); }

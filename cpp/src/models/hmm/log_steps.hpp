@@ -8,11 +8,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.hpp"
 #include "hri/models/hmm/markov_chain.hpp"
 
 namespace hri::detail {
 
-constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
 constexpr double kLog2 = 0.69314718055994530941723212145818;
 
 /// log of the sum of exp(term(i)) for i in [begin, end).

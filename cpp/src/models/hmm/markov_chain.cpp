@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "models/hmm/dense_kernels.hpp"
 #include "models/hmm/forward_backward.hpp"
@@ -14,7 +15,7 @@
 namespace hri {
 namespace {
 
-constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
+using detail::kMinusInf;
 constexpr double kSumTolerance = 1e-6;
 
 bool is_distribution(const VectorD& values) {

@@ -12,8 +12,8 @@
 namespace hri {
 namespace {
 
-constexpr Eigen::Index kBlock = 64;  // frames that are added together
-constexpr Eigen::Index kRows = 4;    // components that are added together
+constexpr Eigen::Index kFramesTogether = 64;  // frames that are added together
+constexpr Eigen::Index kRows = 4;             // components that are added together
 constexpr double kLeastGamma = 1e-12;
 
 // x, its squares, and 1.
@@ -60,16 +60,16 @@ void MixtureAccumulator::add(ConstMatrixRefF frames, const detail::Alignment& al
   const std::ptrdiff_t width = detail::padded(num_rows);
   thread_local detail::PaddedMatrix moments;
   thread_local detail::PaddedMatrix weights;
-  moments.resize(kBlock, totals_.stride());
-  weights.resize(kBlock, width);
-  for (Eigen::Index t = 0; t < kBlock; ++t)
+  moments.resize(kFramesTogether, totals_.stride());
+  weights.resize(kFramesTogether, width);
+  for (Eigen::Index t = 0; t < kFramesTogether; ++t)
     std::fill(moments.row(t) + 2 * dim_ + 1, moments.row(t) + totals_.stride(), 0.0);
   const auto visited = [&](Eigen::Index t, Eigen::Index r, Eigen::Index count) {
     const double* w = weights.row(t) + r;
     return std::any_of(w, w + count, [](double value) { return value > 0; });
   };
-  for (Eigen::Index first = 0; first < frames.rows(); first += kBlock) {
-    const Eigen::Index count = std::min(kBlock, frames.rows() - first);
+  for (Eigen::Index first = 0; first < frames.rows(); first += kFramesTogether) {
+    const Eigen::Index count = std::min(kFramesTogether, frames.rows() - first);
     for (Eigen::Index t = 0; t < count; ++t) {
       write_moments(frames.data() + (first + t) * frames.outerStride(), dim_, moments.row(t));
       write_weights(alignment, first + t, num_rows / num_mixtures_, num_mixtures_, weights.row(t));

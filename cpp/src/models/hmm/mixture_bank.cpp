@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "hri/models/row_checks.hpp"
 #include "models/hmm/dense_kernels.hpp"
@@ -15,9 +16,9 @@
 namespace hri {
 namespace {
 
-constexpr double kLog2Pi = 1.8378770664093454835606594728112;
+using detail::kLog2Pi;
 
-constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
+using detail::kMinusInf;
 
 // In float, as models have been scored since format version 1.
 float log_sum_exp(const float* values, int count) {

@@ -15,7 +15,7 @@
 namespace hri {
 namespace {
 
-constexpr float kMinusInf = -std::numeric_limits<float>::infinity();
+constexpr float kImpossible = -std::numeric_limits<float>::infinity();
 
 bool same_shape(const GaussianMixtureHmm& a, const GaussianMixtureHmm& b) {
   return detail::same_topology(a.chain().topology(), b.chain().topology()) && a.dim() == b.dim();
@@ -37,7 +37,7 @@ void place(const float* densities, float best, const detail::ChainLayout& layout
   float top = 0;
   if (level != nullptr) {
     top = *std::max_element(densities, densities + layout.num_states) - best;
-    if (!(top > kMinusInf)) top = 0;  // impossible in all its states, and stays so
+    if (!(top > kImpossible)) top = 0;  // impossible in all its states, and stays so
     level[c % layout.num_lanes] = top;
   }
   for (int j = 0; j < layout.num_states; ++j) {
@@ -103,7 +103,7 @@ void PossibilisticGaussianHmmSet::log_possibilities(ConstMatrixRefF frames, Span
     return static_cast<std::size_t>(a * b);
   };
   scratch.densities.resize(count(num_classes() * num_frames, n));
-  scratch.best.assign(static_cast<std::size_t>(num_frames), kMinusInf);
+  scratch.best.assign(static_cast<std::size_t>(num_frames), kImpossible);
   for (int c = 0; c < num_classes(); ++c) {
     float* densities = scratch.densities.data() + c * num_frames * n;
     Eigen::Map<MatrixF> map(densities, num_frames, n);
@@ -114,9 +114,9 @@ void PossibilisticGaussianHmmSet::log_possibilities(ConstMatrixRefF frames, Span
     }
   }
   // A frame that no class can explain is impossible for all.
-  std::replace(scratch.best.begin(), scratch.best.end(), kMinusInf, 0.0F);
+  std::replace(scratch.best.begin(), scratch.best.end(), kImpossible, 0.0F);
   const bool conditioned = detail::is_conditioned(rule_);
-  scratch.rows.assign(count(num_frames, layout.block_size()), kMinusInf);
+  scratch.rows.assign(count(num_frames, layout.block_size()), kImpossible);
   scratch.levels.assign(count(num_frames, layout.num_lanes), 0.0F);
   detail::FrameTable<float> table;
   table.rows = scratch.rows.data();

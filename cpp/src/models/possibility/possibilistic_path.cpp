@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/numbers.hpp"
 #include "models/hmm/forward_backward.hpp"
 #include "models/possibility/possibilistic_rule.hpp"
 
 namespace hri::detail {
 namespace {
-
-constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
 
 double join(Conjunction conjunction, double a, double b) {
   if (conjunction == Conjunction::product) return a + b;

@@ -7,13 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "models/possibility/possibility_tables.hpp"
 
 namespace hri {
 namespace {
 
-constexpr double kMinusInf = -std::numeric_limits<double>::infinity();
+using detail::kMinusInf;
 // Scores are read, which costs about as much as a frame, after so many frames.
 constexpr int kPruneEvery = 4;
 

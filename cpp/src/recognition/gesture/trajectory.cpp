@@ -11,15 +11,15 @@
 namespace hri::detail {
 namespace {
 
-constexpr Eigen::Index kMaxRows = 32;    // more frames than that only add noise to the steps
-constexpr double kStillQuantile = 0.25;  // the stillest steps give the noise of the shapes
-constexpr float kNoiseMargin = 1.5F;     // times that, which does not count as change
-constexpr float kTimeShare = 0.5F;       // weight of even spacing in time beside change
-constexpr float kStepTrackScale = 4.0F;  // of the hand's place beside its shape, in a step
-constexpr float kTrackScale = 0.85F;     // and in the vector
-constexpr double kPauseShare = 0.08;     // of a gesture's frames that a pause takes at least
-constexpr float kPauseChange = 0.05F;    // share of all change that may lie in a pause
-constexpr float kStrokeChange = 0.15F;   // and that makes a stroke
+constexpr Eigen::Index kMaxRows = 32;       // more frames than that only add noise to the steps
+constexpr double kStillQuantile = 0.25;     // the stillest steps give the noise of the shapes
+constexpr float kNoiseMargin = 1.5F;        // times that, which does not count as change
+constexpr float kTimeShare = 0.5F;          // weight of even spacing in time beside change
+constexpr float kStepTrackScale = 4.0F;     // of the hand's place beside its shape, in a step
+constexpr float kVectorTrackScale = 0.85F;  // and in the vector
+constexpr double kPauseShare = 0.08;        // of a gesture's frames that a pause takes at least
+constexpr float kPauseChange = 0.05F;       // share of all change that may lie in a pause
+constexpr float kStrokeChange = 0.15F;      // and that makes a stroke
 constexpr float kReturned = 0.5F;  // of the way out: a hand that ends closer to its start came back
 constexpr float kChangeWeight = 1.41F;  // of what changes in a shape, beside what stays
 constexpr float kVectorLength = 3.0F;   // of an average vector, to suit a cost of 1
@@ -120,7 +120,7 @@ VectorF trajectory_vector(ConstMatrixRefF gesture, float shape_scale) {
   points.leftCols(num_shapes).rowwise() += (1 - kChangeWeight) * stays.transpose();
   MatrixF track = points.rightCols(kTrack);
   track.rowwise() -= points.rightCols(kTrack).row(0);
-  points.rightCols(kTrack) = kTrackScale / kStepTrackScale * track;
+  points.rightCols(kTrack) = kVectorTrackScale / kStepTrackScale * track;
   points *= kVectorLength / std::sqrt(static_cast<float>(kNumPoints));
   return Eigen::Map<const VectorF>(points.data(), points.size());
 }

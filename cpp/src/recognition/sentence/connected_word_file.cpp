@@ -12,24 +12,24 @@
 namespace hri {
 namespace {
 
-constexpr const char* kKind = "connected_word_recognizer";
-constexpr const char* kLanguage = "language";
+constexpr const char* kConnectedKind = "connected_word_recognizer";
+constexpr const char* kLanguageEntry = "language";
 constexpr const char* kGrammar = "grammar";
-constexpr const char* kCodebook = "codebook.";
+constexpr const char* kCodebookEntry = "codebook.";
 
-std::string prefix_of(std::size_t model) { return "hmm." + std::to_string(model) + "."; }
+std::string entry_of(std::size_t model) { return "hmm." + std::to_string(model) + "."; }
 
 }  // namespace
 
 ModelFile ConnectedWordRecognizer::to_model_file() const {
   ModelFile file;
-  file.set_kind(kKind);
+  file.set_kind(kConnectedKind);
   file.set_text_list("labels", labels_);
   detail::write_options(options_, file);
-  for (std::size_t m = 0; m < models().size(); ++m) models()[m].write(file, prefix_of(m));
+  for (std::size_t m = 0; m < models().size(); ++m) models()[m].write(file, entry_of(m));
   file.set_vector("final_stays", final_stays_);
-  if (possibilities_ != nullptr) possibilities_->codebook().write(file, kCodebook);
-  if (language_ != nullptr) file.set_text(kLanguage, language_->to_arpa());
+  if (possibilities_ != nullptr) possibilities_->codebook().write(file, kCodebookEntry);
+  if (language_ != nullptr) file.set_text(kLanguageEntry, language_->to_arpa());
   if (grammar_ != nullptr) file.set_text(kGrammar, grammar_->text());
   return file;
 }
@@ -41,9 +41,9 @@ ConnectedWordRecognizer ConnectedWordRecognizer::load(const std::string& path) {
 }
 
 ConnectedWordRecognizer ConnectedWordRecognizer::from_model_file(const ModelFile& file) {
-  if (file.kind() != kKind) {
+  if (file.kind() != kConnectedKind) {
     fail(ErrorKind::format,
-         file.name() + ": kind is '" + file.kind() + "', expected '" + kKind + "'");
+         file.name() + ": kind is '" + file.kind() + "', expected '" + kConnectedKind + "'");
   }
   return detail::with_context(file, [&] { return read(file); });
 }
@@ -54,16 +54,16 @@ ConnectedWordRecognizer ConnectedWordRecognizer::read(const ModelFile& file) {
   std::vector<std::string> labels = file.text_list("labels");
   std::vector<GaussianMixtureHmm> models;
   for (std::size_t m = 0; m <= labels.size(); ++m)
-    models.push_back(GaussianMixtureHmm::read(file, prefix_of(m)));
+    models.push_back(GaussianMixtureHmm::read(file, entry_of(m)));
   const VectorD final_stays = file.vector_d("final_stays");
   std::optional<MultiStreamCodebook> codebook;
   if (options.words.model == SequenceModelKind::ptbhmm)
-    codebook = MultiStreamCodebook::read(file, kCodebook);
+    codebook = MultiStreamCodebook::read(file, kCodebookEntry);
   ConnectedWordRecognizer result(options, std::move(labels), std::move(models), final_stays,
                                  std::move(codebook));
-  if (file.has(kLanguage)) {
-    result =
-        result.with_language(NGramModel::parse(file.text(kLanguage), file.name() + ": language"));
+  if (file.has(kLanguageEntry)) {
+    result = result.with_language(
+        NGramModel::parse(file.text(kLanguageEntry), file.name() + ": language"));
   }
   if (file.has(kGrammar))
     result = result.with_grammar(Grammar::parse(file.text(kGrammar), file.name() + ": grammar"));

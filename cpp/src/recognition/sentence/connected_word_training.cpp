@@ -24,8 +24,8 @@ using detail::SpokenWord;
 using detail::StringMaker;
 using detail::WordString;
 
-constexpr int kMaxFolds = 4;
-constexpr int kNoFold = -1;
+constexpr int kMostFolds = 4;
+constexpr int kOfNoFold = -1;
 constexpr int kDefaultRateHz = 16000;
 constexpr int kSpeakersPerMixture = 2;
 constexpr int kMaxMixtures = 4;
@@ -85,10 +85,10 @@ class Aligner {
   std::vector<WordChain> chains_;
 };
 
-class SentenceTrainer {
+class ConnectedWordTrainer {
  public:
-  SentenceTrainer(const ConnectedWordRecognizerOptions& options, std::vector<std::string> labels,
-                  StopCheck should_stop)
+  ConnectedWordTrainer(const ConnectedWordRecognizerOptions& options,
+                       std::vector<std::string> labels, StopCheck should_stop)
       : options_(options),
         labels_(std::move(labels)),
         maker_(options),
@@ -101,7 +101,7 @@ class SentenceTrainer {
     const int num_steps = num_folds + 1;
     if (progress) progress(0, num_steps);
     if (num_folds > 0) choose(num_folds, num_steps, progress);
-    ConnectedWordRecognizer result = recognizer(options_, train_without(kNoFold));
+    ConnectedWordRecognizer result = recognizer(options_, train_without(kOfNoFold));
     if (progress) progress(num_steps, num_steps);
     return result;
   }
@@ -117,7 +117,7 @@ class SentenceTrainer {
                                 [](const SpokenWord& word) { return word.first == word.last; }),
                  words_.end());
     for (std::size_t c = 0; c < labels_.size(); ++c) {
-      if (!has_label(static_cast<int>(c), kNoFold))
+      if (!has_label(static_cast<int>(c), kOfNoFold))
         fail(ErrorKind::invalid_argument,
              "no recording of the label '" + labels_[c] + "' has speech in it");
     }
@@ -154,7 +154,7 @@ class SentenceTrainer {
       classes.push_back(word.label);
       groups.push_back(word.group);
     }
-    const std::vector<int> folds = held_out_folds(classes, groups, kMaxFolds);
+    const std::vector<int> folds = held_out_folds(classes, groups, kMostFolds);
     for (std::size_t i = 0; i < words_.size(); ++i) words_[i].fold = folds[i];
     return *std::max_element(folds.begin(), folds.end()) + 1;
   }
@@ -302,7 +302,7 @@ ConnectedWordRecognizer ConnectedWordRecognizer::train(
     used.words.num_mixtures =
         std::clamp(static_cast<int>(speakers.size()) / kSpeakersPerMixture, 1, kMaxMixtures);
   }
-  return SentenceTrainer(used, sorted_labels(labels), should_stop).run(samples, progress);
+  return ConnectedWordTrainer(used, sorted_labels(labels), should_stop).run(samples, progress);
 }
 
 }  // namespace hri
