@@ -24,12 +24,12 @@ RATE_HZ = 16000
 
 
 def request(
-    server: PageServer, path: str, cookie: str = "", method: str = "GET", **headers: str
+    server: PageServer, path: str, cookie: str = "", method: str = "GET", body: bytes | None = None, **headers: str
 ) -> tuple[int, dict[str, str], bytes]:
     """Status, headers and body of one request."""
     link = http.client.HTTPConnection("127.0.0.1", server.port, timeout=20)
     try:
-        link.request(method, path, headers={"Cookie": cookie, **{k.replace("_", "-"): v for k, v in headers.items()}})
+        link.request(method, path, body, {"Cookie": cookie, **{k.replace("_", "-"): v for k, v in headers.items()}})
         answer = link.getresponse()
         return answer.status, {name.lower(): value for name, value in answer.getheaders()}, answer.read()
     finally:

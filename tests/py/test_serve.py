@@ -217,7 +217,8 @@ def test_nonsense_is_reported_and_ignored(server: PageServer, cookie: str, notes
             ('{"type": "explode"}', "no command"),
             ("[" * 3000, "too deep"),
             ('{"type": "hello", "rate": 1e9}', "samples a second"),
-            ('{"type": "teach", "label": ""}', "letters"),
+            ('{"type": "teach", "label": "", "mode": "speech"}', "letters"),
+            ('{"type": "teach", "label": "up", "mode": "smell"}', "a word (speech) or a gesture"),
             ('{"type": "' + 5000 * "x" + '"}', "too long"),
             (b"", "without sound or a picture"),
             (b"text in a binary socket", "neither sound nor a picture"),
@@ -315,11 +316,11 @@ def test_a_word_is_added_by_three_samples_and_undone(
             ({"type": "teach", "label": "flat"}, "is a word already"),
             ({"type": "teach", "label": " hum "}, "3 times"),
         ):
-            page.say(**command)
+            page.say(**command, mode="speech")
             answer(page, text)
             time.sleep(0.1)
         for number in range(4):
-            page.say(type="sample")
+            page.say(type="sample", mode="speech")
             answer(page, "Speak now")
             said = 0.001 * rng.standard_normal(5 * RATE_HZ + 640).astype("f4")
             if number:  # the first time nothing is said
@@ -338,7 +339,7 @@ def test_a_word_is_added_by_three_samples_and_undone(
         assert json.loads(request(server, "/words.json", cookie)[2])["kind"] == "word_recognizer"
         page.say(type="stop")
         page.await_event("state", state="stopped")
-        page.say(type="undo")
+        page.say(type="undo", mode="speech")
         answer(page, "“hum” is removed")
         page.await_event("state", state="stopped")  # the new session is stopped, too
         page.say(type="resume")

@@ -155,6 +155,10 @@ class PageCamera(_Device):
             self._waiting.append((picture, self._came_s))
             self._ready.notify()
 
+    def keep_waiting(self) -> None:
+        """A picture came that the session is not to see: a source that is read goes on waiting."""
+        self._comes()
+
     def sent_ms(self, at_s: float) -> float | None:
         """The page's time of the last picture that had come by this time of the monotonic clock."""
         return next((sent_ms for came_s, sent_ms in reversed(self._known.copy()) if came_s <= at_s), None)

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Words that a person adds at the page: what is recorded is heard by nothing else."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.serve.stage import Stage
+from hri.serve.teacher import NUM_SAMPLES, Teacher
+from hri.signal import Endpointer, EndpointerOptions
+
+LONGEST_S = 5.0
+_NOTHING = "I heard nothing: press Record once more."
+
+
+class WordTeacher(Teacher):
+    """Adds words to the recogniser of a stage.
+
+    Parameters
+    ----------
+    stage : Stage
+    """
+
+    mode = "speech"
+    noun = "word"
+
+    def __init__(self, stage: Stage) -> None:
+        super().__init__(stage)
+        self._rate_hz = 16000
+        self._parts: list[NDArray[np.float32]] | None = None
+        self._num_heard = 0
+        self._endpointer: Endpointer | None = None
+
+    def forget(self) -> None:
+        """The page is gone, or another word begins: samples of a word that is not added yet are dropped."""
+        super().forget()
+        self._parts = None
+
+    def hear(self, samples: NDArray[np.float32], sample_rate_hz: int) -> bool:
+        """Sound of the page; False where it is part of a sample, which is no command."""
+        if self._parts is None or self._endpointer is None:
+            return True
+        self._rate_hz = sample_rate_hz
+        self._parts.append(samples)
+        self._num_heard += len(samples)
+        ends = [end for end in self._endpointer.push(samples) if end.kind == "speech_end"]
+        if not ends and self._num_heard < LONGEST_S * sample_rate_hz:
+            return False
+        heard, self._parts = np.concatenate(self._parts), None
+        if ends:
+            clip = heard[max(0, ends[0].segment_first) : ends[0].segment_last].copy()
+            self._in_background(lambda: self._keep(clip))
+        else:
+            self._answer(_NOTHING)
+        return False
+
+    def _labels(self) -> list[str] | None:
+        return None if self._stage.words is None else [str(label) for label in self._stage.words.classes_]
+
+    def _prompt(self, label: str) -> str:
+        return f"Say “{label}” after you press Record, {NUM_SAMPLES} times."
+
+    def _sample(self) -> None:
+        if self._parts is None:
+            assert self._stage.words is not None
+            options = EndpointerOptions(activity=self._stage.words.options.activity)
+            self._endpointer = Endpointer(self._stage.microphone.sample_rate_hz, options)
+            self._parts, self._num_heard = [], 0
+            self._answer("Speak now.", recording=True)
+
+    def _keep(self, clip: NDArray[np.float32]) -> None:
+        assert self._stage.words is not None
+        decision = self._stage.words.recognise(clip, self._rate_hz)
+        if decision.status == "no_input":
+            self._answer(_NOTHING)
+            return
+        self._keep_sample(clip, decision, f" It sounds like “{decision.label}”: another word may be safer.")
+
+    def _add(self, label: str, samples: list[Any]) -> None:
+        assert self._stage.words is not None
+        self._stage.words.add_word(label, samples, self._rate_hz)
+
+    def _remove(self, label: str) -> None:
+        assert self._stage.words is not None
+        self._stage.words.remove_word(label)
