@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from hri.core.errors import FormatError
 from hri.core.files import parse_json
+from hri.core.text import is_printable
 from hri.media import picture_size
 from hri.serve.limits import ServeLimits
 
@@ -96,7 +97,7 @@ def read_command(text: str, limits: ServeLimits) -> dict[str, Any]:
         raise FormatError("what is added is a word (speech) or a gesture")
     if value["type"] == "teach":
         label = value.get("label")
-        if not isinstance(label, str) or not label.strip() or len(label) > _MAX_LABEL or not label.isprintable():
+        if not isinstance(label, str) or not label.strip() or len(label) > _MAX_LABEL or not is_printable(label):
             raise FormatError(f"a name has 1 to {_MAX_LABEL} letters")
         value["label"] = label.strip()
     return value
