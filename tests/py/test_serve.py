@@ -331,7 +331,8 @@ def test_a_word_is_added_by_three_samples_and_undone(
             answer(page, ("I heard nothing", "Sample 1 of 3", "Sample 2 of 3", "is added")[number])
             time.sleep(0.1)
         assert "hum" in [m for m in page.messages if m["type"] == "welcome"][-1]["words"]
-        assert not any(m.get("event") == "fused" for m in page.messages)  # what is recorded is no command
+        happened = {m.get("event") for m in page.messages}
+        assert "ignored" in happened and "motion_start" not in happened  # what is recorded is no command
         (tmp_path / "words.hri").write_bytes(request(server, "/words.hri", cookie)[2])
         assert "hum" in hri.WordRecognizer.load(tmp_path / "words.hri").classes_
         assert request(server, "/words.hri")[0] == 403 and request(server, "/words.hpp")[0] == 403
@@ -346,6 +347,19 @@ def test_a_word_is_added_by_three_samples_and_undone(
         page.await_event("state", state="idle")
         assert not robot.stopped
         assert stage.words is not None and [str(label) for label in stage.words.classes_] == ["flat", "stop", "tall"]
+
+
+def test_stop_is_heard_while_a_word_is_recorded(server: PageServer, cookie: str, robot: Robot) -> None:
+    with connected(server, cookie) as page:
+        page.say(type="teach", label="hum", mode="speech")
+        page.say(type="sample", mode="speech")
+        page.perform(speech([("stop", 0.8)], 3.0))
+        stopped = page.await_message(lambda m: m["type"] == "teach" and m["text"].startswith("STOP"))
+        assert stopped["samples"] == 0 and not stopped["recording"] and robot.stopped
+        page.await_event("state", state="stopped")
+        page.say(type="resume")
+        page.await_event("state", state="idle")
+        page.command("motion_start", speech([("flat", 0.8)], 3.0), label="flat")  # commands count again
 
 
 def test_another_rate_of_sound_is_converted(server: PageServer, cookie: str) -> None:

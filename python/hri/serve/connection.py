@@ -226,17 +226,16 @@ class Connection:
             if self._stage.words is None:
                 return
             if self._sound.take(len(samples)):
-                heard = self._teaching.words.hear(samples, self._rate_hz)
-                self._stage.microphone.put(samples, heard)
+                self._stage.microphone.put(samples)
+                self._teaching.words.hear(samples, self._rate_hz)
             else:
                 self.complain("more sound than a microphone gives was ignored")
         elif self._stage.signs is not None:
             if not self._pictures.take():
                 self.complain(f"more than {self._stage.limits.pictures_per_s:g} pictures a second: some were left out")
-            elif self._teaching.gestures.see(media):
-                self._stage.camera.put(media)
             else:
-                self._stage.camera.keep_waiting()
+                self._stage.camera.put(media)
+                self._teaching.gestures.see(media)
 
     async def _send(self) -> None:
         while True:

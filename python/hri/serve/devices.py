@@ -85,12 +85,12 @@ class PageMicrophone(_Device):
             self._ring = None
             self.sample_rate_hz = sample_rate_hz
 
-    def put(self, samples: NDArray[np.float32], heard: bool = True) -> None:
-        """Samples as they come, by the server's thread; unless `heard`, as much silence takes their place."""
+    def put(self, samples: NDArray[np.float32]) -> None:
+        """Samples as they come, by the server's thread."""
         self._comes()
         ring = self._ring
         if ring is not None:
-            ring.write(samples if heard else np.zeros_like(samples))
+            ring.write(samples)
 
     def stream(self) -> PageSound:
         """A source for a session. Raises IoError while nothing comes, except after `expect`."""
@@ -154,10 +154,6 @@ class PageCamera(_Device):
             self.num_lost += len(self._waiting) == self._waiting.maxlen
             self._waiting.append((picture, self._came_s))
             self._ready.notify()
-
-    def keep_waiting(self) -> None:
-        """A picture came that the session is not to see: a source that is read goes on waiting."""
-        self._comes()
 
     def sent_ms(self, at_s: float) -> float | None:
         """The page's time of the last picture that had come by this time of the monotonic clock."""

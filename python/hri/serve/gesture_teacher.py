@@ -23,7 +23,7 @@ from hri.serve.teacher import NUM_SAMPLES, Teacher
 
 LONGEST_S = 10.0
 PAUSE_S = 2.5
-"""After a sample, for the hand to go back, which is no command either."""
+"""After a sample, for the hand to go back, which is no command."""
 _NO_PICTURES = "No pictures come. Press Start camera and microphone, then Record."
 _NO_HAND = "I saw no hand: more light, or another background."
 _CHANGED = "The pictures changed their size: leave the camera as it is, and then press Record once more."
@@ -35,8 +35,8 @@ _AGAIN = "Press Record once more."
 class GestureTeacher(Teacher):
     """Adds gestures to the recogniser of a stage.
 
-    Samples are found as `hri.live.GestureRecorder` finds them, and are no commands. Adding is tried with every sample
-    left out before it is done with all, so that what the gesture is confused with can be said.
+    Samples are found as `hri.live.GestureRecorder` finds them. While one is recorded only STOP is a command. Adding is
+    tried with every sample left out before it is done with all, so that what the gesture is confused with can be said.
 
     Parameters
     ----------
@@ -51,18 +51,16 @@ class GestureTeacher(Teacher):
         self._before: list[GestureRecognizer] = []
         self._camera = PageCamera(stage.limits.stall_s)
         self._recording = False
-        self._goes_back_s = 0.0
 
     def forget(self) -> None:
         """The page is gone, or another gesture begins: samples of a gesture that is not added yet are dropped."""
         super().forget()
         self._recording = False
 
-    def see(self, picture: Media) -> bool:
-        """A picture of the page; False where it is part of a sample, which is no command."""
+    def see(self, picture: Media) -> None:
+        """A picture of the page, by the server's thread."""
         if self._recording:
             self._camera.put(picture)
-        return not self._recording and time.monotonic() > self._goes_back_s
 
     def take_file(self, path: Path, name: str) -> str:
         """A sample from a file that was dropped on the page; returns why it was refused, or "".
@@ -99,8 +97,13 @@ class GestureTeacher(Teacher):
 
     def _sample(self) -> None:
         self._recording = True
+        self._stage.only_stop(LONGEST_S + PAUSE_S)
         self._answer(_DYNAMIC if self._signs.is_dynamic else _HELD, recording=True)
         self._in_background(self._record)
+
+    def _end_sample(self) -> bool:
+        recording, self._recording = self._recording, False
+        return recording
 
     def _record(self) -> None:
         try:
@@ -110,11 +113,11 @@ class GestureTeacher(Teacher):
         except FormatError as error:
             frames, refused = [], str(error)
         finally:
-            self._goes_back_s = time.monotonic() + PAUSE_S
-            gone, self._recording = not self._recording, False
-        if gone:
+            self._stage.only_stop(PAUSE_S)
+            ended = not self._end_sample()
+        if ended:  # by STOP, or the page is gone
             return
-        refused = refused or self._keep(frames)
+        refused = refused or self._keep(frames, shown=True)
         if refused:
             self._answer(refused)
 
@@ -127,8 +130,6 @@ class GestureTeacher(Teacher):
         with closing(frame_results(source, stream)) as results:
             for result in results:
                 for event in result.events:
-                    if event.event == events.HAND:
-                        self._stage.publish({"type": "event", "passing": True, **event.to_dict()})
                     if event.event == events.GESTURE_END:
                         refused = fault_of(stream.gesture, bool(event.fields["cut"]), source.num_lost)
                         return [frame for frame, _ in stream.gesture.frames], refused and f"{refused}. {_AGAIN}"
@@ -136,14 +137,16 @@ class GestureTeacher(Teacher):
                     break
         return [], f"I saw no gesture. {_AGAIN}"
 
-    def _keep(self, frames: list[Frame]) -> str:
-        """Keep a sample; why it is refused, or ""."""
+    def _keep(self, frames: list[Frame], shown: bool = False) -> str:
+        """Keep a sample, from a file or shown; why it is refused, or ""."""
         rows = self._signs.features(frames)
         if len(rows) == 0:
             return _NO_HAND
         if self._signs.is_dynamic and len(rows) < FEWEST_FRAMES:
             return f"the hand is seen in {len(rows)} pictures, a gesture needs {FEWEST_FRAMES}"
         decision = self._signs.recognise_features(rows)
+        if shown and self._is_stop(decision):
+            return ""
         self._keep_sample(rows, decision, f" It looks like “{decision.label}”: another gesture may be safer.")
         return ""
 

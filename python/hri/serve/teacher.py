@@ -12,10 +12,12 @@ from typing import Any, ClassVar
 
 from hri.core.errors import Error
 from hri.recognition import Decision
+from hri.recognition.decision import RECOGNISED
 from hri.robot import load_gestures
 from hri.serve.stage import Stage
 
 NUM_SAMPLES = 3
+_STOPPED = "STOP: this sample is not kept. Press Resume, then Record once more."
 
 
 class Teacher(ABC):
@@ -60,6 +62,11 @@ class Teacher(ABC):
         self._samples = []
         self._alike.clear()
 
+    def interrupt(self) -> None:
+        """STOP: a sample that is being taken is not kept; those before it are."""
+        if self._end_sample():
+            self._answer(_STOPPED)
+
     @abstractmethod
     def _labels(self) -> list[str] | None:
         """Those of the recogniser, None without one."""
@@ -71,6 +78,10 @@ class Teacher(ABC):
     @abstractmethod
     def _sample(self) -> None:
         """Begin to take a sample."""
+
+    @abstractmethod
+    def _end_sample(self) -> bool:
+        """Keep nothing of a sample that is being taken; whether there was one."""
 
     @abstractmethod
     def _add(self, label: str, samples: list[Any]) -> None:
@@ -106,12 +117,21 @@ class Teacher(ABC):
             return f"“{self._full}” has its {NUM_SAMPLES} samples: give the next {self.noun} a name"
         return f"first give the {self.noun} a name"
 
+    def _is_stop(self, decision: Decision) -> bool:
+        """Whether what was just recorded is STOP: it counts then, and is no sample."""
+        stops = self._stage.session.options.fusion.stop_labels
+        if decision.status != RECOGNISED or decision.label not in stops:
+            return False
+        self._stage.stop()
+        self._answer(_STOPPED)
+        return True
+
     def _keep_sample(self, sample: Any, decision: Decision, warning: str) -> None:
         """Keep a sample, which the recogniser took for `decision`; the last one is followed by adding."""
         if not self._label:  # the page is gone
             return
         self._samples.append(sample)
-        if decision.status == "recognised":
+        if decision.status == RECOGNISED:
             self._alike[decision.label] += 1
         else:
             warning = ""

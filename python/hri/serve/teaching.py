@@ -29,10 +29,16 @@ class Teaching:
         self.words = WordTeacher(stage)
         self.gestures = GestureTeacher(stage)
         self._teachers: dict[str, Teacher] = {one.mode: one for one in (self.words, self.gestures)}
+        stage.on_stop = self.interrupt
 
     def obey(self, command: dict[str, Any]) -> None:
         """A command of the page with its "mode"."""
         self._teachers[command["mode"]].obey(command)
+
+    def interrupt(self) -> None:
+        """STOP: a sample that is being taken is not kept; by any thread."""
+        for teacher in self._teachers.values():
+            teacher.interrupt()
 
     def forget(self) -> None:
         """The page is gone: samples of what is not added yet are dropped."""

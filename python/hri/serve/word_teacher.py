@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Words that a person adds at the page: what is recorded is heard by nothing else."""
+"""Words that a person adds at the page: while one is recorded, only STOP is a command."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from hri.serve.teacher import NUM_SAMPLES, Teacher
 from hri.signal import Endpointer, EndpointerOptions
 
 LONGEST_S = 5.0
+PAUSE_S = 1.0
+"""By which the last sound of a sample may come late."""
 _NOTHING = "I heard nothing: press Record once more."
 
 
@@ -38,25 +40,27 @@ class WordTeacher(Teacher):
     def forget(self) -> None:
         """The page is gone, or another word begins: samples of a word that is not added yet are dropped."""
         super().forget()
-        self._parts = None
+        self._end_sample()
 
-    def hear(self, samples: NDArray[np.float32], sample_rate_hz: int) -> bool:
-        """Sound of the page; False where it is part of a sample, which is no command."""
-        if self._parts is None or self._endpointer is None:
-            return True
+    def hear(self, samples: NDArray[np.float32], sample_rate_hz: int) -> None:
+        """Sound of the page, by the server's thread."""
+        parts = self._parts
+        if parts is None or self._endpointer is None:
+            return
         self._rate_hz = sample_rate_hz
-        self._parts.append(samples)
+        parts.append(samples)
         self._num_heard += len(samples)
         ends = [end for end in self._endpointer.push(samples) if end.kind == "speech_end"]
         if not ends and self._num_heard < LONGEST_S * sample_rate_hz:
-            return False
-        heard, self._parts = np.concatenate(self._parts), None
+            return
+        if not self._end_sample():  # by STOP, meanwhile
+            return
+        heard = np.concatenate(parts)
         if ends:
             clip = heard[max(0, ends[0].segment_first) : ends[0].segment_last].copy()
             self._in_background(lambda: self._keep(clip))
         else:
             self._answer(_NOTHING)
-        return False
 
     def _labels(self) -> list[str] | None:
         return None if self._stage.words is None else [str(label) for label in self._stage.words.classes_]
@@ -69,14 +73,23 @@ class WordTeacher(Teacher):
             assert self._stage.words is not None
             options = EndpointerOptions(activity=self._stage.words.options.activity)
             self._endpointer = Endpointer(self._stage.microphone.sample_rate_hz, options)
+            self._stage.only_stop(LONGEST_S + PAUSE_S)
             self._parts, self._num_heard = [], 0
             self._answer("Speak now.", recording=True)
+
+    def _end_sample(self) -> bool:
+        parts, self._parts = self._parts, None
+        if parts is not None:
+            self._stage.only_stop(0.0)
+        return parts is not None
 
     def _keep(self, clip: NDArray[np.float32]) -> None:
         assert self._stage.words is not None
         decision = self._stage.words.recognise(clip, self._rate_hz)
         if decision.status == "no_input":
             self._answer(_NOTHING)
+            return
+        if self._is_stop(decision):
             return
         self._keep_sample(clip, decision, f" It sounds like “{decision.label}”: another word may be safer.")
 
