@@ -93,6 +93,11 @@ class Page:
         self.perform(samples, frames)
         return self.await_event(kind, **fields)
 
+    def await_stopped(self) -> None:
+        """Until the session has stopped, unless it has since the page came."""
+        if not any(m.get("event") == "state" and m["state"] == "stopped" for m in self.messages):
+            self.await_event("state", state="stopped")
+
     def error(self, text: str) -> None:
         self.await_message(lambda m: m["type"] == "error" and text in m["text"])
 

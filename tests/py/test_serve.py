@@ -302,66 +302,6 @@ def test_a_microphone_that_falls_silent_is_reported_and_comes_back(server: PageS
         assert page.await_event("decision")["final"] == "flat"
 
 
-def test_a_word_is_added_by_three_samples_and_undone(
-    server: PageServer, cookie: str, stage: Stage, robot: Robot, tmp_path: Any
-) -> None:
-    def answer(page: Any, text: str) -> None:
-        page.await_message(lambda m: m["type"] == "teach" and text in m["text"])
-
-    rng = np.random.default_rng(2)
-    with connected(server, cookie) as page:
-        for command, text in (
-            ({"type": "undo"}, "nothing to undo"),
-            ({"type": "sample"}, "first give the word a name"),
-            ({"type": "teach", "label": "flat"}, "is a word already"),
-            ({"type": "teach", "label": " hum "}, "3 times"),
-        ):
-            page.say(**command, mode="speech")
-            answer(page, text)
-            time.sleep(0.1)
-        for number in range(4):
-            page.say(type="sample", mode="speech")
-            answer(page, "Speak now")
-            said = 0.001 * rng.standard_normal(5 * RATE_HZ + 640).astype("f4")
-            if number:  # the first time nothing is said
-                said = said[: 2 * RATE_HZ]
-                at = slice(RATE_HZ // 2, RATE_HZ)
-                said[at] += 0.2 * np.sin(2 * np.pi * (1500 + 20 * number) * np.arange(RATE_HZ // 2) / RATE_HZ)
-            page.perform(said)
-            answer(page, ("I heard nothing", "Sample 1 of 3", "Sample 2 of 3", "is added")[number])
-            time.sleep(0.1)
-        assert "hum" in [m for m in page.messages if m["type"] == "welcome"][-1]["words"]
-        happened = {m.get("event") for m in page.messages}
-        assert "ignored" in happened and "motion_start" not in happened  # what is recorded is no command
-        (tmp_path / "words.hri").write_bytes(request(server, "/words.hri", cookie)[2])
-        assert "hum" in hri.WordRecognizer.load(tmp_path / "words.hri").classes_
-        assert request(server, "/words.hri")[0] == 403 and request(server, "/words.hpp")[0] == 403
-        assert b"Span<const std::uint8_t> words()" in request(server, "/words.hpp", cookie)[2]
-        assert json.loads(request(server, "/words.json", cookie)[2])["kind"] == "word_recognizer"
-        page.say(type="stop")
-        page.await_event("state", state="stopped")
-        page.say(type="undo", mode="speech")
-        answer(page, "“hum” is removed")
-        page.await_event("state", state="stopped")  # the new session is stopped, too
-        page.say(type="resume")
-        page.await_event("state", state="idle")
-        assert not robot.stopped
-        assert stage.words is not None and [str(label) for label in stage.words.classes_] == ["flat", "stop", "tall"]
-
-
-def test_stop_is_heard_while_a_word_is_recorded(server: PageServer, cookie: str, robot: Robot) -> None:
-    with connected(server, cookie) as page:
-        page.say(type="teach", label="hum", mode="speech")
-        page.say(type="sample", mode="speech")
-        page.perform(speech([("stop", 0.8)], 3.0))
-        stopped = page.await_message(lambda m: m["type"] == "teach" and m["text"].startswith("STOP"))
-        assert stopped["samples"] == 0 and not stopped["recording"] and robot.stopped
-        page.await_event("state", state="stopped")
-        page.say(type="resume")
-        page.await_event("state", state="idle")
-        page.command("motion_start", speech([("flat", 0.8)], 3.0), label="flat")  # commands count again
-
-
 def test_another_rate_of_sound_is_converted(server: PageServer, cookie: str) -> None:
     samples = np.repeat(speech([("flat", 0.8)], 3.2), 3)  # 48 kHz
     with connected(server, cookie, rate=3 * RATE_HZ) as page:

@@ -10,6 +10,9 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hri.core.errors import Error, FormatError
 from hri.live import FrameSource, Stalled, events, frame_results
 from hri.live.frames import Frame, TimedFrame
@@ -149,6 +152,12 @@ class GestureTeacher(Teacher):
             return ""
         self._keep_sample(rows, decision, f" It looks like “{decision.label}”: another gesture may be safer.")
         return ""
+
+    def _best_of(self, sample: NDArray[np.float32], added: dict[str, list[NDArray[np.float32]]]) -> str:
+        signs = copy.copy(self._before[0])
+        for label, samples in added.items():
+            signs.add_gesture_features(label, samples)
+        return str(signs.recognise_features(sample).nbest[0].label)
 
     def _add(self, label: str, samples: list[Any]) -> None:
         num_steps = len(samples) + 1

@@ -37,7 +37,7 @@ class Teacher(ABC):
         self._full = ""
         self._samples: list[Any] = []
         self._alike: Counter[str] = Counter()
-        self._added: list[str] = []
+        self._added: dict[str, list[Any]] = {}
         self._busy = threading.Lock()
 
     def obey(self, command: dict[str, Any]) -> None:
@@ -82,6 +82,10 @@ class Teacher(ABC):
     @abstractmethod
     def _end_sample(self) -> bool:
         """Keep nothing of a sample that is being taken; whether there was one."""
+
+    @abstractmethod
+    def _best_of(self, sample: Any, added: dict[str, list[Any]]) -> str:
+        """Most probable label of a sample, were these labels added, by their samples, and no others."""
 
     @abstractmethod
     def _add(self, label: str, samples: list[Any]) -> None:
@@ -145,18 +149,33 @@ class Teacher(ABC):
             alike = Counter(self._alike)
             self.forget()
         self._full = label
-        self._added.append(label)
+        mistaken = self._mistaken(label, samples)
+        self._added[label] = samples
         self._stage.renew()
         moves = label in self._stage.session.motions
         does = "" if moves or label not in load_gestures() else " The robot cannot make its motion."
-        confused = [{"label": other, "samples": count} for other, count in alike.most_common()]
-        self._answer(f"“{label}” is added.{self._warning(alike)}{does}", added=list(self._added), confused=confused)
+        labels = [other for other, _ in (alike + mistaken).most_common()]
+        confused = [{"label": one, "samples": alike[one], "samples_of_other": mistaken[one]} for one in labels]
+        self._answer(f"“{label}” is added.{self._warning(labels)}{does}", added=list(self._added), confused=confused)
 
-    def _warning(self, alike: Counter[str]) -> str:
+    def _mistaken(self, label: str, samples: list[Any]) -> Counter[str]:
+        """How many samples of others, each left out in its turn, are recognised as `label`.
+
+        The others are those that were added here: of those trained before no samples are there.
+        """
+        counts: Counter[str] = Counter()
+        for other, theirs in self._added.items():
+            self._answer(f"Trying “{other}” beside “{label}” …", progress=1.0)
+            for number, sample in enumerate(theirs):
+                kept = theirs[:number] + theirs[number + 1 :]
+                counts[other] += self._best_of(sample, {other: kept, label: samples}) == label
+        return +counts
+
+    def _warning(self, confused: list[str]) -> str:
         """Which of the others it may be confused with."""
-        if not alike:
+        if not confused:
             return ""
-        others = " and ".join(f"“{other}”" for other, _ in alike.most_common())
+        others = " and ".join(f"“{other}”" for other in confused)
         return f" It may be confused with {others}: press Undo and choose another {self.noun} to be safe."
 
     def _undo(self) -> None:
@@ -164,8 +183,9 @@ class Teacher(ABC):
             self._answer("there is nothing to undo")
             return
         self.forget()
-        self._remove(self._added[-1])
-        label = self._added.pop()
+        label = next(reversed(self._added))
+        self._remove(label)
+        del self._added[label]
         self._stage.renew()
         self._answer(f"“{label}” is removed.", added=list(self._added), confused=[])
 

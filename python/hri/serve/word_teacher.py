@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+import copy
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.media import Audio
 from hri.serve.stage import Stage
 from hri.serve.teacher import NUM_SAMPLES, Teacher
 from hri.signal import Endpointer, EndpointerOptions
@@ -32,7 +34,6 @@ class WordTeacher(Teacher):
 
     def __init__(self, stage: Stage) -> None:
         super().__init__(stage)
-        self._rate_hz = 16000
         self._parts: list[NDArray[np.float32]] | None = None
         self._num_heard = 0
         self._endpointer: Endpointer | None = None
@@ -47,7 +48,6 @@ class WordTeacher(Teacher):
         parts = self._parts
         if parts is None or self._endpointer is None:
             return
-        self._rate_hz = sample_rate_hz
         parts.append(samples)
         self._num_heard += len(samples)
         ends = [end for end in self._endpointer.push(samples) if end.kind == "speech_end"]
@@ -57,7 +57,7 @@ class WordTeacher(Teacher):
             return
         heard = np.concatenate(parts)
         if ends:
-            clip = heard[max(0, ends[0].segment_first) : ends[0].segment_last].copy()
+            clip = Audio(heard[max(0, ends[0].segment_first) : ends[0].segment_last].copy(), sample_rate_hz)
             self._in_background(lambda: self._keep(clip))
         else:
             self._answer(_NOTHING)
@@ -83,9 +83,9 @@ class WordTeacher(Teacher):
             self._stage.only_stop(0.0)
         return parts is not None
 
-    def _keep(self, clip: NDArray[np.float32]) -> None:
+    def _keep(self, clip: Audio) -> None:
         assert self._stage.words is not None
-        decision = self._stage.words.recognise(clip, self._rate_hz)
+        decision = self._stage.words.recognise(clip)
         if decision.status == "no_input":
             self._answer(_NOTHING)
             return
@@ -93,9 +93,18 @@ class WordTeacher(Teacher):
             return
         self._keep_sample(clip, decision, f" It sounds like “{decision.label}”: another word may be safer.")
 
+    def _best_of(self, sample: Audio, added: dict[str, list[Audio]]) -> str:
+        words = copy.copy(self._stage.words)
+        assert words is not None
+        for label in (*self._added, self._full):
+            words.remove_word(label)
+        for label, samples in added.items():
+            words.add_word(label, samples)
+        return str(words.recognise(sample).nbest[0].label)
+
     def _add(self, label: str, samples: list[Any]) -> None:
         assert self._stage.words is not None
-        self._stage.words.add_word(label, samples, self._rate_hz)
+        self._stage.words.add_word(label, samples)
 
     def _remove(self, label: str) -> None:
         assert self._stage.words is not None

@@ -153,8 +153,7 @@ def test_stop_is_seen_while_a_gesture_is_recorded(trained: hri.GestureRecognizer
         answer(page, "Show it now")
         page.perform(frames=signing([("tall", 0.6)], 3.0))
         assert answer(page, "STOP: this sample is not kept")["samples"] == 0
-        if not any(m.get("event") == "state" and m["state"] == "stopped" for m in page.messages):
-            page.await_event("state", state="stopped")
+        page.await_stopped()
         page.say(type="resume")
         page.await_event("state", state="idle")
         shown = show(page, signing([("flat", 0.6)], 3.0))
@@ -165,6 +164,19 @@ def test_stop_is_seen_while_a_gesture_is_recorded(trained: hri.GestureRecognizer
         answer(page, "Show it now")
         page.say(type="stop")  # by button
         assert answer(page, "STOP: this sample is not kept")["samples"] == 1
+
+
+def test_gestures_that_are_alike_are_named_both_ways(server: PageServer, cookie: str) -> None:
+    with connected(server, cookie) as page:
+        for label, seeds in (("cross", (1, 2, 3)), ("bend", (4, 5, 6))):
+            teach(page, label)
+            for seed in seeds:
+                assert upload(server, cookie, jpeg(cross(seed))) == (200, "")
+            done = answer(page, f"“{label}” is added.")
+        assert "may be confused with “cross”" in done["text"]
+        assert any("Trying “cross” beside “bend”" in m.get("text", "") for m in page.messages)
+        (found,) = (one for one in done["confused"] if one["label"] == "cross")
+        assert found["samples"] > 0 and found["samples_of_other"] > 0
 
 
 def test_what_is_no_gesture_is_refused_in_words(server: PageServer, cookie: str) -> None:
