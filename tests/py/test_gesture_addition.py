@@ -4,13 +4,20 @@
 
 from __future__ import annotations
 
+import json
 from copy import copy
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-import hri
+pytest.importorskip("cv2")
+pytest.importorskip("hri._native_vision")
+
+from drawn_hands import SIDE_PX, picture, stills
+from hri import GestureRecognizer
 from hri.core.errors import InvalidArgument
+from hri.media import write_image
 
 SHAPES = {"fist": 0, "palm": 1, "point": 2}
 
@@ -23,13 +30,13 @@ def rows(label: str, seed: int, num_frames: int = 3) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def signs() -> hri.GestureRecognizer:
+def signs() -> GestureRecognizer:
     labels = ["fist", "point"] * 6
     samples = [rows(label, seed) for seed, label in enumerate(labels)]
-    return hri.GestureRecognizer(model="rbf").fit_features(samples, labels)
+    return GestureRecognizer(model="rbf").fit_features(samples, labels)
 
 
-def test_a_copy_learns_a_gesture_and_the_recogniser_stays(signs: hri.GestureRecognizer) -> None:
+def test_a_copy_learns_a_gesture_and_the_recogniser_stays(signs: GestureRecognizer) -> None:
     before = signs.to_model_file().to_bytes()
     more = copy(signs).add_gesture_features("palm", [rows("palm", 20 + take) for take in range(3)])
     assert list(more.classes_) == ["fist", "palm", "point"]
@@ -39,7 +46,7 @@ def test_a_copy_learns_a_gesture_and_the_recogniser_stays(signs: hri.GestureReco
     assert signs.to_model_file().to_bytes() == before
 
 
-def test_errors_leave_the_recogniser_as_it_was(signs: hri.GestureRecognizer) -> None:
+def test_errors_leave_the_recogniser_as_it_was(signs: GestureRecognizer) -> None:
     good = [rows("palm", 20)]
     before = signs.to_model_file().to_bytes()
     for label, samples, message in (
@@ -56,3 +63,32 @@ def test_errors_leave_the_recogniser_as_it_was(signs: hri.GestureRecognizer) -> 
     with pytest.raises(InvalidArgument, match="must be a sequence of signs"):
         signs.add_gesture("palm", "palm.jpg")
     assert signs.to_model_file().to_bytes() == before
+
+
+def test_the_command_line_adds_a_gesture(hri, tmp_path: Path) -> None:
+    clips = [(stills(sign, seed), sign) for seed in range(6) for sign in ("flat", "tall")]
+    model, more = tmp_path / "two.hri", tmp_path / "new" / "three.hri"
+    GestureRecognizer(model="rbf").fit([clip for clip, _ in clips], [sign for _, sign in clips]).save(model)
+    files = [tmp_path / f"cross{seed}.png" for seed in range(4)]
+    for seed, path in enumerate(files):
+        flat, tall = (picture(sign, 0.5, np.random.default_rng(seed)) for sign in ("flat", "tall"))
+        write_image(path, np.where((flat[..., 2] > 165)[..., None], flat, tall))
+    wall = tmp_path / "wall.png"
+    write_image(wall, np.full((SIDE_PX, SIDE_PX, 3), 120, np.uint8))
+
+    added = hri("add-gesture", "--model", model, "--label", "क्\u200dष", *files[:3], "-o", more, "--json", "-")
+    assert added.code == 0 and "3 labels: flat tall क्\u200dष" in added.err
+    assert json.loads(added.out) == {"model": str(more), "labels": ["flat", "tall", "क्\u200dष"]}
+    seen = hri("recognise", "--gesture", files[3], "--gesture-model", more, "--json", "-")
+    assert json.loads(seen.out)["gesture"]["nbest"][0]["label"] == "क्\u200dष"
+
+    before = more.read_bytes()
+    for arguments, code, message in (
+        (("--model", more, "--label", "flat", files[0]), 3, "'flat' is in the vocabulary already"),
+        (("--model", more, "--label", "wall", files[0], wall), 3, "wall.png: no picture shows a hand"),
+        (("--model", more, "--label", "none"), 2, "CLIP"),
+        (("--label", "none", files[0]), 3, "there is no gesture model yet"),
+    ):
+        refused = hri("add-gesture", *arguments)
+        assert (refused.code, message in refused.err) == (code, True), refused.err
+    assert more.read_bytes() == before
