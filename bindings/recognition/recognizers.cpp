@@ -231,6 +231,16 @@ hri::GestureRecognizer train_gestures(const std::vector<FloatArray>& features,
   return hri::GestureRecognizer::train(samples, options, with_gil(progress), hri_bind::interrupted);
 }
 
+hri::GestureRecognizer with_gesture(const hri::GestureRecognizer& self, const std::string& label,
+                                    const std::vector<FloatArray>& features) {
+  std::vector<hri::GestureSample> samples;
+  samples.reserve(features.size());
+  for (const FloatArray& rows : features)
+    samples.push_back({as_matrix(rows, "features"), label, ""});
+  const py::gil_scoped_release release;
+  return self.with_gesture(samples, hri_bind::interrupted);
+}
+
 py::array_t<float> gesture_features(const std::vector<ByteArray>& greys,
                                     const std::vector<ByteArray>& masks,
                                     const hri::HandFeatureOptions& options) {
@@ -281,6 +291,7 @@ void bind_gestures(py::module_& m) {
                                      "Signs and gestures; hri.GestureRecognizer wraps it.")
       .def_static("train", &train_gestures, py::arg("features"), py::arg("labels"),
                   py::arg("groups"), py::arg("options"), py::arg("progress") = nullptr)
+      .def("with_gesture", &with_gesture, py::arg("label"), py::arg("features"))
       .def_static("features", &gesture_features, py::arg("greys"), py::arg("masks"),
                   py::arg("options"))
       .def_static(

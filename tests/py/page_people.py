@@ -24,12 +24,12 @@ RATE_HZ = 16000
 
 
 def request(
-    server: PageServer, path: str, cookie: str = "", method: str = "GET", **headers: str
+    server: PageServer, path: str, cookie: str = "", method: str = "GET", body: bytes | None = None, **headers: str
 ) -> tuple[int, dict[str, str], bytes]:
     """Status, headers and body of one request."""
     link = http.client.HTTPConnection("127.0.0.1", server.port, timeout=20)
     try:
-        link.request(method, path, headers={"Cookie": cookie, **{k.replace("_", "-"): v for k, v in headers.items()}})
+        link.request(method, path, body, {"Cookie": cookie, **{k.replace("_", "-"): v for k, v in headers.items()}})
         answer = link.getresponse()
         return answer.status, {name.lower(): value for name, value in answer.getheaders()}, answer.read()
     finally:
@@ -92,6 +92,11 @@ class Page:
                 return self.await_event(kind, **fields, timeout_s=10.0)
         self.perform(samples, frames)
         return self.await_event(kind, **fields)
+
+    def await_stopped(self) -> None:
+        """Until the session has stopped, unless it has since the page came."""
+        if not any(m.get("event") == "state" and m["state"] == "stopped" for m in self.messages):
+            self.await_event("state", state="stopped")
 
     def error(self, text: str) -> None:
         self.await_message(lambda m: m["type"] == "error" and text in m["text"])

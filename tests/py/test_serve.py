@@ -217,7 +217,8 @@ def test_nonsense_is_reported_and_ignored(server: PageServer, cookie: str, notes
             ('{"type": "explode"}', "no command"),
             ("[" * 3000, "too deep"),
             ('{"type": "hello", "rate": 1e9}', "samples a second"),
-            ('{"type": "teach", "label": ""}', "letters"),
+            ('{"type": "teach", "label": "", "mode": "speech"}', "letters"),
+            ('{"type": "teach", "label": "up", "mode": "smell"}', "a word (speech) or a gesture"),
             ('{"type": "' + 5000 * "x" + '"}', "too long"),
             (b"", "without sound or a picture"),
             (b"text in a binary socket", "neither sound nor a picture"),
@@ -299,52 +300,6 @@ def test_a_microphone_that_falls_silent_is_reported_and_comes_back(server: PageS
         page.perform(speech([("flat", 1.6)], 4.0))
         assert page.await_event("reconnected", mode="speech")
         assert page.await_event("decision")["final"] == "flat"
-
-
-def test_a_word_is_added_by_three_samples_and_undone(
-    server: PageServer, cookie: str, stage: Stage, robot: Robot, tmp_path: Any
-) -> None:
-    def answer(page: Any, text: str) -> None:
-        page.await_message(lambda m: m["type"] == "teach" and text in m["text"])
-
-    rng = np.random.default_rng(2)
-    with connected(server, cookie) as page:
-        for command, text in (
-            ({"type": "undo"}, "nothing to undo"),
-            ({"type": "sample"}, "first give the word a name"),
-            ({"type": "teach", "label": "flat"}, "is a word already"),
-            ({"type": "teach", "label": " hum "}, "3 times"),
-        ):
-            page.say(**command)
-            answer(page, text)
-            time.sleep(0.1)
-        for number in range(4):
-            page.say(type="sample")
-            answer(page, "Speak now")
-            said = 0.001 * rng.standard_normal(5 * RATE_HZ + 640).astype("f4")
-            if number:  # the first time nothing is said
-                said = said[: 2 * RATE_HZ]
-                at = slice(RATE_HZ // 2, RATE_HZ)
-                said[at] += 0.2 * np.sin(2 * np.pi * (1500 + 20 * number) * np.arange(RATE_HZ // 2) / RATE_HZ)
-            page.perform(said)
-            answer(page, ("I heard nothing", "Sample 1 of 3", "Sample 2 of 3", "is added")[number])
-            time.sleep(0.1)
-        assert "hum" in [m for m in page.messages if m["type"] == "welcome"][-1]["words"]
-        assert not any(m.get("event") == "fused" for m in page.messages)  # what is recorded is no command
-        (tmp_path / "words.hri").write_bytes(request(server, "/words.hri", cookie)[2])
-        assert "hum" in hri.WordRecognizer.load(tmp_path / "words.hri").classes_
-        assert request(server, "/words.hri")[0] == 403 and request(server, "/words.hpp")[0] == 403
-        assert b"Span<const std::uint8_t> words()" in request(server, "/words.hpp", cookie)[2]
-        assert json.loads(request(server, "/words.json", cookie)[2])["kind"] == "word_recognizer"
-        page.say(type="stop")
-        page.await_event("state", state="stopped")
-        page.say(type="undo")
-        answer(page, "“hum” is removed")
-        page.await_event("state", state="stopped")  # the new session is stopped, too
-        page.say(type="resume")
-        page.await_event("state", state="idle")
-        assert not robot.stopped
-        assert stage.words is not None and [str(label) for label in stage.words.classes_] == ["flat", "stop", "tall"]
 
 
 def test_another_rate_of_sound_is_converted(server: PageServer, cookie: str) -> None:

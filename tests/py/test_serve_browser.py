@@ -24,6 +24,7 @@ import hri
 from conftest import RATE_HZ
 from drawn_hands import FPS, Frame, stills
 from hri.io import write_wav_pcm16
+from hri.media import write_image
 from hri.robot import Robot, open_robot
 from hri.serve import PageServer, ServeLimits, Stage
 from session_people import MOTIONS, signing, speech, train_words
@@ -182,25 +183,58 @@ def test_a_word_that_is_added_by_button_is_recognised_and_removed(visit: Any, st
     expect(page, "#level-label").not_to_have_text("Microphone: off")
     page.fill("#word", "flat")
     page.press("#word", "Enter")
-    expect(page, "#teach-line").to_contain_text("is a word already")
+    expect(page, "#word-line").to_contain_text("is a word already")
     page.fill("#word", "fall")
     page.press("#word", "Enter")
-    expect(page, "#teach-line").to_contain_text("3 times")
+    expect(page, "#word-line").to_contain_text("3 times")
     for number in (1, 2, 3):
         expect(page, "#level-label").to_have_text("Microphone: a word")
         expect(page, "#level-label").to_have_text("Microphone: on")
-        page.click("#sample")
+        page.click("#word-sample")
         if number < 3:
-            expect(page, "#teach-line").to_contain_text(f"Sample {number} of 3.")
-    expect(page, "#teach-line").to_contain_text("“fall” is added")
+            expect(page, "#word-line").to_contain_text(f"Sample {number} of 3.")
+    expect(page, "#word-line").to_contain_text("“fall” is added")
     expect(page, "#vocabulary").to_contain_text("Words: fall, flat, stop, tall.")
     with page.expect_download() as download:
-        page.click("#download")
+        page.click("#word-download")
     kept = hri.WordRecognizer.load(download.value.path())
     assert [str(label) for label in kept.classes_] == ["fall", "flat", "stop", "tall"]
     expect(page, "#bars-speech").to_contain_text("fall")  # the session that began anew knows it
-    page.click("#undo")
+    page.click("#word-undo")
     expect(page, "#vocabulary").to_contain_text("Words: flat, stop, tall.")
+    assert page.failures == []
+
+
+def test_a_gesture_is_added_by_camera_and_files_and_removed(visit: Any, stage: Stage, tmp_path: Path) -> None:
+    page = visit(shown=signing([("flat", 0.8)], 4.0), viewport={"width": 360, "height": 740}, color_scheme="dark")
+    page.click("#start")
+    expect(page, "#camera-line").to_have_text("Camera: on")
+    page.fill("#gesture", "flat")
+    page.press("#gesture", "Enter")
+    expect(page, "#gesture-line").to_contain_text("is a gesture already")
+    page.fill("#gesture", "नमस्ते")
+    page.press("#gesture", "Enter")
+    expect(page, "#gesture-line").to_contain_text("3 times")
+    page.press("#gesture-sample", "Enter")
+    expect(page, "#gesture-line").to_contain_text("Sample 1 of 3. It looks like “flat”")
+    names = [str(tmp_path / f"{number}.png") for number in range(3)]
+    for number, name in enumerate(names):
+        write_image(name, stills("flat", 30 + number)[0])
+    page.set_input_files("#gesture-files", names)
+    expect(page, "#gesture-line").to_have_text("Choose 2 at most: more samples are not needed.")
+    (tmp_path / "song.png").write_bytes(b"no picture")
+    page.set_input_files("#gesture-files", str(tmp_path / "song.png"))
+    expect(page, "#gesture-line").to_contain_text("song.png: ")
+    page.set_input_files("#gesture-files", names[:2])
+    expect(page, "#gesture-line").to_contain_text("“नमस्ते” is added. It may be confused with “flat”")
+    expect(page, "#vocabulary").to_contain_text("Signs: flat, tall, नमस्ते.")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    with page.expect_download() as download:
+        page.click("#gesture-download")
+    assert "नमस्ते" in hri.GestureRecognizer.load(download.value.path()).classes_
+    page.click("#gesture-undo")
+    expect(page, "#gesture-line").to_contain_text("is removed")
+    expect(page, "#vocabulary").to_contain_text("Signs: flat, tall.")
     assert page.failures == []
 
 
@@ -249,13 +283,13 @@ def test_it_is_used_by_keyboard_on_a_narrow_screen_and_in_the_dark(
         print(f"\nfirst paint: {first:.0f} ms")
     assert first < 1000
     focused = []
-    for _ in range(12):
+    for _ in range(20):
         page.keyboard.press("Tab")
         focused.append(page.evaluate("document.activeElement.id"))
     assert [name for name in focused if name in ("start", "stop", "resume")][:2] == ["start", "stop"]
-    assert {"word", "download", "log"} <= set(focused)
+    assert {"word", "word-download", "gesture", "gesture-download", "log"} <= set(focused)
     unnamed = page.evaluate(
-        """[...document.querySelectorAll('button, input, a, meter, video, [role=img], [role=log]')].filter(
+        """[...document.querySelectorAll('button, input, a, meter, progress, video, [role=img], [role=log]')].filter(
             (e) => !(e.textContent.trim() || e.labels?.length || e.getAttribute('aria-label'))).map((e) => e.id)"""
     )
     assert unnamed == []

@@ -302,6 +302,24 @@ def test_stop_counts_in_every_state(state: str) -> None:
     assert [action.kind for action in talk.resume()] == ["resume", "say", "state"] and talk.resume() == []
 
 
+def test_only_stop_counts_in_what_begins_while_a_sample_is_recorded() -> None:
+    talk = Dialogue(SessionOptions(resume_labels=("start",)), MOTIONS)
+    talk.only_stop(10.0)
+    for ignored in (pair("7", first_s=9.9), pair("9"), pair("5", status=UNKNOWN), pair("5", status=NO_INPUT)):
+        (action,) = talk.decide(ignored, 12.0)
+        assert action.kind == "ignored" and talk.state == "idle"
+    assert talk.decide(ask(), 2.6)[0].kind == "stop", "a weak STOP, as nothing can be asked"
+    talk.resume()
+    assert talk.decide(pair("stop"), 3.0)[0].kind == "stop" and talk.state == "stopped"
+    assert kinds(talk.decide(pair("start"), 4.0)) == [("ignored", "start")] and talk.state == "stopped"
+    talk.resume()
+    assert ("move", "7") in kinds(talk.decide(pair("7", first_s=10.0), 11.0))
+    talk.moved("", False)
+    talk.only_stop(12.0)
+    talk.only_stop(5.0)  # the last call counts
+    assert ("move", "7") in kinds(talk.decide(pair("7", first_s=6.0), 13.0))
+
+
 def test_a_label_may_resume_and_no_ends_a_motion() -> None:
     talk = Dialogue(SessionOptions(resume_labels=("start",)), MOTIONS)
     assert kinds(talk.decide(pair("start"), 1.0)) == [("ignored", "start")]

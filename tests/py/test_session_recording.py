@@ -236,6 +236,7 @@ NEAR_JSON = st.none() | st.booleans() | st.integers() | st.floats() | st.text(ma
 EVENTS = [
     {"time": 1.0, "event": "motion_end", "mode": "robot", "message": "", "fault": False, "command": "flat"},
     {"time": 2.0, "event": "asked", "mode": "session", "command": "resume"},
+    {"time": 2.5, "event": "asked", "mode": "session", "command": "only_stop", "for_s": 1.0},
     {"time": 3.0, "event": "tick", "mode": "session"},
     {"time": 4.0, "event": "overflow", "mode": "speech", "lost": 3},
 ]
@@ -245,7 +246,9 @@ EVENTS = [
 @given(
     changes=st.lists(st.tuples(st.sampled_from([*GOOD, "more"]), NEAR_JSON), max_size=2),
     option=st.tuples(st.sampled_from(["window_s", "fusion", "stop_labels"]), NEAR_JSON) | st.none(),
-    events=st.lists(st.tuples(st.sampled_from(EVENTS), st.sampled_from([*EVENTS[0], "x"]), NEAR_JSON), max_size=4),
+    events=st.lists(
+        st.tuples(st.sampled_from(EVENTS), st.sampled_from([*EVENTS[0], "for_s", "x"]), NEAR_JSON), max_size=4
+    ),
 )
 def test_whatever_a_recording_says_it_is_replayed_or_refused(
     tmp_path: Path, changes: list[Any], option: tuple[str, Any] | None, events: list[Any]

@@ -46,6 +46,7 @@ COMMANDS = {
         "Add a word to a trained recogniser, from few recordings or by its spelling.",
     ),
     "remove-word": ("hri.cli.vocabulary:remove_word", "Remove a word from a trained recogniser."),
+    "add-gesture": ("hri.cli.vocabulary:add_gesture", "Add a gesture to a trained recogniser, from few clips."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
     "transcribe": ("hri.cli.connected:transcribe", "Recognise several words in one recording, with their times."),
     "read-sentences": ("hri.cli.sentences:read_sentences", "Recognise signed sentences in tracks of both hands."),

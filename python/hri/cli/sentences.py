@@ -14,6 +14,7 @@ from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import default_model, naming_options, options_option, parse_options
 from hri.core.errors import FormatError, InvalidArgument
+from hri.core.text import is_printable
 from hri.datasets.asl_sentences import read_asl_sentences
 from hri.io import write_wav_pcm16
 from hri.language import KnowledgeBase, StoredMatch
@@ -160,7 +161,7 @@ def _as_dict(match: StoredMatch, text: str) -> dict[str, object]:
 def _write_speech(text: str, language: str, path: Path) -> None:
     from hri.synthetic.speech import Speaker, speak
 
-    if not text.isprintable():
+    if not is_printable(text):
         raise InvalidArgument(f"{text!r} cannot be spoken: it holds control characters")
     path.parent.mkdir(parents=True, exist_ok=True)
     voice = Speaker("voice", variant="f2", accent=0, pitch=50, rate=155, noise_db=-96.0)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""``hri add-word`` and ``hri remove-word``."""
+"""``hri add-word``, ``hri remove-word`` and ``hri add-gesture``."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.recognizers import kept_model
 from hri.core.errors import InvalidArgument
 from hri.media import read_audio
-from hri.recognition import SubwordRecognizer, WordRecognizer, load
+from hri.recognition import GestureRecognizer, SubwordRecognizer, WordRecognizer, load
 
 _model_option = click.option(
     "--model",
@@ -91,15 +91,54 @@ def remove_word(model_path: str | None, label: str, out: str | None, json_path: 
     _keep(words, target, json_path)
 
 
+@click.command("add-gesture")
+@click.option(
+    "--model",
+    "model_path",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="MODEL",
+    help="A model from 'hri train gesture'; the default is the one kept per user.",
+)
+@click.option("--label", required=True, help="The new gesture.")
+@click.argument("clips", nargs=-1, required=True, type=click.Path(exists=True), metavar="CLIP...")
+@_out_option
+@json_option
+def add_gesture(
+    model_path: str | None, label: str, clips: tuple[str, ...], out: str | None, json_path: str | None
+) -> None:
+    """Add a gesture to a trained recogniser, from few clips of it.
+
+    Three clips suffice: pictures or videos, or folders of pictures. The models svm and bayes keep too little of what
+    they were trained on, and are trained again instead.
+
+    \b
+    Examples:
+      hri add-gesture --label wave wave1.avi wave2.avi wave3.avi
+      hri add-gesture --model signs.hri --label eight eight*.jpg -o more.hri
+    """
+    source = kept_model("gesture") if model_path is None else Path(model_path)
+    signs = load(source, "gesture")
+    if label in signs.classes_:  # which is said before clips are read
+        raise InvalidArgument(f"label '{label}' is in the vocabulary already")
+    rows = [signs.features(clip) for clip in clips]
+    for clip, found in zip(clips, rows, strict=True):
+        if len(found) == 0:
+            raise InvalidArgument(f"{clip}: no picture shows a hand")
+    signs.add_gesture_features(label, rows)
+    _keep(signs, source if out is None else Path(out), json_path)
+
+
 def _open(model_path: str | None, out: str | None) -> tuple[WordRecognizer | SubwordRecognizer, Path]:
     source = kept_model("speech") if model_path is None else Path(model_path)
     return load(source, "speech"), source if out is None else Path(out)
 
 
-def _keep(words: WordRecognizer | SubwordRecognizer, target: Path, json_path: str | None) -> None:
+def _keep(
+    recognizer: WordRecognizer | SubwordRecognizer | GestureRecognizer, target: Path, json_path: str | None
+) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
-    words.save(target)
-    labels = [str(label) for label in words.classes_]
+    recognizer.save(target)
+    labels = [str(label) for label in recognizer.classes_]
     say(str(target), json_path)
     note(f"{len(labels)} labels: {' '.join(labels)}")
     write_json(json_path, {"model": str(target), "labels": labels})

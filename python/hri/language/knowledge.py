@@ -10,6 +10,7 @@ from os import PathLike, fspath
 
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import read_csv
+from hri.core.text import is_printable
 from hri.language.word_errors import NIST_COSTS, align_words
 
 SIGNS_COLUMN = "signs"
@@ -109,7 +110,7 @@ class KnowledgeBase:
         for number, row in enumerate(rows[1:], 2):
             cells = dict(zip(header, row, strict=False))
             words = tuple(cells.get(SIGNS_COLUMN, "").split())
-            if not all(cell.isprintable() for cell in row):
+            if not all(is_printable(cell) for cell in row):
                 raise FormatError(f"{name}: row {number}: control characters in a cell")
             if len(row) != len(header) or not words:
                 raise FormatError(f"{name}: row {number}: must have {len(header)} cells, and words in '{SIGNS_COLUMN}'")

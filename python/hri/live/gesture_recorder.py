@@ -5,30 +5,21 @@
 from __future__ import annotations
 
 import os
-from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
 
 from hri.live import events
 from hri.live.events import Event
-from hri.live.frame_results import FrameResult, frame_results, gesture_event, segment_event
-from hri.live.frames import Frame, FrameSource, TimedFrame
+from hri.live.frame_results import FrameResult, frame_results, gesture_event
+from hri.live.frames import FrameSource
 from hri.live.sources import require_positive
+from hri.live.spotting import REST_S, SpottedGesture, SpottingStream, fault_of
 from hri.live.takes import Takes
 from hri.media import write_video
-from hri.recognition import LEARNED_STILL_CHANGE, GestureSegment, GestureSegmenterOptions
+from hri.recognition import LEARNED_STILL_CHANGE, GestureSegmenterOptions
 
 PATTERN = "{label}/{person}_{take}.avi"
 """Pictures of their own: what codecs of moving pictures leave out in the dark changes outlines."""
-MIN_SEEN = 0.8
-"""Share of a gesture's pictures that must show the hand."""
-MIN_QUALITY = 0.4
-"""How well the hand must stand out, on average."""
-REST_S = 0.4
-"""Of the rest before a dynamic gesture that is recorded with it, so that training sees that it begins at rest."""
-FEWEST_FRAMES = 8
-"""Below that, hands in clips are not looked for as in longer ones."""
 
 
 class GestureRecorder:
@@ -76,7 +67,7 @@ class GestureRecorder:
         chosen.context_s = chosen.context_s if held else max(chosen.context_s, REST_S)
         self._options = chosen
         self._num_hands = num_hands
-        _SpottingStream(chosen, num_hands)  # refuses options out of range now
+        SpottingStream(chosen, num_hands)  # refuses options out of range now
         self._pause_s = pause_s
         self._hand_interval_s = hand_interval_s
 
@@ -109,7 +100,7 @@ class GestureRecorder:
             source.close()
             return
         self._takes.begin()
-        stream = _SpottingStream(self._options, self._num_hands)
+        stream = SpottingStream(self._options, self._num_hands)
         num_lost = 0
         ready_s = 0.0  # when the next prompt is due
         asked_s: float | None = None
@@ -125,13 +116,15 @@ class GestureRecorder:
                 ended = next((event for event in result.events if event.event == events.GESTURE_END), None)
                 if ended is None or asked_s is None or ended.fields["first_s"] < asked_s:
                     continue
-                reason = _fault(stream.gesture, bool(ended.fields["cut"]), source.num_lost - num_lost)
+                reason = fault_of(stream.gesture, bool(ended.fields["cut"]), source.num_lost - num_lost)
                 yield self._keep_or_refuse(result.time_s, stream.gesture, reason, missing)
                 if not missing:
                     return
                 ready_s, asked_s = result.time_s + self._pause_s, None
 
-    def _keep_or_refuse(self, time_s: float, gesture: _Gesture, reason: str, missing: list[tuple[str, int]]) -> Event:
+    def _keep_or_refuse(
+        self, time_s: float, gesture: SpottedGesture, reason: str, missing: list[tuple[str, int]]
+    ) -> Event:
         fields: dict[str, object] = {"label": missing[0][0], "take": missing[0][1]}
         measured = {"quality": round(gesture.quality, 3), "hand_seen": round(gesture.seen, 3)}
         if reason:
@@ -140,77 +133,3 @@ class GestureRecorder:
         path = self._takes.keep(*missing.pop(0), lambda part: write_video(part, frames, gesture.fps))
         fields |= {"path": str(path), "duration_s": round(gesture.duration_s, 4), "num_frames": len(frames)}
         return gesture_event(time_s, events.RECORDED, {**fields, **measured})
-
-
-@dataclass(frozen=True)
-class _Gesture:
-    frames: list[TimedFrame]
-    quality: float
-    seen: float
-
-    @property
-    def duration_s(self) -> float:
-        return self.frames[-1][1] - self.frames[0][1]
-
-    @property
-    def fps(self) -> float:
-        """That at which the pictures came: a webcam's changes with the light."""
-        return (len(self.frames) - 1) / self.duration_s if self.duration_s > 0 else 1.0
-
-
-class _SpottingStream:
-    """Finds gestures, and keeps the pictures of the one that is shown and how well the hand was seen in them."""
-
-    def __init__(self, options: GestureSegmenterOptions, num_hands: int) -> None:
-        from hri.recognition import GestureSpotter
-        from hri.vision import HandFinder
-
-        self.spotter = GestureSpotter(HandFinder(), dynamic=True, options=options, max_hands=num_hands)
-        self.gesture = _Gesture([], 0.0, 0.0)
-        self._context_s = float(options.context_s)
-        self._kept: deque[tuple[Frame, float, float]] = deque()
-        self._time_s = 0.0
-
-    def push(self, frame: Frame, time_s: float) -> list[Event]:
-        self._time_s = time_s
-        segment = self.spotter.push(frame, time_s)
-        hand = self.spotter.hand
-        self._kept.append((frame, time_s, float(hand.quality) if hand.mask.any() else 0.0))
-        happened = self._events(segment)
-        while self._kept and self._kept[0][1] < self.spotter.kept_since_s:
-            self._kept.popleft()
-        return happened
-
-    def finish(self) -> list[Event]:
-        return self._events(self.spotter.finish())
-
-    def interrupt(self) -> list[Event]:
-        happened = self._events(self.spotter.interrupt())
-        self._kept.clear()
-        return happened
-
-    def _events(self, segment: GestureSegment) -> list[Event]:
-        if segment.kind == "none":
-            return []
-        if segment.kind == "end":
-            first_s = segment.first_s - self._context_s
-            inside = [kept for kept in self._kept if first_s <= kept[1] <= segment.last_s]
-            shown = [quality for _, _, quality in inside if quality > 0]
-            frames = [(frame, time_s) for frame, time_s, _ in inside]
-            self.gesture = _Gesture(frames, sum(shown) / max(1, len(shown)), len(shown) / max(1, len(inside)))
-        return [segment_event(segment, self._time_s)]
-
-
-def _fault(gesture: _Gesture, cut: bool, num_lost: int) -> str:
-    """What is wrong with a recording; "" if nothing."""
-    if cut:
-        return "too long for a gesture"
-    if num_lost:
-        return f"{num_lost} pictures were lost: this computer is too busy"
-    if len(gesture.frames) < FEWEST_FRAMES:
-        return f"only {len(gesture.frames)} pictures: move more slowly, or use a faster camera"
-    if gesture.seen < MIN_SEEN:
-        return f"the hand is seen in {100 * gesture.seen:.0f} % of the pictures: stay in view"
-    if gesture.quality < MIN_QUALITY:
-        return "the hand hardly stands out: more light, or another background"
-    return ""

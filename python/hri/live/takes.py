@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from hri.core.errors import InvalidArgument, IoError
+from hri.core.text import is_printable
 from hri.datasets.manifest import MANIFEST_NAME, Manifest, read_manifest, write_manifest
 from hri.live import events
 from hri.live.events import Event
@@ -130,5 +131,5 @@ def _require_name(what: str, text: str) -> None:
     if not text or text != text.strip() or text.startswith(".") or text.endswith("."):
         raise InvalidArgument(f"{what} '{text}' cannot be the name of a file")
     for character in text:
-        if character in _BAD_IN_NAMES or not character.isprintable():
+        if character in _BAD_IN_NAMES or not (character.isprintable() or is_printable(text)):
             raise InvalidArgument(f"{what} '{text}' cannot be the name of a file: {character!r} is in it")

@@ -4,9 +4,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import secrets
 from collections.abc import Callable
 from importlib.resources import files
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
@@ -16,20 +19,23 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
+from hri.core.files import write_bytes
 from hri.io import ModelFile, model_as_cpp, model_as_json
 from hri.serve.connection import Reception, log
 from hri.serve.stage import Stage
-from hri.serve.teaching import Teacher
+from hri.serve.teaching import Teaching
 
-_PAGE = ("index.html", "page.css", "page.js", "link.js", "devices.js", "drawing.js", "words.js", "sound.js")
+_PAGE = ("index.html", "page.css", "page.js", "link.js", "devices.js", "drawing.js", "words.js", "sound.js", "teach.js")
 HOSTS = ("127.0.0.1", "localhost")
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
-_FORMS: dict[str, tuple[str, Callable[[ModelFile], bytes | str]]] = {
-    "hri": ("application/octet-stream", ModelFile.to_bytes),
-    "hpp": ("text/x-c++hdr", lambda file: model_as_cpp(file, "words")),
-    "json": ("application/json", model_as_json),
+_FORMS: dict[str, tuple[str, Callable[[ModelFile, str], bytes | str]]] = {
+    "hri": ("application/octet-stream", lambda file, name: file.to_bytes()),
+    "hpp": ("text/x-c++hdr", model_as_cpp),
+    "json": ("application/json", lambda file, name: model_as_json(file)),
 }
-"""Of the recogniser of words, as the page offers it."""
+"""Of a recogniser, as the page offers it."""
+_MODELS = ("words", "signs")
+_MOST_LETTERS = 60
 _USED = "This address has been used, or is not the one that hri serve printed. Start hri serve again for a new one."
 _HEADERS = {
     "Cache-Control": "no-store",
@@ -82,6 +88,16 @@ def page_files() -> dict[str, bytes]:
     return {name: files("hri.serve").joinpath("page", name).read_bytes() for name in _PAGE}
 
 
+async def _body_of(request: Request, max_bytes: int) -> bytes | None:
+    """What a request brings; None where that is too much."""
+    body = bytearray()
+    async for part in request.stream():
+        if len(body) + len(part) > max_bytes:
+            return None
+        body += part
+    return bytes(body)
+
+
 def make_app(stage: Stage, token: str, port: int) -> Starlette:
     """The application.
 
@@ -94,8 +110,8 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         On which it is served.
     """
     door = Door(token, port)
-    teacher = Teacher(stage)
-    reception = Reception(stage, teacher)
+    teaching = Teaching(stage)
+    reception = Reception(stage, teaching)
     page = page_files()
 
     def refused(why: str) -> Response:
@@ -132,12 +148,30 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
     async def model(request: Request) -> Response:
         if not door.knows(request):
             return refused("without the token")
-        if stage.words is None:
-            return PlainTextResponse("There is no recogniser of words.", 404, _HEADERS)
-        form = request.url.path.rpartition(".")[2]
-        name = {"Content-Disposition": f'attachment; filename="words.{form}"'}
+        name, _, form = request.url.path.strip("/").partition(".")
+        recognizer = stage.words if name == "words" else stage.signs
+        if recognizer is None:
+            return PlainTextResponse(f"There is no recogniser of {name}.", 404, _HEADERS)
         kind, content = _FORMS[form]
-        return Response(content(stage.words.to_model_file()), media_type=kind, headers=_HEADERS | name)
+        attached = {"Content-Disposition": f'attachment; filename="{name}.{form}"'}
+        return Response(content(recognizer.to_model_file(), name), media_type=kind, headers=_HEADERS | attached)
+
+    async def sample(request: Request) -> Response:
+        """A file that shows the gesture that is being added; the query names it."""
+        if not door.knows(request) or not door.is_own_page(request):
+            return refused("without the token, or from another page")
+        if reception.current is None:
+            return PlainTextResponse("The page is not connected.", 409, _HEADERS)
+        name = Path(request.query_params.get("name", "")).name[-_MOST_LETTERS:] or "file"
+        with TemporaryDirectory(prefix="hri-serve-") as folder:
+            path = Path(folder) / f"clip{Path(name).suffix if name.isprintable() else ''}"
+            body = await _body_of(request, stage.limits.max_clip_bytes)
+            if body is None:
+                most = stage.limits.max_clip_bytes >> 20
+                return PlainTextResponse(f"{name}: a file of more than {most} MB is too large", 413, _HEADERS)
+            write_bytes(path, body)
+            why = await asyncio.to_thread(teaching.gestures.take_file, path, name)
+        return PlainTextResponse(why, 422 if why else 200, _HEADERS)
 
     async def talk(socket: WebSocket) -> None:
         if not door.knows(socket) or not door.is_own_page(socket):
@@ -149,7 +183,8 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
     routes = [
         Route("/", index),
         Route("/stop", stop, methods=["POST"]),
-        *(Route(f"/words.{form}", model) for form in _FORMS),
+        Route("/sample", sample, methods=["POST"]),
+        *(Route(f"/{name}.{form}", model) for name in _MODELS for form in _FORMS),
         WebSocketRoute("/talk", talk),
         Route("/{name}", file),
     ]

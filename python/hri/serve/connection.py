@@ -19,7 +19,7 @@ from hri.core.errors import FormatError
 from hri.serve.limits import RateLimit
 from hri.serve.messages import SOUND, read_command, read_media
 from hri.serve.stage import Stage
-from hri.serve.teaching import Teacher
+from hri.serve.teaching import Teaching
 
 TOO_LARGE = 1009
 REFUSED = 1008
@@ -60,12 +60,12 @@ class Reception:
     Parameters
     ----------
     stage : Stage
-    teacher : Teacher
+    teaching : Teaching
     """
 
-    def __init__(self, stage: Stage, teacher: Teacher) -> None:
+    def __init__(self, stage: Stage, teaching: Teaching) -> None:
         self.stage = stage
-        self.teacher = teacher
+        self.teaching = teaching
         self.current: Connection | None = None
         stage.publish = self.publish
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -104,7 +104,7 @@ class Reception:
             log.warning("a second page was refused: the camera and the robot serve another one")
             await socket.close(TAKEN, _ELSEWHERE)
             return
-        await self._serve(Connection(socket, self.stage, self.teacher, page, hello))
+        await self._serve(Connection(socket, self.stage, self.teaching, page, hello))
 
     async def _serve(self, connection: Connection) -> None:
         before, self.current = self.current, connection
@@ -117,7 +117,7 @@ class Reception:
         finally:
             if self.current is connection:
                 self.current = None
-                self.teacher.forget()
+                self.teaching.forget()
                 self.stage.leave()
 
 
@@ -129,19 +129,19 @@ class Connection:
     socket : WebSocket
         Accepted.
     stage : Stage
-    teacher : Teacher
+    teaching : Teaching
     page : str
         The page's own name: it may take its place again.
     hello : dict
         Its first message.
     """
 
-    def __init__(self, socket: WebSocket, stage: Stage, teacher: Teacher, page: str, hello: dict[str, Any]) -> None:
+    def __init__(self, socket: WebSocket, stage: Stage, teaching: Teaching, page: str, hello: dict[str, Any]) -> None:
         self.page = page
         self.outbox = Outbox()
         self._socket = socket
         self._stage = stage
-        self._teacher = teacher
+        self._teaching = teaching
         limits = stage.limits
         self._pictures = RateLimit(limits.pictures_per_s)
         self._messages = RateLimit(limits.messages_per_s, burst_s=2.0)
@@ -213,7 +213,7 @@ class Connection:
         if command["type"] == "resume":
             self._stage.resume()
         elif command["type"] != "hello":
-            self._teacher.obey(command)
+            self._teaching.obey(command)
 
     def _take(self, data: bytes) -> None:
         try:
@@ -226,15 +226,16 @@ class Connection:
             if self._stage.words is None:
                 return
             if self._sound.take(len(samples)):
-                heard = self._teacher.hear(samples, self._rate_hz)
-                self._stage.microphone.put(samples, heard)
+                self._stage.microphone.put(samples)
+                self._teaching.words.hear(samples, self._rate_hz)
             else:
                 self.complain("more sound than a microphone gives was ignored")
         elif self._stage.signs is not None:
-            if self._pictures.take():
-                self._stage.camera.put(media)
-            else:
+            if not self._pictures.take():
                 self.complain(f"more than {self._stage.limits.pictures_per_s:g} pictures a second: some were left out")
+            else:
+                self._stage.camera.put(media)
+                self._teaching.gestures.see(media)
 
     async def _send(self) -> None:
         while True:

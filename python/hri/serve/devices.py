@@ -85,12 +85,12 @@ class PageMicrophone(_Device):
             self._ring = None
             self.sample_rate_hz = sample_rate_hz
 
-    def put(self, samples: NDArray[np.float32], heard: bool = True) -> None:
-        """Samples as they come, by the server's thread; unless `heard`, as much silence takes their place."""
+    def put(self, samples: NDArray[np.float32]) -> None:
+        """Samples as they come, by the server's thread."""
         self._comes()
         ring = self._ring
         if ring is not None:
-            ring.write(samples if heard else np.zeros_like(samples))
+            ring.write(samples)
 
     def stream(self) -> PageSound:
         """A source for a session. Raises IoError while nothing comes, except after `expect`."""

@@ -24,6 +24,8 @@ class ServeLimits:
         Of one picture as JPEG.
     max_picture_px : int
         Width times height of one picture.
+    max_clip_bytes, max_clip_pictures : int
+        Of one file that shows a gesture.
     max_text_bytes : int
         Of one message of text.
     pictures_per_s, messages_per_s : float
@@ -42,6 +44,8 @@ class ServeLimits:
     max_message_bytes: int = 1 << 20
     max_picture_bytes: int = 1 << 19
     max_picture_px: int = 1920 * 1080
+    max_clip_bytes: int = 1 << 25
+    max_clip_pictures: int = 300
     max_text_bytes: int = 4096
     pictures_per_s: float = 30.0
     messages_per_s: float = 200.0

@@ -18,12 +18,14 @@ from numpy.typing import NDArray
 
 from hri.core.errors import FormatError
 from hri.core.files import parse_json
+from hri.core.text import is_printable
 from hri.media import picture_size
 from hri.serve.limits import ServeLimits
 
 SOUND = 1
 PICTURE = 2
 COMMANDS = ("hello", "stop", "resume", "teach", "sample", "undo")
+_TEACHING = ("teach", "sample", "undo")
 _HEADER = struct.Struct("<Bd")
 _MAX_SOUND_BYTES = 2 * 48000
 _RATES_HZ = (8000, 48000)
@@ -91,9 +93,11 @@ def read_command(text: str, limits: ServeLimits) -> dict[str, Any]:
             raise FormatError(f"sound of {rate} samples a second cannot be used")
         if not isinstance(value.get("page", ""), str):
             raise FormatError("a page is named by text")
+    if value["type"] in _TEACHING and value.get("mode") not in ("speech", "gesture"):
+        raise FormatError("what is added is a word (speech) or a gesture")
     if value["type"] == "teach":
         label = value.get("label")
-        if not isinstance(label, str) or not label.strip() or len(label) > _MAX_LABEL or not label.isprintable():
-            raise FormatError(f"a word has 1 to {_MAX_LABEL} letters")
+        if not isinstance(label, str) or not label.strip() or len(label) > _MAX_LABEL or not is_printable(label):
+            raise FormatError(f"a name has 1 to {_MAX_LABEL} letters")
         value["label"] = label.strip()
     return value

@@ -52,6 +52,8 @@ class Stage:
     ----------
     publish : callable
         Gets messages for the page, by several threads; it must not wait.
+    on_stop : callable
+        Called on STOP by whatever way, by several threads; it must not wait.
     """
 
     def __init__(
@@ -70,6 +72,7 @@ class Stage:
         self.microphone = PageMicrophone(self.limits.stall_s)
         self.camera = PageCamera(self.limits.stall_s, self._refused)
         self.publish: Publish = lambda message: None
+        self.on_stop: Callable[[], None] = lambda: None
         self._robot = robot
         self._options = options or SessionOptions(retry_s=0.2)
         self._model_ids = dict(model_ids or {})
@@ -77,6 +80,7 @@ class Stage:
         self._log: deque[dict[str, Any]] = deque(maxlen=_MOST_KEPT)
         self._state = IDLE
         self._begun_s = 0.0
+        self._only_stop_until_s = 0.0
         self._joints: dict[str, float] = {}
         self._figure: dict[str, Any] | None = None
         self._paused = self._held = False
@@ -117,6 +121,12 @@ class Stage:
         """STOP, at once, until a person ends it; by any thread."""
         self._held = True
         self._session.stop()
+        self.on_stop()
+
+    def only_stop(self, for_s: float) -> None:
+        """Nothing but STOP counts for so long, also in a session that begins meanwhile; the last call counts."""
+        self._only_stop_until_s = time.monotonic() + for_s
+        self._session.only_stop(for_s)
 
     def resume(self) -> None:
         """End STOP; by any thread."""
@@ -228,6 +238,8 @@ class Stage:
         see: Any = self.camera.stream if self.signs is not None else None
         with closing(session.run(hear, see, live=True)) as events:  # type: ignore[type-var]
             self._begun_s = time.monotonic()
+            if self._only_stop_until_s > self._begun_s:
+                session.only_stop(self._only_stop_until_s - self._begun_s)
             self._show_state(IDLE)
             for event in events:
                 self._heed(event)
@@ -244,6 +256,7 @@ class Stage:
             self._state = event.fields["state"]
         elif event.event == "stop" and event.fields["reason"] != BY_BUTTON:  # said, shown, or a fault
             self._held = True
+            self.on_stop()
         elif event.event == "resumed":
             self._held = self._paused = False
         if event.mode == "gesture" and "nbest" in event.fields:

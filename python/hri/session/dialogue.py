@@ -75,7 +75,7 @@ class Dialogue:
                that is nearest to them, and moves as its answer names
     ========== ================================================================================================
 
-    STOP counts in each of them.
+    STOP counts in each of them, also while nothing else does (`only_stop`).
 
     Parameters
     ----------
@@ -103,6 +103,11 @@ class Dialogue:
         self._words: list[str] = []
         self._sentence_until_s = -math.inf
         self._answers: list[str] = []
+        self._only_stop_until_s = -math.inf
+
+    def only_stop(self, until_s: float) -> None:
+        """Ignore what begins before that time, except STOP; the last call counts."""
+        self._only_stop_until_s = until_s
 
     def activity(self, active: bool, time_s: float) -> list[Action]:
         """Something is being said or shown, or waits to be decided on; or no longer."""
@@ -128,6 +133,10 @@ class Dialogue:
         label, status = pair.fused.label, pair.fused.status
         if label in self._options.fusion.stop_labels and status not in (UNKNOWN, NO_INPUT, ASK):
             return self.halt(pair.fused.rule, label)
+        if pair.first_s < self._only_stop_until_s:
+            if status == ASK and any(entry.label in self._options.fusion.stop_labels for entry in pair.fused.nbest):
+                return self.halt(pair.fused.rule)  # nothing can be asked now
+            return [Action(IGNORE, label, "only STOP counts while a sample is recorded")]
         if self.state == STOPPED:
             if label in self._options.resume_labels:
                 return self.resume()

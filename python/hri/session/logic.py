@@ -28,6 +28,7 @@ REST = "rest"
 RESUMED = "resumed"
 SENTENCE = "sentence"
 ASKED = "asked"
+ONLY_STOP = "only_stop"
 TICK = "tick"
 BY_BUTTON = "asked for"
 MOTION_START = "motion_start"
@@ -173,9 +174,12 @@ class SessionLogic:
             self._time_passes(event.time, cause, out)
 
     def _asked(self, event: Event, cause: Cause, out: list[Event]) -> None:
-        if event.event == ASKED and event.fields["command"] == STOP:
+        command = event.fields["command"] if event.event == ASKED else ""
+        if command == STOP:
             self._do(self.dialogue.halt(BY_BUTTON), cause, out)
-        elif event.event == ASKED:
+        elif command == ONLY_STOP:
+            self.dialogue.only_stop(event.time + event.fields["for_s"])
+        elif command:
             self._do(self.dialogue.resume(), cause, out)
         self._time_passes(event.time, cause, out)
 

@@ -147,6 +147,8 @@ def _add(recording: Recording, topic: str, message: Any) -> None:
                 raise TypeError("message must be text")
             if message["event"] in ("motion_end", "asked"):
                 _ = message["fault"] if message["event"] == "motion_end" else message["command"]
+            if message["event"] == "asked" and message["command"] == "only_stop":
+                _number(message["for_s"])
             recording.events.append(message)
             return
         rate = message["sample_rate"] if topic == SOUND else 0

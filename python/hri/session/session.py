@@ -32,7 +32,7 @@ from hri.session.feeds import Arrival, Clock, Feed, merge
 from hri.session.feeds import Recorder as StreamRecorder
 from hri.session.imitation import Faces, ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
-from hri.session.logic import ASKED, STOP, TICK, Body, NoRobot, SessionLogic, session_event
+from hri.session.logic import ASKED, ONLY_STOP, STOP, TICK, Body, NoRobot, SessionLogic, session_event
 from hri.session.mover import Guided, Motion, Mover
 from hri.session.options import SessionOptions
 from hri.signal import EndpointerOptions
@@ -216,8 +216,12 @@ class Session:
         """End STOP; from any thread."""
         self._ask("resume")
 
-    def _ask(self, command: str) -> None:
-        event = session_event(0.0, ASKED, command=command)
+    def only_stop(self, for_s: float) -> None:
+        """Ignore what begins within so long from now, except STOP; the last call counts; from any thread."""
+        self._ask(ONLY_STOP, for_s=for_s)
+
+    def _ask(self, command: str, **fields: float) -> None:
+        event = session_event(0.0, ASKED, command=command, **fields)
         with self._asking:
             if isinstance(self._inbox, EventQueue):
                 self._inbox.put(event)

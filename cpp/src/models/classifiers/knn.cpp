@@ -107,6 +107,23 @@ Knn Knn::train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
   return model;
 }
 
+Knn Knn::with_class(int index, ConstMatrixRefF rows) const {
+  require(index >= 0 && index <= num_classes_, "index must be a class or the next one");
+  require(rows.rows() > 0, "rows must not be empty");
+  validate_width(rows, dim());
+  validate_finite(rows, "rows");
+  MatrixF all(rows_->rows() + rows.rows(), rows.cols());
+  all << rows_->matrix(), rows;
+  Knn model;
+  model.keep(all);
+  model.classes_ = classes_;
+  for (int& c : model.classes_) c += c < index ? 0 : 1;
+  model.classes_.insert(model.classes_.end(), static_cast<std::size_t>(rows.rows()), index);
+  model.num_classes_ = num_classes_ + 1;
+  model.num_neighbours_ = num_neighbours_;
+  return model;
+}
+
 VectorF Knn::decision_values(Span<const float> row) const {
   validate_row(row, dim());
   return decision_values(Eigen::Map<const MatrixF>(row.data(), 1, dim())).row(0).transpose();

@@ -28,10 +28,11 @@ struct Hyperplane {
   float bias = 0;
 };
 
-// One class against the rest. Algorithm 1 of the paper for the L2 loss: D_ii = 1 / (2 C), no upper
-// bound on alpha.
+// One class against the rest, by the plane that is nearest to `h`. Algorithm 1 of the paper for the
+// L2 loss: D_ii = 1 / (2 C), no upper bound on alpha. The paper begins at zero; from another plane
+// the same steps minimise the distance to that one in place of the length of the weights.
 Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
-                    const LinearSvmOptions& options) {
+                    const LinearSvmOptions& options, Hyperplane h) {
   const Eigen::Index count = rows.rows();
   const int dim = static_cast<int>(rows.cols());
   const auto bias_feature = static_cast<float>(options.bias_feature);
@@ -44,7 +45,7 @@ Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
   }
   std::vector<std::size_t> order(alpha.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  Hyperplane h{VectorF::Zero(dim), 0};
+  h.bias /= bias_feature;
   Random random(options.seed + static_cast<std::uint64_t>(positive));
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     poll(options.should_stop);
@@ -82,7 +83,26 @@ LinearSvm LinearSvm::train(ConstMatrixRefF rows, Span<const int> classes, int nu
   MatrixF weights(num_classes, rows.cols());
   VectorF biases(num_classes);
   for (int c = 0; c < num_classes; ++c) {
-    const Hyperplane h = separate(rows, classes, c, options);
+    const Hyperplane h = separate(rows, classes, c, options, {VectorF::Zero(rows.cols()), 0});
+    weights.row(c) = h.weights.transpose();
+    biases[c] = h.bias;
+  }
+  return {std::move(weights), std::move(biases)};
+}
+
+LinearSvm LinearSvm::with_class(int index, ConstMatrixRefF rows, Span<const int> classes,
+                                const LinearSvmOptions& options) const {
+  require(index >= 0 && index <= num_classes(), "index must be a class or the next one");
+  validate_width(rows, dim());
+  validate_rows(rows, classes, num_classes() + 1, kNoClass);
+  validate(options);
+  MatrixF weights(num_classes() + 1, dim());
+  VectorF biases(num_classes() + 1);
+  for (int c = 0; c <= num_classes(); ++c) {
+    Hyperplane before{VectorF::Zero(dim()), 0};
+    const int old = c < index ? c : c - 1;
+    if (c != index) before = {weights_.row(old).transpose(), biases_[old]};
+    const Hyperplane h = separate(rows, classes, c, options, std::move(before));
     weights.row(c) = h.weights.transpose();
     biases[c] = h.bias;
   }

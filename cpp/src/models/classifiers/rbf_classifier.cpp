@@ -108,6 +108,25 @@ RbfClassifier RbfClassifier::train(ConstMatrixRefF rows, Span<const int> classes
   return model;
 }
 
+RbfClassifier RbfClassifier::with_class(int index, ConstMatrixRefF rows,
+                                        const RbfClassifierOptions& options) const {
+  require(index >= 0 && index <= num_classes(), "index must be a class or the next one");
+  validate_width(rows, dim());
+  MatrixF all(rows_.rows() + rows.rows(), rows_.cols());
+  all << rows_, rows;
+  std::vector<int> classes(static_cast<std::size_t>(all.rows()), index);
+  for (Eigen::Index r = 0; r < rows_.rows(); ++r) {
+    const auto c = static_cast<int>(classes_[r]);
+    classes[static_cast<std::size_t>(r)] = c < index ? c : c + 1;
+  }
+  RbfClassifier model = train(all, classes, num_classes() + 1, options);
+  std::vector<float> usual(usual_.begin(), usual_.end());
+  const auto middle = usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2);
+  std::nth_element(usual.begin(), middle, usual.end());
+  model.usual_[index] = std::max(model.usual_[index], *middle);
+  return model;
+}
+
 VectorF RbfClassifier::squared_distances(Span<const float> row) const {
   validate_row(row, dim());
   const float square = dot(row.data(), row.data(), dim());

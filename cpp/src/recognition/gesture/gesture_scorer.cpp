@@ -42,6 +42,17 @@ std::shared_ptr<const GestureScorer> train_gesture_scorer(
                                    : train_vote_scorer(per_class, options, should_stop);
 }
 
+std::shared_ptr<const GestureScorer> extend_gesture_scorer(const GestureScorer& scorer, int index,
+                                                           const std::vector<MatrixF>& gestures,
+                                                           const GestureRecognizerOptions& options,
+                                                           const StopCheck& should_stop) {
+  if (options.model == GestureModel::trajectory)
+    return extend_trajectory_scorer(scorer, index, gestures, options, should_stop);
+  return has_states(options.model)
+             ? extend_sequence_gesture_scorer(scorer, index, gestures, should_stop)
+             : extend_vote_scorer(scorer, index, gestures, options, should_stop);
+}
+
 std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
                                                          const GestureRecognizerOptions& options,
                                                          int num_classes) {

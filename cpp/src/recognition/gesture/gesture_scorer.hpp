@@ -46,6 +46,13 @@ class GestureScorer {
 std::shared_ptr<const GestureScorer> train_gesture_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop);
+/// `scorer` with one class more, of number `index`, from the rows of few gestures. `options` are
+/// those that it was trained with. Throws InvalidArgument for the models that keep too little of
+/// what they were trained on (svm, bayes).
+std::shared_ptr<const GestureScorer> extend_gesture_scorer(const GestureScorer& scorer, int index,
+                                                           const std::vector<MatrixF>& gestures,
+                                                           const GestureRecognizerOptions& options,
+                                                           const StopCheck& should_stop);
 std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
                                                          const GestureRecognizerOptions& options,
                                                          int num_classes);
@@ -53,17 +60,27 @@ std::shared_ptr<const GestureScorer> read_gesture_scorer(const ModelFile& file,
 std::shared_ptr<const GestureScorer> train_vote_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> extend_vote_scorer(const GestureScorer& scorer, int index,
+                                                        const std::vector<MatrixF>& gestures,
+                                                        const GestureRecognizerOptions& options,
+                                                        const StopCheck& should_stop);
 std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file,
                                                       const GestureRecognizerOptions& options,
                                                       int num_classes);
 std::shared_ptr<const GestureScorer> train_sequence_gesture_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> extend_sequence_gesture_scorer(
+    const GestureScorer& scorer, int index, const std::vector<MatrixF>& gestures,
+    const StopCheck& should_stop);
 std::shared_ptr<const GestureScorer> read_sequence_gesture_scorer(
     const ModelFile& file, const GestureRecognizerOptions& options, int num_classes);
 std::shared_ptr<const GestureScorer> train_trajectory_scorer(
     const std::vector<std::vector<MatrixF>>& per_class, const GestureRecognizerOptions& options,
     const StopCheck& should_stop);
+std::shared_ptr<const GestureScorer> extend_trajectory_scorer(
+    const GestureScorer& scorer, int index, const std::vector<MatrixF>& gestures,
+    const GestureRecognizerOptions& options, const StopCheck& should_stop);
 std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& file, int num_classes);
 
 /// Columns of GestureRecognizer::features behind the hand's shape: centre x, centre y, log area.

@@ -58,6 +58,15 @@ class SequenceGestureScorer : public GestureScorer {
     pca_.write(file, "pca.");
     models_->write(file, "movement.");
   }
+  [[nodiscard]] std::shared_ptr<const GestureScorer> with_class(
+      int index, const std::vector<MatrixF>& gestures, const StopCheck& should_stop) const {
+    std::vector<MatrixF> sequences;
+    sequences.reserve(gestures.size());
+    for (const MatrixF& g : gestures) sequences.push_back(sequence_rows(g, pca_));
+    return std::make_shared<SequenceGestureScorer>(
+        pca_,
+        models_->with_class(index, sequences, static_cast<int>(gestures.size()), should_stop));
+  }
 
  private:
   Pca pca_;
@@ -79,6 +88,12 @@ std::shared_ptr<const GestureScorer> train_sequence_gesture_scorer(
   }
   auto models = train_sequence_scorer(sequences, model_options(options), should_stop);
   return std::make_shared<SequenceGestureScorer>(std::move(pca), std::move(models));
+}
+
+std::shared_ptr<const GestureScorer> extend_sequence_gesture_scorer(
+    const GestureScorer& scorer, int index, const std::vector<MatrixF>& gestures,
+    const StopCheck& should_stop) {
+  return static_cast<const SequenceGestureScorer&>(scorer).with_class(index, gestures, should_stop);
 }
 
 std::shared_ptr<const GestureScorer> read_sequence_gesture_scorer(

@@ -18,24 +18,30 @@ Eigen::Index centre_of(const KnownTrajectory& known) {
   return 2 * Eigen::Index{known.klass} + (known.final_stroke ? 1 : 0);
 }
 
+// Two rows a class, of which every one has a whole gesture.
+MatrixF means(const std::vector<KnownTrajectory>& trajectories, int num_classes) {
+  MatrixF result =
+      MatrixF::Zero(2 * Eigen::Index{num_classes}, trajectories.front().trajectory.size());
+  VectorF counts = VectorF::Zero(result.rows());
+  for (const KnownTrajectory& known : trajectories) {
+    result.row(centre_of(known)) += known.trajectory.transpose();
+    counts[centre_of(known)] += 1;
+  }
+  for (Eigen::Index i = 0; i < counts.size(); ++i) {
+    if (counts[i] > 0)
+      result.row(i) /= counts[i];
+    else
+      result.row(i) = result.row(i - 1);
+  }
+  return result;
+}
+
 }  // namespace
 
 TrajectoryCentres TrajectoryCentres::train(const std::vector<KnownTrajectory>& trajectories,
                                            int num_classes) {
   TrajectoryCentres result;
-  result.centres_ =
-      MatrixF::Zero(2 * Eigen::Index{num_classes}, trajectories.front().trajectory.size());
-  VectorF counts = VectorF::Zero(result.centres_.rows());
-  for (const KnownTrajectory& known : trajectories) {
-    result.centres_.row(centre_of(known)) += known.trajectory.transpose();
-    counts[centre_of(known)] += 1;
-  }
-  for (Eigen::Index i = 0; i < counts.size(); ++i) {
-    if (counts[i] > 0)
-      result.centres_.row(i) /= counts[i];
-    else
-      result.centres_.row(i) = result.centres_.row(i - 1);
-  }
+  result.centres_ = means(trajectories, num_classes);
   double sum = 0;
   for (const KnownTrajectory& known : trajectories) {
     const auto centre = result.centres_.row(centre_of(known));
@@ -43,6 +49,27 @@ TrajectoryCentres TrajectoryCentres::train(const std::vector<KnownTrajectory>& t
   }
   // One example a class says nothing of how far others may lie.
   if (sum > 0) result.usual_ = sum / static_cast<double>(trajectories.size());
+  return result;
+}
+
+TrajectoryCentres TrajectoryCentres::with_class(
+    int index, const std::vector<KnownTrajectory>& trajectories) const {
+  std::vector<KnownTrajectory> alone = trajectories;
+  for (KnownTrajectory& known : alone) known.klass = 0;
+  const Eigen::Index at = 2 * Eigen::Index{index};
+  TrajectoryCentres result;
+  result.usual_ = usual_;
+  result.centres_.resize(centres_.rows() + 2, centres_.cols());
+  result.centres_ << centres_.topRows(at), means(alone, 1),
+      centres_.bottomRows(centres_.rows() - at);
+  return result;
+}
+
+std::vector<KnownTrajectory> TrajectoryCentres::trajectories() const {
+  std::vector<KnownTrajectory> result;
+  result.reserve(static_cast<std::size_t>(centres_.rows()));
+  for (Eigen::Index i = 0; i < centres_.rows(); ++i)
+    result.push_back({centres_.row(i).transpose(), static_cast<int>(i / 2), i % 2 == 1});
   return result;
 }
 

@@ -27,6 +27,14 @@ class TrajectoryCentres {
   /// Every class needs a whole gesture.
   static TrajectoryCentres train(const std::vector<KnownTrajectory>& trajectories, int num_classes);
 
+  /// With one class more, of number `index`, from trajectories of it, at least one of them whole.
+  /// What is usual stays: few gestures say too little of how far others may lie.
+  [[nodiscard]] TrajectoryCentres with_class(
+      int index, const std::vector<KnownTrajectory>& trajectories) const;
+
+  /// The centres as trajectories, which stand for what the classes were trained on.
+  [[nodiscard]] std::vector<KnownTrajectory> trajectories() const;
+
   /// Log of the squared distance of a trajectory to the nearest centre of a class, against how far
   /// trajectories lie from their centres on the average.
   [[nodiscard]] float log_distance(const VectorF& trajectory, Eigen::Index klass) const;

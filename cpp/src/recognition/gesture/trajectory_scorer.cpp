@@ -102,6 +102,9 @@ class TrajectoryScorer : public GestureScorer {
   }
   [[nodiscard]] bool starts_at_rest() const override { return starts_at_rest_; }
   [[nodiscard]] bool pauses() const override { return pauses_; }
+  [[nodiscard]] std::shared_ptr<const GestureScorer> with_class(
+      int index, const std::vector<MatrixF>& gestures, const GestureRecognizerOptions& options,
+      const StopCheck& should_stop) const;
 
  private:
   LinearSvm svm_;
@@ -113,10 +116,11 @@ class TrajectoryScorer : public GestureScorer {
   LogisticRegression motion_;  // against rest; empty where nothing was learned
 };
 
-// Separates the trajectories of classes from each other, and from hands that stay as they are.
+// What separates the trajectories of classes from each other, and from hands that stay as they are:
+// `train` gets rows and their classes.
+template <class Train>
 LinearSvm separate(const std::vector<KnownTrajectory>& trajectories,
-                   const std::vector<VectorF>& still, int num_classes,
-                   const LinearSvmOptions& options) {
+                   const std::vector<VectorF>& still, const Train& train) {
   MatrixF rows(static_cast<Eigen::Index>(trajectories.size() + still.size()), still.front().size());
   std::vector<int> classes(static_cast<std::size_t>(rows.rows()), kNoClass);
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
@@ -125,7 +129,51 @@ LinearSvm separate(const std::vector<KnownTrajectory>& trajectories,
   }
   for (std::size_t i = 0; i < still.size(); ++i)
     rows.row(static_cast<Eigen::Index>(trajectories.size() + i)) = still[i].transpose();
-  return LinearSvm::train(rows, classes, num_classes, options);
+  return train(rows, classes);
+}
+
+LinearSvmOptions svm_options(const GestureRecognizerOptions& options,
+                             const StopCheck& should_stop) {
+  LinearSvmOptions svm;
+  svm.cost = options.svm_cost;
+  svm.seed = options.seed;
+  svm.should_stop = should_stop;
+  return svm;
+}
+
+// Appends a gesture of class `klass`, and its final stroke where it has several.
+void append_trajectories(const MatrixF& gesture, int klass, const Rests& rests, float shape_scale,
+                         std::vector<KnownTrajectory>* trajectories) {
+  trajectories->push_back({trajectory_vector(gesture, shape_scale), klass, false});
+  if (rests.final_stroke == 0) return;
+  const MatrixF last = gesture.bottomRows(gesture.rows() - rests.final_stroke);
+  trajectories->push_back({trajectory_vector(last, shape_scale), klass, true});
+}
+
+// The gestures that the others were trained on are not kept; their means stand for them.
+std::shared_ptr<const GestureScorer> TrajectoryScorer::with_class(
+    int index, const std::vector<MatrixF>& gestures, const GestureRecognizerOptions& options,
+    const StopCheck& should_stop) const {
+  const Eigen::Index num_columns = svm_.dim() / kNumPoints;
+  std::vector<KnownTrajectory> trajectories;
+  std::vector<VectorF> still;
+  for (const MatrixF& g : gestures) {
+    require(g.cols() == num_columns,
+            "features do not have as many columns as the model was trained on");
+    append_trajectories(g, index, find_rests(g, shape_scale_), shape_scale_, &trajectories);
+    still.push_back(trajectory_vector(g.topRows(1), shape_scale_));
+  }
+  TrajectoryCentres centres = centres_.with_class(index, trajectories);
+  for (const KnownTrajectory& known : centres.trajectories()) {
+    if (known.klass != index) trajectories.push_back(known);
+  }
+  append_turned(options, num_columns, &trajectories);
+  return std::make_shared<TrajectoryScorer>(
+      separate(trajectories, still,
+               [&](const MatrixF& rows, const std::vector<int>& classes) {
+                 return svm_.with_class(index, rows, classes, svm_options(options, should_stop));
+               }),
+      std::move(centres), shape_scale_, distance_weight_, starts_at_rest_, pauses_, motion_);
 }
 
 }  // namespace
@@ -156,32 +204,34 @@ std::shared_ptr<const GestureScorer> train_trajectory_scorer(
     for (const MatrixF& g : per_class[c]) {
       const Rests rests = find_rests(g, shape_scale);
       num_at_rest += rests.first_stroke > 0 ? 1 : 0;
-      trajectories.push_back({trajectory_vector(g, shape_scale), static_cast<int>(c), false});
-      distances.add(1, max_displacement(trajectories.back().trajectory));
+      const std::size_t first = trajectories.size();
+      append_trajectories(g, static_cast<int>(c), rests, shape_scale, &trajectories);
+      distances.add(1, max_displacement(trajectories[first].trajectory));
       still.push_back(trajectory_vector(g.topRows(1), shape_scale));
       if (rests.first_stroke >= kFewRows)
         distances.add(
             0, max_displacement(trajectory_vector(g.topRows(rests.first_stroke), shape_scale)));
-      if (rests.final_stroke > 0) {
-        ++num_pausing;
-        trajectories.push_back(
-            {trajectory_vector(g.bottomRows(g.rows() - rests.final_stroke), shape_scale),
-             static_cast<int>(c), true});
-      }
+      num_pausing += rests.final_stroke > 0 ? 1 : 0;
     }
   }
   const auto num_classes = static_cast<int>(per_class.size());
   // Of gestures as they were shown: turned copies would make far movements look usual.
   TrajectoryCentres centres = TrajectoryCentres::train(trajectories, num_classes);
   append_turned(options, num_columns, &trajectories);
-  LinearSvmOptions svm;
-  svm.cost = options.svm_cost;
-  svm.seed = options.seed;
-  svm.should_stop = should_stop;
-  return std::make_shared<TrajectoryScorer>(separate(trajectories, still, num_classes, svm),
-                                            std::move(centres), shape_scale, kDistanceWeight,
-                                            2 * num_at_rest > num_gestures,
+  LinearSvm svm =
+      separate(trajectories, still, [&](const MatrixF& rows, const std::vector<int>& classes) {
+        return LinearSvm::train(rows, classes, num_classes, svm_options(options, should_stop));
+      });
+  return std::make_shared<TrajectoryScorer>(std::move(svm), std::move(centres), shape_scale,
+                                            kDistanceWeight, 2 * num_at_rest > num_gestures,
                                             2 * num_pausing > num_gestures, distances.motion());
+}
+
+std::shared_ptr<const GestureScorer> extend_trajectory_scorer(
+    const GestureScorer& scorer, int index, const std::vector<MatrixF>& gestures,
+    const GestureRecognizerOptions& options, const StopCheck& should_stop) {
+  return static_cast<const TrajectoryScorer&>(scorer).with_class(index, gestures, options,
+                                                                 should_stop);
 }
 
 std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& file,

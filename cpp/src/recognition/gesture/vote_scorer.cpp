@@ -41,6 +41,15 @@ MatrixF held_rows(ConstMatrixRefF rows) {
   return rows.middleRows(held.first, held.last - held.first);
 }
 
+RbfClassifierOptions rbf_options(const GestureRecognizerOptions& options,
+                                 const StopCheck& should_stop) {
+  RbfClassifierOptions rbf;
+  rbf.cost = options.rbf_cost;
+  rbf.sharpness = options.rbf_sharpness;
+  rbf.should_stop = should_stop;
+  return rbf;
+}
+
 class VoteScorer : public GestureScorer {
  public:
   std::optional<Pca> pca;
@@ -158,11 +167,8 @@ std::shared_ptr<const GestureScorer> train_vote_scorer(
     svm.should_stop = should_stop;
     scorer->svm = LinearSvm::train(shapes, all.classes, num_classes, svm);
   } else if (options.model == GestureModel::rbf) {
-    RbfClassifierOptions rbf;
-    rbf.cost = options.rbf_cost;
-    rbf.sharpness = options.rbf_sharpness;
-    rbf.should_stop = should_stop;
-    scorer->rbf = RbfClassifier::train(shapes, all.classes, num_classes, rbf);
+    scorer->rbf =
+        RbfClassifier::train(shapes, all.classes, num_classes, rbf_options(options, should_stop));
   } else if (options.model == GestureModel::bayes) {
     scorer->bayes = GaussianBayes::train(shapes, all.classes, num_classes, {});
   } else {
@@ -171,6 +177,34 @@ std::shared_ptr<const GestureScorer> train_vote_scorer(
     scorer->knn = Knn::train(shapes, all.classes, num_classes, knn);
   }
   return scorer;
+}
+
+std::shared_ptr<const GestureScorer> extend_vote_scorer(const GestureScorer& scorer, int index,
+                                                        const std::vector<MatrixF>& gestures,
+                                                        const GestureRecognizerOptions& options,
+                                                        const StopCheck& should_stop) {
+  const auto& before = static_cast<const VoteScorer&>(scorer);
+  if (!before.rbf && !before.knn) {
+    fail(ErrorKind::invalid_argument,
+         "the models svm and bayes keep no training rows, to which a gesture could be added: train "
+         "again with it, or with the model rbf or knn");
+  }
+  std::vector<MatrixF> held;
+  held.reserve(gestures.size());
+  for (const MatrixF& rows : gestures) held.push_back(held_rows(rows));
+  const StackedRows all = stack_rows({held});
+  require(all.rows.cols() == before.num_shape_columns + kNumTrackColumns,
+          "features do not have as many columns as the model was trained on");
+  const MatrixF shapes = all.rows.leftCols(before.num_shape_columns);
+  auto result = std::make_shared<VoteScorer>();
+  result->num_shape_columns = before.num_shape_columns;
+  result->pca = before.pca;
+  if (before.knn) {
+    result->knn = before.knn->with_class(index, before.pca->transform(shapes));
+    return result;
+  }
+  result->rbf = before.rbf->with_class(index, shapes, rbf_options(options, should_stop));
+  return result;
 }
 
 std::shared_ptr<const GestureScorer> read_vote_scorer(const ModelFile& file,

@@ -180,6 +180,42 @@ class GestureRecognizer(Recognizer):
         self._native = self._native_class.train(list(rows), as_texts(y, "y"), signers, self.options, progress)
         return self
 
+    def add_gesture(self, label: str, clips: Sequence[ClipInput]) -> GestureRecognizer:
+        """Add a gesture from few clips; three suffice. Rejection and calibration stay as they are.
+
+        Models that keep what they were trained on (``rbf``, ``knn``) are trained anew on that and the clips. For
+        ``trajectory`` the mean of every other gesture stands for its clips, and what separates it from the others moves
+        as little as the new clips ask for. ``hmm`` and ``ptbhmm`` leave the models of the others as they are. To take a
+        gesture back, keep a copy (`copy.copy`) from before.
+
+        Parameters
+        ----------
+        label : str
+            A gesture that is not in the vocabulary.
+        clips : sequence of clips
+            Each as `recognise` takes it, one or more, with a hand in view.
+
+        Raises
+        ------
+        InvalidArgument
+            For a label that is empty, reserved or in the vocabulary already, no clip, one without a hand in view
+            (names it, as in ``samples[0]``), a dynamic gesture of fewer than 8 frames with a hand, and the models
+            ``svm`` and ``bayes``, which keep too little of what they were trained on; the recogniser is left as it was.
+
+        Examples
+        --------
+        >>> from copy import copy
+        >>> more = copy(signs).add_gesture("eight", [picture])
+        >>> "eight" in more.classes_, "eight" in signs.classes_
+        (True, False)
+        """
+        return self.add_gesture_features(label, [self.features(clip) for clip in as_clips(clips)])
+
+    def add_gesture_features(self, label: str, rows: Sequence[NDArray[np.float32]]) -> GestureRecognizer:
+        """Add a gesture by what `features` returned for its clips; as `add_gesture`."""
+        self._native = self._trained.with_gesture(label, list(rows))
+        return self
+
     def recognise(self, clip: ClipInput) -> Decision:
         """Recognise one sign.
 

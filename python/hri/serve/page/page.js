@@ -5,6 +5,7 @@ import { inWords, openCamera, openMicrophone } from "./devices.js";
 import { Link } from "./link.js";
 import { describe } from "./words.js";
 import { drawPlace, drawRobot } from "./drawing.js";
+import { TeachPanel } from "./teach.js";
 
 const TOP = 5;
 const MOST_LINES = 200;
@@ -12,6 +13,7 @@ const SHOWN_MS = 6000;
 const MEASURE = "picture to bars";
 const at = (id) => document.getElementById(id);
 const link = new Link(heed, connection);
+const panels = new Map([...document.querySelectorAll("[data-teach]")].map((s) => [s.dataset.teach, new TeachPanel(s, link)]));
 const knows = { speech: false, gesture: false };
 let state = "";
 let measured = [];
@@ -108,7 +110,7 @@ function heedWelcome(message) {
   Object.assign(knows, { speech: message.speech, gesture: message.gesture });
   problem("", "line");
   showState(message.state);
-  at("teaching").hidden = !message.speech;
+  panels.forEach((panel, mode) => (panel.section.hidden = !knows[mode]));
   at("log").replaceChildren();
   message.log.forEach((one) => write(one.type === "event" ? describe(one) : one.text, one.event ?? "note"));
   const words = message.words.length ? `Words: ${message.words.join(", ")}. ` : "";
@@ -121,18 +123,11 @@ function heed(message) {
   if (message.type === "welcome") heedWelcome(message);
   else if (message.type === "event") heedEvent(message);
   else if (message.type === "robot") drawRobot(at("robot"), at("joints"), message);
-  else if (message.type === "teach") heedTeaching(message);
+  else if (message.type === "teach") panels.get(message.mode)?.heed(message);
   else {
     problem(message.text);
     write(message.text, message.type);
   }
-}
-
-function heedTeaching(message) {
-  at("teach-line").textContent = message.text;
-  at("sample").disabled = !message.label || message.recording;
-  at("sample").textContent = message.label ? `Record “${message.label}” (${message.samples} of 3)` : "Record";
-  if (message.added) at("undo").disabled = message.added.length === 0;
 }
 
 async function start() {
@@ -178,12 +173,6 @@ async function stop() {
 at("start").addEventListener("click", start);
 at("stop").addEventListener("click", stop);
 at("resume").addEventListener("click", () => link.say({ type: "resume" }));
-at("sample").addEventListener("click", () => link.say({ type: "sample" }));
-at("undo").addEventListener("click", () => link.say({ type: "undo" }));
-at("teach").addEventListener("submit", (submitted) => {
-  submitted.preventDefault();
-  link.say({ type: "teach", label: at("word").value });
-});
 document.addEventListener("keydown", (pressed) => {
   if (pressed.key === "Escape") stop();
 });

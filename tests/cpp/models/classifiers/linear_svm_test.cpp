@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "hri/core/error.hpp"
 #include "models/model_testing.hpp"
 
@@ -38,6 +40,31 @@ TEST(LinearSvm, CountsRowsOfNoClassAgainstAll) {
   EXPECT_GT(model.decision_values({rows.row(1).data(), 2})[1], 0.3F);
   EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 1, -2, -1}, 2, {}), InvalidArgument);
   EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 0, -1, -1}, 2, {}), InvalidArgument);
+}
+
+TEST(LinearSvm, MovesPlanesNoFurtherThanANewClassAsksFor) {
+  ModelFile file;
+  MatrixF planes(2, 2);
+  planes << 4, 0, -4, 0;
+  file.set_matrix("weights", planes);
+  file.set_vector("biases", VectorF(VectorF::Zero(2)));
+  const LinearSvm before = LinearSvm::read(file, "");
+  // The new class lies where plane 0 says yes and plane 1 says no.
+  MatrixF rows(3, 2);
+  rows << 1, 0, -1, 0, 1, 2;
+  const LinearSvm after = before.with_class(1, rows, std::vector<int>{0, 2, 1}, {});
+  ASSERT_EQ(after.num_classes(), 3);
+  EXPECT_EQ(after.weights().row(2), before.weights().row(1));
+  EXPECT_NE(after.weights().row(0), before.weights().row(0));
+  for (Eigen::Index r = 0; r < 3; ++r) {
+    Eigen::Index best = 0;
+    after.decision_values({rows.row(r).data(), 2}).maxCoeff(&best);
+    EXPECT_EQ(best, (std::array<Eigen::Index, 3>{0, 2, 1}[static_cast<std::size_t>(r)]));
+  }
+  EXPECT_THROW((void)before.with_class(3, rows, std::vector<int>{0, 2, 1}, {}), InvalidArgument);
+  EXPECT_THROW((void)before.with_class(1, rows, std::vector<int>{0, 2, 2}, {}), InvalidArgument);
+  EXPECT_THROW((void)before.with_class(1, MatrixF::Ones(3, 3), std::vector<int>{0, 2, 1}, {}),
+               InvalidArgument);
 }
 
 TEST(LinearSvm, RepeatsForOneSeed) {

@@ -37,6 +37,10 @@ class HRI_API Knn {
   static Knn train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                    const KnnOptions& options);
 
+  /// With one class more, of number `index`. Throws InvalidArgument for rows not finite, none, or
+  /// of another width, and for an index out of range.
+  [[nodiscard]] Knn with_class(int index, ConstMatrixRefF rows) const;
+
   /// Share of the k nearest rows in every class, 0..1, shape (num_classes,); of two classes with as
   /// many neighbours the one whose nearest row is nearer has up to 1e-3 more.
   [[nodiscard]] VectorF decision_values(Span<const float> row) const;

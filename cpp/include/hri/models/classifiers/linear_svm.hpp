@@ -46,6 +46,14 @@ class HRI_API LinearSvm {
   static LinearSvm train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                          const LinearSvmOptions& options);
 
+  /// With one class more, of number `index`, where the rows that the others were trained on are
+  /// not at hand: their planes move as little as separating `rows` asks for (adaptive support
+  /// vector machines: Yang, Yan, Hauptmann, "Cross-domain video concept detection using adaptive
+  /// SVMs", ACM Multimedia 2007). `classes` counts with the new one, and every class has a row.
+  /// Throws InvalidArgument as train does, for another width, and an index out of range.
+  [[nodiscard]] LinearSvm with_class(int index, ConstMatrixRefF rows, Span<const int> classes,
+                                     const LinearSvmOptions& options) const;
+
   /// Margin of every class for one row, shape (num_classes,).
   [[nodiscard]] VectorF decision_values(Span<const float> row) const;
   /// The same for many rows, a row each, equal to the bit and faster than one by one.

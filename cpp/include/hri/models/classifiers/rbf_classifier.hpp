@@ -49,6 +49,13 @@ class HRI_API RbfClassifier {
   static RbfClassifier train(ConstMatrixRefF rows, Span<const int> classes, int num_classes,
                              const RbfClassifierOptions& options);
 
+  /// With one class more, of number `index`: trained anew on the rows that it keeps and on these.
+  /// As those of few samples lie closer together than others will, what is usual in the new class
+  /// is at least the median of the other classes. Throws as train does, and for another width or an
+  /// index out of range.
+  [[nodiscard]] RbfClassifier with_class(int index, ConstMatrixRefF rows,
+                                         const RbfClassifierOptions& options) const;
+
   /// Value of every class for one row, shape (num_classes,): near 1 for its own, near -1 for
   /// others.
   [[nodiscard]] VectorF decision_values(Span<const float> row) const;

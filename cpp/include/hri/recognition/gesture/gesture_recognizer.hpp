@@ -133,6 +133,18 @@ class HRI_API GestureRecognizer {
                                  const TrainingProgress& progress = {},
                                  const StopCheck& should_stop = {});
 
+  /// The same with one gesture more, from few samples of it, all with one label that is new; three
+  /// suffice. Rejection and calibration stay. What is trained again depends on the model:
+  ///  - rbf, knn: the model keeps the rows that it was trained on, and is trained on all of them;
+  ///  - trajectory: the mean trajectories of the others stand for their gestures, see
+  ///    LinearSvm::with_class;
+  ///  - hmm, ptbhmm: the models of the others stay as they are, to the bit.
+  /// Throws InvalidArgument for no sample, labels that differ or are known already, a sample
+  /// without a hand, of another width or not finite (names it), dynamic gestures of fewer than 8
+  /// frames, and the models svm and bayes, which keep too little; Interrupted.
+  [[nodiscard]] GestureRecognizer with_gesture(const std::vector<GestureSample>& samples,
+                                               const StopCheck& should_stop = {}) const;
+
   static GestureRecognizer load(const std::string& path);
   void save(const std::string& path) const;
   [[nodiscard]] ModelFile to_model_file() const;

@@ -1,0 +1,204 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What adding words and adding gestures at the page have in common: a name, three samples, and an undo."""
+
+from __future__ import annotations
+
+import threading
+from abc import ABC, abstractmethod
+from collections import Counter
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+from hri.core.errors import Error
+from hri.recognition import Decision
+from hri.recognition.decision import RECOGNISED
+from hri.robot import load_gestures
+from hri.serve.stage import Stage
+
+NUM_SAMPLES = 3
+_STOPPED = "STOP: this sample is not kept. Press Resume, then Record once more."
+
+
+class Teacher(ABC):
+    """Adds labels to a recogniser of a stage.
+
+    Parameters
+    ----------
+    stage : Stage
+    """
+
+    mode: ClassVar[str]
+    noun: ClassVar[str]
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+        self._label = ""
+        self._full = ""
+        self._samples: list[Any] = []
+        self._alike: Counter[str] = Counter()
+        self._added: dict[str, list[Any]] = {}
+        self._busy = threading.Lock()
+
+    def obey(self, command: dict[str, Any]) -> None:
+        """A command of the page: "teach" a label, take a "sample", or "undo"; answers are published."""
+        refusal = self._refusal()
+        if refusal:
+            self._answer(refusal)
+        elif command["type"] == "teach":
+            self._begin(command["label"])
+        elif command["type"] == "sample":
+            unnamed = self._unnamed()
+            if unnamed:
+                self._answer(unnamed)
+            else:
+                self._sample()
+        elif command["type"] == "undo":
+            self._in_background(self._undo)
+
+    def forget(self) -> None:
+        """The page is gone: the samples of what is not added yet are dropped."""
+        self._label = self._full = ""
+        self._samples = []
+        self._alike.clear()
+
+    def interrupt(self) -> None:
+        """STOP: a sample that is being taken is not kept; those before it are."""
+        if self._end_sample():
+            self._answer(_STOPPED)
+
+    @abstractmethod
+    def _labels(self) -> list[str] | None:
+        """Those of the recogniser, None without one."""
+
+    @abstractmethod
+    def _prompt(self, label: str) -> str:
+        """What to do after Record is pressed."""
+
+    @abstractmethod
+    def _sample(self) -> None:
+        """Begin to take a sample."""
+
+    @abstractmethod
+    def _end_sample(self) -> bool:
+        """Keep nothing of a sample that is being taken; whether there was one."""
+
+    @abstractmethod
+    def _best_of(self, sample: Any, added: dict[str, list[Any]]) -> str:
+        """Most probable label of a sample, were these labels added, by their samples, and no others."""
+
+    @abstractmethod
+    def _add(self, label: str, samples: list[Any]) -> None:
+        """Change the recogniser."""
+
+    @abstractmethod
+    def _remove(self, label: str) -> None:
+        """Take back what was added last."""
+
+    def _refusal(self) -> str:
+        """Why nothing can be done now; "" where it can."""
+        if self._labels() is None:
+            return f"there is no recogniser of {self.noun}s"
+        if not self._busy.locked():
+            return ""
+        full = len(self._samples) == NUM_SAMPLES
+        enough = f"{NUM_SAMPLES} samples are enough: " if full else ""
+        return f"{enough}wait until the last {self.noun if full else 'sample'} is added"
+
+    def _begin(self, label: str) -> None:
+        self.forget()
+        if label in (self._labels() or ()):
+            self._answer(f"“{label}” is a {self.noun} already")
+            return
+        self._label = label
+        self._answer(self._prompt(label))
+
+    def _unnamed(self) -> str:
+        """Why no sample can be taken; "" where a label waits for one."""
+        if self._label:
+            return ""
+        if self._full:
+            return f"“{self._full}” has its {NUM_SAMPLES} samples: give the next {self.noun} a name"
+        return f"first give the {self.noun} a name"
+
+    def _is_stop(self, decision: Decision) -> bool:
+        """Whether what was just recorded is STOP: it counts then, and is no sample."""
+        stops = self._stage.session.options.fusion.stop_labels
+        if decision.status != RECOGNISED or decision.label not in stops:
+            return False
+        self._stage.stop()
+        self._answer(_STOPPED)
+        return True
+
+    def _keep_sample(self, sample: Any, decision: Decision, warning: str) -> None:
+        """Keep a sample, which the recogniser took for `decision`; the last one is followed by adding."""
+        if not self._label:  # the page is gone
+            return
+        self._samples.append(sample)
+        if decision.status == RECOGNISED:
+            self._alike[decision.label] += 1
+        else:
+            warning = ""
+        if len(self._samples) < NUM_SAMPLES:
+            self._answer(f"Sample {len(self._samples)} of {NUM_SAMPLES}.{warning}")
+            return
+        label, samples = self._label, self._samples
+        try:
+            self._add(label, samples)
+        finally:
+            alike = Counter(self._alike)
+            self.forget()
+        self._full = label
+        mistaken = self._mistaken(label, samples)
+        self._added[label] = samples
+        self._stage.renew()
+        moves = label in self._stage.session.motions
+        does = "" if moves or label not in load_gestures() else " The robot cannot make its motion."
+        labels = [other for other, _ in (alike + mistaken).most_common()]
+        confused = [{"label": one, "samples": alike[one], "samples_of_other": mistaken[one]} for one in labels]
+        self._answer(f"“{label}” is added.{self._warning(labels)}{does}", added=list(self._added), confused=confused)
+
+    def _mistaken(self, label: str, samples: list[Any]) -> Counter[str]:
+        """How many samples of others, each left out in its turn, are recognised as `label`.
+
+        The others are those that were added here: of those trained before no samples are there.
+        """
+        counts: Counter[str] = Counter()
+        for other, theirs in self._added.items():
+            self._answer(f"Trying “{other}” beside “{label}” …", progress=1.0)
+            for number, sample in enumerate(theirs):
+                kept = theirs[:number] + theirs[number + 1 :]
+                counts[other] += self._best_of(sample, {other: kept, label: samples}) == label
+        return +counts
+
+    def _warning(self, confused: list[str]) -> str:
+        """Which of the others it may be confused with."""
+        if not confused:
+            return ""
+        others = " and ".join(f"“{other}”" for other in confused)
+        return f" It may be confused with {others}: press Undo and choose another {self.noun} to be safe."
+
+    def _undo(self) -> None:
+        if not self._added:
+            self._answer("there is nothing to undo")
+            return
+        self.forget()
+        label = next(reversed(self._added))
+        self._remove(label)
+        del self._added[label]
+        self._stage.renew()
+        self._answer(f"“{label}” is removed.", added=list(self._added), confused=[])
+
+    def _in_background(self, work: Callable[[], None]) -> None:
+        def run() -> None:
+            with self._busy:
+                try:
+                    work()
+                except Error as error:
+                    self._answer(f"That did not work: {error}")
+
+        threading.Thread(target=run, daemon=True, name=f"hri-teach-{self.mode}").start()
+
+    def _answer(self, text: str, recording: bool = False, **more: Any) -> None:
+        message = {"type": "teach", "mode": self.mode, "text": text, "label": self._label, "recording": recording}
+        self._stage.publish({**message, "samples": len(self._samples), "wanted": NUM_SAMPLES, **more})
