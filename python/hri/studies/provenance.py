@@ -15,7 +15,7 @@ import hashlib
 import re
 import subprocess
 from collections.abc import Iterator
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -54,10 +54,15 @@ def hash_rooms(root: Path, study: Study) -> dict[str, str]:
 
 
 def _hash_room(root: Path, room: str) -> str:
-    hashes = sorted(hashlib.sha256(normalised(path).encode()).hexdigest() for path in _files(root, room))
+    hashes = sorted(_hash_file(path, path.stat().st_mtime_ns) for path in _files(root, room))
     if not hashes:
         raise InvalidArgument(f"a study depends on {room}, where there are no files")
     return hashlib.sha256("\n".join(hashes).encode()).hexdigest()[:16]
+
+
+@cache  # studies share most of their rooms
+def _hash_file(path: Path, changed_ns: int) -> str:
+    return hashlib.sha256(normalised(path).encode()).hexdigest()
 
 
 def _files(root: Path, room: str) -> Iterator[Path]:
