@@ -43,7 +43,10 @@ PYTHON = {
     "fusion": {"core", "io", "models", "recognition.decision"},
     "robot": {"core", "media"},
     "session": {"core", "media", "signal", "features", "vision", "recognition", "live", "fusion", "robot", "language"},
-    "serve": {"core", "io", "media", "signal", "recognition", "live", "robot", "session"},
+    "page": {"robot"},
+    "serve": {
+        *("core", "io", "media", "signal", "recognition", "language", "live", "fusion", "robot", "session", "page"),
+    },
 }
 PYTHON["studies"] = {*PYTHON}
 PYTHON["demo"] = {*PYTHON, "cli"} - {"studies"}
@@ -186,6 +189,7 @@ MAY_OPEN = {
     "robot/model/joints.py": r"tomllib|resources\.files\(.*read_text",
     "robot/nao/couplings.py": r"resources\.files\(.*read_text",
     "robot/motion/gestures.py": r"resources\.files\(.*read_text",
+    "page/components.py": r"files\(.*read_bytes",
     "serve/app.py": r"files\(.*read_bytes",
     "studies/endurance.py": r"/proc/self/status",
     "studies/tables.py": r"csv\.DictWriter\(text",

@@ -367,7 +367,7 @@ def test_ctrl_c_ends_the_command_and_the_robot_rests(words: Any, tmp_path: Any) 
 
 
 def test_the_figure_is_the_robot_from_the_front() -> None:
-    from hri.serve.figure import figure
+    from hri.page import figure
 
     rest = figure(HOAP2.rest_rad, HOAP2)
     xs = [x for stroke in rest["strokes"] for x in (stroke[0], stroke[2])]

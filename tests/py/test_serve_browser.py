@@ -23,11 +23,15 @@ pytest.importorskip("playwright")
 import hri
 from conftest import RATE_HZ
 from drawn_hands import FPS, Frame, stills
+from hri.fusion import FusionOptions
 from hri.io import write_wav_pcm16
+from hri.language import Grammar, KnowledgeBase, StoredSentence
 from hri.media import write_image
 from hri.robot import Robot, open_robot
 from hri.serve import PageServer, ServeLimits, Stage
+from hri.session import SessionOptions
 from session_people import MOTIONS, signing, speech, train_words
+from test_commands import GRAMMAR, OPTIONS, tone_rows, tones
 
 api: Any = importlib.import_module("playwright.sync_api")
 CHROMIUM = shutil.which("chromium")
@@ -97,6 +101,7 @@ def visit(playwright: Any, server: PageServer, tmp_path: Path) -> Iterator[Calla
         said: np.ndarray | None = None,
         shown: list[Frame] | None = None,
         fake_permission: bool = True,
+        at: PageServer | None = None,
         **context: Any,
     ) -> Any:
         arguments = ["--no-sandbox", "--use-fake-device-for-media-stream"]
@@ -114,7 +119,7 @@ def visit(playwright: Any, server: PageServer, tmp_path: Path) -> Iterator[Calla
         page.set_default_timeout(WAIT_MS)
         page.failures = []
         page.on("pageerror", lambda error: page.failures.append(str(error)))
-        page.goto(server.address)
+        page.goto((at or server).address)
         api.expect(page.locator("#state")).not_to_have_text("not connected")
         return page
 
@@ -315,3 +320,61 @@ def test_axe_finds_no_serious_fault(visit: Any) -> None:
             assert [(f["id"], f["nodes"][0]["html"]) for f in faults if f["impact"] in ("serious", "critical")] == []
         page.click("#resume")
         expect(page, "#state").not_to_have_text("stopped")
+
+
+def test_commands_with_slots_are_shown_and_changed(visit: Any, robot: Robot) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    connected = hri.ConnectedWordRecognizer(**OPTIONS).fit(*tone_rows(), sample_rate_hz=RATE_HZ)
+    commands = hri.CommandRecognizer(connected, Grammar.parse(GRAMMAR, "tones"))
+    stage = Stage(commands, None, robot, SessionOptions(confirm_below=0.0, retry_s=0.2))
+    try:
+        with PageServer(stage) as server:
+            page = visit(tones("2 1"), at=server, viewport={"width": 360, "height": 740})
+            expect(page, "#vocabulary").to_contain_text("Commands: 1, 1 1, 1 1 2, 2 1, 2 1 2, 2 2.")
+            expect(page, "#vocabulary").to_contain_text("It does not move for: 2 2 (the robot's torso is held")
+            assert page.is_hidden("#word") and page.input_value("#grammar") == GRAMMAR
+            page.click("#start")
+            expect(page, "#decided").to_have_text("2 1 (gesture: up, side: right)")
+            expect(page, "#rule").to_contain_text("2 1: ")
+            expect(page, "#log").to_contain_text("The robot moves: 2 1")
+            page.click("#stop")
+            expect(page, "#state").to_have_text("stopped")
+            page.fill("#grammar", GRAMMAR.replace("= (", "= jump ("))
+            page.press("#grammar", "Tab")
+            page.keyboard.press("Enter")
+            expect(page, "#commands-line").to_contain_text("words that the model was not trained on: jump")
+            assert page.evaluate("document.documentElement.scrollWidth") <= 360
+            faults = axe.run(page).response["violations"]
+            assert [(f["id"], f["nodes"][0]["html"]) for f in faults if f["impact"] in ("serious", "critical")] == []
+            page.fill("#grammar", GRAMMAR.replace(" | 1;", ";"))
+            page.click("#commands button")
+            expect(page, "#commands-line").to_have_text("Commands in use now: 5.")
+            expect(page, "#vocabulary").to_contain_text("Commands: 1 1, 1 1 2, 2 1, 2 1 2, 2 2.")
+            assert page.failures == []
+    finally:
+        stage.close()
+
+
+def test_a_sentence_is_shown_with_the_nearest_stored_one(visit: Any, words: Any) -> None:
+    options = SessionOptions(
+        fusion=FusionOptions(stop_labels=("halt",)),
+        sentence_begin_labels=("flat",),
+        sentence_end_labels=("stop",),
+        retry_s=0.2,
+    )
+    stored = KnowledgeBase([StoredSentence(("tall", "<b>tall"), {"en": "Twice tall."})], max_distance=0.6)
+    stage = Stage(words, None, None, options, knowledge=stored)
+    try:
+        with PageServer(stage) as server:
+            page = visit(speech([("flat", 0.8), ("tall", 2.6), ("stop", 4.4)], 6.4), at=server)
+            expect(page, "#vocabulary").to_contain_text("A sentence goes from flat to stop.")
+            expect(page, "#vocabulary").to_contain_text("Stored sentences: “tall <b>tall”.")
+            page.click("#start")
+            expect(page, "#decided").to_have_text("tall")
+            expect(page, "#log").to_contain_text(
+                "You: “tall”. The nearest stored sentence is “tall <b>tall”, at distance 0."
+            )
+            expect(page, "#said").to_have_text("Twice tall.")
+            assert page.failures == []
+    finally:
+        stage.close()

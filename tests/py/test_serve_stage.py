@@ -13,6 +13,7 @@ pytest.importorskip("cv2")
 pytest.importorskip("starlette")
 pytest.importorskip("uvicorn")
 
+from conftest import RATE_HZ, tone_word
 from hri.robot import open_robot
 from hri.serve import ServeLimits, Stage
 from hri.session import Session
@@ -44,6 +45,20 @@ def test_resume_ends_a_stop_that_came_while_a_session_began(monkeypatch: pytest.
         while published.get(timeout=20).get("state") != "idle":
             pass
         assert not robot.stopped
+    finally:
+        stage.close()
+        robot.close()
+
+
+def test_a_label_that_is_added_moves_the_robot_where_it_has_a_gesture_of_that_name() -> None:
+    words = train_words()
+    robot = open_robot("kinematic")
+    stage = Stage(words, None, robot)
+    try:
+        assert stage.welcome()["refused"] == dict.fromkeys(("flat", "tall"), "no gesture has this name")
+        words.add_word("5", [tone_word(700.0, 2000.0, take) for take in range(3)], RATE_HZ)
+        stage.renew()
+        assert stage.welcome()["motions"] == ["5"]
     finally:
         stage.close()
         robot.close()

@@ -21,11 +21,13 @@ from starlette.websockets import WebSocket
 
 from hri.core.files import write_bytes
 from hri.io import ModelFile, model_as_cpp, model_as_json
+from hri.page import COMPONENTS, component
+from hri.serve.commands import change_commands
 from hri.serve.connection import Reception, log
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
 
-_PAGE = ("index.html", "page.css", "page.js", "link.js", "devices.js", "drawing.js", "words.js", "sound.js", "teach.js")
+_PAGE = ("index.html", "page.js", "link.js", "devices.js", "place.js", "sound.js", "teach.js", "commands.js")
 HOSTS = ("127.0.0.1", "localhost")
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _FORMS: dict[str, tuple[str, Callable[[ModelFile, str], bytes | str]]] = {
@@ -84,8 +86,9 @@ class Door:
 
 
 def page_files() -> dict[str, bytes]:
-    """What the page is made of, by name."""
-    return {name: files("hri.serve").joinpath("page", name).read_bytes() for name in _PAGE}
+    """What the page is made of, by name: its own files, and those that pages share."""
+    own = {name: files("hri.serve").joinpath("page", name).read_bytes() for name in _PAGE}
+    return own | {name: component(name) for name in COMPONENTS}
 
 
 async def _body_of(request: Request, max_bytes: int) -> bytes | None:
@@ -113,6 +116,7 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
     teaching = Teaching(stage)
     reception = Reception(stage, teaching)
     page = page_files()
+    changing = asyncio.Lock()
 
     def refused(why: str) -> Response:
         log.warning("a visitor was refused: %s", why)
@@ -149,7 +153,7 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         if not door.knows(request):
             return refused("without the token")
         name, _, form = request.url.path.strip("/").partition(".")
-        recognizer = stage.words if name == "words" else stage.signs
+        recognizer = stage.spoken if name == "words" else stage.signs
         if recognizer is None:
             return PlainTextResponse(f"There is no recogniser of {name}.", 404, _HEADERS)
         kind, content = _FORMS[form]
@@ -173,6 +177,21 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
             why = await asyncio.to_thread(teaching.gestures.take_file, path, name)
         return PlainTextResponse(why, 422 if why else 200, _HEADERS)
 
+    async def grammar(request: Request) -> Response:
+        """Other commands of several words."""
+        if not door.knows(request) or not door.is_own_page(request):
+            return refused("without the token, or from another page")
+        body = await _body_of(request, stage.limits.max_grammar_bytes)
+        if body is None:
+            most = stage.limits.max_grammar_bytes >> 10
+            return PlainTextResponse(f"A grammar of more than {most} KB is too large.", 413, _HEADERS)
+        async with changing:
+            why, num_commands = await asyncio.to_thread(change_commands, stage, body)
+        if why:
+            log.warning("the commands stay as they are: %s", why)
+            return PlainTextResponse(f"The commands stay as they are: {why}", 422, _HEADERS)
+        return PlainTextResponse(f"Commands in use now: {num_commands}.", 200, _HEADERS)
+
     async def talk(socket: WebSocket) -> None:
         if not door.knows(socket) or not door.is_own_page(socket):
             log.warning("a visitor was refused: without the token, or from another page")
@@ -184,6 +203,7 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         Route("/", index),
         Route("/stop", stop, methods=["POST"]),
         Route("/sample", sample, methods=["POST"]),
+        Route("/grammar", grammar, methods=["POST"]),
         *(Route(f"/{name}.{form}", model) for name in _MODELS for form in _FORMS),
         WebSocketRoute("/talk", talk),
         Route("/{name}", file),

@@ -26,6 +26,8 @@ class ServeLimits:
         Width times height of one picture.
     max_clip_bytes, max_clip_pictures : int
         Of one file that shows a gesture.
+    max_grammar_bytes, max_sentences : int
+        Of the commands that a person writes on the page; a motion is checked for each.
     max_text_bytes : int
         Of one message of text.
     pictures_per_s, messages_per_s : float
@@ -46,6 +48,8 @@ class ServeLimits:
     max_picture_px: int = 1920 * 1080
     max_clip_bytes: int = 1 << 25
     max_clip_pictures: int = 300
+    max_grammar_bytes: int = 1 << 15
+    max_sentences: int = 500
     max_text_bytes: int = 4096
     pictures_per_s: float = 30.0
     messages_per_s: float = 200.0

@@ -12,22 +12,25 @@ from contextlib import closing
 from typing import Any
 
 from hri.core.errors import Error, InvalidArgument
+from hri.fusion import LearnedFusion
+from hri.language import Grammar, KnowledgeBase
 from hri.live import Event
-from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.page import figure
+from hri.recognition import CommandRecognizer, GestureRecognizer, WordRecognizer
 from hri.robot import Robot
 from hri.serve.devices import PageCamera, PageMicrophone
-from hri.serve.figure import figure
 from hri.serve.limits import ServeLimits
 from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
-from hri.session.logic import BY_BUTTON
+from hri.session.logic import BY_BUTTON, SENTENCE
 from hri.session.mover import Motion
 
 _MOST_KEPT = 60
+_MOST_STORED = 50
 _CLOSE_S = 8.0
 _LOGGED = frozenset(
-    ("fused", "say", "ignored", "stop", "rest", "resumed", "motion_start", "motion_end", "halt", "stall")
+    ("fused", "sentence", "say", "ignored", "stop", "rest", "resumed", "motion_start", "motion_end", "halt", "stall")
 )
 
 Publish = Callable[[dict[str, Any]], None]
@@ -38,7 +41,8 @@ class Stage:
 
     Parameters
     ----------
-    words : WordRecognizer, optional
+    words : WordRecognizer or CommandRecognizer, optional
+        To words of a `WordRecognizer` the page may add others; of a `CommandRecognizer` it may change the grammar.
     signs : GestureRecognizer, optional
     robot : Robot, optional
         Left open.
@@ -47,6 +51,9 @@ class Stage:
         As of `Session`.
     limits : ServeLimits, optional
     model_ids : mapping of mode to str, optional
+    fusion : LearnedFusion, optional
+    knowledge : KnowledgeBase, optional
+        As of `Session`, both.
 
     Attributes
     ----------
@@ -58,7 +65,7 @@ class Stage:
 
     def __init__(
         self,
-        words: WordRecognizer | None = None,
+        words: WordRecognizer | CommandRecognizer | None = None,
         signs: GestureRecognizer | None = None,
         robot: Robot | None = None,
         options: SessionOptions | None = None,
@@ -66,6 +73,8 @@ class Stage:
         motions: Mapping[str, Motion] | None = None,
         limits: ServeLimits | None = None,
         model_ids: Mapping[str, str] | None = None,
+        fusion: LearnedFusion | None = None,
+        knowledge: KnowledgeBase | None = None,
     ) -> None:
         self.words, self.signs = words, signs
         self.limits = limits or ServeLimits()
@@ -76,7 +85,8 @@ class Stage:
         self._robot = robot
         self._options = options or SessionOptions(retry_s=0.2)
         self._model_ids = dict(model_ids or {})
-        self._session = self._made(motions)
+        self._motions, self._fusion, self._knowledge = motions, fusion, knowledge
+        self._session = self._made()
         self._log: deque[dict[str, Any]] = deque(maxlen=_MOST_KEPT)
         self._state = IDLE
         self._begun_s = 0.0
@@ -146,6 +156,16 @@ class Stage:
         self._wanted.set()
         self._thread.join(_CLOSE_S)
 
+    @property
+    def spoken(self) -> WordRecognizer | None:
+        """What recognises words one by one; None where there is nothing, or commands of several words."""
+        return self.words if isinstance(self.words, WordRecognizer) else None
+
+    @property
+    def grammar(self) -> Grammar | None:
+        """Whose sentences are the commands, where they are of several words."""
+        return self.words.grammar if isinstance(self.words, CommandRecognizer) else None
+
     def welcome(self) -> dict[str, Any]:
         """What a page that comes needs to know."""
         return {
@@ -153,11 +173,26 @@ class Stage:
             "state": self._state,
             "speech": self.words is not None,
             "gesture": self.signs is not None,
+            "teach": [mode for mode, one in (("speech", self.spoken), ("gesture", self.signs)) if one is not None],
+            "grammar": None if self.grammar is None else self.grammar.text,
+            "sentences": self._sentences(),
             "robot": self._robot.table.name if self._robot is not None else "",
             "words": [] if self.words is None else [str(label) for label in self.words.classes_],
             "signs": [] if self.signs is None else [str(label) for label in self.signs.classes_],
             "motions": sorted(self._session.motions),
+            "refused": self._session.refused,
             "log": list(self._log),
+        }
+
+    def _sentences(self) -> dict[str, Any] | None:
+        if not self._options.sentence_labels:
+            return None
+        stored = () if self._knowledge is None else self._knowledge.sentences
+        return {
+            "begin": list(self._options.sentence_begin_labels),
+            "end": list(self._options.sentence_end_labels),
+            "stored": [" ".join(sentence.words) for sentence in stored[:_MOST_STORED]],
+            "more": max(0, len(stored) - _MOST_STORED),
         }
 
     def figure(self) -> dict[str, Any] | None:
@@ -169,13 +204,27 @@ class Stage:
             self._joints, self._figure = joints, {"type": "robot", **figure(joints, self._robot.table)}
         return self._figure
 
-    def renew(self, motions: Mapping[str, Motion] | None = None) -> None:
-        """Begin a new session, as the vocabulary has changed.
+    def command_by(self, grammar: Grammar) -> None:
+        """Take the sentences of another grammar as commands.
 
-        Parameters
-        ----------
-        motions : mapping of str to Trajectory or Guided, optional
-            For labels beside those that have one.
+        Raises
+        ------
+        InvalidArgument
+            For a grammar that `CommandRecognizer` refuses, where there are no commands of several words, for a label of
+            the options that would be none any more, and while the robot moves. The commands are as before then.
+        """
+        before = self.words
+        if not isinstance(before, CommandRecognizer):
+            raise InvalidArgument("there are no commands of several words")
+        self.words = CommandRecognizer(before.words, grammar)
+        try:
+            self.renew()
+        except Error:
+            self.words = before
+            raise
+
+    def renew(self) -> None:
+        """Begin a new session, as the vocabulary has changed.
 
         Raises
         ------
@@ -184,13 +233,20 @@ class Stage:
         """
         if self.moving:
             raise InvalidArgument("wait until the robot rests")
-        if self._robot is not None:
-            motions = {**self._session.motions, **(motions or {})}
-        self._session = self._made(motions)
+        self._session = self._made()
         self.publish(self.welcome())
 
-    def _made(self, motions: Mapping[str, Motion] | None) -> Session:
-        return Session(self.words, self.signs, self._robot, self._options, motions=motions, model_ids=self._model_ids)
+    def _made(self) -> Session:
+        return Session(
+            self.words,
+            self.signs,
+            self._robot,
+            self._options,
+            motions=self._motions,
+            model_ids=self._model_ids,
+            fusion=self._fusion,
+            knowledge=self._knowledge,
+        )
 
     def _refused(self, text: str) -> None:
         self.publish({"type": "error", "text": text})
@@ -263,6 +319,8 @@ class Stage:
             sent_ms = self.camera.sent_ms(self._begun_s + event.time)
             if sent_ms is not None:
                 message["sent_ms"] = sent_ms
+        if event.event == SENTENCE and self._knowledge is not None:
+            message["max_distance"] = self._knowledge.max_distance
         if event.event in _LOGGED:
             self._log.append(message)
         self.publish(message)

@@ -63,15 +63,15 @@ class WordTeacher(Teacher):
             self._answer(_NOTHING)
 
     def _labels(self) -> list[str] | None:
-        return None if self._stage.words is None else [str(label) for label in self._stage.words.classes_]
+        return None if self._stage.spoken is None else [str(label) for label in self._stage.spoken.classes_]
 
     def _prompt(self, label: str) -> str:
         return f"Say “{label}” after you press Record, {NUM_SAMPLES} times."
 
     def _sample(self) -> None:
         if self._parts is None:
-            assert self._stage.words is not None
-            options = EndpointerOptions(activity=self._stage.words.options.activity)
+            assert self._stage.spoken is not None
+            options = EndpointerOptions(activity=self._stage.spoken.options.activity)
             self._endpointer = Endpointer(self._stage.microphone.sample_rate_hz, options)
             self._stage.only_stop(LONGEST_S + PAUSE_S)
             self._parts, self._num_heard = [], 0
@@ -84,8 +84,8 @@ class WordTeacher(Teacher):
         return parts is not None
 
     def _keep(self, clip: Audio) -> None:
-        assert self._stage.words is not None
-        decision = self._stage.words.recognise(clip)
+        assert self._stage.spoken is not None
+        decision = self._stage.spoken.recognise(clip)
         if decision.status == "no_input":
             self._answer(_NOTHING)
             return
@@ -94,7 +94,7 @@ class WordTeacher(Teacher):
         self._keep_sample(clip, decision, f" It sounds like “{decision.label}”: another word may be safer.")
 
     def _best_of(self, sample: Audio, added: dict[str, list[Audio]]) -> str:
-        words = copy.copy(self._stage.words)
+        words = copy.copy(self._stage.spoken)
         assert words is not None
         for label in (*self._added, self._full):
             words.remove_word(label)
@@ -103,9 +103,9 @@ class WordTeacher(Teacher):
         return str(words.recognise(sample).nbest[0].label)
 
     def _add(self, label: str, samples: list[Any]) -> None:
-        assert self._stage.words is not None
-        self._stage.words.add_word(label, samples)
+        assert self._stage.spoken is not None
+        self._stage.spoken.add_word(label, samples)
 
     def _remove(self, label: str) -> None:
-        assert self._stage.words is not None
-        self._stage.words.remove_word(label)
+        assert self._stage.spoken is not None
+        self._stage.spoken.remove_word(label)

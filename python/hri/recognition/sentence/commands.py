@@ -5,11 +5,14 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
+from hri.core.errors import InvalidArgument
+from hri.core.suggest import did_you_mean
 from hri.language import Grammar
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision, NBest
 from hri.recognition.inputs import AudioInput
@@ -17,6 +20,7 @@ from hri.recognition.sentence.recognizer import Alternative, ConnectedWordRecogn
 
 MOST_SENTENCES = 10_000
 NUM_ALTERNATIVES = 20
+_MOST_NAMED = 5
 
 
 class CommandRecognizer:
@@ -43,7 +47,7 @@ class CommandRecognizer:
     Raises
     ------
     InvalidArgument
-        For a word that is no label, for repetitions and for more than 10 000 sentences.
+        For words that are no labels, for repetitions and for more than 10 000 sentences.
     NotFittedError
         For words that are not trained.
     """
@@ -51,6 +55,8 @@ class CommandRecognizer:
     mode = "speech"
 
     def __init__(self, words: ConnectedWordRecognizer, grammar: Grammar) -> None:
+        _require_known(grammar.words, [str(label) for label in words.classes_])
+        self._grammar = grammar
         self._words = copy.copy(words).set_grammar(grammar)
         self.commands_: dict[str, dict[str, str]] = {}
         self._label_of: dict[tuple[str, ...], str] = {}
@@ -67,6 +73,11 @@ class CommandRecognizer:
     def words(self) -> ConnectedWordRecognizer:
         """What recognises the words, by the grammar."""
         return self._words
+
+    @property
+    def grammar(self) -> Grammar:
+        """Whose sentences are the commands."""
+        return self._grammar
 
     @property
     def endpointer(self) -> _native.EndpointerOptions:
@@ -123,3 +134,11 @@ class CommandRecognizer:
                 best[label] = max(best.get(label, -np.inf), float(log_score))
         order = sorted(shares, key=lambda label: (-shares[label], label))
         return tuple(NBest(label, shares[label], best[label]) for label in order)
+
+
+def _require_known(words: Sequence[str], labels: Sequence[str]) -> None:
+    unknown = [word for word in words if word not in labels]
+    if unknown:
+        few = ", ".join(unknown[:_MOST_NAMED]) + (", ..." if len(unknown) > _MOST_NAMED else "")
+        known = did_you_mean(unknown[0], labels, "it knows")
+        raise InvalidArgument(f"the grammar has words that the model was not trained on: {few}; {known}")

@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 // What the page shows and what its buttons do.
+import { showBars } from "./bars.js";
+import { CommandsPanel } from "./commands.js";
+import { Conversation } from "./conversation.js";
 import { inWords, openCamera, openMicrophone } from "./devices.js";
 import { Link } from "./link.js";
-import { describe } from "./words.js";
-import { drawPlace, drawRobot } from "./drawing.js";
+import { drawPlace } from "./place.js";
+import { drawRobot } from "./robot.js";
 import { TeachPanel } from "./teach.js";
+import { decided, reason } from "./words.js";
 
-const TOP = 5;
-const MOST_LINES = 200;
 const SHOWN_MS = 6000;
 const MEASURE = "picture to bars";
 const at = (id) => document.getElementById(id);
 const link = new Link(heed, connection);
+const conversation = new Conversation(at("log"));
+const commands = new CommandsPanel(at("commands"));
 const panels = new Map([...document.querySelectorAll("[data-teach]")].map((s) => [s.dataset.teach, new TeachPanel(s, link)]));
 const knows = { speech: false, gesture: false };
 let state = "";
@@ -47,31 +51,6 @@ function connection(is, why) {
   }
 }
 
-function write(text, kind = "") {
-  const log = at("log");
-  if (!text || log.lastChild?.textContent === text) return; // STOP comes by two ways
-  const line = document.createElement("p");
-  line.textContent = text;
-  line.className = kind;
-  log.append(line);
-  while (log.children.length > MOST_LINES) log.firstChild.remove();
-  log.scrollTop = log.scrollHeight;
-}
-
-function bars(id, entries) {
-  at(id).replaceChildren(
-    ...entries.slice(0, TOP).map(({ label, probability }) => {
-      const row = document.createElement("li");
-      const [name, number] = [document.createElement("span"), document.createElement("span")];
-      row.style.setProperty("--p", probability.toFixed(3));
-      name.textContent = label;
-      number.textContent = `${Math.round(100 * probability)} %`;
-      row.append(name, number);
-      return row;
-    }),
-  );
-}
-
 // From taking the picture that a decision rests on to the next picture of this page that shows it.
 function measure(sentMs) {
   requestAnimationFrame(() => {
@@ -96,27 +75,49 @@ function heedEvent(event) {
   if (event.event === "hand") drawPlace(at("place"), at("camera"), event);
   if (event.event === "say") at("said").textContent = event.text;
   if (event.nbest && event.event !== "fused") {
-    bars(`bars-${event.mode}`, event.nbest);
+    showBars(at(`bars-${event.mode}`), event.nbest);
     if (event.sent_ms !== undefined) measure(event.sent_ms);
   }
   if (event.event === "fused") {
-    bars("bars-fused", event.nbest);
-    at("rule").textContent = `${event.final || event.status}: ${event.rule}; ${event.why}`;
+    showBars(at("bars-fused"), event.nbest);
   }
-  write(describe(event), event.event);
+  if (reason(event)) {
+    at("decided").textContent = decided(event);
+    at("rule").textContent = reason(event);
+  }
+  conversation.heed(event);
 }
 
 function heedWelcome(message) {
   Object.assign(knows, { speech: message.speech, gesture: message.gesture });
   problem("", "line");
   showState(message.state);
-  panels.forEach((panel, mode) => (panel.section.hidden = !knows[mode]));
-  at("log").replaceChildren();
-  message.log.forEach((one) => write(one.type === "event" ? describe(one) : one.text, one.event ?? "note"));
-  const words = message.words.length ? `Words: ${message.words.join(", ")}. ` : "";
-  const signs = message.signs.length ? `Signs: ${message.signs.join(", ")}. ` : "";
-  const moves = message.robot ? `${message.robot} moves for: ${message.motions.join(", ") || "none of them"}.` : "There is no robot.";
-  at("vocabulary").textContent = words + signs + moves;
+  panels.forEach((panel, mode) => (panel.section.hidden = !message.teach.includes(mode)));
+  commands.show(message.grammar);
+  conversation.clear();
+  message.log.forEach((one) => (one.type === "event" ? conversation.heed(one) : conversation.write(one.text, "note")));
+  showVocabulary(message);
+}
+
+function showVocabulary({ words, signs, grammar, sentences, robot, motions, refused }) {
+  const parts = [];
+  if (words.length) parts.push(`${grammar === null ? "Words" : "Commands"}: ${words.join(", ")}.`);
+  if (signs.length) parts.push(`Signs: ${signs.join(", ")}.`);
+  if (sentences) {
+    parts.push(`A sentence goes from ${sentences.begin.join(" or ")} to ${sentences.end.join(" or ")}.`);
+    const more = sentences.more ? `, and ${sentences.more} more` : "";
+    if (sentences.stored.length) parts.push(`Stored sentences: ${sentences.stored.map((one) => `“${one}”`).join(", ")}${more}.`);
+  }
+  parts.push(robot ? `${robot} moves for: ${motions.join(", ") || "none of them"}.` : "There is no robot.");
+  const still = Object.entries(refused).map(([label, why]) => `${label} (${why})`);
+  if (still.length) parts.push(`It does not move for: ${still.join(", ")}.`);
+  at("vocabulary").replaceChildren(
+    ...parts.map((text) => {
+      const line = document.createElement("p");
+      line.textContent = text;
+      return line;
+    }),
+  );
 }
 
 function heed(message) {
@@ -126,7 +127,7 @@ function heed(message) {
   else if (message.type === "teach") panels.get(message.mode)?.heed(message);
   else {
     problem(message.text);
-    write(message.text, message.type);
+    conversation.write(message.text, message.type);
   }
 }
 

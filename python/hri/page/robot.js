@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-// The robot from the front, and where the hand is.
+// The robot from the front, on a canvas, and the angles of its joints in a list; see hri.page.figure.
 export function drawRobot(canvas, list, robot) {
   const context = canvas.getContext("2d");
   const scale = (0.94 * canvas.height) / robot.height;
@@ -21,18 +21,4 @@ export function drawRobot(canvas, list, robot) {
   const names = Object.keys(robot.joints);
   if (list.children.length !== names.length) list.replaceChildren(...names.map(() => document.createElement("li")));
   names.forEach((name, i) => (list.children[i].textContent = `${name}: ${robot.joints[name].toFixed(1)}°`));
-}
-
-export function drawPlace(canvas, video, hand) {
-  [canvas.width, canvas.height] = [canvas.clientWidth, canvas.clientHeight];
-  if (hand.x === null || !video.videoWidth) return;
-  const scale = Math.min(canvas.width / video.videoWidth, canvas.height / video.videoHeight);
-  const [width, height] = [scale * video.videoWidth, scale * video.videoHeight];
-  const context = canvas.getContext("2d");
-  context.translate((canvas.width - width) / 2, (canvas.height - height) / 2);
-  context.lineWidth = 3;
-  context.strokeStyle = hand.in_gesture ? "#39d353" : "#f2cc60";
-  context.beginPath();
-  context.arc(hand.x * width, hand.y * height, 6 + Math.sqrt((hand.area * width * height) / Math.PI), 0, 2 * Math.PI);
-  context.stroke();
 }

@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Options that `hri session` and `hri serve` have in common, and what they choose."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hri.cli.connected import connected_model
+from hri.cli.recognizers import kept_model
+from hri.core.errors import InvalidArgument
+from hri.core.files import MAX_MODEL_BYTES, read_bytes
+from hri.fusion import RULES, FusionOptions, LearnedFusion
+from hri.language import Grammar, KnowledgeBase
+from hri.language.knowledge import MAX_DISTANCE
+from hri.recognition import CommandRecognizer, ConnectedWordRecognizer, GestureRecognizer, WordRecognizer
+from hri.robot import BACKENDS, ROBOTS, JointTable, Robot, open_robot
+from hri.session import SessionOptions
+
+model_file = click.Path(exists=True, dir_okay=False, path_type=Path)
+_NO_ROBOT = "none"
+
+_OPTIONS = (
+    click.option(
+        "--speech-model", type=model_file, help="From 'hri train speech'; the default is the one kept per user."
+    ),
+    click.option(
+        "--grammar",
+        "grammar_path",
+        type=model_file,
+        metavar="JSGF",
+        help="Commands of several words with slots; --speech-model is then from 'hri train-connected'.",
+    ),
+    click.option("--gesture-model", type=model_file, help="The same for gestures."),
+    click.option("--no-speech", is_flag=True, help="Signs only: use no microphone."),
+    click.option("--no-gesture", is_flag=True, help="Words only: use no camera."),
+    click.option("--wake", multiple=True, metavar="LABEL", help="Take commands only after this word or sign."),
+    click.option("--stop", "stops", multiple=True, default=("stop",), show_default=True, help="A label that stops."),
+    click.option(
+        "--stop-threshold", type=float, metavar="P", help="Confidence from which STOP is sure; else the model's."
+    ),
+    click.option("--resume", multiple=True, metavar="LABEL", help="A word or sign that ends STOP."),
+    click.option(
+        "--sentence-begin", multiple=True, metavar="LABEL", help="From this word or sign on comes a sentence."
+    ),
+    click.option("--sentence-end", multiple=True, metavar="LABEL", help="It ends with this one, and is said."),
+    click.option(
+        "--knowledge",
+        "knowledge_path",
+        type=model_file,
+        metavar="CSV",
+        help="Stored sentences, of which the nearest is said: columns signs, en, hi, ..., and answer: gestures in "
+        "return.",
+    ),
+    click.option(
+        "--max-distance",
+        type=click.FloatRange(0, 1),
+        default=MAX_DISTANCE,
+        show_default=True,
+        help="Words farther from every stored sentence are none of them.",
+    ),
+    click.option("--language", default="en", show_default=True, help="Of what stored sentences say."),
+    click.option(
+        "--confirm-below", type=float, default=0.5, show_default=True, help="Ask for what is less sure; 1: always."
+    ),
+    click.option(
+        "--window", "window_s", type=float, default=1.0, show_default=True, help="Seconds between word and sign."
+    ),
+    click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused."),
+    click.option(
+        "--fusion", "fusion_path", type=model_file, metavar="FILE", help="A learned fusion, in place of --rule."
+    ),
+    click.option(
+        "--backend",
+        type=click.Choice((*BACKENDS, _NO_ROBOT)),
+        default="pybullet",
+        show_default=True,
+        help="The robot with physics, without, or no robot.",
+    ),
+    click.option("--stand", is_flag=True, help="The robot stands on its feet and can walk (pybullet)."),
+    click.option(
+        "--robot",
+        "table",
+        type=click.Choice(tuple(ROBOTS)),
+        default="hoap2",
+        show_default=True,
+        callback=lambda context, option, name: ROBOTS[name],
+    ),
+)
+
+
+@dataclass
+class ChosenSession:
+    """Values of the common options; `model_ids` are the names and hashes of the files that were loaded."""
+
+    speech_model: Path | None
+    grammar_path: Path | None
+    gesture_model: Path | None
+    no_speech: bool
+    no_gesture: bool
+    wake: tuple[str, ...]
+    stops: tuple[str, ...]
+    stop_threshold: float | None
+    resume: tuple[str, ...]
+    sentence_begin: tuple[str, ...]
+    sentence_end: tuple[str, ...]
+    knowledge_path: Path | None
+    max_distance: float
+    language: str
+    confirm_below: float
+    window_s: float
+    rule: str
+    fusion_path: Path | None
+    backend: str
+    stand: bool
+    table: JointTable
+    model_ids: dict[str, str] = field(default_factory=dict, init=False)
+
+    def session_options(self, **more: Any) -> SessionOptions:
+        """Of the session; `more` are fields of it that are not common."""
+        return SessionOptions(
+            self.window_s,
+            rule=self.rule,
+            fusion=FusionOptions(stop_labels=self.stops, stop_threshold=self.stop_threshold),
+            wake_labels=self.wake,
+            resume_labels=self.resume,
+            sentence_begin_labels=self.sentence_begin,
+            sentence_end_labels=self.sentence_end,
+            language=self.language,
+            confirm_below=self.confirm_below,
+            **more,
+        )
+
+    def load_words(self) -> WordRecognizer | CommandRecognizer:
+        """What recognises words, or commands of several words by a grammar, whose name and hash are part of the id."""
+        if self.grammar_path is None:
+            recognizer: WordRecognizer = self._load(WordRecognizer, "speech", self.speech_model)
+            return recognizer
+        grammar = Grammar.load(self.grammar_path)
+        words = self._load(ConnectedWordRecognizer, "speech", self.speech_model or connected_model())
+        try:
+            commands = CommandRecognizer(words, grammar)
+        except InvalidArgument as error:
+            raise InvalidArgument(f"{self.grammar_path}: {error}") from error
+        self.model_ids["speech"] += f" {_name_and_hash(self.grammar_path)}"
+        return commands
+
+    def load_signs(self) -> GestureRecognizer:
+        """What recognises gestures."""
+        recognizer: GestureRecognizer = self._load(GestureRecognizer, "gesture", self.gesture_model)
+        return recognizer
+
+    def load_fusion(self) -> LearnedFusion | None:
+        """The learned fusion, if any."""
+        return None if self.fusion_path is None else self._load(LearnedFusion, "fusion", self.fusion_path)
+
+    def load_knowledge(self) -> KnowledgeBase | None:
+        """Stored sentences, if any; how near words must be to them is part of the id."""
+        if self.knowledge_path is None:
+            return None
+        self.model_ids["knowledge"] = f"{_name_and_hash(self.knowledge_path)} within {self.max_distance:g}"
+        return KnowledgeBase.read(self.knowledge_path, self.max_distance)
+
+    def open_robot(self, gui: bool = False) -> Robot | None:
+        """The simulated robot, to be closed; None where there is to be none."""
+        if self.backend == _NO_ROBOT:
+            return None
+        return open_robot(self.backend, gui=gui, fixed_base=not self.stand, table=self.table)
+
+    def _load(self, kind: type[Any], mode: str, path: Path | None) -> Any:
+        """The recogniser or fusion in a model file."""
+        chosen = path or kept_model(mode)
+        self.model_ids[mode] = _name_and_hash(chosen)
+        return kind.load(chosen)
+
+
+def session_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the common options to a command, which gets them as `chosen`."""
+    names = [one.name for one in fields(ChosenSession) if one.init]
+
+    @functools.wraps(command)
+    def collected(**given: Any) -> None:
+        command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
+
+    for option in reversed(_OPTIONS):
+        collected = option(collected)
+    return collected
+
+
+def _name_and_hash(path: Path) -> str:
+    return f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
