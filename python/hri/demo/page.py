@@ -7,6 +7,7 @@ from __future__ import annotations
 import base64
 import html
 import io
+import json
 import shlex
 import wave
 from importlib.resources import files
@@ -18,16 +19,19 @@ import numpy as np
 
 from hri import __version__
 from hri.core.files import read_bytes
+from hri.demo.conversation import shown
 from hri.demo.film import robot_moves
 from hri.demo.plots import plot_confusions, plot_scene
 from hri.demo.scenes import Scene
 from hri.demo.training import Trained
+from hri.fusion import RULES
 from hri.media import Audio
+from hri.page import component, in_one_file
 from hri.robot import gesture_trajectory
 
 
 def make_page(scenes: list[Scene], trained: Trained, film: Path, facts: dict[str, Any], progress: Any) -> str:
-    """The page as text; film, plots and sounds are embedded, so that the file can be passed on alone."""
+    """The page as text; film, plots, sounds, style and scripts stand in it, so that the file can be passed on alone."""
     sections = []
     for number, scene in enumerate(scenes):
         sections.append(_section(number, scene, _embedded("image/png", plot_scene(scene))))
@@ -36,24 +40,42 @@ def make_page(scenes: list[Scene], trained: Trained, film: Path, facts: dict[str
     confusions = _embedded("image/png", plot_confusions(words, signs))
     progress("drawing plots", len(scenes) + 1, len(scenes) + 1)
     right = sum(scene.succeeded for scene in scenes)
-    template = Template(files("hri.demo").joinpath("page.html").read_text(encoding="utf-8"))
-    return template.substitute(
-        film=_embedded("video/webm", read_bytes(film)),
-        scenes="\n".join(sections),
-        confusions=confusions,
-        summary=f"{right} of {len(scenes)} commands were understood.",
-        words_accuracy=f"{100 * words.mean:.0f}",
-        words_tested=len(words.items),
-        words_persons=words.folds[0].name,
-        signs_accuracy=f"{100 * signs.mean:.0f}",
-        signs_tested=len(signs.items),
-        signs_persons=signs.folds[0].name,
-        word_model=html.escape(str(trained.words.get_params()["model"])),
-        sign_model=html.escape(str(trained.signs.get_params()["model"])),
-        commands=html.escape(_commands(film.parent)),
-        version=__version__,
+    texts = {
+        "summary": f"{right} of {len(scenes)} commands were understood.",
+        "words_accuracy": f"{100 * words.mean:.0f}",
+        "words_tested": len(words.items),
+        "words_persons": words.folds[0].name,
+        "signs_accuracy": f"{100 * signs.mean:.0f}",
+        "signs_tested": len(signs.items),
+        "signs_persons": signs.folds[0].name,
+        "word_model": trained.words.get_params()["model"],
+        "sign_model": trained.signs.get_params()["model"],
+        "commands": _commands(film.parent),
+        "version": __version__,
         **facts,
+    }
+    return _template("page.html").substitute(
+        {name: html.escape(str(value)) for name, value in texts.items()},
+        style=component("page.css").decode("utf-8"),
+        film=_embedded("video/webm", read_bytes(film)),
+        scenes="".join(sections),
+        confusions=confusions,
+        data=_data([shown(scene) for scene in scenes]),
+        script=in_one_file(_own("page.js")),
     )
+
+
+def _own(name: str) -> str:
+    return files("hri.demo").joinpath(name).read_text(encoding="utf-8")
+
+
+def _template(name: str) -> Template:
+    return Template(_own(name))
+
+
+def _data(value: Any) -> str:
+    """As JSON that ends no element of the page."""
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _commands(directory: Path) -> str:
@@ -69,29 +91,35 @@ def _commands(directory: Path) -> str:
 
 def _section(number: int, scene: Scene, plot: str) -> str:
     decision = scene.decision
-    rows = [
-        ("heard", _decided(decision.speech)),
-        ("seen", _decided(decision.gesture)),
-        ("rule", html.escape(decision.rule)),
-        (
-            "other rules",
-            ", ".join(f"{name}: {_decided(d)}" for name, d in scene.by_rule.items() if name != "table_6_9"),
+    rules = [f"{name}: {_decided(one)}" for name, one in scene.by_rule.items() if name != RULES[0]]
+    rows = {
+        "heard": _decided(decision.speech),
+        "seen": _decided(decision.gesture),
+        "other rules": ", ".join(rules),
+        "robot": _robot(scene),
+    }
+    texts = {
+        "index": number,
+        "number": number + 1,
+        "title": scene.script.title,
+        "text": scene.script.text,
+        "decided": _decided(decision),
+        "rule": decision.rule,
+    }
+    return _template("scene.html").substitute(
+        {name: html.escape(str(value)) for name, value in texts.items()},
+        rows="".join(
+            f"<tr><th scope='row'>{name}</th><td>{html.escape(text)}</td></tr>" for name, text in rows.items()
         ),
-        ("robot", _robot(scene)),
-    ]
-    table = "".join(f"<tr><th>{name}</th><td>{text}</td></tr>" for name, text in rows)
-    return (
-        f"<h2>{number + 1}. {html.escape(scene.script.title)}</h2>"
-        f'<p>{scene.script.text} <audio controls src="{_embedded("audio/wav", _wav(scene.audio))}"></audio></p>'
-        f'<p class="answer">Decided: {_decided(decision)}</p><div class="scroll"><table>{table}</table></div>'
-        f'<figure><img alt="what was heard and seen, and the candidates" src="{plot}"></figure>'
+        sound=_embedded("audio/wav", _wav(scene.audio)),
+        plot=plot,
     )
 
 
 def _decided(decision: Any) -> str:
     if decision is None:
         return "nothing"
-    return f"{html.escape(decision.label)} ({100 * decision.confidence:.1f} %)"
+    return f"{decision.label} ({100 * decision.confidence:.1f} %)"
 
 
 def _robot(scene: Scene) -> str:

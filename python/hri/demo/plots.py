@@ -15,15 +15,15 @@ from hri.evaluation import EvaluationResult
 from hri.features import CepstraComputer, CepstraOptions
 from hri.signal import find_speech
 
-_BLUE, _ORANGE, _GREEN = "#3b6fb6", "#d9822b", "#3f8f5f"
+_BLUE = "#3b6fb6"
 
 
 def plot_scene(scene: Scene) -> bytes:
-    """What was heard (waveform and cepstra), what was seen (picture and silhouette), and the candidates."""
+    """What was heard (waveform and cepstra), and what was seen (picture and silhouette)."""
     from hri.vision import SilhouetteExtractor, SilhouetteOptions
 
     figure = new_figure((10.5, 4.6))
-    grid = figure.add_gridspec(2, 3, width_ratios=(1.25, 1.0, 1.1))
+    grid = figure.add_gridspec(2, 2, width_ratios=(1.6, 1.0))
     samples, rate_hz = scene.audio.samples, scene.audio.sample_rate_hz
     wave = figure.add_subplot(grid[0, 0])
     wave.plot(np.arange(len(samples)) / rate_hz, samples, color=_BLUE, linewidth=0.5)
@@ -46,29 +46,7 @@ def plot_scene(scene: Scene) -> bytes:
         axes.imshow(picture, cmap=cmap)
         axes.set_title(title)
         axes.set_axis_off()
-
-    axes = figure.add_subplot(grid[:, 2])
-    _bars(axes, scene)
     return _png(figure)
-
-
-def _bars(axes: Any, scene: Scene) -> None:
-    """Probabilities of the best candidates in each mode and by the product of both."""
-    product = scene.by_rule["product"]
-    lists = [
-        ("heard", scene.decision.speech.nbest if scene.decision.speech else (), _BLUE),
-        ("seen", scene.decision.gesture.nbest if scene.decision.gesture else (), _ORANGE),
-        ("product of both", product.nbest, _GREEN),
-    ]
-    labels = list(dict.fromkeys(entry.label for _, nbest, _ in lists for entry in nbest[:3]))[:6]
-    for place, (name, nbest, colour) in enumerate(lists):
-        known = {entry.label: entry.probability for entry in nbest}
-        rows = np.arange(len(labels)) + 0.27 * (place - 1)
-        axes.barh(rows, [known.get(label, 0.0) for label in labels], height=0.25, color=colour, label=name)
-    axes.set_yticks(range(len(labels)), labels)
-    axes.invert_yaxis()
-    axes.set(title="candidates", xlabel="calibrated probability", xlim=(0, 1))
-    axes.legend(loc="lower right", frameon=False, fontsize=8)
 
 
 def plot_confusions(words: EvaluationResult, signs: EvaluationResult) -> bytes:

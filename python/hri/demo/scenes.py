@@ -38,7 +38,7 @@ class Script:
     Attributes
     ----------
     title, text : str
-        For the page.
+        For the page, as plain text.
     word : str
         Label of the spoken word.
     language : str
@@ -60,7 +60,7 @@ class Script:
 SCRIPTS = (
     Script(
         "Word and sign agree",
-        "A voice says <i>saat</i>, Hindi for seven, while the signer shows 7.",
+        "A voice says “saat”, Hindi for seven, while the signer shows 7.",
         *("7", "hi", "7"),
     ),
     Script(
@@ -71,7 +71,7 @@ SCRIPTS = (
     ),
     Script(
         "STOP wins",
-        "The signer shows 5, the voice says <i>stop</i>. Whatever the other mode says, the robot does not move.",
+        "The signer shows 5, the voice says “stop”. Whatever the other mode says, the robot does not move.",
         *("stop", "en", "5"),
     ),
 )
