@@ -48,7 +48,7 @@ tidy() {
     >build/tidy.log || return
   "$python" .venv/bin/run-clang-tidy.py -clang-tidy-binary .venv/bin/clang-tidy -quiet -hide-progress -p build/tidy \
     -checks="$checks,-bugprone-suspicious-include" \
-    -extra-arg=-Wno-ignored-optimization-argument -j "$(nproc)" "$PWD/build/tidy/.*/unity_.*\.cxx$" 2>/dev/null
+    -extra-arg=-Wno-ignored-optimization-argument -j "$(nproc)" "$PWD/(build/tidy|cpp/src|bindings)/.*\.c(pp|xx)$" 2>/dev/null
 }
 step clang-tidy tidy
 
