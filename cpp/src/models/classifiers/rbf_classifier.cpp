@@ -19,6 +19,7 @@ constexpr Eigen::Index kMaxRows = 20000;
 constexpr double kKernelConstant = 1;  // of the kernel, in place of a bias
 
 constexpr Eigen::Index kNearest = 3;
+constexpr Eigen::Index kMostNeighbours = 20;  // of any class
 
 VectorF squared_lengths(const MatrixF& rows) { return rows.rowwise().squaredNorm(); }
 
@@ -155,6 +156,13 @@ RbfPlace RbfClassifier::place(Span<const float> row, int klass) const {
   }
   const float mean = std::accumulate(own.begin(), own.end(), 0.0F) / static_cast<float>(own.size());
   RbfPlace place;
+  const auto neighbours =
+      std::min<Eigen::Index>(kMostNeighbours, static_cast<Eigen::Index>(own.size()));
+  std::vector<float> nearest(squares.begin(), squares.end());
+  std::nth_element(nearest.begin(), nearest.begin() + (neighbours - 1), nearest.end());
+  const float reach = nearest[static_cast<std::size_t>(neighbours - 1)];
+  const auto agreeing = std::count_if(own.begin(), own.end(), [&](float s) { return s <= reach; });
+  place.agreement = std::min(static_cast<float>(agreeing) / static_cast<float>(neighbours), 1.0F);
   place.nearest = mean_of_lowest(&own) / usual_[klass];
   // |x - m|^2 is the mean of |x - x_i|^2 less the variance.
   place.centre = std::max(mean - variances_[klass], 0.0F) / static_cast<float>(spread_);

@@ -26,9 +26,10 @@ constexpr float kLeastDistance = 1e-3F;  // of a frame that was trained on
 // What a verifier weighs of the radial kernel's best class.
 enum ConfidenceFeature : Eigen::Index {
   kScore,
-  kMargin,   // over the second class
-  kNearest,  // -log of the distance to the frames nearest to it
-  kCentre,   // and to the mean of them all
+  kMargin,     // over the second class
+  kNearest,    // -log of the distance to the frames nearest to it
+  kCentre,     // and to the mean of them all
+  kAgreement,  // share of it among the frames nearest of all
   kNumConfidenceFeatures,
 };
 
@@ -103,6 +104,7 @@ class VoteScorer : public GestureScorer {
       const RbfPlace place = rbf->place(row_span(shapes, t), static_cast<int>(best));
       result[kNearest] -= static_cast<double>(std::log(place.nearest + kLeastDistance)) / count;
       result[kCentre] -= static_cast<double>(std::log(place.centre + kLeastDistance)) / count;
+      result[kAgreement] += static_cast<double>(place.agreement) / count;
     }
     return result;
   }

@@ -241,7 +241,7 @@ TEST(GestureRecognizer, LearnsToTurnDownSignsThatItWasNotTaught) {
   }
   const GestureRecognizer recognizer = GestureRecognizer::train(known, {});
   ModelFile file = recognizer.to_model_file();
-  ASSERT_EQ(file.vector_d("verifier.weights").size(), 4);
+  ASSERT_EQ(file.vector_d("verifier.weights").size(), 5);
   const GestureRecognizer again = GestureRecognizer::from_model_file(file);
   int accepted = 0;
   for (const GestureSample& s : unknown) {

@@ -37,6 +37,8 @@ struct RbfPlace {
                       ///< median of what its own rows have to their three nearest
   float centre = 0;   ///< squared distance to the mean of the class, against the mean squared
                       ///< distance of all training rows
+  float agreement = 0;  ///< share of the class among the nearest rows of any class: twenty, or as
+                        ///< many as the class has
 };
 
 /// Immutable; const calls are safe from several threads. It keeps its training rows.
