@@ -74,6 +74,9 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(prog="./run bench", description=__doc__)
     parser.add_argument("--only", nargs="+", choices=ALL, metavar="NAME", help="run these only")
+    parser.add_argument(
+        "--quick", action="store_true", help="time each once only: checks the answers, tells little of speed"
+    )
     parser.add_argument("--list", action="store_true", help="list the benches and end")
     parser.add_argument("--json", metavar="FILE", type=Path, help="also write the entries as JSON")
     arguments = parser.parse_args()
@@ -81,6 +84,8 @@ def main() -> None:
         for bench in ALL.values():
             print(f"{bench.name}\t{bench.peer_name}\t{bench.what}")
         return
+    if arguments.quick:
+        timing.most_repeats = 1
     entries = []
     print(f"{'bench':22} {'ours':>12} {'peer':>12}  {'ratio':>7}  peer")
     for name in arguments.only or ALL:

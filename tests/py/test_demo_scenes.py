@@ -37,7 +37,7 @@ def test_scenes_succeed(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(1, 5))
+@pytest.mark.parametrize("seed", [1, 2])
 def test_scenes_succeed_with_other_seeds(tmp_path: Path, seed: int) -> None:
     require_success(played(tmp_path, seed), seed)
 
