@@ -75,7 +75,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="./run bench", description=__doc__)
     parser.add_argument("--only", nargs="+", choices=ALL, metavar="NAME", help="run these only")
     parser.add_argument(
-        "--quick", action="store_true", help="time each once only: checks the answers, tells little of speed"
+        "--quick", action="store_true", help="time each once only: checks the answers, measures no speed"
     )
     parser.add_argument("--list", action="store_true", help="list the benches and end")
     parser.add_argument("--json", metavar="FILE", type=Path, help="also write the entries as JSON")

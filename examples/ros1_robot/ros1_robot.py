@@ -98,7 +98,7 @@ class Ros1Robot(Robot):
         return found
 
     def _state(self) -> RobotState:
-        nowhere = (0.0, 0.0, 0.0)  # joint states do not tell where the base is
+        nowhere = (0.0, 0.0, 0.0)  # joint states do not say where the base is
         return RobotState(self.time_s, nowhere, nowhere, self._joint_positions())
 
     def _joint_positions(self) -> dict[str, float]:
