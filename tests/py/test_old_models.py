@@ -181,7 +181,11 @@ def expected(folder: Path) -> dict[str, Any]:
     return json.loads((folder / "expected.json").read_text(encoding="utf-8"))["files"]
 
 
-FILES = [(folder, name) for folder in FOLDERS for name in sorted(expected(folder))]
+# Models of today need more than these hold; the error names the field.
+REFUSED = {("models_v1", "gestures_rbf"): "verifier.weights"}
+FILES = [
+    (folder, name) for folder in FOLDERS for name in sorted(expected(folder)) if (folder.name, name) not in REFUSED
+]
 OF_RECOGNIZERS = [(folder, name) for folder, name in FILES if expected(folder)[name]["kind"] in RECOGNIZERS]
 
 
@@ -210,6 +214,15 @@ def test_every_file_is_asked() -> None:
     assert {e["kind"] for e in expected(FOLDERS[0]).values()} == {*RECOGNIZERS, *MODELS}
     kinds = [e["kind"] for e in expected(FOLDERS[1]).values()]
     assert all(kinds.count(kind) >= 3 for kind in RECOGNIZERS)
+
+
+@pytest.mark.parametrize(
+    ("file", "field"), REFUSED.items(), ids=lambda value: "/".join(value) if isinstance(value, tuple) else value
+)
+def test_what_can_no_longer_be_read_is_refused_by_field(file: tuple[str, str], field: str) -> None:
+    path = FOLDERS[0].parent / file[0] / f"{file[1]}.hri"
+    with pytest.raises(FormatError, match=field):
+        hri.GestureRecognizer.load(path)
 
 
 @pytest.mark.parametrize(("folder", "name"), FILES, ids=names(FILES))
