@@ -2,7 +2,7 @@
 # check_builds.sh [VARIANT...]: builds of libhri that ./run test does not make, each with the tests that concern it. All
 # without names. Logs go to build/variants/; only those of failures are printed.
 #   asan      Clang, with address and undefined-behaviour sanitizers: all tests of the core, all instruction sets; half an hour,
-#             of which GTEST_FILTER may leave out the training of words, as .ci/run does
+#             of which GTEST_FILTER may leave out what trains most, as .ci/run does
 #   python    Clang, with the same sanitizers: Python's tests of signals, features and models
 #   tsan      thread sanitizer: the tests that start threads
 #   wheel     the package as pip builds and installs it, see tools/check_fresh_install.sh

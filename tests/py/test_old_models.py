@@ -4,6 +4,7 @@
 
 The files, what they are asked (inputs.npz) and what they answered (expected.json) were made by make_models.py: those of
 models_v1 at commit 7041db0, the last of format version 1. A format that changes again gets a folder of its own.
+What can no longer be read stands in REFUSED, and is refused by field.
 """
 
 from __future__ import annotations
