@@ -22,7 +22,7 @@ from hri.serve.clips import read_clip
 from hri.serve.devices import PageCamera
 from hri.serve.messages import Media
 from hri.serve.stage import Stage
-from hri.serve.teacher import NUM_SAMPLES, Teacher
+from hri.serve.teacher import NUM_SAMPLES, STOPPED, Teacher
 
 LONGEST_S = 10.0
 PAUSE_S = 2.5
@@ -77,7 +77,8 @@ class GestureTeacher(Teacher):
         refused = self._refusal() or self._unnamed()
         if refused:
             return refused
-        with self._busy:
+        self._busy.acquire()
+        with self._working():
             try:
                 refused = self._keep(read_clip(path, name, self._stage.limits))
             except Error as error:
@@ -118,7 +119,9 @@ class GestureTeacher(Teacher):
         finally:
             self._stage.only_stop(PAUSE_S)
             ended = not self._end_sample()
-        if ended:  # by STOP, or the page is gone
+        if ended:
+            if self._label:  # by STOP; else the page is gone
+                self._answer(STOPPED)
             return
         refused = refused or self._keep(frames, shown=True)
         if refused:

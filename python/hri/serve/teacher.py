@@ -7,7 +7,8 @@ from __future__ import annotations
 import threading
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, ClassVar
 
 from hri.core.errors import Error
@@ -17,7 +18,7 @@ from hri.robot import load_gestures
 from hri.serve.stage import Stage
 
 NUM_SAMPLES = 3
-_STOPPED = "STOP: this sample is not kept. Press Resume, then Record once more."
+STOPPED = "STOP: this sample is not kept. Press Resume, then Record once more."
 
 
 class Teacher(ABC):
@@ -39,6 +40,8 @@ class Teacher(ABC):
         self._alike: Counter[str] = Counter()
         self._added: dict[str, list[Any]] = {}
         self._busy = threading.Lock()
+        self._worker = 0
+        self._last: dict[str, Any] | None = None
 
     def obey(self, command: dict[str, Any]) -> None:
         """A command of the page: "teach" a label, take a "sample", or "undo"; answers are published."""
@@ -64,8 +67,8 @@ class Teacher(ABC):
 
     def interrupt(self) -> None:
         """STOP: a sample that is being taken is not kept; those before it are."""
-        if self._end_sample():
-            self._answer(_STOPPED)
+        if self._end_sample() and not self._busy.locked():  # else who is at work answers
+            self._answer(STOPPED)
 
     @abstractmethod
     def _labels(self) -> list[str] | None:
@@ -127,7 +130,7 @@ class Teacher(ABC):
         if decision.status != RECOGNISED or decision.label not in stops:
             return False
         self._stage.stop()
-        self._answer(_STOPPED)
+        self._answer(STOPPED)
         return True
 
     def _keep_sample(self, sample: Any, decision: Decision, warning: str) -> None:
@@ -190,8 +193,10 @@ class Teacher(ABC):
         self._answer(f"“{label}” is removed.", added=list(self._added), confused=[])
 
     def _in_background(self, work: Callable[[], None]) -> None:
+        self._busy.acquire()  # before the thread runs: the next command is refused already
+
         def run() -> None:
-            with self._busy:
+            with self._working():
                 try:
                     work()
                 except Error as error:
@@ -199,6 +204,23 @@ class Teacher(ABC):
 
         threading.Thread(target=run, daemon=True, name=f"hri-teach-{self.mode}").start()
 
+    @contextmanager
+    def _working(self) -> Iterator[None]:
+        """While `_busy` is held, and gives it back; only then is published what the work came to."""
+        self._worker = threading.get_ident()
+        try:
+            yield
+        finally:
+            self._worker = 0
+            last, self._last = self._last, None
+            self._busy.release()
+            if last is not None:
+                self._stage.publish(last)
+
     def _answer(self, text: str, recording: bool = False, **more: Any) -> None:
         message = {"type": "teach", "mode": self.mode, "text": text, "label": self._label, "recording": recording}
-        self._stage.publish({**message, "samples": len(self._samples), "wanted": NUM_SAMPLES, **more})
+        message |= {"samples": len(self._samples), "wanted": NUM_SAMPLES, **more}
+        if threading.get_ident() == self._worker and "progress" not in more:
+            self._last = message
+        else:
+            self._stage.publish(message)
