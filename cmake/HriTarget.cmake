@@ -22,7 +22,7 @@ foreach(set avx2 avx512)
 endforeach()
 
 # hri_target_settings(target OPTIMISATION): the option of Release builds. Loops over samples, frames and pixels take
-# -O3; what only calls them compiles faster with less, and is no slower.
+# -O3; what only calls them compiles faster with -O1, and is no slower, or with none at all (HRI_OPTIMISE_CALLERS).
 function(hri_target_settings target optimisation)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(
@@ -47,6 +47,9 @@ function(hri_target_settings target optimisation)
     # arithmetic, and every processor gives the same bits.
     target_compile_options(${target} PRIVATE -ffp-contract=off)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimisation}>)
+    if(optimisation STREQUAL "-O1" AND NOT HRI_OPTIMISE_CALLERS)
+      target_compile_options(${target} PRIVATE -O0)
+    endif()
   endif()
 endfunction()
 

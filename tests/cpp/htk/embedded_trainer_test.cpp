@@ -20,7 +20,7 @@ std::string gaussian(double mean, double variance) {
 }
 
 // Of two states each; sp has one, and may be skipped.
-ModelSet models() {
+ModelSet models_to_train() {
   std::string text = "~o <VECSIZE> 1 <USER>\n";
   const auto add = [&](const std::string& name, double first, double second) {
     text += "~h \"" + name + "\" <BEGINHMM> <NUMSTATES> 4 <STATE> 2 <NUMMIXES> 2 <MIXTURE> 1 0.5 " +
@@ -82,7 +82,7 @@ void expect_proper(const ModelSet& set) {
 }
 
 TEST(EmbeddedTrainer, NeverMakesTheUtterancesLessLikely) {
-  ModelSet set = models();
+  ModelSet set = models_to_train();
   double before = -std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < 12; ++iteration) {
     EmbeddedTrainer trainer(set, rare());
@@ -96,7 +96,7 @@ TEST(EmbeddedTrainer, NeverMakesTheUtterancesLessLikely) {
 }
 
 TEST(EmbeddedTrainer, CountsEveryFrameOnce) {
-  EmbeddedTrainer trainer(models(), rare());
+  EmbeddedTrainer trainer(models_to_train(), rare());
   add_all(&trainer);
   double sum = 0;
   const std::vector<ModelOccupation> all = trainer.occupations();
@@ -113,7 +113,7 @@ TEST(EmbeddedTrainer, CountsEveryFrameOnce) {
 
 // What one frame through one model gives can be said by hand.
 TEST(EmbeddedTrainer, SumsBothWaysPastASkippedModel) {
-  EmbeddedTrainer trainer(models(), rare());
+  EmbeddedTrainer trainer(models_to_train(), rare());
   MatrixF one(1, 1);
   one(0, 0) = 9;
   EXPECT_EQ(trainer.add(one, {"sp", "sp"}), EmbeddedOutcome::added);
@@ -127,7 +127,7 @@ TEST(EmbeddedTrainer, SumsBothWaysPastASkippedModel) {
 }
 
 TEST(EmbeddedTrainer, LeavesOutWhatDoesNotFit) {
-  EmbeddedTrainer trainer(models(), rare());
+  EmbeddedTrainer trainer(models_to_train(), rare());
   const std::string before = trainer.estimate().to_text();
   EXPECT_EQ(trainer.add(frames({1}, 1).topRows(2), {"a", "b", "a"}), EmbeddedOutcome::too_short);
   EXPECT_EQ(trainer.add(MatrixF(0, 1), {"sp"}), EmbeddedOutcome::too_short);
@@ -139,15 +139,15 @@ TEST(EmbeddedTrainer, LeavesOutWhatDoesNotFit) {
 TEST(EmbeddedTrainer, BeamDropsPathsAndGrowsByItsStep) {
   const MatrixF utterance = frames({1, 4, 9, 6, 3}, 3);
   const Names units = {"a", "sp", "b", "sp"};
-  EmbeddedTrainer whole(models(), rare());
+  EmbeddedTrainer whole(models_to_train(), rare());
   EXPECT_EQ(whole.add(utterance, units), EmbeddedOutcome::added);
   EmbeddedTrainerOptions options = rare();
   options.beam = 1000;
-  EmbeddedTrainer wide(models(), options);
+  EmbeddedTrainer wide(models_to_train(), options);
   EXPECT_EQ(wide.add(utterance, units), EmbeddedOutcome::added);
   EXPECT_NEAR(wide.log_likelihood(), whole.log_likelihood(), 1e-9);
   options.beam = 4;
-  EmbeddedTrainer tight(models(), options);
+  EmbeddedTrainer tight(models_to_train(), options);
   EXPECT_EQ(tight.add(utterance, units), EmbeddedOutcome::added);
   EXPECT_LT(tight.log_likelihood(), whole.log_likelihood());
   // Pruning leaves consistent sums: every frame counts once.
@@ -160,21 +160,21 @@ TEST(EmbeddedTrainer, BeamDropsPathsAndGrowsByItsStep) {
   MatrixF odd(9, 1);
   odd << 0, 4, 300, 300, 300, 300, 300, 6, 2;
   options.beam = 0.1;
-  EmbeddedTrainer narrow(models(), options);
+  EmbeddedTrainer narrow(models_to_train(), options);
   const Names many = {"a", "b", "a", "b"};
   EXPECT_EQ(narrow.add(odd, many), EmbeddedOutcome::impossible);
   options.beam_step = 50;
   options.beam_limit = 1e6;
-  EmbeddedTrainer growing(models(), options);
+  EmbeddedTrainer growing(models_to_train(), options);
   EXPECT_EQ(growing.add(odd, many), EmbeddedOutcome::added);
 }
 
 TEST(EmbeddedTrainer, EstimatesWhatIsAskedFor) {
   EmbeddedTrainerOptions options = rare();
   const auto changed = [&](const auto& of) {
-    EmbeddedTrainer trainer(models(), options);
+    EmbeddedTrainer trainer(models_to_train(), options);
     add_all(&trainer);
-    return of(trainer.estimate().find('h', "a")->hmm) != of(models().find('h', "a")->hmm);
+    return of(trainer.estimate().find('h', "a")->hmm) != of(models_to_train().find('h', "a")->hmm);
   };
   const auto mean = [](const HmmDefinition& h) {
     return h.states[0].components[0].component.mean.values[0];
@@ -197,7 +197,7 @@ TEST(EmbeddedTrainer, EstimatesWhatIsAskedFor) {
 }
 
 TEST(EmbeddedTrainer, KeepsFloors) {
-  ModelSet set = models();
+  ModelSet set = models_to_train();
   set.parse("~v varFloor1 <VARIANCE> 1 1.7\n", "floors");
   EmbeddedTrainerOptions options = rare();
   options.weight_floor = 40000;
@@ -263,13 +263,13 @@ TEST(EmbeddedTrainer, RefusesBadInput) {
                    "<TRANSP> 3 0 1 0 0 1 0 0 0 0 <ENDHMM>\n",
                "m");
   EXPECT_THROW(EmbeddedTrainer(no_way, rare()), InvalidArgument);
-  ModelSet floor = models();
+  ModelSet floor = models_to_train();
   floor.macros.insert(floor.macros.begin(), MacroDefinition());
   floor.macros.front().type = 'v';
   floor.macros.front().name = "varFloor1";
   floor.macros.front().vector.values = VectorD::Ones(2);
   EXPECT_THROW(EmbeddedTrainer(floor, rare()), InvalidArgument);
-  EmbeddedTrainer trainer(models(), rare());
+  EmbeddedTrainer trainer(models_to_train(), rare());
   EXPECT_THROW(trainer.add(MatrixF::Zero(9, 1), {}), InvalidArgument);
   EXPECT_THROW(trainer.add(MatrixF::Zero(9, 1), {"a", "c"}), InvalidArgument);
   EXPECT_THROW(trainer.add(MatrixF::Zero(9, 2), {"a"}), InvalidArgument);

@@ -232,7 +232,7 @@ TEST(Convert, AddsAndLeavesOutDifferences) {
   EXPECT_EQ(seen.leftCols(12), file.values.leftCols(12));
 }
 
-std::string refusal(const std::string& text) {
+std::string refusal_of_options(const std::string& text) {
   Configuration configuration;
   try {
     configuration.parse(text, "config");
@@ -262,20 +262,23 @@ TEST(Configuration, SetsWhatFilesSet) {
 }
 
 TEST(Configuration, RefusesByNameAndLine) {
-  EXPECT_EQ(refusal("\nTARGETRATE\n"), "config: line 2: expected KEY = VALUE");
-  EXPECT_EQ(refusal("NUMCHANS = many\n"),
+  EXPECT_EQ(refusal_of_options("\nTARGETRATE\n"), "config: line 2: expected KEY = VALUE");
+  EXPECT_EQ(refusal_of_options("NUMCHANS = many\n"),
             "config: line 1: 'many' is no number that can stand here");
-  EXPECT_EQ(refusal("PREEMCOEF = 1.5\n"),
+  EXPECT_EQ(refusal_of_options("PREEMCOEF = 1.5\n"),
             "config: line 1: PREEMCOEF: HtkFeatureOptions.pre_emphasis must lie in 0..1, got 1.5");
-  EXPECT_EQ(refusal("USEPOWER = 1\n"), "config: line 1: '1' is neither T nor F");
-  EXPECT_NE(refusal("TARGETKIND = MFCC_C\n").find("config: line 1: TARGETKIND takes no _C"),
+  EXPECT_EQ(refusal_of_options("USEPOWER = 1\n"), "config: line 1: '1' is neither T nor F");
+  EXPECT_NE(
+      refusal_of_options("TARGETKIND = MFCC_C\n").find("config: line 1: TARGETKIND takes no _C"),
+      std::string::npos);
+  EXPECT_NE(refusal_of_options("SOURCEFORMAT = NIST\n").find("NIST is not supported"),
             std::string::npos);
-  EXPECT_NE(refusal("SOURCEFORMAT = NIST\n").find("NIST is not supported"), std::string::npos);
-  EXPECT_NE(refusal("ADDDITHER = 1.0\n").find("ADDDITHER = 1.0 is not supported"),
+  EXPECT_NE(refusal_of_options("ADDDITHER = 1.0\n").find("ADDDITHER = 1.0 is not supported"),
             std::string::npos);
-  EXPECT_EQ(refusal("ADDDITHER = 0.0\nSIMPLEDIFFS = F\nCEPSCALE = 1\n"), "nothing thrown");
-  EXPECT_EQ(refusal("NUMCEPS = \"12\n"), "config: line 1: a quotation does not end");
-  EXPECT_EQ(refusal("NUMCEPS = 12\n\xff\n"), "config: line 2: is not UTF-8 text");
+  EXPECT_EQ(refusal_of_options("ADDDITHER = 0.0\nSIMPLEDIFFS = F\nCEPSCALE = 1\n"),
+            "nothing thrown");
+  EXPECT_EQ(refusal_of_options("NUMCEPS = \"12\n"), "config: line 1: a quotation does not end");
+  EXPECT_EQ(refusal_of_options("NUMCEPS = 12\n\xff\n"), "config: line 2: is not UTF-8 text");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace hri::htk {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string refusal_of_labels(const std::string& text) {
   try {
     MasterLabelFile::parse(text, "words.mlf");
   } catch (const FormatError& error) {
@@ -93,20 +93,22 @@ TEST(Matches, TakesStarsAndQuestionMarks) {
 
 TEST(MasterLabelFile, RefusesDamagedFilesByNameAndLine) {
   const std::string head = "#!MLF!#\n";
-  EXPECT_EQ(refusal(""), "words.mlf: line 0: a master label file begins with #!MLF!#");
-  EXPECT_EQ(refusal(head + "\"a.lab\"\none\n"),
+  EXPECT_EQ(refusal_of_labels(""), "words.mlf: line 0: a master label file begins with #!MLF!#");
+  EXPECT_EQ(refusal_of_labels(head + "\"a.lab\"\none\n"),
             "words.mlf: line 3: the transcription does not end with a full stop");
-  EXPECT_EQ(refusal(head + "a.lab\n.\n"),
+  EXPECT_EQ(refusal_of_labels(head + "a.lab\n.\n"),
             "words.mlf: line 2: expected the name of a label file in quotation marks");
-  EXPECT_EQ(refusal(head + "\"a.lab\n.\n"), "words.mlf: line 2: a quotation does not end");
-  EXPECT_EQ(refusal(head + "\"*\" -> \"folder\"\n"),
+  EXPECT_EQ(refusal_of_labels(head + "\"a.lab\n.\n"),
+            "words.mlf: line 2: a quotation does not end");
+  EXPECT_EQ(refusal_of_labels(head + "\"*\" -> \"folder\"\n"),
             "words.mlf: line 2: only transcriptions are read, no entries that name a folder");
-  EXPECT_EQ(refusal(head + "\"a\"\n200 100 one\n.\n"),
+  EXPECT_EQ(refusal_of_labels(head + "\"a\"\n200 100 one\n.\n"),
             "words.mlf: line 3: a label ends before it begins");
-  EXPECT_EQ(refusal(head + "\"a\"\n200 300 one\n100 200 two\n.\n"),
+  EXPECT_EQ(refusal_of_labels(head + "\"a\"\n200 300 one\n100 200 two\n.\n"),
             "words.mlf: line 4: a label begins before the one above");
-  EXPECT_EQ(refusal(head + "\"a\"\n-5 300 one\n.\n"), "words.mlf: line 3: a time is below 0");
-  EXPECT_EQ(refusal(head + "\"a\"\n\xc3\n.\n"), "words.mlf: line 3: is not UTF-8 text");
+  EXPECT_EQ(refusal_of_labels(head + "\"a\"\n-5 300 one\n.\n"),
+            "words.mlf: line 3: a time is below 0");
+  EXPECT_EQ(refusal_of_labels(head + "\"a\"\n\xc3\n.\n"), "words.mlf: line 3: is not UTF-8 text");
 }
 
 TEST(Transcription, RefusesToWriteWhatNoFileCanHold) {

@@ -30,7 +30,7 @@ const std::string kShared =
     "<MEAN> 2\n 3.000000e+00 4.000000e+00\n<VARIANCE> 2\n 1.000000e+00 2.000000e+00\n"
     "~t \"steps\"\n<ENDHMM>\n";
 
-std::string refusal(const std::string& text) {
+std::string refusal_of_definitions(const std::string& text) {
   ModelSet set;
   try {
     set.parse(text, "models");
@@ -129,37 +129,41 @@ TEST(ModelSet, RefusesModelsThatDoNotFit) {
 }
 
 TEST(ModelSet, RefusesDamagedFilesByNameAndLine) {
-  EXPECT_EQ(refusal(kShared + kShared), "models: line 44: ~t \"steps\" is defined already");
-  EXPECT_EQ(refusal("<BEGINHMM>"), "models: line 1: expected a macro, such as ~h");
-  EXPECT_EQ(refusal(replaced(kShared, "~s \"begin\"\n<STATE> 3", "~s \"end\"\n<STATE> 3")),
-            "models: line 33: ~s \"end\" is not defined above");
-  EXPECT_EQ(refusal(replaced(kShared, "<MEAN> 2\n 3", "<MEAN> 3\n 3")),
+  EXPECT_EQ(refusal_of_definitions(kShared + kShared),
+            "models: line 44: ~t \"steps\" is defined already");
+  EXPECT_EQ(refusal_of_definitions("<BEGINHMM>"), "models: line 1: expected a macro, such as ~h");
+  EXPECT_EQ(
+      refusal_of_definitions(replaced(kShared, "~s \"begin\"\n<STATE> 3", "~s \"end\"\n<STATE> 3")),
+      "models: line 33: ~s \"end\" is not defined above");
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, "<MEAN> 2\n 3", "<MEAN> 3\n 3")),
             "models: line 35: vectors had 2 values above");
-  EXPECT_EQ(refusal(replaced(kShared, "<NUMSTATES> 4", "<NUMSTATES> 5")),
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, "<NUMSTATES> 4", "<NUMSTATES> 5")),
             "models: line 38: 2 states are defined, <NUMSTATES> says 3 beside entry and exit");
-  EXPECT_EQ(refusal(replaced(kShared, "<STATE> 3", "<STATE> 2")),
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, "<STATE> 3", "<STATE> 2")),
             "models: line 38: state 2 is defined twice");
-  EXPECT_EQ(refusal(replaced(kShared, "7.500000e-01", "6.500000e-01")),
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, "7.500000e-01", "6.500000e-01")),
             "models: line 28: the weights of a state do not sum to 1");
-  EXPECT_EQ(refusal(replaced(kShared, " 1.000000e-02", " 0.000000e+00")),
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, " 1.000000e-02", " 0.000000e+00")),
             "models: line 15: a variance is not above 0");
-  EXPECT_EQ(refusal(replaced(kShared, "6.000000e-01", "5.000000e-01")),
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, "6.000000e-01", "5.000000e-01")),
             "models: line 7: the transitions from state 2 do not sum to 1");
-  EXPECT_EQ(refusal(replaced(kShared, "6.000000e-01", "nan")), "models: line 7: expected a number");
-  EXPECT_EQ(refusal(replaced(kShared, "<NULLD>", "<FULLC>")),
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, "6.000000e-01", "nan")),
+            "models: line 7: expected a number");
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, "<NULLD>", "<FULLC>")),
             "models: line 3: <FULLC> is not read");
-  EXPECT_EQ(refusal(replaced(kShared, "<STREAMINFO> 1", "<STREAMINFO> 3")),
+  EXPECT_EQ(refusal_of_definitions(replaced(kShared, "<STREAMINFO> 1", "<STREAMINFO> 3")),
             "models: line 2: models of several streams are not read");
-  EXPECT_EQ(refusal("~h \"a\" <BEGINHMM> <NUMSTATES> 999999999"),
+  EXPECT_EQ(refusal_of_definitions("~h \"a\" <BEGINHMM> <NUMSTATES> 999999999"),
             "models: line 1: expected a whole number in 3..4098");
-  EXPECT_EQ(refusal("~h \"a\n\" <BEGINHMM>"), "models: line 1: a quotation does not end");
-  EXPECT_EQ(refusal("~h \"a\" :\x02"),
+  EXPECT_EQ(refusal_of_definitions("~h \"a\n\" <BEGINHMM>"),
+            "models: line 1: a quotation does not end");
+  EXPECT_EQ(refusal_of_definitions("~h \"a\" :\x02"),
             "models: line 1: binary definitions are not read; HHEd writes them as text");
 }
 
 TEST(ModelSet, RefusesEveryCutFile) {
   for (std::size_t size = kShared.find("~h") + 3; size + 3 < kShared.size(); size += 7)
-    EXPECT_NE(refusal(kShared.substr(0, size)), "nothing thrown") << size;
+    EXPECT_NE(refusal_of_definitions(kShared.substr(0, size)), "nothing thrown") << size;
 }
 
 TEST(ModelSet, WritesWhatOneOfSeveralFilesDefines) {

@@ -22,7 +22,7 @@ ParameterFile sample(const std::string& kind, int columns = 6) {
   return file;
 }
 
-std::string refusal(const Bytes& bytes) {
+std::string refusal_of_bytes(const Bytes& bytes) {
   try {
     ParameterFile::parse(bytes, "a.mfc");
   } catch (const FormatError& error) {
@@ -117,39 +117,39 @@ TEST(ParameterFile, LeavesOutThatEnergyIsSuppressed) {
 
 TEST(ParameterFile, RefusesDamagedFilesByNameAndByte) {
   const Bytes good = sample("MFCC_K").serialise();
-  EXPECT_EQ(refusal(good), "nothing thrown");
-  EXPECT_EQ(refusal({}), "a.mfc: byte 0: the header takes 12 bytes");
+  EXPECT_EQ(refusal_of_bytes(good), "nothing thrown");
+  EXPECT_EQ(refusal_of_bytes({}), "a.mfc: byte 0: the header takes 12 bytes");
   Bytes bytes = good;
   bytes.pop_back();
-  EXPECT_EQ(refusal(bytes), "a.mfc: byte 0: the header says 134 bytes, the file has 133");
+  EXPECT_EQ(refusal_of_bytes(bytes), "a.mfc: byte 0: the header says 134 bytes, the file has 133");
   bytes = good;
   bytes[0] = 0x7f;
-  EXPECT_NE(refusal(bytes).find("a.mfc: byte 0: the header says"), std::string::npos);
+  EXPECT_NE(refusal_of_bytes(bytes).find("a.mfc: byte 0: the header says"), std::string::npos);
   bytes[0] = 0xff;
-  EXPECT_EQ(refusal(bytes), "a.mfc: byte 0: the number of frames is not above 0");
+  EXPECT_EQ(refusal_of_bytes(bytes), "a.mfc: byte 0: the number of frames is not above 0");
   bytes = good;
   bytes[4] = 0xff;
-  EXPECT_EQ(refusal(bytes), "a.mfc: byte 4: the sample period is not above 0");
+  EXPECT_EQ(refusal_of_bytes(bytes), "a.mfc: byte 4: the sample period is not above 0");
   bytes = good;
   bytes[9] = 0;
-  EXPECT_EQ(refusal(bytes), "a.mfc: byte 8: a frame of MFCC_K cannot take 0 bytes");
+  EXPECT_EQ(refusal_of_bytes(bytes), "a.mfc: byte 8: a frame of MFCC_K cannot take 0 bytes");
   bytes = good;
   bytes[11] = 63;
-  EXPECT_NE(refusal(bytes).find("a.mfc: byte 10: the parameter kind"), std::string::npos);
+  EXPECT_NE(refusal_of_bytes(bytes).find("a.mfc: byte 10: the parameter kind"), std::string::npos);
   bytes = good;
   bytes[40] ^= 1;
-  EXPECT_EQ(refusal(bytes), "a.mfc: byte 132: the checksum is wrong: the file is damaged");
+  EXPECT_EQ(refusal_of_bytes(bytes), "a.mfc: byte 132: the checksum is wrong: the file is damaged");
   bytes = sample("MFCC").serialise();
   bytes[12] = 0x7f;
   bytes[13] = 0xc0;
-  EXPECT_EQ(refusal(bytes), "a.mfc: byte 12: a value is not finite");
+  EXPECT_EQ(refusal_of_bytes(bytes), "a.mfc: byte 12: a value is not finite");
 }
 
 TEST(ParameterFile, RefusesEveryCutFile) {
   for (const char* kind : {"MFCC_C_K", "MFCC_E_D"}) {
     const Bytes good = sample(kind).serialise();
     for (std::size_t size = 0; size < good.size(); ++size)
-      EXPECT_NE(refusal({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)}),
+      EXPECT_NE(refusal_of_bytes({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)}),
                 "nothing thrown");
   }
 }

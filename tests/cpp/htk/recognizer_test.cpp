@@ -13,7 +13,7 @@ namespace hri::htk {
 namespace {
 
 // Models of one state whose frames lie at a, b, c; sp may be skipped.
-ModelSet models() {
+ModelSet models_of_words() {
   std::string text = "~o <VECSIZE> 1 <USER>\n";
   const auto add = [&](const std::string& name, double mean, const std::string& entry) {
     text += "~h \"" + name + "\" <BEGINHMM> <NUMSTATES> 3 <STATE> 2 <MEAN> 1 " +
@@ -38,7 +38,7 @@ MatrixF frames(const std::vector<float>& values) {
 }
 
 std::string found(const std::string& grammar, const std::vector<float>& values) {
-  const Recognizer recognizer(models(), words(), WordLattice::of_grammar(grammar, "g"));
+  const Recognizer recognizer(models_of_words(), words(), WordLattice::of_grammar(grammar, "g"));
   std::string text;
   for (const RecognisedWord& word : recognizer.recognise(frames(values)).words)
     text += word.output + ":" + std::to_string(word.first_frame) + "-" +
@@ -54,7 +54,7 @@ TEST(Recognizer, FindsWordsOfSeveralModelsAndPronunciations) {
 }
 
 TEST(Recognizer, ScoresAsTheBestPathDoes) {
-  const Recognizer recognizer(models(), words(), WordLattice::of_words({"second"}));
+  const Recognizer recognizer(models_of_words(), words(), WordLattice::of_words({"second"}));
   const RecognisedSentence sentence = recognizer.recognise(frames({20, 21}));
   EXPECT_TRUE(sentence.complete);
   // Two frames in c, out of it, past sp.
@@ -64,20 +64,21 @@ TEST(Recognizer, ScoresAsTheBestPathDoes) {
 }
 
 TEST(Recognizer, SaysWhereNoSentenceFits) {
-  const Recognizer recognizer(models(), words(), WordLattice::of_words({"first", "second"}));
+  const Recognizer recognizer(models_of_words(), words(),
+                              WordLattice::of_words({"first", "second"}));
   EXPECT_FALSE(recognizer.recognise(frames({0, 10})).complete);
   EXPECT_TRUE(recognizer.recognise(frames({0, 10, 20})).complete);
 }
 
 TEST(Recognizer, RefusesWhatDoesNotFitTogether) {
   const auto lattice = [](const std::string& word) { return WordLattice::of_words({word}); };
-  EXPECT_THROW(Recognizer(models(), words(), lattice("third")), InvalidArgument);
-  EXPECT_THROW(Recognizer(models(), words(), lattice("!NULL")), InvalidArgument);
-  EXPECT_THROW(Recognizer(models(), Dictionary::parse("x d\n", "d"), lattice("x")),
+  EXPECT_THROW(Recognizer(models_of_words(), words(), lattice("third")), InvalidArgument);
+  EXPECT_THROW(Recognizer(models_of_words(), words(), lattice("!NULL")), InvalidArgument);
+  EXPECT_THROW(Recognizer(models_of_words(), Dictionary::parse("x d\n", "d"), lattice("x")),
                InvalidArgument);
-  EXPECT_THROW(Recognizer(models(), Dictionary::parse("x sp sp\n", "d"), lattice("x")),
+  EXPECT_THROW(Recognizer(models_of_words(), Dictionary::parse("x sp sp\n", "d"), lattice("x")),
                InvalidArgument);
-  const Recognizer recognizer(models(), words(), lattice("first"));
+  const Recognizer recognizer(models_of_words(), words(), lattice("first"));
   EXPECT_THROW((void)recognizer.recognise(MatrixF::Zero(3, 2)), InvalidArgument);
   MatrixF bad = frames({0, 10});
   bad(0, 0) = std::numeric_limits<float>::quiet_NaN();

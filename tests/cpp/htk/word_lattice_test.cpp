@@ -37,7 +37,7 @@ std::set<Words> of_grammar(const std::string& text, std::size_t most = 3) {
 }
 
 template <class Read>
-std::string refusal(const std::string& text, Read read) {
+std::string refusal_of_lattice(const std::string& text, Read read) {
   try {
     read(text, "file");
   } catch (const FormatError& error) {
@@ -46,9 +46,11 @@ std::string refusal(const std::string& text, Read read) {
   return "nothing thrown";
 }
 std::string grammar_refusal(const std::string& text) {
-  return refusal(text, WordLattice::of_grammar);
+  return refusal_of_lattice(text, WordLattice::of_grammar);
 }
-std::string lattice_refusal(const std::string& text) { return refusal(text, WordLattice::parse); }
+std::string lattice_refusal(const std::string& text) {
+  return refusal_of_lattice(text, WordLattice::parse);
+}
 
 TEST(WordLattice, HoldsLatticesOfRecognition) {
   const Lattice lattice(
@@ -191,7 +193,9 @@ TEST(Dictionary, ReadsOutputsAndProbabilities) {
 }
 
 TEST(Dictionary, RefusesByNameAndLine) {
-  const auto of = [](const std::string& text) { return refusal(text, Dictionary::parse); };
+  const auto of = [](const std::string& text) {
+    return refusal_of_lattice(text, Dictionary::parse);
+  };
   EXPECT_EQ(of("one w\ntwo\n"), "file: line 2: 'two' has no models");
   EXPECT_EQ(of("one [1]\n"), "file: line 1: 'one' has no models");
   EXPECT_EQ(of("one 1.5 w\n"),

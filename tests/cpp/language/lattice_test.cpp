@@ -15,15 +15,15 @@ namespace {
 
 using namespace testing_data;
 
-constexpr int kNumStates = 5;
-constexpr int kSilence = 2;
+constexpr int kStatesOfModels = 5;
+constexpr int kSilentModel = 2;
 constexpr int kNumFrames = 6;
 const LatticeOptions kAll{1e12, 1000000};
 
 std::vector<int> words_of(const std::vector<DecodedWord>& words) {
   std::vector<int> models;
   for (const DecodedWord& word : words) {
-    if (word.model != kSilence) models.push_back(word.model);
+    if (word.model != kSilentModel) models.push_back(word.model);
   }
   return models;
 }
@@ -32,7 +32,7 @@ std::vector<int> words_of(const std::vector<DecodedWord>& words) {
 struct Case {
   Case(const WordNetwork& network, std::uint64_t seed, const LatticeOptions& lattice_options = kAll)
       : chains(two_words_and_silence(10 * seed)),
-        scores(random_scores(kNumFrames, kNumStates, seed)),
+        scores(random_scores(kNumFrames, kStatesOfModels, seed)),
         options(options_of(seed)),
         lattice(Lattice::decode(chains, network, scores, options, lattice_options)),
         plain(chains, network, options, scores) {}
@@ -165,7 +165,7 @@ TEST(Lattice, GivesOneWordAPlaceInAConfusionNetwork) {
       double sum = 0;
       double before = 1;
       for (const ConfusionSlot::Entry& entry : slot.entries) {
-        EXPECT_NE(entry.model, kSilence);
+        EXPECT_NE(entry.model, kSilentModel);
         EXPECT_LE(entry.probability, before);
         before = entry.probability;
         sum += entry.probability;
@@ -192,7 +192,7 @@ TEST(Lattice, CountsThePathsOfASlotOfOneWord) {
 
 TEST(Lattice, KeepsWhatIsWithinTheBeamAndNoMore) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
-    const WordNetwork network = WordNetwork::loop(2, kSilence);
+    const WordNetwork network = WordNetwork::loop(2, kSilentModel);
     constexpr double kBeam = 4;
     const Case c(network, seed, {kBeam, 1000000});
     // A word in a place is kept where a path through it is within the beam.
@@ -219,25 +219,25 @@ TEST(Lattice, KeepsWhatIsWithinTheBeamAndNoMore) {
 }
 
 TEST(Lattice, NarrowsItsBeamWhereThereAreTooManyArcs) {
-  const Case whole(WordNetwork::loop(2, kSilence), 2);
-  const Case small(WordNetwork::loop(2, kSilence), 2, {1e12, 30});
+  const Case whole(WordNetwork::loop(2, kSilentModel), 2);
+  const Case small(WordNetwork::loop(2, kSilentModel), 2, {1e12, 30});
   EXPECT_LE(small.lattice.arcs().size(), 30U);
   EXPECT_GT(whole.lattice.arcs().size(), 60U);
   EXPECT_NEAR(small.lattice.best().log_score, whole.plain.log_score(), 1e-9);
-  const Case one(WordNetwork::loop(2, kSilence), 2, {1e12, 1});
+  const Case one(WordNetwork::loop(2, kSilentModel), 2, {1e12, 1});
   EXPECT_EQ(one.lattice.n_best(10).size(), 1U);
 }
 
 TEST(Lattice, IsEmptyWhereNoSentenceFits) {
   const auto chains = two_words_and_silence(1);
-  const MatrixF two = random_scores(2, kNumStates, 1);
+  const MatrixF two = random_scores(2, kStatesOfModels, 1);
   const Lattice none = Lattice::decode(chains, WordNetwork::sequence(2, 3), two);
   EXPECT_TRUE(none.empty());
   EXPECT_FALSE(none.best().complete);
   EXPECT_TRUE(none.n_best(3).empty());
   EXPECT_TRUE(none.confusion_network(1).empty());
   EXPECT_EQ(none.posteriors(1).size(), 0);
-  const MatrixF nothing(0, kNumStates);
+  const MatrixF nothing(0, kStatesOfModels);
   const Lattice silent = Lattice::decode(chains, WordNetwork::loop(2), nothing);
   ASSERT_EQ(silent.n_best(3).size(), 1U);
   EXPECT_TRUE(silent.best().words.empty());
@@ -260,7 +260,7 @@ TEST(Lattice, RefusesWhatIsNone) {
   EXPECT_THROW((void)lattice.posteriors(0), InvalidArgument);
   const auto chains = two_words_and_silence(1);
   EXPECT_THROW(Lattice::decode(chains, WordNetwork::loop(2), MatrixF::Zero(3, 4)), InvalidArgument);
-  MatrixF bad = random_scores(3, kNumStates, 1);
+  MatrixF bad = random_scores(3, kStatesOfModels, 1);
   bad(1, 1) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(Lattice::decode(chains, WordNetwork::loop(2), bad), InvalidArgument);
 }

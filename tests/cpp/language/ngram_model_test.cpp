@@ -11,7 +11,7 @@
 namespace hri {
 namespace {
 
-const std::vector<Sentence> kCommands{{"go", "left"},
+const std::vector<Sentence> kTraining{{"go", "left"},
                                       {"go", "right"},
                                       {"go", "left", "stop"},
                                       {"stop"},
@@ -41,7 +41,7 @@ double sum_over_words(const NGramModel& model, const std::vector<int>& history) 
   return sum;
 }
 
-std::string refusal(const std::string& text) {
+std::string refusal_of_arpa(const std::string& text) {
   try {
     NGramModel::parse(text, "commands.arpa");
   } catch (const FormatError& error) {
@@ -57,7 +57,7 @@ constexpr const char* kUnigrams = "-99 <s> -0.5\n-0.3 </s>\n-0.3 go -0.2\n";
 
 TEST(NGramModel, GivesEveryHistoryProbabilitiesThatSumToOne) {
   for (const NGramOptions& options : all_options()) {
-    const NGramModel model = NGramModel::train(kCommands, options, {"never"});
+    const NGramModel model = NGramModel::train(kTraining, options, {"never"});
     for (int first = 0; first < static_cast<int>(model.words().size()); ++first) {
       EXPECT_NEAR(sum_over_words(model, {first}), 1, 1e-12);
       for (int second = 2; second < static_cast<int>(model.words().size()); ++second)
@@ -67,7 +67,7 @@ TEST(NGramModel, GivesEveryHistoryProbabilitiesThatSumToOne) {
 }
 
 TEST(NGramModel, IsWittenBellsFormula) {
-  const NGramModel model = NGramModel::train(kCommands, {2, NGramSmoothing::witten_bell});
+  const NGramModel model = NGramModel::train(kTraining, {2, NGramSmoothing::witten_bell});
   // 19 words and ends, of 6 kinds, all of them seen.
   const double left = (3 + 6.0 / 6) / (19 + 6);
   EXPECT_NEAR(probability(model, {}, "left"), left, 1e-12);
@@ -79,7 +79,7 @@ TEST(NGramModel, IsWittenBellsFormula) {
 
 TEST(NGramModel, KnowsWordsOfTheVocabularyThatWereNotSeen) {
   for (const NGramOptions& options : all_options()) {
-    const NGramModel model = NGramModel::train(kCommands, options, {"never"});
+    const NGramModel model = NGramModel::train(kTraining, options, {"never"});
     EXPECT_GT(probability(model, {"go"}, "never"), 0);
     EXPECT_LT(probability(model, {"go"}, "never"), probability(model, {"go"}, "left"));
     EXPECT_EQ(model.index_of("nowhere"), -1);
@@ -89,8 +89,8 @@ TEST(NGramModel, KnowsWordsOfTheVocabularyThatWereNotSeen) {
 TEST(NGramModel, FitsItsOwnSentencesBetterThanOthers) {
   for (const NGramOptions& options : all_options()) {
     if (options.order == 1) continue;
-    const NGramModel model = NGramModel::train(kCommands, options);
-    const NGramFit own = model.fit_of(kCommands);
+    const NGramModel model = NGramModel::train(kTraining, options);
+    const NGramFit own = model.fit_of(kTraining);
     EXPECT_EQ(own.num_words, 19);
     const NGramFit other = model.fit_of({{"left", "left", "turn"}, {"right", "go", "nowhere"}});
     EXPECT_EQ(other.num_unknown, 1);
@@ -101,11 +101,11 @@ TEST(NGramModel, FitsItsOwnSentencesBetterThanOthers) {
 
 TEST(NGramModel, ReadsWhatItWroteToTheBit) {
   for (const NGramOptions& options : all_options()) {
-    const NGramModel model = NGramModel::train(kCommands, options);
+    const NGramModel model = NGramModel::train(kTraining, options);
     const NGramModel read = NGramModel::parse(model.to_arpa(), "round trip");
     EXPECT_EQ(read.to_arpa(), model.to_arpa());
     EXPECT_EQ(read.order(), options.order);
-    EXPECT_EQ(read.fit_of(kCommands).log_probability, model.fit_of(kCommands).log_probability);
+    EXPECT_EQ(read.fit_of(kTraining).log_probability, model.fit_of(kTraining).log_probability);
   }
 }
 
@@ -122,30 +122,32 @@ TEST(NGramModel, ReadsFilesOfOtherPrograms) {
 }
 
 TEST(NGramModel, RefusesDamagedFilesByNameAndLine) {
-  EXPECT_EQ(refusal(arpa(kUnigrams)), "nothing thrown");
-  EXPECT_EQ(refusal(""), "commands.arpa: line 0: has no \\data\\");
-  EXPECT_EQ(refusal(arpa(kUnigrams, "ngram 1=4\n")),
+  EXPECT_EQ(refusal_of_arpa(arpa(kUnigrams)), "nothing thrown");
+  EXPECT_EQ(refusal_of_arpa(""), "commands.arpa: line 0: has no \\data\\");
+  EXPECT_EQ(refusal_of_arpa(arpa(kUnigrams, "ngram 1=4\n")),
             "commands.arpa: line 9: there are 3 1-grams above, \\data\\ says 4");
-  EXPECT_EQ(refusal(arpa(kUnigrams, "ngram 1=999999999999\n")),
+  EXPECT_EQ(refusal_of_arpa(arpa(kUnigrams, "ngram 1=999999999999\n")),
             "commands.arpa: line 9: there are 3 1-grams above, \\data\\ says 999999999999");
-  EXPECT_EQ(refusal(arpa(kUnigrams, "ngram 1=-3\n")), "commands.arpa: line 2: '-3' is no count");
-  EXPECT_EQ(refusal(arpa(kUnigrams, "ngram 2=3\n")),
+  EXPECT_EQ(refusal_of_arpa(arpa(kUnigrams, "ngram 1=-3\n")),
+            "commands.arpa: line 2: '-3' is no count");
+  EXPECT_EQ(refusal_of_arpa(arpa(kUnigrams, "ngram 2=3\n")),
             "commands.arpa: line 2: expected 'ngram 1=...'");
-  EXPECT_EQ(refusal(arpa(std::string(kUnigrams) + "-1 go\n")),
+  EXPECT_EQ(refusal_of_arpa(arpa(std::string(kUnigrams) + "-1 go\n")),
             "commands.arpa: line 8: an n-gram stands here again");
-  EXPECT_EQ(refusal(arpa(std::string(kUnigrams) + "0.5 left\n")),
+  EXPECT_EQ(refusal_of_arpa(arpa(std::string(kUnigrams) + "0.5 left\n")),
             "commands.arpa: line 8: a probability is above 1: 0.5");
   for (const char* number : {"nan", "-inf", "1e999", "-0.1x", "left"}) {
-    EXPECT_EQ(refusal(arpa(std::string(kUnigrams) + number + " left\n")),
+    EXPECT_EQ(refusal_of_arpa(arpa(std::string(kUnigrams) + number + " left\n")),
               "commands.arpa: line 8: '" + std::string(number) + "' is no number of an n-gram");
   }
-  EXPECT_EQ(refusal(arpa(std::string(kUnigrams) + "-1 \xff\n")),
+  EXPECT_EQ(refusal_of_arpa(arpa(std::string(kUnigrams) + "-1 \xff\n")),
             "commands.arpa: line 8: a word is not UTF-8");
-  EXPECT_EQ(refusal(arpa("-1 </s>\n", "ngram 1=1\n")), "commands.arpa: line 7: has no unigram <s>");
-  EXPECT_EQ(
-      refusal(arpa(std::string(kUnigrams) + "\\2-grams:\n-1 go left\n", "ngram 1=3\nngram 2=1\n")),
-      "commands.arpa: line 10: 'left' is no unigram");
-  EXPECT_EQ(refusal("\\data\\\nngram 1=3\n\\1-grams:\n" + std::string(kUnigrams)),
+  EXPECT_EQ(refusal_of_arpa(arpa("-1 </s>\n", "ngram 1=1\n")),
+            "commands.arpa: line 7: has no unigram <s>");
+  EXPECT_EQ(refusal_of_arpa(arpa(std::string(kUnigrams) + "\\2-grams:\n-1 go left\n",
+                                 "ngram 1=3\nngram 2=1\n")),
+            "commands.arpa: line 10: 'left' is no unigram");
+  EXPECT_EQ(refusal_of_arpa("\\data\\\nngram 1=3\n\\1-grams:\n" + std::string(kUnigrams)),
             "commands.arpa: line 6: has no \\end\\ here");
 }
 
@@ -153,12 +155,12 @@ TEST(NGramModel, RefusesWordsThatNoFileCouldHold) {
   for (const char* word : {"", "two words", "<s>", "</s>", "<unk>", "\xc3"})
     EXPECT_THROW(NGramModel::train({{"go", word}}), InvalidArgument);
   EXPECT_THROW(NGramModel::train({}), InvalidArgument);
-  EXPECT_THROW(NGramModel::train(kCommands, {0}), InvalidArgument);
-  EXPECT_THROW(NGramModel::train(kCommands, {7}), InvalidArgument);
+  EXPECT_THROW(NGramModel::train(kTraining, {0}), InvalidArgument);
+  EXPECT_THROW(NGramModel::train(kTraining, {7}), InvalidArgument);
 }
 
 TEST(NGramModel, RefusesNumbersOfNoWord) {
-  const NGramModel model = NGramModel::train(kCommands);
+  const NGramModel model = NGramModel::train(kTraining);
   const std::vector<int> history{99};
   EXPECT_THROW((void)model.log_probability(history, 1), InvalidArgument);
   EXPECT_THROW((void)model.log_probability({}, 99), InvalidArgument);

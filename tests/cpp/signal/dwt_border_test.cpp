@@ -19,9 +19,9 @@
 namespace hri {
 namespace {
 
-constexpr Border kBorders[] = {Border::symmetric, Border::zero,          Border::constant,
-                               Border::periodic,  Border::reflect,       Border::periodization,
-                               Border::smooth,    Border::antisymmetric, Border::antireflect};
+constexpr Border kEveryBorder[] = {Border::symmetric, Border::zero,          Border::constant,
+                                   Border::periodic,  Border::reflect,       Border::periodization,
+                                   Border::smooth,    Border::antisymmetric, Border::antireflect};
 
 // The signal turned about both of its ends, again and again.
 std::vector<double> turned(const std::vector<double>& x, std::size_t by) {
@@ -79,7 +79,7 @@ TEST(DwtBorder, EqualsTheDefinitionAtEveryBorder) {
   for (const char* name : {"haar", "db2", "db3", "db6", "sym4", "coif2"}) {
     const Wavelet& w = wavelet(name);
     const std::size_t taps = w.dec_lo.size();
-    for (const Border border : kBorders) {
+    for (const Border border : kEveryBorder) {
       for (const std::size_t count : {1U, 2U, 3U, 8U, 9U, 40U, 41U}) {
         Random random(count);
         std::vector<double> x(count);
@@ -125,7 +125,7 @@ TEST(DwtBorder, EnergyStaysForEveryWaveletThatWrapsAround) {
 }
 
 TEST(DwtBorder, OneSampleAndConstantsComeBack) {
-  for (const Border border : kBorders) {
+  for (const Border border : kEveryBorder) {
     for (const char* name : {"haar", "db6", "dmey"}) {
       const std::vector<double> one{2.5};
       const auto levels = wavedec<double>(one, wavelet(name), border, 1);

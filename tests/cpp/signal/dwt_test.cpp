@@ -18,9 +18,9 @@
 namespace hri {
 namespace {
 
-constexpr Border kBorders[] = {Border::symmetric, Border::zero,          Border::constant,
-                               Border::periodic,  Border::reflect,       Border::periodization,
-                               Border::smooth,    Border::antisymmetric, Border::antireflect};
+constexpr Border kBordersOfDwt[] = {Border::symmetric, Border::zero,          Border::constant,
+                                    Border::periodic,  Border::reflect,       Border::periodization,
+                                    Border::smooth,    Border::antisymmetric, Border::antireflect};
 
 template <class T>
 std::vector<T> noise(std::size_t count, std::uint64_t seed) {
@@ -153,7 +153,7 @@ template <class T>
 void expect_round_trip_of_one_level(double tolerance) {
   for (const std::string& name : wavelet_names()) {
     const Wavelet& w = wavelet(name);
-    for (const Border border : kBorders) {
+    for (const Border border : kBordersOfDwt) {
       for (const std::size_t count : {1U, 2U, 3U, 7U, 16U, 61U, 62U, 101U, 128U}) {
         const std::vector<T> x = noise<T>(count, count);
         const std::size_t length = dwt_length(count, w.dec_lo.size(), border);
@@ -180,7 +180,7 @@ TEST(Dwt, OneLevelIsUndoneInSinglePrecision) { expect_round_trip_of_one_level<fl
 template <class T>
 void expect_round_trip(double tolerance) {
   for (const std::string& name : wavelet_names()) {
-    for (const Border border : kBorders) {
+    for (const Border border : kBordersOfDwt) {
       for (const std::size_t count : {1U, 2U, 7U, 16U, 101U}) {
         for (const int num_levels : {1, 2, 3}) {  // five lose 1.1e-10 to the taps of sym20
           const std::vector<T> x = noise<T>(count, count);
@@ -287,7 +287,7 @@ TEST(Dwt, LivesOnOneSampleForAllLevels) {
 TEST(Dwt, GivesZerosForSilence) {
   const std::vector<double> x(21, 0.0);
   for (const std::string& name : wavelet_names()) {
-    for (const Border border : kBorders) {
+    for (const Border border : kBordersOfDwt) {
       const auto levels = wavedec<double>(x, wavelet(name), border, 3);
       for (const auto& c : levels.coefficients) EXPECT_EQ(c, std::vector<double>(c.size(), 0.0));
       EXPECT_EQ(waverec<double>(levels, wavelet(name), border), x);
@@ -308,7 +308,7 @@ TEST(Dwt, KeepsItsPrecisionOverTheRangeOfTheType) {
 TEST(Dwt, RefusesLengthsThatDoNotFit) {
   const Wavelet& w = wavelet("db2");
   const std::vector<double> x(8);
-  for (const Border border : kBorders) {
+  for (const Border border : kBordersOfDwt) {
     std::vector<double> right(dwt_length(8, 4, border));
     std::vector<double> longer(right.size() + 1);
     std::vector<double> shorter(right.size() - 1);
@@ -325,7 +325,7 @@ TEST(Dwt, RefusesLengthsThatDoNotFit) {
 TEST(Dwt, InverseRefusesLengthsThatDoNotFit) {
   const Wavelet& w = wavelet("db2");
   const std::vector<double> empty;
-  for (const Border border : kBorders) {
+  for (const Border border : kBordersOfDwt) {
     const std::vector<double> c(dwt_length(8, 4, border));
     const std::vector<double> shorter(c.size() - 1);
     std::vector<double> x(8);
@@ -346,7 +346,7 @@ TEST(Dwt, InverseRefusesLengthsThatDoNotFit) {
 
 TEST(Dwt, RefusesLevelsOutOfRangeAndEmptySignals) {
   const std::vector<double> x(8);
-  for (const Border border : kBorders) {
+  for (const Border border : kBordersOfDwt) {
     for (const int num_levels :
          {std::numeric_limits<int>::min(), -1, 0, 63, std::numeric_limits<int>::max()}) {
       EXPECT_THROW(wavedec<double>(x, wavelet("db2"), border, num_levels), InvalidArgument)
@@ -359,7 +359,7 @@ TEST(Dwt, RefusesLevelsOutOfRangeAndEmptySignals) {
 
 TEST(Dwt, RefusesDecompositionsThatNoSignalHas) {
   const Wavelet& w = wavelet("db2");
-  for (const Border border : kBorders) {
+  for (const Border border : kBordersOfDwt) {
     const auto whole = wavedec<double>(std::vector<double>(21), w, border, 2);
     EXPECT_NO_THROW(waverec<double>(whole, w, border));
     EXPECT_THROW(waverec<double>({{}, 21}, w, border), InvalidArgument);

@@ -17,7 +17,7 @@
 namespace hri {
 namespace {
 
-constexpr int kRateHz = 16000;
+constexpr int kStreamRateHz = 16000;
 
 // Noise with something like a vowel (a pulse train at 120 Hz through two resonances) in each of
 // `words`, given by first and last sample.
@@ -28,7 +28,7 @@ std::vector<float> speech(std::size_t num_samples, double level, double noise,
   for (std::size_t n = 0; n < num_samples; ++n) x[n] = static_cast<float>(noise * random.normal());
   for (const auto& [first, last] : words) {
     for (std::size_t n = first; n < last; ++n) {
-      const double t = static_cast<double>(n - first) / kRateHz;
+      const double t = static_cast<double>(n - first) / kStreamRateHz;
       double y = 0;
       for (int h = 1; h <= 20; ++h) {
         const double f = 120.0 * h;
@@ -44,7 +44,7 @@ std::vector<float> speech(std::size_t num_samples, double level, double noise,
 
 std::vector<Endpoint> events_of(const std::vector<float>& audio, std::size_t block,
                                 const EndpointerOptions& options = {}) {
-  Endpointer endpointer(kRateHz, options);
+  Endpointer endpointer(kStreamRateHz, options);
   std::vector<Endpoint> events;
   const Span<const float> all = audio;
   for (std::size_t begin = 0; begin < all.size(); begin += block) {
@@ -125,7 +125,7 @@ TEST(Endpointer, AgreesWithFindSpeechOnTheSegment) {
   for (const Endpoint& e : ends_of(events_of(audio, 512))) {
     const SpeechBounds b = find_speech(
         Span<const float>(audio).subspan(e.segment_first, e.segment_last - e.segment_first),
-        kRateHz, {});
+        kStreamRateHz, {});
     ASSERT_TRUE(b.found);
     EXPECT_NEAR(static_cast<double>(e.segment_first + b.first), static_cast<double>(e.first), 320);
     EXPECT_NEAR(static_cast<double>(e.segment_first + b.last), static_cast<double>(e.last), 320);
@@ -171,12 +171,12 @@ TEST(Endpointer, JudgesAShortRecordingAsAClip) {
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].kind, EndpointKind::speech_start);
   EXPECT_EQ(events[1].kind, EndpointKind::speech_end);
-  EXPECT_TRUE(find_speech(audio, kRateHz, {}).found);
+  EXPECT_TRUE(find_speech(audio, kStreamRateHz, {}).found);
 }
 
 TEST(Endpointer, IsAsNewAfterTheEndOfAStream) {
   const auto audio = speech(48000, 0.5, 0.02, {{16000, 24000}});
-  Endpointer endpointer(kRateHz, {});
+  Endpointer endpointer(kStreamRateHz, {});
   for (int pass = 0; pass < 2; ++pass) {
     Span<const float> rest = audio;
     std::size_t num_events = 0;
@@ -208,7 +208,7 @@ TEST(Endpointer, EndsWhereFramesAreShorterThanTheirShift) {
   // Recordings that end anywhere in a word, some with its only frame.
   for (std::size_t size = 15000; size < 20000; size += 160) {
     const std::vector<float> audio = speech(size, 0.9, 0.001, {{14000, size}});
-    Endpointer endpointer(kRateHz, options);
+    Endpointer endpointer(kStreamRateHz, options);
     Endpoint event;
     for (std::size_t at = 0; at < audio.size();)
       at += endpointer.consume({audio.data() + at, audio.size() - at}, &event);
@@ -226,7 +226,7 @@ TEST(Endpointer, EndsWhereFramesAreShorterThanTheirShift) {
 }
 
 TEST(Endpointer, RefusesWhatItCannotJudge) {
-  Endpointer endpointer(kRateHz, {});
+  Endpointer endpointer(kStreamRateHz, {});
   std::vector<float> x(1000, 0.0F);
   Endpoint event;
   EXPECT_EQ(endpointer.consume(x, &event), 1000U);
@@ -250,15 +250,15 @@ TEST(Endpointer, RefusesWhatItCannotJudge) {
     for (const double bad : {c.low - 1, c.high + 1, std::numeric_limits<double>::quiet_NaN()}) {
       EndpointerOptions options;
       options.*c.field = bad;
-      EXPECT_THROW(Endpointer(kRateHz, options), InvalidArgument) << bad;
+      EXPECT_THROW(Endpointer(kStreamRateHz, options), InvalidArgument) << bad;
     }
     EndpointerOptions options;
     options.*c.field = c.high;
-    EXPECT_NO_THROW(Endpointer(kRateHz, options));
+    EXPECT_NO_THROW(Endpointer(kStreamRateHz, options));
   }
   EndpointerOptions options;
   options.activity.margin_db = -1;
-  EXPECT_THROW(Endpointer(kRateHz, options), InvalidArgument);
+  EXPECT_THROW(Endpointer(kStreamRateHz, options), InvalidArgument);
 }
 
 }  // namespace

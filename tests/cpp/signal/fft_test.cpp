@@ -9,6 +9,7 @@
 #include <complex>
 #include <thread>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 #include "hri/signal/framing.hpp"
@@ -16,9 +17,9 @@
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using detail::kPi;
 
-std::vector<float> noise(int count) {
+std::vector<float> white_noise(int count) {
   Random random(static_cast<std::uint64_t>(count));
   std::vector<float> x(static_cast<std::size_t>(count));
   for (float& v : x) v = static_cast<float>(random.normal());
@@ -27,7 +28,7 @@ std::vector<float> noise(int count) {
 
 TEST(RealFft, EqualsTheSumItStandsFor) {
   for (const int size : {2, 4, 6, 30, 64, 200, 512}) {
-    const std::vector<float> x = noise(size);
+    const std::vector<float> x = white_noise(size);
     const RealFft fft(size);
     std::vector<std::complex<float>> bins(static_cast<std::size_t>(fft.num_bins()));
     fft.forward(x, bins);
@@ -46,7 +47,7 @@ TEST(RealFft, EqualsTheSumItStandsFor) {
 }
 
 TEST(RealFft, KeepsEnergy) {
-  const std::vector<float> x = noise(256);
+  const std::vector<float> x = white_noise(256);
   std::vector<float> power(129);
   RealFft(256).power_spectrum(x, power);
   double in_time = 0;
@@ -75,19 +76,19 @@ TEST(RealFft, PutsAToneIntoItsBinAndAnImpulseIntoAll) {
 }
 
 TEST(RealFft, OneValueThatIsNotANumberShowsInEveryBin) {
-  std::vector<float> x = noise(64);
+  std::vector<float> x = white_noise(64);
   x[10] = std::nanf("");
   std::vector<float> power(33);
   RealFft(64).power_spectrum(x, power);
   for (const float p : power) EXPECT_TRUE(std::isnan(p));
   // And in no later call: the work space of the thread keeps nothing.
-  RealFft(64).power_spectrum(noise(64), power);
+  RealFft(64).power_spectrum(white_noise(64), power);
   for (const float p : power) EXPECT_TRUE(std::isfinite(p));
 }
 
 TEST(RealFft, OfLargeSizesKeepsItsPrecision) {
   constexpr int kSize = 1 << 16;
-  const std::vector<float> x = noise(kSize);
+  const std::vector<float> x = white_noise(kSize);
   std::vector<float> power(kSize / 2 + 1);
   RealFft(kSize).power_spectrum(x, power);
   for (const std::size_t k : {0U, 1U, 12345U, 32768U}) {
@@ -102,7 +103,7 @@ TEST(RealFft, OfLargeSizesKeepsItsPrecision) {
 
 TEST(RealFft, GivesEveryThreadTheSame) {
   const RealFft fft(512);
-  const std::vector<float> x = noise(512);
+  const std::vector<float> x = white_noise(512);
   std::vector<std::vector<float>> found(4, std::vector<float>(257));
   std::vector<std::thread> threads;
   for (auto& power : found) {

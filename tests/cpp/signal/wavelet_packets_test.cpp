@@ -9,15 +9,16 @@
 #include <limits>
 #include <set>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using detail::kPi;
 
-std::vector<double> noise(std::size_t count) {
+std::vector<double> noise_of_length(std::size_t count) {
   Random random(count);
   std::vector<double> x(count);
   for (double& v : x) v = random.normal();
@@ -54,7 +55,7 @@ std::vector<std::vector<PacketNode>> covers(PacketNode node, int depth) {
 TEST(WaveletPackets, EveryCoverGivesTheSignalBack) {
   for (const Border border : {Border::symmetric, Border::periodization, Border::antireflect}) {
     for (const std::size_t count : {1U, 13U, 64U, 101U}) {
-      const std::vector<double> x = noise(count);
+      const std::vector<double> x = noise_of_length(count);
       const auto packets = wavelet_packets<double>(x, wavelet("db3"), border, 3);
       for (const auto& basis : covers({0, 0}, 3)) {
         const auto back = reconstruct<double>(packets, basis, wavelet("db3"), border);
@@ -67,7 +68,7 @@ TEST(WaveletPackets, EveryCoverGivesTheSignalBack) {
 
 TEST(WaveletPackets, BestBasisIsTheBestOfAllCovers) {
   for (const std::size_t count : {32U, 100U, 256U}) {
-    std::vector<double> x = noise(count);
+    std::vector<double> x = noise_of_length(count);
     for (std::size_t i = 0; i < count; ++i) x[i] += 5 * std::sin(0.9 * static_cast<double>(i));
     const auto packets = wavelet_packets<double>(x, wavelet("db4"), Border::periodization, 3);
     double least = std::numeric_limits<double>::infinity();
@@ -100,7 +101,7 @@ TEST(WaveletPackets, SilenceNeedsOneNode) {
 
 TEST(WaveletPackets, RefuseWhatIsNoTreeAndNoCover) {
   const Wavelet& w = wavelet("db2");
-  const std::vector<double> x = noise(40);
+  const std::vector<double> x = noise_of_length(40);
   EXPECT_THROW(wavelet_packets<double>(std::vector<double>(), w, Border::zero, 1), InvalidArgument);
   EXPECT_THROW(wavelet_packets<double>(x, w, Border::zero, 0), InvalidArgument);
   EXPECT_THROW(wavelet_packets<double>(x, w, Border::zero, 21), InvalidArgument);

@@ -25,7 +25,7 @@ GreyImage drawn(const std::vector<std::string>& lines) {
   return mask;
 }
 
-std::vector<ContourPoint> outline(const GreyImage& mask) {
+std::vector<ContourPoint> outline_of(const GreyImage& mask) {
   std::vector<ContourPoint> contour{{7, 7}};  // is written over
   trace_contour(mask.view(), &contour);
   return contour;
@@ -34,38 +34,38 @@ std::vector<ContourPoint> outline(const GreyImage& mask) {
 std::vector<ContourPoint> points(std::initializer_list<ContourPoint> list) { return list; }
 
 TEST(Contour, GoesOnceRoundARectangleClockwise) {
-  EXPECT_EQ(outline(drawn({"....", ".##.", ".##.", ".##."})),
+  EXPECT_EQ(outline_of(drawn({"....", ".##.", ".##.", ".##."})),
             points({{1, 1}, {2, 1}, {2, 2}, {2, 3}, {1, 3}, {1, 2}}));
 }
 
 TEST(Contour, ComesBackOverALineAndStaysOnAPixel) {
-  EXPECT_EQ(outline(drawn({"###"})), points({{0, 0}, {1, 0}, {2, 0}, {1, 0}}));
-  EXPECT_EQ(outline(drawn({"...", ".#."})), points({{1, 1}}));
-  EXPECT_TRUE(outline(drawn({"...", "..."})).empty());
+  EXPECT_EQ(outline_of(drawn({"###"})), points({{0, 0}, {1, 0}, {2, 0}, {1, 0}}));
+  EXPECT_EQ(outline_of(drawn({"...", ".#."})), points({{1, 1}}));
+  EXPECT_TRUE(outline_of(drawn({"...", "..."})).empty());
   std::vector<ContourPoint> contour{{1, 1}};
   trace_contour(ImageView{}, &contour);
   EXPECT_TRUE(contour.empty());
 }
 
 TEST(Contour, PassesItsStartWhereTwoLegsMeet) {
-  EXPECT_EQ(outline(drawn({"..#..", ".#.#.", "#...#"})),
+  EXPECT_EQ(outline_of(drawn({"..#..", ".#.#.", "#...#"})),
             points({{2, 0}, {3, 1}, {4, 2}, {3, 1}, {2, 0}, {1, 1}, {0, 2}, {1, 1}}));
 }
 
 TEST(Contour, TakesTheLargestRegionAndLeavesHolesOut) {
   const GreyImage mask = drawn({"##.......", "##.#####.", "...#...#.", "...#.#.#.", "...#####."});
-  const auto contour = outline(mask);
+  const auto contour = outline_of(mask);
   EXPECT_EQ(contour.size(), 14U);
   EXPECT_EQ(contour.front(), (ContourPoint{3, 1}));
   EXPECT_EQ(std::count(contour.begin(), contour.end(), ContourPoint{5, 3}), 0);
 }
 
 TEST(Contour, OfEqualRegionsTakesTheFirst) {
-  EXPECT_EQ(outline(drawn({"...##", "##..."})).front(), (ContourPoint{3, 0}));
+  EXPECT_EQ(outline_of(drawn({"...##", "##..."})).front(), (ContourPoint{3, 0}));
 }
 
 TEST(Contour, JoinsRegionsThatMeetBelow) {
-  const auto contour = outline(drawn({"#.#.#...#", "#.#.#...#", "#####...#", "........#"}));
+  const auto contour = outline_of(drawn({"#.#.#...#", "#.#.#...#", "#####...#", "........#"}));
   EXPECT_EQ(contour.front(), (ContourPoint{0, 0}));
 }
 
@@ -81,7 +81,7 @@ TEST(Contour, OfValuesIsThatOfTheMaskAboveTheThreshold) {
   }
   std::vector<ContourPoint> contour;
   trace_contour(values, 0.1F, &contour);
-  EXPECT_EQ(contour, outline(mask));
+  EXPECT_EQ(contour, outline_of(mask));
   EXPECT_GT(contour.size(), 100U);
 }
 
@@ -93,12 +93,12 @@ TEST(Contour, IsThatOfAPartOfALargerPicture) {
     std::copy_n(part.row(y), 100, copy.pixels.begin() + static_cast<std::ptrdiff_t>(y) * 100);
   std::vector<ContourPoint> contour;
   trace_contour(part, &contour);
-  EXPECT_EQ(contour, outline(copy));
+  EXPECT_EQ(contour, outline_of(copy));
   EXPECT_THROW(trace_contour({large.pixels.data(), 20, 20, 3, 60}, &contour), InvalidArgument);
 }
 
 TEST(ResampledContour, OfADiscLiesOnACircleAtEqualDistances) {
-  const auto contour = outline(hand_testing::hand(0, 100, 100));
+  const auto contour = outline_of(hand_testing::hand(0, 100, 100));
   std::vector<float> x(64);
   std::vector<float> y(64);
   resample_contour(contour, x, y);

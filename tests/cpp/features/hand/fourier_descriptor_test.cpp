@@ -16,7 +16,7 @@ namespace {
 
 using hand_testing::hand;
 
-std::vector<ContourPoint> outline(const GreyImage& mask) {
+std::vector<ContourPoint> boundary_of(const GreyImage& mask) {
   std::vector<ContourPoint> contour;
   trace_contour(mask.view(), &contour);
   return contour;
@@ -33,7 +33,7 @@ VectorF descriptor(const std::vector<ContourPoint>& contour, bool use_phase = fa
 }
 
 VectorF descriptor(const GreyImage& mask, bool use_phase = false) {
-  return descriptor(outline(mask), use_phase);
+  return descriptor(boundary_of(mask), use_phase);
 }
 
 TEST(FourierDescriptor, OfADiscIsItsFirstHarmonic) {
@@ -46,20 +46,20 @@ TEST(FourierDescriptor, ForgetsPlaceSizeTurnAndStart) {
   const VectorF here = descriptor(hand(3, 100, 100));
   const float to_other = (descriptor(hand(2, 100, 100)) - here).norm();
   EXPECT_GT(to_other, 0.1F);
-  // A place to the pixel gives the same outline.
+  // A place to the pixel gives the same boundary_of.
   EXPECT_LT((descriptor(hand(3, 93, 110)) - here).norm(), 1e-5F);
   for (const double scale : {0.7, 1.25})
     EXPECT_LT((descriptor(hand(3, 100, 100, scale)) - here).norm(), 0.2F * to_other) << scale;
   for (const double turn : {0.3, 0.785, 1.4, 3.0})
     EXPECT_LT((descriptor(hand(3, 100, 100, 1, turn)) - here).norm(), 0.2F * to_other) << turn;
-  std::vector<ContourPoint> later = outline(hand(3, 100, 100));
+  std::vector<ContourPoint> later = boundary_of(hand(3, 100, 100));
   std::rotate(later.begin(), later.begin() + 77, later.end());
   EXPECT_LT((descriptor(later) - here).norm(), 0.02F * to_other);
 }
 
 TEST(FourierDescriptor, WithPhaseTellsHowTheShapeIsTurned) {
   const VectorF here = descriptor(hand(3, 100, 100), true);
-  std::vector<ContourPoint> later = outline(hand(3, 100, 100));
+  std::vector<ContourPoint> later = boundary_of(hand(3, 100, 100));
   std::rotate(later.begin(), later.begin() + 77, later.end());
   EXPECT_LT((descriptor(later, true) - here).norm(), 0.02F);
   EXPECT_NEAR(here[1], 0, 1e-5);  // the first harmonic is real

@@ -17,15 +17,15 @@ namespace {
 using hand_testing::grey;
 using hand_testing::hand;
 
-VectorF features(const GreyImage& mask) {
+VectorF features_of(const GreyImage& mask) {
   return HandFeatureComputer({}).compute(grey(mask).view(), mask.view());
 }
 
 TEST(HandFeatures, HardlyChangeWithPlaceAndSize) {
-  const VectorF here = features(hand(3));
-  const VectorF there = features(hand(3, 80, 130));
-  const VectorF smaller = features(hand(3, 100, 120, 0.8));
-  const VectorF other = features(hand(5));
+  const VectorF here = features_of(hand(3));
+  const VectorF there = features_of(hand(3, 80, 130));
+  const VectorF smaller = features_of(hand(3, 100, 120, 0.8));
+  const VectorF other = features_of(hand(5));
   const float to_other = (here - other).norm();
   EXPECT_LT((here - there).norm(), 0.25F * to_other);
   EXPECT_LT((here - smaller).norm(), 0.6F * to_other);
@@ -41,7 +41,7 @@ TEST(HandFeatures, PartsCanBeTurnedOff) {
   EXPECT_THROW(HandFeatureComputer{options}, InvalidArgument);
 }
 
-// The concatenated features of descriptors alone.
+// The concatenated features_of of descriptors alone.
 VectorF descriptors(const GreyImage& mask) {
   HandFeatureOptions options;
   options.use_grey = options.use_silhouette = options.use_cepstrum = false;
@@ -77,7 +77,7 @@ TEST(HandFeatures, DescriptorsLeaveALongForearmOut) {
 
 TEST(HandFeatures, RefuseAnEmptyMaskAndUnequalSizes) {
   const GreyImage empty(200, 200);
-  EXPECT_THROW(features(empty), InvalidArgument);
+  EXPECT_THROW(features_of(empty), InvalidArgument);
   const GreyImage mask = hand(2);
   EXPECT_THROW(HandFeatureComputer({}).compute(GreyImage(10, 10).view(), mask.view()),
                InvalidArgument);

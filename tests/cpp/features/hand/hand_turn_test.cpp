@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.hpp"
 #include "features/hand_testing.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
@@ -15,7 +16,8 @@
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using detail::kPi;
+
 // Three fingers, turned clockwise.
 GreyImage turned_hand(double degrees) {
   return hand_testing::hand(3, 100, 120, 1.0, degrees * kPi / 180);

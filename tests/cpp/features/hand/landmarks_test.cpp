@@ -26,16 +26,16 @@ MatrixF hand_at(float x, float y, float scale, float spread) {
   return points;
 }
 
-std::vector<float> features(const MatrixF& points, int width, int height) {
+std::vector<float> landmark_features_of(const MatrixF& points, int width, int height) {
   std::vector<float> out(kNumLandmarkFeatures);
   landmark_features(points, width, height, out);
   return out;
 }
 
 TEST(LandmarkFeatures, TellShapesApartButNotPlaceOrSize) {
-  const auto one = features(hand_at(300, 300, 1, 0.2F), 640, 480);
-  const auto other = features(hand_at(300, 400, 2, 0.2F), 1280, 960);
-  const auto spread = features(hand_at(300, 300, 1, 0.3F), 640, 480);
+  const auto one = landmark_features_of(hand_at(300, 300, 1, 0.2F), 640, 480);
+  const auto other = landmark_features_of(hand_at(300, 400, 2, 0.2F), 1280, 960);
+  const auto spread = landmark_features_of(hand_at(300, 300, 1, 0.3F), 640, 480);
   double difference = 0;
   for (std::size_t i = 0; i < kNumLandmarkFeatures - kNumLandmarkTrackColumns; ++i) {
     EXPECT_NEAR(one[i], other[i], 1e-5F) << landmark_column_names()[i];
@@ -46,7 +46,7 @@ TEST(LandmarkFeatures, TellShapesApartButNotPlaceOrSize) {
 }
 
 TEST(LandmarkFeatures, BonesOfStraightFingersPointOneWay) {
-  const auto row = features(hand_at(100, 100, 1, 0), 200, 200);
+  const auto row = landmark_features_of(hand_at(100, 100, 1, 0), 200, 200);
   for (std::size_t i = 42; i < 82; i += 2) {
     EXPECT_FLOAT_EQ(row[i], 0) << i;
     EXPECT_FLOAT_EQ(row[i + 1], -0.5F) << i;
@@ -56,13 +56,13 @@ TEST(LandmarkFeatures, BonesOfStraightFingersPointOneWay) {
 }
 
 TEST(LandmarkFeatures, HoldForPointsInOnePlaceAndRefuseWhatIsNoHand) {
-  for (const float v : features(MatrixF::Constant(kNumLandmarks, 2, 7), 10, 10))
+  for (const float v : landmark_features_of(MatrixF::Constant(kNumLandmarks, 2, 7), 10, 10))
     EXPECT_TRUE(std::isfinite(v));
-  EXPECT_THROW(features(MatrixF::Zero(20, 2), 10, 10), InvalidArgument);
-  EXPECT_THROW(features(MatrixF::Zero(kNumLandmarks, 2), 0, 10), InvalidArgument);
+  EXPECT_THROW(landmark_features_of(MatrixF::Zero(20, 2), 10, 10), InvalidArgument);
+  EXPECT_THROW(landmark_features_of(MatrixF::Zero(kNumLandmarks, 2), 0, 10), InvalidArgument);
   MatrixF broken = MatrixF::Zero(kNumLandmarks, 2);
   broken(3, 1) = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(features(broken, 10, 10), InvalidArgument);
+  EXPECT_THROW(landmark_features_of(broken, 10, 10), InvalidArgument);
 }
 
 }  // namespace

@@ -8,15 +8,16 @@
 #include <limits>
 #include <string>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "models/model_testing.hpp"
 
 namespace hri {
 namespace {
 
-using testing_data::argmax;
+using detail::kPi;
 
-constexpr double kPi = 3.14159265358979323846;
+using testing_data::argmax;
 
 OrientationHistogramOptions grid(int num_cells, int num_bins) {
   OrientationHistogramOptions options;

@@ -16,8 +16,8 @@ namespace {
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr Eigen::Index kShapes = 4, kColumns = kShapes + kNumPlaceColumns;
 
-// A hand of one shape that goes from x by `step` a frame, of a tenth of the picture.
-MatrixF hand(float shape, float x, float step, Eigen::Index num_frames) {
+// A rows_of_hand of one shape that goes from x by `step` a frame, of a tenth of the picture.
+MatrixF rows_of_hand(float shape, float x, float step, Eigen::Index num_frames) {
   MatrixF rows(num_frames, kColumns);
   for (Eigen::Index t = 0; t < num_frames; ++t)
     rows.row(t) << shape, 2, 0, 0, x + step * static_cast<float>(t), 0.5F, std::log(0.1F);
@@ -25,10 +25,10 @@ MatrixF hand(float shape, float x, float step, Eigen::Index num_frames) {
 }
 
 TEST(PairRows, HoldBothShapesTheWayBetweenAndTheMiddle) {
-  const MatrixF rows = pair_rows(hand(1, 0.2F, 0.1F, 3), hand(5, 0.8F, 0, 3), 2);
+  const MatrixF rows = pair_rows(rows_of_hand(1, 0.2F, 0.1F, 3), rows_of_hand(5, 0.8F, 0, 3), 2);
   ASSERT_EQ(rows.rows(), 3);
   ASSERT_EQ(rows.cols(), num_pair_features(kColumns));
-  EXPECT_NEAR(rows(0, 0), 5 / std::sqrt(29.0), 1e-6);  // the right hand comes first
+  EXPECT_NEAR(rows(0, 0), 5 / std::sqrt(29.0), 1e-6);  // the right rows_of_hand comes first
   EXPECT_NEAR(rows.row(1).segment(kShapes, kShapes).norm(), 1, 1e-6);
   EXPECT_NEAR(rows(0, 2 * kShapes), 2 * 0.6, 1e-6);  // from left to right, weighed
   EXPECT_NEAR(rows(2, 2 * kShapes), 2 * 0.4, 1e-6);
@@ -38,8 +38,8 @@ TEST(PairRows, HoldBothShapesTheWayBetweenAndTheMiddle) {
 }
 
 TEST(PairRows, AHandOutOfSightStaysWhereItWasSeen) {
-  MatrixF left = hand(1, 0.2F, 0.1F, 5);
-  const MatrixF right = hand(5, 0.8F, 0, 5);
+  MatrixF left = rows_of_hand(1, 0.2F, 0.1F, 5);
+  const MatrixF right = rows_of_hand(5, 0.8F, 0, 5);
   left.row(0).setConstant(kNone);
   left.row(3).setConstant(kNone);
   MatrixF held = left;
@@ -48,7 +48,7 @@ TEST(PairRows, AHandOutOfSightStaysWhereItWasSeen) {
   EXPECT_EQ(pair_rows(left, right, 1), pair_rows(held, right, 1));
   MatrixF none = right;
   none.row(3).setConstant(kNone);
-  EXPECT_EQ(pair_rows(left, none, 1).rows(), 4);  // a frame without either hand has no row
+  EXPECT_EQ(pair_rows(left, none, 1).rows(), 4);  // a frame without either rows_of_hand has no row
   EXPECT_EQ(
       pair_rows(MatrixF::Constant(2, kColumns, kNone), MatrixF::Constant(2, kColumns, kNone), 1)
           .rows(),
@@ -56,7 +56,7 @@ TEST(PairRows, AHandOutOfSightStaysWhereItWasSeen) {
 }
 
 TEST(PairRows, OneHandAloneIsTheSameOnEitherSide) {
-  const MatrixF one = hand(3, 0.3F, 0.05F, 10);
+  const MatrixF one = rows_of_hand(3, 0.3F, 0.05F, 10);
   MatrixF none = MatrixF::Constant(10, kColumns, kNone);
   const MatrixF rows = pair_rows(one, none, 1);
   EXPECT_EQ(rows, pair_rows(none, one, 1));
@@ -67,7 +67,7 @@ TEST(PairRows, OneHandAloneIsTheSameOnEitherSide) {
 }
 
 TEST(PairRows, RefuseRowsThatDoNotFit) {
-  const MatrixF one = hand(3, 0.3F, 0.05F, 4);
+  const MatrixF one = rows_of_hand(3, 0.3F, 0.05F, 4);
   MatrixF broken = one;
   broken(2, 1) = kNone;
   EXPECT_THROW(pair_rows(broken, one, 1), InvalidArgument);
@@ -88,7 +88,7 @@ TEST(TrackRows, AreTheFeaturesOfBothHandsAndTheirMiddle) {
   const MatrixF both = track_rows(tracks, 50, 2);
   EXPECT_EQ(both.leftCols(4), TwoHandFeatureComputer(options).compute(tracks, 50));
   ASSERT_EQ(both.cols(), 4 + kNumPlaceColumns);
-  EXPECT_NEAR(both(1, 4), 0, 1e-6);  // the left hand stays
+  EXPECT_NEAR(both(1, 4), 0, 1e-6);  // the left rows_of_hand stays
   EXPECT_NEAR(both(1, 5), 0.8, 1e-6);
   const MatrixF one = track_rows(tracks, 0, 1);
   ASSERT_EQ(one.cols(), 2 + kNumPlaceColumns);

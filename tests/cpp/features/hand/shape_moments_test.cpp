@@ -14,7 +14,7 @@ namespace {
 
 using hand_testing::hand;
 
-VectorF features(const GreyImage& mask) {
+VectorF hu_features_of(const GreyImage& mask) {
   VectorF out(kNumHuMoments);
   hu_features(mask.view(), {out.data(), kNumHuMoments});
   return out;
@@ -56,13 +56,13 @@ TEST(ShapeAxis, TurnsWithTheShape) {
 }
 
 TEST(HuFeatures, ForgetPlaceSizeAndTurn) {
-  const VectorF here = features(hand(3, 100, 100));
-  const float to_other = (features(hand(2, 100, 100)) - here).norm();
-  EXPECT_LT((features(hand(3, 80, 112)) - here).norm(), 1e-5F);
-  EXPECT_LT((features(hand(3, 100, 100, 1.25)) - here).norm(), 0.1F * to_other);
+  const VectorF here = hu_features_of(hand(3, 100, 100));
+  const float to_other = (hu_features_of(hand(2, 100, 100)) - here).norm();
+  EXPECT_LT((hu_features_of(hand(3, 80, 112)) - here).norm(), 1e-5F);
+  EXPECT_LT((hu_features_of(hand(3, 100, 100, 1.25)) - here).norm(), 0.1F * to_other);
   // This hand is its own mirror image, so that h7 is near 0, where its fourth root is steep.
   for (const double turn : {0.3, 0.785, 1.4, 3.0})
-    EXPECT_LT((features(hand(3, 100, 100, 1, turn)) - here).norm(), 0.4F * to_other) << turn;
+    EXPECT_LT((hu_features_of(hand(3, 100, 100, 1, turn)) - here).norm(), 0.4F * to_other) << turn;
 }
 
 TEST(HuFeatures, LastChangesItsSignInAMirror) {
@@ -72,8 +72,8 @@ TEST(HuFeatures, LastChangesItsSignInAMirror) {
     for (int x = 0; x < 200; ++x)
       mirrored.pixels[static_cast<std::size_t>(y * 200 + x)] = mask.view().at(199 - x, y);
   }
-  const VectorF here = features(mask);
-  const VectorF there = features(mirrored);
+  const VectorF here = hu_features_of(mask);
+  const VectorF there = hu_features_of(mirrored);
   EXPECT_GT(std::abs(here[6]), 1e-3F);
   EXPECT_NEAR(there[6], -here[6], 1e-4F);
   EXPECT_LT((there - here).head(6).norm(), 1e-4F);
@@ -83,7 +83,7 @@ TEST(ShapeMoments, OfNothingAreZeroAndHaveNoFeatures) {
   EXPECT_EQ(shape_moments(ImageView{}).m00, 0);
   const GreyImage empty(10, 10);
   EXPECT_EQ(shape_moments(empty.view()).mu20, 0);
-  EXPECT_THROW(features(empty), InvalidArgument);
+  EXPECT_THROW(hu_features_of(empty), InvalidArgument);
   EXPECT_THROW(shape_moments({empty.pixels.data(), 3, 3, 3, 9}), InvalidArgument);
 }
 

@@ -7,15 +7,16 @@
 #include <cmath>
 #include <complex>
 
+#include "core/numbers.hpp"
 #include "features/hand_testing.hpp"
 #include "hri/core/error.hpp"
 
 namespace hri {
 namespace {
 
-using hand_testing::hand;
+using detail::kPi;
 
-constexpr double kPi = 3.14159265358979323846;
+using hand_testing::hand;
 
 VectorF descriptor(const GreyImage& mask, WaveletDescriptorSource source) {
   WaveletDescriptorOptions options;

@@ -9,13 +9,14 @@
 #include <complex>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "hri/core/random.hpp"
 #include "hri/features/speech/cepstra.hpp"
 
 namespace hri {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using detail::kPi;
 
 // A voice of a kind: harmonics of a gliding tone, and noise.
 std::vector<float> voice(std::size_t count) {

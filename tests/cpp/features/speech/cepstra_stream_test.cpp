@@ -13,7 +13,7 @@
 namespace hri {
 namespace {
 
-std::vector<float> noise(std::size_t count) {
+std::vector<float> streamed_noise(std::size_t count) {
   Random random(7);
   std::vector<float> x(count);
   for (float& v : x) v = static_cast<float>(0.1 * random.normal());
@@ -21,7 +21,7 @@ std::vector<float> noise(std::size_t count) {
 }
 
 TEST(CepstraStream, GivesTheBitsOfTheWholeWhateverTheBlocks) {
-  const std::vector<float> x = noise(9000);
+  const std::vector<float> x = streamed_noise(9000);
   for (const int delta_orders : {0, 1, 2}) {
     CepstraOptions options;
     options.normalisation = Normalisation::running_mean;
@@ -51,7 +51,7 @@ TEST(CepstraStream, RefusesBuffersThatMayNotDo) {
   options.normalisation = Normalisation::none;
   CepstraStream stream(options);
   MatrixF small(1, 39);
-  EXPECT_THROW(stream.push(noise(8000), small), InvalidArgument);
+  EXPECT_THROW(stream.push(streamed_noise(8000), small), InvalidArgument);
   EXPECT_THROW(stream.finish(small), InvalidArgument);
   options.normalisation = Normalisation::level;
   EXPECT_THROW(CepstraStream{options}, InvalidArgument);

@@ -14,7 +14,7 @@ using namespace testing_data;
 
 const std::vector<int> kWidths = {5, 2, 4};
 
-CodebookOptions with_size(int num_codewords) {
+CodebookOptions with_size_a_stream(int num_codewords) {
   CodebookOptions options;
   options.num_codewords = num_codewords;
   return options;
@@ -23,7 +23,7 @@ CodebookOptions with_size(int num_codewords) {
 TEST(MultiStreamCodebook, CodesEachStreamAsItsOwnCodebookDoes) {
   const MatrixF rows = noise(400, 11, 1);
   std::vector<CodebookReport> reports(7);
-  const auto book = MultiStreamCodebook::train_lbg(rows, kWidths, with_size(16), &reports);
+  const auto book = MultiStreamCodebook::train_lbg(rows, kWidths, with_size_a_stream(16), &reports);
   ASSERT_EQ(book.num_streams(), 3);
   ASSERT_EQ(reports.size(), 3U);
   EXPECT_EQ(book.dim(), 11);
@@ -37,7 +37,7 @@ TEST(MultiStreamCodebook, CodesEachStreamAsItsOwnCodebookDoes) {
     const int width = kWidths[static_cast<std::size_t>(s)];
     CodebookReport report;
     const MatrixF columns = rows.middleCols(first, width);
-    const Codebook alone = Codebook::train_lbg(columns, with_size(16), &report);
+    const Codebook alone = Codebook::train_lbg(columns, with_size_a_stream(16), &report);
     EXPECT_EQ(book.stream(s).centroids(), alone.centroids());
     EXPECT_EQ(reports[static_cast<std::size_t>(s)].distortions, report.distortions);
     const MatrixF part = frames.middleCols(first, width);
@@ -52,8 +52,9 @@ TEST(MultiStreamCodebook, CodesEachStreamAsItsOwnCodebookDoes) {
 
 TEST(MultiStreamCodebook, WithOneStreamIsACodebook) {
   const MatrixF rows = noise(300, 6, 3);
-  const auto book = MultiStreamCodebook::train_lbg(rows, std::vector<int>{6}, with_size(10));
-  const Codebook alone = Codebook::train_lbg(rows, with_size(10));
+  const auto book =
+      MultiStreamCodebook::train_lbg(rows, std::vector<int>{6}, with_size_a_stream(10));
+  const Codebook alone = Codebook::train_lbg(rows, with_size_a_stream(10));
   EXPECT_EQ(book.stream(0).centroids(), alone.centroids());
   const Matrix<std::int32_t> symbols = book.quantise(rows);
   EXPECT_EQ(std::vector<std::int32_t>(symbols.data(), symbols.data() + symbols.size()),
@@ -74,7 +75,7 @@ TEST(MultiStreamCodebook, RefusesBadInputByName) {
   MatrixF rows = noise(20, 11, 7);
   const auto train = [&](const std::vector<int>& widths) {
     return message_of<InvalidArgument>(
-        [&] { MultiStreamCodebook::train_lbg(rows, widths, with_size(4)); });
+        [&] { MultiStreamCodebook::train_lbg(rows, widths, with_size_a_stream(4)); });
   };
   EXPECT_EQ(train({5, 5}), "widths add up to 10, the rows have 11 columns");
   EXPECT_EQ(train({5, 5, 2}), "widths add up to 12, the rows have 11 columns");
@@ -82,7 +83,7 @@ TEST(MultiStreamCodebook, RefusesBadInputByName) {
   EXPECT_EQ(train({11, 0}), "widths[1] = 0 is less than 1");
   EXPECT_EQ(train({}), "widths add up to 0, the rows have 11 columns");
   EXPECT_THROW(MultiStreamCodebook({}), InvalidArgument);
-  const auto book = MultiStreamCodebook::train_lbg(rows, kWidths, with_size(4));
+  const auto book = MultiStreamCodebook::train_lbg(rows, kWidths, with_size_a_stream(4));
   EXPECT_THROW(static_cast<void>(book.quantise(noise(3, 10, 8))), InvalidArgument);
   EXPECT_THROW(static_cast<void>(book.distortion(MatrixF(0, 11))), InvalidArgument);
   std::vector<std::int32_t> small(59);
@@ -94,7 +95,7 @@ TEST(MultiStreamCodebook, RefusesBadInputByName) {
 }
 
 TEST(MultiStreamCodebook, StopsWhenAskedInAnyStream) {
-  CodebookOptions options = with_size(4);
+  CodebookOptions options = with_size_a_stream(4);
   int polls = 0;
   int stop_at = 0;
   options.should_stop = [&] { return ++polls == stop_at; };
@@ -107,7 +108,7 @@ TEST(MultiStreamCodebook, StopsWhenAskedInAnyStream) {
 
 TEST(MultiStreamCodebook, IsTheSameAfterLoading) {
   const MatrixF rows = noise(300, 11, 10);
-  const auto book = MultiStreamCodebook::train_lbg(rows, kWidths, with_size(20));
+  const auto book = MultiStreamCodebook::train_lbg(rows, kWidths, with_size_a_stream(20));
   ModelFile file;
   book.write(file, "vq.");
   const MultiStreamCodebook loaded = MultiStreamCodebook::read(through_bytes(file), "vq.");

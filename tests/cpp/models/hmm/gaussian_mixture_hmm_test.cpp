@@ -18,7 +18,7 @@ namespace {
 using Kind = Topology::Kind;
 using namespace testing_data;
 
-GaussianMixtureHmmOptions with_states(int num_states, int num_mixtures = 1) {
+GaussianMixtureHmmOptions with_states_and_mixtures(int num_states, int num_mixtures = 1) {
   GaussianMixtureHmmOptions options;
   options.topology = {Kind::left_right, num_states, 1};
   options.num_mixtures = num_mixtures;
@@ -35,7 +35,7 @@ MatrixF staircase(int length, std::uint64_t seed) {
 
 TEST(GaussianMixtureHmm, LearnsTheStretchesOfASequence) {
   const auto model = GaussianMixtureHmm::train(
-      {staircase(10, 1), staircase(20, 2), staircase(15, 3)}, with_states(3));
+      {staircase(10, 1), staircase(20, 2), staircase(15, 3)}, with_states_and_mixtures(3));
   for (int j = 0; j < 3; ++j) EXPECT_NEAR(model.bank().means()(j, 0), 10.0 * j, 0.6);
   std::vector<int> path;
   model.viterbi(staircase(5, 4), &path);
@@ -43,21 +43,22 @@ TEST(GaussianMixtureHmm, LearnsTheStretchesOfASequence) {
 }
 
 TEST(GaussianMixtureHmm, TellsWordsApart) {
-  const auto up = GaussianMixtureHmm::train({staircase(10, 1), staircase(12, 2)}, with_states(3));
-  const auto down =
-      GaussianMixtureHmm::train({staircase(10, 1).colwise().reverse()}, with_states(3));
+  const auto up =
+      GaussianMixtureHmm::train({staircase(10, 1), staircase(12, 2)}, with_states_and_mixtures(3));
+  const auto down = GaussianMixtureHmm::train({staircase(10, 1).colwise().reverse()},
+                                              with_states_and_mixtures(3));
   EXPECT_GT(up.log_likelihood(staircase(8, 5)), down.log_likelihood(staircase(8, 5)));
 }
 
 TEST(GaussianMixtureHmm, LivesOnConstantFrames) {
   const MatrixF constant = MatrixF::Constant(12, 3, 1.5F);
-  const auto model = GaussianMixtureHmm::train({constant}, with_states(4, 2));
+  const auto model = GaussianMixtureHmm::train({constant}, with_states_and_mixtures(4, 2));
   EXPECT_TRUE(std::isfinite(model.log_likelihood(constant)));
   EXPECT_TRUE(std::isfinite(model.log_likelihood(noise(5, 3, 1))));
 }
 
 TEST(GaussianMixtureHmm, LivesOnFewerFramesThanComponents) {
-  const auto model = GaussianMixtureHmm::train({noise(3, 2, 1)}, with_states(2, 8));
+  const auto model = GaussianMixtureHmm::train({noise(3, 2, 1)}, with_states_and_mixtures(2, 8));
   EXPECT_TRUE(std::isfinite(model.log_likelihood(noise(10, 2, 2))));
   EXPECT_GT(model.bank().weights().minCoeff(), 0.0);
   EXPECT_NEAR(model.bank().weights().row(0).sum(), 1.0, 1e-12);
@@ -65,7 +66,7 @@ TEST(GaussianMixtureHmm, LivesOnFewerFramesThanComponents) {
 
 TEST(GaussianMixtureHmm, SurvivesFramesFarFromEveryState) {
   // In floats the densities underflow by hundreds of orders of magnitude; sums fall back to logs.
-  const auto model = GaussianMixtureHmm::train({staircase(10, 1)}, with_states(3));
+  const auto model = GaussianMixtureHmm::train({staircase(10, 1)}, with_states_and_mixtures(3));
   MatrixF frames = staircase(4, 2);
   frames.row(6).setConstant(5000.0F);
   EXPECT_TRUE(std::isfinite(model.log_likelihood(frames)));
@@ -90,14 +91,14 @@ TEST(GaussianMixtureHmm, ReachesStatesThatLookImpossibleAtFirst) {
 }
 
 TEST(GaussianMixtureHmm, ScoresInFloatAsInDouble) {
-  const auto model =
-      GaussianMixtureHmm::train({noise(200, 39, 1), noise(150, 39, 2)}, with_states(8, 3));
+  const auto model = GaussianMixtureHmm::train({noise(200, 39, 1), noise(150, 39, 2)},
+                                               with_states_and_mixtures(8, 3));
   const MatrixF frames = noise(80, 39, 3);
   EXPECT_NEAR(model.log_likelihood(frames) / model.log_likelihood_exact(frames), 1.0, 1e-5);
 }
 
 TEST(GaussianMixtureHmm, RepeatsForOneSeed) {
-  GaussianMixtureHmmOptions options = with_states(3, 2);
+  GaussianMixtureHmmOptions options = with_states_and_mixtures(3, 2);
   options.topology.kind = Kind::ergodic;
   options.seed = 5;
   const std::vector<MatrixF> sequences{noise(60, 2, 1), noise(70, 2, 2, 1.0)};
@@ -109,12 +110,12 @@ TEST(GaussianMixtureHmm, RepeatsForOneSeed) {
 
 TEST(GaussianMixtureHmm, RefusesFramesByPlace) {
   std::vector<MatrixF> sequences{noise(6, 2, 1), noise(6, 2, 2)};
-  const auto model = GaussianMixtureHmm::train(sequences, with_states(2));
+  const auto model = GaussianMixtureHmm::train(sequences, with_states_and_mixtures(2));
   sequences[1](3, 1) = kNan;
   const auto refused = [](const auto& action) { return message_of<InvalidArgument>(action); };
   EXPECT_PRED_FORMAT2(
       ::testing::IsSubstring, "sequence 1 is not finite at row 3, column 1",
-      refused([&] { return GaussianMixtureHmm::train(sequences, with_states(2)); }));
+      refused([&] { return GaussianMixtureHmm::train(sequences, with_states_and_mixtures(2)); }));
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "row 3, column 1",
                       refused([&] { return model.log_likelihood(sequences[1]); }));
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "row 3, column 1",
@@ -123,7 +124,7 @@ TEST(GaussianMixtureHmm, RefusesFramesByPlace) {
                       refused([&] { return model.log_likelihood(noise(4, 3, 1)); }));
   sequences[1] = noise(6, 3, 1);
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "sequence 1 has 3 columns", refused([&] {
-                        return GaussianMixtureHmm::train(sequences, with_states(2));
+                        return GaussianMixtureHmm::train(sequences, with_states_and_mixtures(2));
                       }));
 }
 
@@ -132,15 +133,15 @@ TEST(GaussianMixtureHmm, RefusesOptionsOutOfRangeByName) {
     return message_of<InvalidArgument>(
         [&] { return GaussianMixtureHmm::train({noise(5, 2, 1)}, o); });
   };
-  GaussianMixtureHmmOptions options = with_states(2, 0);
+  GaussianMixtureHmmOptions options = with_states_and_mixtures(2, 0);
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "num_mixtures", refused(options));
-  options = with_states(2);
+  options = with_states_and_mixtures(2);
   options.max_iterations = 0;
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "max_iterations", refused(options));
-  options = with_states(2);
+  options = with_states_and_mixtures(2);
   options.variance_floor = 0;
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "variance_floor", refused(options));
-  options = with_states(2, 4);
+  options = with_states_and_mixtures(2, 4);
   options.weight_floor = 0.5;
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "weight_floor", refused(options));
 }
@@ -161,7 +162,7 @@ TEST(GaussianMixtureHmm, RefusesParametersThatAreNoModel) {
 }
 
 TEST(GaussianMixtureHmm, SharesOneVarianceWhereItIsTied) {
-  GaussianMixtureHmmOptions options = with_states(3, 2);
+  GaussianMixtureHmmOptions options = with_states_and_mixtures(3, 2);
   options.tied_variance = true;
   options.tolerance = 0;
   TrainingReport report;
@@ -175,7 +176,7 @@ TEST(GaussianMixtureHmm, SharesOneVarianceWhereItIsTied) {
 }
 
 TEST(GaussianMixtureHmm, CountsImaginedFramesOfEveryGaussian) {
-  GaussianMixtureHmmOptions options = with_states(2, 3);
+  GaussianMixtureHmmOptions options = with_states_and_mixtures(2, 3);
   options.weight_prior = 1e9;
   const auto model = GaussianMixtureHmm::train({staircase(10, 1)}, options);
   EXPECT_LT((model.bank().weights().array() - 1.0 / 3).abs().maxCoeff(), 1e-6);
@@ -187,7 +188,7 @@ TEST(GaussianMixtureHmm, CountsImaginedFramesOfEveryGaussian) {
 
 TEST(GaussianMixtureHmm, BeginsFromClustersWhereStatesHaveNoOrder) {
   for (const Kind kind : {Kind::ergodic, Kind::banded, Kind::rank_one_plus_band}) {
-    GaussianMixtureHmmOptions options = with_states(3);
+    GaussianMixtureHmmOptions options = with_states_and_mixtures(3);
     options.topology.kind = kind;
     options.max_iterations = 1;
     const auto model = GaussianMixtureHmm::train({staircase(30, 1), staircase(40, 2)}, options);
@@ -199,7 +200,7 @@ TEST(GaussianMixtureHmm, BeginsFromClustersWhereStatesHaveNoOrder) {
 }
 
 TEST(GaussianMixtureHmm, StaysANumberWhereDensitiesVanish) {
-  const auto model = GaussianMixtureHmm::train({staircase(10, 1)}, with_states(3));
+  const auto model = GaussianMixtureHmm::train({staircase(10, 1)}, with_states_and_mixtures(3));
   MatrixF frames = staircase(4, 2);
   frames.row(6).setConstant(3e38F);  // its square is no float
   EXPECT_EQ(model.log_likelihood(frames), -kInfinity);
@@ -209,7 +210,7 @@ TEST(GaussianMixtureHmm, StaysANumberWhereDensitiesVanish) {
 
 TEST(GaussianMixtureHmm, RefusesFilesByTheFieldThatIsWrong) {
   ModelFile file;
-  GaussianMixtureHmm::train({staircase(10, 1)}, with_states(3, 2)).write(file, "m.");
+  GaussianMixtureHmm::train({staircase(10, 1)}, with_states_and_mixtures(3, 2)).write(file, "m.");
   const auto refused = [&](const char* field, const MatrixD& values) {
     ModelFile bad = file;
     bad.set_matrix(field, values);

@@ -47,8 +47,8 @@ std::vector<double> scores(const Stream& stream) {
 
 template <class T>
 class Streams : public ::testing::Test {};
-using Cases = ::testing::Types<DiscreteCase, GaussianCase>;
-TYPED_TEST_SUITE(Streams, Cases);
+using StreamCases = ::testing::Types<DiscreteCase, GaussianCase>;
+TYPED_TEST_SUITE(Streams, StreamCases);
 
 TYPED_TEST(Streams, AreAtEveryFrameWhereTheWholeScoreIs) {
   const auto all = models<TypeParam>();

@@ -16,8 +16,8 @@ using namespace testing_data;
 
 template <class T>
 class SequenceTraining : public ::testing::Test {};
-using Cases = ::testing::Types<DiscreteCase, GaussianCase>;
-TYPED_TEST_SUITE(SequenceTraining, Cases);
+using TrainingCases = ::testing::Types<DiscreteCase, GaussianCase>;
+TYPED_TEST_SUITE(SequenceTraining, TrainingCases);
 
 template <class Case>
 std::vector<typename Case::Sequence> several() {

@@ -118,7 +118,7 @@ TEST_P(GestureAddition, RefusesWhatIsNoNewGestureAndSaysWhy) {
   EXPECT_EQ(contains(few, "samples[1]: 1 frames show a hand"), moves());
 }
 
-std::string model_name(const ::testing::TestParamInfo<GestureModel>& test) {
+std::string name_of_model(const ::testing::TestParamInfo<GestureModel>& test) {
   return enum_names(GestureModel{})[static_cast<std::size_t>(test.param)];
 }
 
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Models, GestureAddition,
                          ::testing::Values(GestureModel::knn, GestureModel::hmm,
                                            GestureModel::ptbhmm, GestureModel::trajectory,
                                            GestureModel::rbf),
-                         model_name);
+                         name_of_model);
 
 TEST(GestureAdditionToRbf, IsTrainingOnAllRows) {
   GestureRecognizerOptions options;

@@ -12,7 +12,7 @@
 namespace hri {
 namespace {
 
-constexpr double kFrame_s = 1.0 / 20;
+constexpr double kStep_s = 1.0 / 20;
 
 // A square at a column; none below 0.
 GreyImage mask_at(int column) {
@@ -53,7 +53,7 @@ std::vector<std::string> events(const Places& places, const GestureSegmenterOpti
   std::vector<std::string> found;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const GreyImage mask = mask_at(places[i]);
-    const GestureSegment s = segmenter.push(mask.view(), kFrame_s * static_cast<double>(i));
+    const GestureSegment s = segmenter.push(mask.view(), kStep_s * static_cast<double>(i));
     if (s.kind != GestureSegmentKind::none) found.push_back(name(s));
   }
   const GestureSegment last = segmenter.finish();
@@ -95,12 +95,12 @@ TEST(GestureSegmenter, SaysWhenAGestureBeganAndWhetherFromRest) {
   const Places places = kGone + kMoving + kStill + kMoving;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const GestureSegment s =
-        segmenter.push(mask_at(places[i]).view(), kFrame_s * static_cast<double>(i));
+        segmenter.push(mask_at(places[i]).view(), kStep_s * static_cast<double>(i));
     if (s.kind == GestureSegmentKind::start) starts.push_back(s);
   }
   ASSERT_EQ(starts.size(), 2U);
   EXPECT_FALSE(starts[0].from_rest);
-  EXPECT_DOUBLE_EQ(starts[0].first_s, kFrame_s * 10);
+  EXPECT_DOUBLE_EQ(starts[0].first_s, kStep_s * 10);
   EXPECT_TRUE(starts[1].from_rest);
   EXPECT_TRUE(segmenter.in_gesture());
   const GestureSegment stalled = segmenter.interrupt();
@@ -112,7 +112,7 @@ TEST(GestureSegmenter, AnotherLookOfTheHandIsNoMovement) {
   GestureSegmenter segmenter({});
   int index = 0;
   const auto push = [&](int column) {
-    return segmenter.push(mask_at(column).view(), kFrame_s * index++);
+    return segmenter.push(mask_at(column).view(), kStep_s * index++);
   };
   while (segmenter.may_have_begun_s() || index < 30) {
     if (push(5).kind == GestureSegmentKind::end) break;

@@ -12,10 +12,10 @@ namespace {
 
 using hand_testing::hand;
 
-constexpr double kFrame_s = 1.0 / 20;
+constexpr double kPeriod_s = 1.0 / 20;
 
 // Pictures of these tests are masks already: what a team with another camera would plug in.
-class MaskStream : public HandStream {
+class OneHandStream : public HandStream {
  public:
   const HandObservation& push(ImageView bgr, double /*time_s*/, bool /*in_gesture*/) override {
     found_.mask = GreyImage(bgr.width_px, bgr.height_px);
@@ -88,7 +88,7 @@ struct Found {
 
 Found watch(const GestureRecognizer& recognizer, const Way& way, int gone = 0) {
   GestureStreamOptions options = GestureStream::options_for(recognizer);
-  GestureStream stream(recognizer, std::make_unique<MaskStream>(), options);
+  GestureStream stream(recognizer, std::make_unique<OneHandStream>(), options);
   Found found;
   double time_s = 0;
   const auto keep = [&](const std::vector<GestureEvent>& events) {
@@ -105,7 +105,7 @@ Found watch(const GestureRecognizer& recognizer, const Way& way, int gone = 0) {
     for (const std::uint8_t v : mask.pixels) bgr.insert(bgr.end(), 3, v);
     keep(stream.push(
         {bgr.data(), mask.width_px, mask.height_px, 3, std::ptrdiff_t{3} * mask.width_px}, time_s));
-    time_s += kFrame_s;
+    time_s += kPeriod_s;
   };
   for (const Place& p : way) push(hand(2, p.x, p.y, 0.6));
   for (int i = 0; i < gone; ++i) push(GreyImage(200, 200));
@@ -149,7 +149,7 @@ TEST(GestureStream, SettlesWhatMayBePartOfAGestureWhenNothingFollows) {
   EXPECT_EQ(found.labels[1], "down");
   EXPECT_EQ(found.labels[2], "down");
   EXPECT_EQ(found.decisions[2].score, found.decisions[1].score);
-  EXPECT_NEAR(found.times[2] - found.times[1], 2.5, 2 * kFrame_s);
+  EXPECT_NEAR(found.times[2] - found.times[1], 2.5, 2 * kPeriod_s);
 }
 
 TEST(GestureStream, SettlesAtOnceWhenTheHandLeavesOrTheStreamEnds) {
@@ -177,7 +177,7 @@ TEST(GestureStream, AHandThatIsTakenAwayLeavesTheDecisionBehind) {
 
 TEST(GestureStream, ForgetsWhatAStallInterrupted) {
   const GestureRecognizer recognizer = trained(true, 10);
-  GestureStream stream(recognizer, std::make_unique<MaskStream>(),
+  GestureStream stream(recognizer, std::make_unique<OneHandStream>(),
                        GestureStream::options_for(recognizer));
   Way way = shown("right", 60, true, 30);
   double time_s = 0;
@@ -186,7 +186,7 @@ TEST(GestureStream, ForgetsWhatAStallInterrupted) {
     std::vector<std::uint8_t> bgr;
     for (const std::uint8_t v : mask.pixels) bgr.insert(bgr.end(), 3, v);
     stream.push({bgr.data(), 200, 200, 3, 600}, time_s);
-    time_s += kFrame_s;
+    time_s += kPeriod_s;
   }
   const auto& events = stream.interrupt();
   ASSERT_EQ(events.size(), 1U);
@@ -198,10 +198,12 @@ TEST(GestureStream, RefusesOptionsOutOfRange) {
   const GestureRecognizer recognizer = trained(false, 0);
   GestureStreamOptions options;
   options.max_pause_s = -1;
-  EXPECT_THROW(GestureStream(recognizer, std::make_unique<MaskStream>(), options), InvalidArgument);
+  EXPECT_THROW(GestureStream(recognizer, std::make_unique<OneHandStream>(), options),
+               InvalidArgument);
   options = {};
   options.partial_interval_s = 0;
-  EXPECT_THROW(GestureStream(recognizer, std::make_unique<MaskStream>(), options), InvalidArgument);
+  EXPECT_THROW(GestureStream(recognizer, std::make_unique<OneHandStream>(), options),
+               InvalidArgument);
   EXPECT_THROW(GestureStream(recognizer, nullptr, {}), InvalidArgument);
 }
 

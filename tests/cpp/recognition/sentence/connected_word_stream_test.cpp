@@ -13,7 +13,7 @@ namespace {
 using testing_data::kRateHz;
 using testing_data::tone;
 
-const ConnectedWordRecognizer& trained() {
+const ConnectedWordRecognizer& trained_by_digits() {
   static const testing_data::Clips clips = testing_data::tone_clips();
   static const ConnectedWordRecognizer recognizer = [] {
     ConnectedWordRecognizerOptions options;
@@ -47,7 +47,7 @@ std::vector<float> utterance(const std::vector<std::string>& words, std::uint64_
   return audio;
 }
 
-std::vector<std::string> labels_of(const Transcript& transcript) {
+std::vector<std::string> labels_in(const Transcript& transcript) {
   std::vector<std::string> labels;
   for (const TranscribedWord& word : transcript.words) labels.push_back(word.label);
   return labels;
@@ -77,17 +77,18 @@ std::vector<float> two_utterances() {
 
 TEST(ConnectedWordStream, EndsUtterancesAsTheirRecordingsAreRecognised) {
   const std::vector<float> audio = two_utterances();
-  ConnectedWordStream stream(trained(), kRateHz);
+  ConnectedWordStream stream(trained_by_digits(), kRateHz);
   std::vector<ConnectedWordResult> final;
   for (const ConnectedWordResult& result : results_of(&stream, audio, 1600)) {
     if (result.is_final) final.push_back(result);
   }
   ASSERT_EQ(final.size(), 2U);
-  EXPECT_EQ(labels_of(final[0].transcript), kFirst);
-  EXPECT_EQ(labels_of(final[1].transcript), kSecond);
+  EXPECT_EQ(labels_in(final[0].transcript), kFirst);
+  EXPECT_EQ(labels_in(final[1].transcript), kSecond);
   const std::size_t half = utterance(kFirst, 1).size();
-  const Transcript file = trained().recognise(Span<const float>(audio).subspan(0, half), kRateHz);
-  ASSERT_EQ(labels_of(file), kFirst);
+  const Transcript file =
+      trained_by_digits().recognise(Span<const float>(audio).subspan(0, half), kRateHz);
+  ASSERT_EQ(labels_in(file), kFirst);
   for (std::size_t i = 0; i < kFirst.size(); ++i) {
     EXPECT_NEAR(final[0].transcript.words[i].first_s, file.words[i].first_s, 0.02);
     EXPECT_NEAR(final[0].transcript.words[i].last_s, file.words[i].last_s, 0.02);
@@ -99,11 +100,11 @@ TEST(ConnectedWordStream, EndsUtterancesAsTheirRecordingsAreRecognised) {
 }
 
 TEST(ConnectedWordStream, SaysWhatItHasSoFarAndKeepsWhatIsStable) {
-  ConnectedWordStream stream(trained(), kRateHz);
+  ConnectedWordStream stream(trained_by_digits(), kRateHz);
   std::vector<std::string> stable;
   int num_partial = 0;
   for (const ConnectedWordResult& result : results_of(&stream, utterance(kFirst, 1), 400)) {
-    const std::vector<std::string> labels = labels_of(result.transcript);
+    const std::vector<std::string> labels = labels_in(result.transcript);
     ASSERT_LE(static_cast<std::size_t>(result.num_stable), labels.size());
     ASSERT_GE(static_cast<std::size_t>(result.num_stable), stable.size());
     EXPECT_TRUE(std::equal(stable.begin(), stable.end(), labels.begin()));
@@ -116,7 +117,7 @@ TEST(ConnectedWordStream, SaysWhatItHasSoFarAndKeepsWhatIsStable) {
 
 TEST(ConnectedWordStream, DoesNotDependOnBlocks) {
   const std::vector<float> audio = two_utterances();
-  ConnectedWordStream stream(trained(), kRateHz);
+  ConnectedWordStream stream(trained_by_digits(), kRateHz);
   const auto expected = results_of(&stream, audio, audio.size());
   const auto found = results_of(&stream, audio, 333);  // the same stream anew
   ASSERT_EQ(found.size(), expected.size());
@@ -125,28 +126,28 @@ TEST(ConnectedWordStream, DoesNotDependOnBlocks) {
     EXPECT_EQ(found[i].num_stable, expected[i].num_stable);
     EXPECT_EQ(found[i].last_s, expected[i].last_s);
     EXPECT_EQ(found[i].transcript.log_score, expected[i].transcript.log_score);
-    EXPECT_EQ(labels_of(found[i].transcript), labels_of(expected[i].transcript));
+    EXPECT_EQ(labels_in(found[i].transcript), labels_in(expected[i].transcript));
   }
 }
 
 TEST(ConnectedWordStream, CountsWhatIsSaidBehindTheWakeWord) {
-  ConnectedWordStream stream(trained(), kRateHz, {}, "rise");
+  ConnectedWordStream stream(trained_by_digits(), kRateHz, {}, "rise");
   std::vector<std::vector<std::string>> final;
   std::vector<float> audio = two_utterances();
   const std::vector<float> asleep = utterance({"fall", "fall"}, 90);
   audio.insert(audio.end(), asleep.begin(), asleep.end());
   for (const ConnectedWordResult& result : results_of(&stream, audio, 1600)) {
     EXPECT_LE(static_cast<std::size_t>(result.num_stable), result.transcript.words.size());
-    if (result.is_final) final.push_back(labels_of(result.transcript));
+    if (result.is_final) final.push_back(labels_in(result.transcript));
   }
   EXPECT_EQ(final, (std::vector<std::vector<std::string>>{{"fall", "fall", "rise"}}));
-  EXPECT_THROW(ConnectedWordStream(trained(), kRateHz, {}, "stop"), InvalidArgument);
+  EXPECT_THROW(ConnectedWordStream(trained_by_digits(), kRateHz, {}, "stop"), InvalidArgument);
 }
 
 TEST(ConnectedWordStream, KeepsItsMemoryForTenMinutes) {
   ConnectedWordStreamOptions options;
   options.endpointer.max_utterance_ms = 4000;
-  ConnectedWordStream stream(trained(), kRateHz, options);
+  ConnectedWordStream stream(trained_by_digits(), kRateHz, options);
   const std::vector<float> audio = utterance({"rise", "fall"}, 7);
   const double seconds = static_cast<double>(audio.size()) / kRateHz;
   std::size_t most_early = 0;
@@ -169,12 +170,12 @@ TEST(ConnectedWordStream, KeepsItsMemoryForTenMinutes) {
 }
 
 TEST(ConnectedWordStream, RefusesSamplesAndOptions) {
-  ConnectedWordStream stream(trained(), kRateHz);
+  ConnectedWordStream stream(trained_by_digits(), kRateHz);
   EXPECT_THROW(stream.process(std::vector<float>{0, std::nanf("")}), InvalidArgument);
-  EXPECT_THROW(ConnectedWordStream(trained(), 10), InvalidArgument);
+  EXPECT_THROW(ConnectedWordStream(trained_by_digits(), 10), InvalidArgument);
   ConnectedWordStreamOptions options;
   options.partial_ms = 1;
-  EXPECT_THROW(ConnectedWordStream(trained(), kRateHz, options), InvalidArgument);
+  EXPECT_THROW(ConnectedWordStream(trained_by_digits(), kRateHz, options), InvalidArgument);
 }
 
 }  // namespace

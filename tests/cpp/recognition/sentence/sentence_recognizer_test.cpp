@@ -21,7 +21,7 @@ const std::vector<SignedSample>& samples() {
   return made;
 }
 
-const SentenceRecognizer& trained() {
+const SentenceRecognizer& trained_by_signs() {
   static const SentenceRecognizer recognizer =
       SentenceRecognizer::train(samples(), SentenceRecognizerOptions());
   return recognizer;
@@ -36,7 +36,7 @@ SentenceRecognizerOptions quick_options() {
 
 TEST(SentenceRecognizer, FindsWordsAndTheirFrames) {
   const SignedSample sample = signed_sentence({"dog", "cat", "cat", "ball"}, 99);
-  const RecognisedSentence found = trained().recognise(sample.tracks);
+  const RecognisedSentence found = trained_by_signs().recognise(sample.tracks);
   ASSERT_EQ(found.text(), "dog cat cat ball");
   double sum = 0;
   for (std::size_t i = 0; i < sample.words.size(); ++i) {
@@ -50,8 +50,8 @@ TEST(SentenceRecognizer, FindsWordsAndTheirFrames) {
 TEST(SentenceRecognizer, DoesNotDependOnThePictureOfTheSigner) {
   for (const double size : {0.5, 3.0}) {
     const SignedSample sample = signed_sentence({"ball", "dog", "cat"}, 7, size);
-    EXPECT_EQ(trained().recognise(sample.tracks).text(), "ball dog cat");
-    EXPECT_EQ(trained().recognise(sample.tracks, hand_scale_px(sample.tracks)).text(),
+    EXPECT_EQ(trained_by_signs().recognise(sample.tracks).text(), "ball dog cat");
+    EXPECT_EQ(trained_by_signs().recognise(sample.tracks, hand_scale_px(sample.tracks)).text(),
               "ball dog cat");
   }
 }
@@ -59,7 +59,7 @@ TEST(SentenceRecognizer, DoesNotDependOnThePictureOfTheSigner) {
 TEST(SentenceRecognizer, FindsNoWordInRest) {
   const SignedSample rest = signed_sentence({}, 5);
   const double scale_px = hand_scale_px(samples().front().tracks);
-  EXPECT_TRUE(trained().recognise(rest.tracks, scale_px).words.empty());
+  EXPECT_TRUE(trained_by_signs().recognise(rest.tracks, scale_px).words.empty());
 }
 
 TEST(SentenceRecognizer, ChoosesWhatIsToBeChosen) {
@@ -78,30 +78,35 @@ TEST(SentenceRecognizer, WordsWithKnownFramesNeedNoSearch) {
   const SignedSample sample = signed_sentence({"dog", "cat", "ball"}, 98);
   for (const bool with_language : {false, true}) {
     const RecognisedSentence found =
-        trained().recognise_spans(sample.tracks, sample.words, 0, with_language);
+        trained_by_signs().recognise_spans(sample.tracks, sample.words, 0, with_language);
     ASSERT_EQ(found.text(), "dog cat ball");
     EXPECT_EQ(found.words[1].first_frame, sample.words[1].first_frame);
   }
-  EXPECT_TRUE(trained().recognise_spans(sample.tracks, {}).words.empty());
+  EXPECT_TRUE(trained_by_signs().recognise_spans(sample.tracks, {}).words.empty());
 }
 
 TEST(SentenceRecognizer, LanguageWeighsWordsWithKnownFrames) {
   // "cat" never begins a sentence.
   const SignedSample sample = signed_sentence({"cat"}, 97);
-  EXPECT_EQ(trained().recognise_spans(sample.tracks, sample.words, 0, false).text(), "cat");
-  EXPECT_NE(
-      trained().with_known_language_scale(1e5).recognise_spans(sample.tracks, sample.words).text(),
-      "cat");
-  EXPECT_EQ(
-      trained().with_known_language_scale(0).recognise_spans(sample.tracks, sample.words).text(),
-      "cat");
+  EXPECT_EQ(trained_by_signs().recognise_spans(sample.tracks, sample.words, 0, false).text(),
+            "cat");
+  EXPECT_NE(trained_by_signs()
+                .with_known_language_scale(1e5)
+                .recognise_spans(sample.tracks, sample.words)
+                .text(),
+            "cat");
+  EXPECT_EQ(trained_by_signs()
+                .with_known_language_scale(0)
+                .recognise_spans(sample.tracks, sample.words)
+                .text(),
+            "cat");
 }
 
 TEST(SentenceRecognizer, WordShorterThanItsStatesIsStillNamed) {
   const SignedSample sample = signed_sentence({"dog"}, 96);
   SignedWordSpan frame = sample.words[0];
   frame.last_frame = frame.first_frame + 1;
-  EXPECT_EQ(trained().recognise_spans(sample.tracks, {frame}, 0, false).text(), "dog");
+  EXPECT_EQ(trained_by_signs().recognise_spans(sample.tracks, {frame}, 0, false).text(), "dog");
 }
 
 TEST(SentenceRecognizer, GoesThroughAFile) {
@@ -117,7 +122,7 @@ TEST(SentenceRecognizer, GoesThroughAFile) {
     EXPECT_EQ(loaded.recognise(sample.tracks).text(), found.text());
     EXPECT_EQ(loaded.language() == nullptr, order == 0);
   }
-  ModelFile other = trained().to_model_file();
+  ModelFile other = trained_by_signs().to_model_file();
   other.set_kind("word_recognizer");
   EXPECT_THROW(SentenceRecognizer::from_model_file(other), FormatError);
 }
@@ -190,7 +195,7 @@ TEST(SentenceRecognizer, TrainsTheSameAgain) {
 TEST(SentenceRecognizer, HandsMayVanishForAWhile) {
   SignedSample sample = signed_sentence({"dog", "ball"}, 93);
   sample.tracks.block(0, 0, 12, 2).setConstant(std::numeric_limits<float>::quiet_NaN());
-  EXPECT_EQ(trained().recognise(sample.tracks).text(), "dog ball");
+  EXPECT_EQ(trained_by_signs().recognise(sample.tracks).text(), "dog ball");
 }
 
 TEST(SentenceRecognizer, RefusesSentencesThatContradictThemselves) {
@@ -220,15 +225,16 @@ TEST(SentenceRecognizer, RefusesSentencesThatContradictThemselves) {
   const std::int64_t half = all_word.tracks.rows() / 2;
   all_word.words = {{"cat", 0, half}, {"dog", half, all_word.tracks.rows()}};
   refused({all_word, all_word});
-  EXPECT_THROW(trained().recognise(MatrixF(0, 6)), InvalidArgument);
-  EXPECT_THROW(trained().recognise(samples()[0].tracks, -1), InvalidArgument);
-  EXPECT_THROW(trained().recognise_spans(samples()[0].tracks, {{"", -1, 4}}), InvalidArgument);
-  EXPECT_THROW(trained().recognise_spans(samples()[0].tracks, {{"", 5, 9}, {"", 2, 12}}),
+  EXPECT_THROW(trained_by_signs().recognise(MatrixF(0, 6)), InvalidArgument);
+  EXPECT_THROW(trained_by_signs().recognise(samples()[0].tracks, -1), InvalidArgument);
+  EXPECT_THROW(trained_by_signs().recognise_spans(samples()[0].tracks, {{"", -1, 4}}),
+               InvalidArgument);
+  EXPECT_THROW(trained_by_signs().recognise_spans(samples()[0].tracks, {{"", 5, 9}, {"", 2, 12}}),
                InvalidArgument);
 }
 
 TEST(SentenceRecognizer, NeedsPartsThatFit) {
-  const SentenceRecognizer& r = trained();
+  const SentenceRecognizer& r = trained_by_signs();
   EXPECT_THROW(
       SentenceRecognizer(r.options(), {"a", "b"}, r.models(), r.final_stays(), r.language()),
       InvalidArgument);

@@ -20,14 +20,14 @@ using testing_data::tone_clips;
 constexpr double kFlat = 0;      // Hz a second
 constexpr double kSteep = 2500;  // far steeper than the words of the vocabulary
 
-struct Fillers {
+struct OtherWords {
   std::vector<std::vector<float>> audio;
   std::vector<WordSample> words;
 };
 
 // Two words outside the vocabulary, by another voice than any in the training.
-Fillers fillers() {
-  Fillers result;
+OtherWords other_words() {
+  OtherWords result;
   result.audio.reserve(6);
   for (std::uint64_t take = 0; take < 3; ++take) {
     for (const double slope : {kFlat, kSteep}) {
@@ -38,8 +38,8 @@ Fillers fillers() {
   return result;
 }
 
-WordRecognizer trained(const std::vector<WordSample>& others,
-                       SequenceModelKind kind = SequenceModelKind::hmm) {
+WordRecognizer trained_beside(const std::vector<WordSample>& others,
+                              SequenceModelKind kind = SequenceModelKind::hmm) {
   WordRecognizerOptions options;
   options.model = kind;
   options.max_iterations = 4;
@@ -48,15 +48,15 @@ WordRecognizer trained(const std::vector<WordSample>& others,
 }
 
 TEST(FillerWords, RejectWordsOutsideTheVocabulary) {
-  const Fillers others = fillers();
-  const WordRecognizer with = trained(others.words);
-  const WordRecognizer without = trained({});
+  const OtherWords others = other_words();
+  const WordRecognizer with = trained_beside(others.words);
+  const WordRecognizer without = trained_beside({});
   ASSERT_EQ(with.verifier().word_weights().size(), 1);
   EXPECT_GT(with.verifier().word_weights()[0], 0);
   for (const double slope : {kFlat, kSteep}) {
     const std::vector<float> strange = tone(590, slope, 90);
     EXPECT_EQ(with.recognise(strange, kRateHz).status, DecisionStatus::unknown) << slope;
-    // The scores of the vocabulary are what they were: only rejection uses fillers.
+    // The scores of the vocabulary are what they were: only rejection uses other_words.
     EXPECT_EQ(with.scores(strange, kRateHz), without.scores(strange, kRateHz));
   }
   const Decision known = with.recognise(tone(560, 800, 91), kRateHz);
@@ -65,8 +65,8 @@ TEST(FillerWords, RejectWordsOutsideTheVocabulary) {
 }
 
 TEST(FillerWords, AreSavedInTheFile) {
-  const Fillers others = fillers();
-  const WordRecognizer before = trained(others.words);
+  const OtherWords others = other_words();
+  const WordRecognizer before = trained_beside(others.words);
   ModelFile file = before.to_model_file();
   EXPECT_EQ(file.integer("stream.0.num_background"), 2);
   const std::vector<float> clip = tone(590, kFlat, 92);
@@ -91,8 +91,8 @@ TEST(FillerWords, AdaptToTheSpeakerAsTheVocabularyDoes) {
     }
     return sequences;
   };
-  const FillerModels fillers = train_fillers(ClassSequences{near(8)}, options, {});
-  const auto scorer = train_sequence_scorer({near(0), near(4)}, options, {}, fillers);
+  const FillerModels other_words = train_fillers(ClassSequences{near(8)}, options, {});
+  const auto scorer = train_sequence_scorer({near(0), near(4)}, options, {}, other_words);
   ASSERT_EQ(scorer->num_fillers(), 1);
   AdaptationOptions adaptation;
   adaptation.shared_frames = 1;
@@ -104,23 +104,23 @@ TEST(FillerWords, AdaptToTheSpeakerAsTheVocabularyDoes) {
 }
 
 TEST(FillerWords, AreIgnoredByPossibilityTheory) {
-  const Fillers others = fillers();
-  const WordRecognizer with = trained(others.words, SequenceModelKind::ptbhmm);
-  const WordRecognizer without = trained({}, SequenceModelKind::ptbhmm);
+  const OtherWords others = other_words();
+  const WordRecognizer with = trained_beside(others.words, SequenceModelKind::ptbhmm);
+  const WordRecognizer without = trained_beside({}, SequenceModelKind::ptbhmm);
   const std::vector<float> clip = tone(560, 800, 93);
   EXPECT_EQ(with.recognise(clip, kRateHz).score, without.recognise(clip, kRateHz).score);
   SequenceModelOptions options;
   options.model = SequenceModelKind::ptbhmm;
   const ClassSequences sequences{{MatrixF::Zero(8, 2)}, {MatrixF::Ones(8, 2)}};
-  const FillerModels fillers = train_fillers(sequences, {}, {});
-  EXPECT_THROW(train_sequence_scorer(sequences, options, {}, fillers), InvalidArgument);
+  const FillerModels other_words = train_fillers(sequences, {}, {});
+  EXPECT_THROW(train_sequence_scorer(sequences, options, {}, other_words), InvalidArgument);
 }
 
 TEST(FillerWords, RefuseAudioThatIsNotFinite) {
-  Fillers others = fillers();
+  OtherWords others = other_words();
   others.audio[1][5] = std::numeric_limits<float>::quiet_NaN();
   try {
-    trained(others.words);
+    trained_beside(others.words);
     FAIL() << "took a sample that is not a number";
   } catch (const InvalidArgument& error) {
     EXPECT_NE(std::string(error.what()).find("fillers[1]: audio is not finite at index 5"),
@@ -129,7 +129,7 @@ TEST(FillerWords, RefuseAudioThatIsNotFinite) {
   }
   // A filler without speech is left out.
   const std::vector<float> silence(kRateHz, 0.0F);
-  const WordRecognizer silent = trained({{silence, kRateHz, "nothing", ""}});
+  const WordRecognizer silent = trained_beside({{silence, kRateHz, "nothing", ""}});
   EXPECT_EQ(silent.to_model_file().integer("stream.0.num_background"), 0);
 }
 

@@ -35,7 +35,7 @@ WordRecognizerOptions with_network(FrontEndKind front_end = FrontEndKind::cepstr
   return options;
 }
 
-WordRecognizer trained(FrontEndKind front_end = FrontEndKind::cepstra) {
+WordRecognizer trained_with_network(FrontEndKind front_end = FrontEndKind::cepstra) {
   std::shared_ptr<const SpeechEmbedding> embedding;
   if (front_end == FrontEndKind::both)
     embedding = std::make_shared<const SpeechEmbedding>(small_embedding({}));
@@ -46,7 +46,7 @@ WordRecognizer trained(FrontEndKind front_end = FrontEndKind::cepstra) {
 class NetworkRecognizer : public ::testing::TestWithParam<FrontEndKind> {};
 
 TEST_P(NetworkRecognizer, TheNetworkVotes) {
-  const WordRecognizer recognizer = trained(GetParam());
+  const WordRecognizer recognizer = trained_with_network(GetParam());
   ASSERT_NE(recognizer.scorer().network(), nullptr);
   EXPECT_GT(recognizer.scorer().network()->weight, 0);
   const testing_data::Clips clips = tone_clips();
@@ -62,7 +62,7 @@ TEST_P(NetworkRecognizer, TheNetworkVotes) {
 }
 
 TEST_P(NetworkRecognizer, LoadsWhatItSavedToTheBit) {
-  const WordRecognizer recognizer = trained(GetParam());
+  const WordRecognizer recognizer = trained_with_network(GetParam());
   const std::vector<std::uint8_t> bytes = recognizer.to_model_file().serialise();
   const WordRecognizer again = WordRecognizer::from_model_file(
       ModelFile::parse({bytes.data(), bytes.size()}, "x"), recognizer.front_end().embedding());
@@ -90,7 +90,7 @@ TEST(NetworkWords, EveryEpochIsAStepOfTraining) {
 }
 
 TEST(NetworkWords, WordsAreAddedAndRemoved) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_with_network();
   const std::vector<float> flat = tone(700, 0, 90);
   const WordRecognizer more = recognizer.with_word({{flat, kRateHz, "flat", ""}});
   EXPECT_EQ(more.recognise(tone(700, 0, 91), kRateHz).nbest.front().label, "flat");
@@ -103,7 +103,7 @@ TEST(NetworkWords, WordsAreAddedAndRemoved) {
 }
 
 TEST(NetworkWords, TheNetworkStaysWhereTheRestAdapts) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_with_network();
   SpeakerAdapter adapter(recognizer);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     adapter.learn(tone(700, 800, seed), kRateHz, "rise");
@@ -118,14 +118,14 @@ TEST(NetworkWords, IsTheSameFromAnyNumberOfThreads) {
   std::vector<std::vector<std::uint8_t>> files;
   for (const int threads : {1, 3}) {
     set_num_threads(threads);
-    files.push_back(trained().to_model_file().serialise());
+    files.push_back(trained_with_network().to_model_file().serialise());
   }
   set_num_threads(0);
   EXPECT_EQ(files.front(), files.back());
 }
 
 TEST(NetworkWords, TakesShortClipsSilenceAndOtherRates) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_with_network();
   EXPECT_EQ(recognizer.recognise(std::vector<float>(16000, 0.0F), kRateHz).status,
             DecisionStatus::no_input);
   const std::vector<float> rise = tone(560, 800, 92);
@@ -136,7 +136,7 @@ TEST(NetworkWords, TakesShortClipsSilenceAndOtherRates) {
 
 TEST(NetworkWords, RefusesAModelWhoseNetworkIsMissingOrOfOtherClasses) {
   const auto broken = [](const auto& change) {
-    ModelFile file = trained().to_model_file();
+    ModelFile file = trained_with_network().to_model_file();
     change(file);
     const std::vector<std::uint8_t> bytes = file.serialise();
     return WordRecognizer::from_model_file(ModelFile::parse({bytes.data(), bytes.size()}, "x"));

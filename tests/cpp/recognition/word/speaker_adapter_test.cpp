@@ -14,7 +14,7 @@ using testing_data::kRateHz;
 using testing_data::tone;
 using testing_data::tone_clips;
 
-WordRecognizer trained(SequenceModelKind kind = SequenceModelKind::hmm) {
+WordRecognizer trained_to_adapt(SequenceModelKind kind = SequenceModelKind::hmm) {
   WordRecognizerOptions options;
   options.model = kind;
   options.max_iterations = 4;
@@ -27,7 +27,7 @@ std::vector<float> strange(bool rises, std::uint64_t seed) {
 }
 
 TEST(SpeakerAdapter, BeginsAsTheRecogniser) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_to_adapt();
   SpeakerAdapter adapter(recognizer);
   const std::vector<float> clip = strange(true, 1);
   EXPECT_EQ(adapter.recognizer().scores(clip, kRateHz), recognizer.scores(clip, kRateHz));
@@ -39,7 +39,7 @@ TEST(SpeakerAdapter, BeginsAsTheRecogniser) {
 TEST(SpeakerAdapter, AdaptsSupervised) {
   SpeakerAdapterOptions options;
   options.words_per_label = 0;
-  SpeakerAdapter adapter(trained(), options);
+  SpeakerAdapter adapter(trained_to_adapt(), options);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     adapter.learn(strange(true, seed), kRateHz, "rise");
     adapter.learn(strange(false, seed), kRateHz, "fall");
@@ -80,14 +80,14 @@ TEST(SpeakerAdapter, AdaptsUnsupervised) {
 TEST(SpeakerAdapter, RemembersSoManyWordsOnly) {
   SpeakerAdapterOptions options;
   options.max_words = 3;
-  SpeakerAdapter adapter(trained(), options);
+  SpeakerAdapter adapter(trained_to_adapt(), options);
   for (std::uint64_t seed = 0; seed < 5; ++seed)
     adapter.learn(strange(true, seed), kRateHz, "rise");
   EXPECT_EQ(adapter.num_words(), 3);
 }
 
 TEST(SpeakerAdapter, RemembersNothingWithoutSpeech) {
-  SpeakerAdapter adapter(trained());
+  SpeakerAdapter adapter(trained_to_adapt());
   const std::vector<float> silence(kRateHz, 0.0F);
   EXPECT_EQ(adapter.recognise(silence, kRateHz).status, DecisionStatus::no_input);
   EXPECT_EQ(adapter.num_words(), 0);
@@ -97,7 +97,7 @@ TEST(SpeakerAdapter, RemembersNothingWithoutSpeech) {
 TEST(SpeakerAdapter, AdaptedModelsAreKeptInTheFile) {
   SpeakerAdapterOptions options;
   options.words_per_label = 0;
-  SpeakerAdapter adapter(trained(), options);
+  SpeakerAdapter adapter(trained_to_adapt(), options);
   adapter.learn(strange(true, 1), kRateHz, "rise");
   adapter.update();
   const WordRecognizer again =
@@ -107,7 +107,7 @@ TEST(SpeakerAdapter, AdaptedModelsAreKeptInTheFile) {
 }
 
 TEST(SpeakerAdapter, StopsWhenAskedAndStaysAsItWas) {
-  SpeakerAdapter adapter(trained());
+  SpeakerAdapter adapter(trained_to_adapt());
   adapter.learn(strange(true, 1), kRateHz, "rise");
   const std::vector<float> clip = strange(false, 2);
   const VectorF before = adapter.recognizer().scores(clip, kRateHz);
@@ -117,12 +117,12 @@ TEST(SpeakerAdapter, StopsWhenAskedAndStaysAsItWas) {
 }
 
 TEST(SpeakerAdapter, RefusesWhatItCannotDo) {
-  EXPECT_THROW(SpeakerAdapter{trained(SequenceModelKind::ptbhmm)}, InvalidArgument);
-  SpeakerAdapter adapter(trained());
+  EXPECT_THROW(SpeakerAdapter{trained_to_adapt(SequenceModelKind::ptbhmm)}, InvalidArgument);
+  SpeakerAdapter adapter(trained_to_adapt());
   EXPECT_THROW(adapter.learn(strange(true, 1), kRateHz, "sideways"), InvalidArgument);
   SpeakerAdapterOptions options;
   options.trusted_share = 1.5;
-  EXPECT_THROW(SpeakerAdapter(trained(), options), InvalidArgument);
+  EXPECT_THROW(SpeakerAdapter(trained_to_adapt(), options), InvalidArgument);
 }
 
 }  // namespace

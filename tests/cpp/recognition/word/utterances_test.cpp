@@ -38,7 +38,7 @@ bool mentions(const std::vector<std::string>& notes, const std::string& part) {
   return false;
 }
 
-WordRecognizer trained() {
+WordRecognizer trained_on_utterances() {
   WordRecognizerOptions options;
   options.max_iterations = 4;
   options.false_reject_rate = 0;
@@ -65,7 +65,7 @@ TEST(FindSpeech, CountsOneUtteranceAcrossAPlosive) {
 }
 
 TEST(WordRecognizer, NotesSeveralUtterances) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_on_utterances();
   EXPECT_TRUE(recognizer.recognise(joined({true}), kRateHz).notes.empty());
   const Decision three = recognizer.recognise(joined({true, false, true}), kRateHz);
   EXPECT_TRUE(mentions(three.notes, "3 utterances"));
@@ -77,7 +77,7 @@ TEST(WordRecognizer, NotesSeveralUtterances) {
 }
 
 TEST(WordRecognizer, RecognisesEveryUtterance) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_on_utterances();
   const std::vector<bool> words{true, false, false, true};
   const std::vector<UtteranceDecision> found =
       recognizer.recognise_utterances(joined(words), kRateHz);
@@ -95,7 +95,7 @@ TEST(WordRecognizer, RecognisesEveryUtterance) {
 }
 
 TEST(WordRecognizer, NamesTheArgumentThatIsWrong) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_on_utterances();
   const auto what = [&](const std::vector<float>& audio, int rate) {
     try {
       (void)recognizer.recognise(audio, rate);

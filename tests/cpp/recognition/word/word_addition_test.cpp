@@ -120,13 +120,13 @@ TEST_P(WordAddition, StopsWhenAsked) {
   EXPECT_EQ(polls, 5);
 }
 
-std::string model_name(const ::testing::TestParamInfo<SequenceModelKind>& test) {
+std::string name_of_model(const ::testing::TestParamInfo<SequenceModelKind>& test) {
   return test.param == SequenceModelKind::hmm ? "hmm" : "ptbhmm";
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, WordAddition,
                          ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm),
-                         model_name);
+                         name_of_model);
 
 TEST(WordAdditionOf, BadRecordingsIsRefusedByName) {
   const testing_data::Clips known = testing_data::tone_clips();

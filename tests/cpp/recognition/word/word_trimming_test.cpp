@@ -29,7 +29,7 @@ std::vector<float> rising_tone(std::size_t pause, double floor, std::uint64_t se
   return result;
 }
 
-WordRecognizer trained(const WordRecognizerOptions& options = {}) {
+WordRecognizer trained_with_cut(const WordRecognizerOptions& options = {}) {
   return WordRecognizer::train(tone_clips().samples, options);
 }
 
@@ -39,7 +39,7 @@ double margin(const WordRecognizer& r, const std::vector<float>& clip) {
 }
 
 TEST(WordTrimming, PausesDoNotMatter) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_with_cut();
   const double tight =
       margin(recognizer, rising_tone(kRateHz / 20, 0, 1));  // shorter than the padding
   ASSERT_GT(tight, 0);
@@ -51,8 +51,8 @@ TEST(WordTrimming, PausesDoNotMatter) {
 TEST(WordTrimming, NoiseFloorMasksWhatLiesBelowIt) {
   WordRecognizerOptions low;
   low.noise_floor_db = 120;
-  const WordRecognizer open = trained(low);
-  const WordRecognizer closed = trained();
+  const WordRecognizer open = trained_with_cut(low);
+  const WordRecognizer closed = trained_with_cut();
   const auto difference = [](const WordRecognizer& r) {
     const VectorF faint = r.scores(rising_tone(kRateHz / 2, 1e-6, 3), kRateHz);
     const VectorF silent = r.scores(rising_tone(kRateHz / 2, 0, 3), kRateHz);
@@ -62,7 +62,7 @@ TEST(WordTrimming, NoiseFloorMasksWhatLiesBelowIt) {
 }
 
 TEST(WordTrimming, GivesTheSameEveryTimeAndAtEveryLevel) {
-  const WordRecognizer recognizer = trained();
+  const WordRecognizer recognizer = trained_with_cut();
   std::vector<float> clip = rising_tone(kRateHz / 2, 0, 4);
   const VectorF once = recognizer.scores(clip, kRateHz);
   EXPECT_EQ(recognizer.scores(clip, kRateHz), once);
@@ -74,7 +74,7 @@ TEST(WordTrimming, RefusesANoiseFloorOutOfRange) {
   for (const double floor : {19.0, 121.0, std::nan("")}) {
     WordRecognizerOptions options;
     options.noise_floor_db = floor;
-    EXPECT_THROW(trained(options), InvalidArgument) << floor;
+    EXPECT_THROW(trained_with_cut(options), InvalidArgument) << floor;
   }
 }
 

@@ -16,18 +16,18 @@
 namespace hri {
 namespace {
 
-constexpr int kRateHz = 16000;
+constexpr int kToneRateHz = 16000;
 constexpr double kTwoPi = 6.283185307179586;
 
 // Words of two tones, one after the other, spoken by several persons at different pitch and pace.
 std::vector<float> two_tones(double first_hz, double second_hz, double pitch, Random* random) {
   const double seconds = 0.4 * (0.9 + 0.2 * random->uniform());
-  std::vector<float> x(static_cast<std::size_t>((seconds + 0.4) * kRateHz));
+  std::vector<float> x(static_cast<std::size_t>((seconds + 0.4) * kToneRateHz));
   double phase = 0;
   for (std::size_t n = 0; n < x.size(); ++n) {
-    const double t = static_cast<double>(n) / kRateHz - 0.2;
+    const double t = static_cast<double>(n) / kToneRateHz - 0.2;
     const bool sounds = t >= 0 && t < seconds;
-    phase += kTwoPi * pitch * (t < seconds / 2 ? first_hz : second_hz) / kRateHz;
+    phase += kTwoPi * pitch * (t < seconds / 2 ? first_hz : second_hz) / kToneRateHz;
     x[n] = static_cast<float>((sounds ? 0.3 * std::sin(phase) : 0.0) + 0.002 * random->normal());
   }
   return x;
@@ -38,13 +38,13 @@ const std::map<std::string, std::pair<double, double>> kTones{
     {"wide", {400, 2500}},     {"edge", {2500, 2400}},
 };
 
-struct Clips {
+struct VerifiedClips {
   std::vector<std::vector<float>> audio;
   std::vector<WordSample> samples;
 };
 
-Clips clips() {
-  Clips result;
+VerifiedClips clips() {
+  VerifiedClips result;
   result.audio.reserve(100);
   Random random(11);
   for (const char* person : {"a", "b", "c"}) {
@@ -52,7 +52,7 @@ Clips clips() {
     for (const auto& [label, tones] : kTones) {
       for (int take = 0; take < 5; ++take) {
         result.audio.push_back(two_tones(tones.first, tones.second, pitch, &random));
-        result.samples.push_back({result.audio.back(), kRateHz, label, person});
+        result.samples.push_back({result.audio.back(), kToneRateHz, label, person});
       }
     }
   }
@@ -181,7 +181,7 @@ TEST(WordVerifier, FeaturesAreThoseOfTheAlignment) {
 }
 
 TEST(WordRecognizer, RejectsWordsOutsideTheVocabularyAndBurstsOfNoise) {
-  const Clips all = clips();
+  const VerifiedClips all = clips();
   std::vector<WordSample> train;
   for (const WordSample& s : all.samples) {
     if (s.group != "b" && s.label != "wide" && s.label != "edge") train.push_back(s);
@@ -194,7 +194,7 @@ TEST(WordRecognizer, RejectsWordsOutsideTheVocabularyAndBurstsOfNoise) {
   int strangers_accepted = 0;
   for (const WordSample& s : all.samples) {
     if (s.group != "b") continue;
-    const Decision d = recognizer.recognise(s.samples, kRateHz);
+    const Decision d = recognizer.recognise(s.samples, kToneRateHz);
     const bool yes = d.status == DecisionStatus::recognised;
     if (s.label == "wide" || s.label == "edge") {
       strangers_accepted += yes ? 1 : 0;
@@ -207,12 +207,12 @@ TEST(WordRecognizer, RejectsWordsOutsideTheVocabularyAndBurstsOfNoise) {
   EXPECT_LE(strangers_accepted, 1);
   Random random(9);
   for (int i = 0; i < 10; ++i) {
-    std::vector<float> burst(kRateHz);
+    std::vector<float> burst(kToneRateHz);
     for (std::size_t n = 0; n < burst.size(); ++n) {
       const bool on = n > 4000 && n < 8000 + 500 * static_cast<std::size_t>(i);
       burst[n] = static_cast<float>((on ? 0.1 : 0.001) * random.normal());
     }
-    EXPECT_NE(recognizer.recognise(burst, kRateHz).status, DecisionStatus::recognised) << i;
+    EXPECT_NE(recognizer.recognise(burst, kToneRateHz).status, DecisionStatus::recognised) << i;
   }
 }
 
