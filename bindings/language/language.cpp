@@ -253,10 +253,12 @@ void bind_grammar(py::module_& m) {
       .def_static("parse", &hri::Grammar::parse, py::arg("text"), py::arg("name"),
                   "The same of a text; `name` is what errors call it.")
       .def("slots_of", &hri::Grammar::slots_of, py::arg("sentence"),
-           "The slots of a list of words; None for what is no sentence of the grammar.")
+           "The slots of a list of words; None for what is no sentence of the grammar, or has more "
+           "than 10000 words.")
       .def("sentences", &hri::Grammar::sentences, py::arg("most") = 10000,
            "Every sentence once, as lists of words, in the grammar's order; raises InvalidArgument "
-           "for more than `most`, and for repetitions, which have no end.")
+           "for more than `most`, for repetitions, which have no end, for a sentence of more than "
+           "10000 words and for more than four million words in all.")
       .def("network", &hri::Grammar::network, py::arg("labels"), py::arg("silence") = -1,
            py::arg("unknown") = -1, "Its sentences as a WordNetwork; model i is labels[i].")
       .def_property_readonly("text", &hri::Grammar::text, "That was read.")

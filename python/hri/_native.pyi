@@ -5907,11 +5907,11 @@ class Grammar:
         """
     def sentences(self, most: typing.SupportsInt | typing.SupportsIndex = 10000) -> list[list[str]]:
         """
-        Every sentence once, as lists of words, in the grammar's order; raises InvalidArgument for more than `most`, and for repetitions, which have no end.
+        Every sentence once, as lists of words, in the grammar's order; raises InvalidArgument for more than `most`, for repetitions, which have no end, for a sentence of more than 10000 words and for more than four million words in all.
         """
     def slots_of(self, sentence: collections.abc.Sequence[str]) -> dict[str, str] | None:
         """
-        The slots of a list of words; None for what is no sentence of the grammar.
+        The slots of a list of words; None for what is no sentence of the grammar, or has more than 10000 words.
         """
     @property
     def text(self) -> str:

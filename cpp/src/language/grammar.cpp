@@ -90,6 +90,7 @@ class SentenceWalk {
 };
 
 constexpr std::size_t kMostVisits = 10000000;  // of nodes, by all paths
+constexpr std::size_t kMostListed = 4000000;   // words of all sentences, each by every path
 
 // All paths from the first node to the last one.
 class SentenceList {
@@ -127,6 +128,9 @@ class SentenceList {
 
  private:
   void add() {
+    require(words_.size() <= kMostWords, "the grammar has a sentence of more than 10000 words");
+    num_listed_ += words_.size();
+    require(num_listed_ <= kMostListed, "the sentences of the grammar are too long to list them");
     if (!known_.insert(words_).second) return;
     if (known_.size() > most_) {
       fail(ErrorKind::invalid_argument,
@@ -140,6 +144,7 @@ class SentenceList {
   std::vector<std::vector<int>> next_;
   std::vector<bool> is_open_;
   std::size_t num_visits_ = 0;
+  std::size_t num_listed_ = 0;  // words
   std::vector<std::string> words_;
   std::set<std::vector<std::string>> known_;
   std::vector<std::vector<std::string>> found_;

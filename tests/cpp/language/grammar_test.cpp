@@ -83,6 +83,27 @@ TEST(Grammar, ListsItsSentences) {
                InvalidArgument);
 }
 
+// Rules that double: <r12> has 4096 words, <r14> 16384.
+TEST(Grammar, ListsNoSentenceThatItDoesNotTake) {
+  std::string rules = "<r0> = a;";
+  for (int i = 1; i <= 14; ++i) {
+    const std::string inner = "<r" + std::to_string(i - 1) + ">";
+    rules += "<r" + std::to_string(i) + "> = " + inner + " " + inner + ";";
+  }
+  const auto listed = [&rules](const std::string& sentence) {
+    return Grammar::parse(kHead + rules + "public <s> = " + sentence + ";", "f");
+  };
+  const Grammar long_ones = listed("<r12> ( a | b )");
+  ASSERT_EQ(long_ones.sentences().size(), 2U);
+  for (const auto& sentence : long_ones.sentences()) EXPECT_TRUE(long_ones.slots_of(sentence));
+  EXPECT_THROW((void)listed("<r14>").sentences(), InvalidArgument);
+  // Ten bits behind 4096 words: too many words in all.
+  std::string bits;
+  for (int i = 0; i < 10; ++i) bits += "( a | b ) ";
+  EXPECT_EQ(listed(bits).sentences().size(), 1024U);
+  EXPECT_THROW((void)listed("<r12> " + bits).sentences(), InvalidArgument);
+}
+
 TEST(Grammar, RefusesWhatGrowsBeyondBounds) {
   std::string tags = "public <s> = a ";
   for (int i = 0; i < 100000; ++i) tags += "{t}";

@@ -38,12 +38,13 @@ class HRI_API Grammar {
   [[nodiscard]] const std::string& text() const { return text_; }                 ///< that was read
   [[nodiscard]] const std::vector<std::string>& words() const { return words_; }  ///< sorted
 
-  /// The slots of a sentence; nothing for what is none. Where it can be read in several ways, those
-  /// alternatives count that stand first.
+  /// The slots of a sentence; nothing for what is none, or has more than 10000 words. Where it can
+  /// be read in several ways, those alternatives count that stand first.
   [[nodiscard]] std::optional<Slots> slots_of(const std::vector<std::string>& sentence) const;
 
   /// Every sentence once, in the order in which the grammar has them, with its weights left aside.
-  /// Throws InvalidArgument for more than `most`, and for repetitions, which have no end.
+  /// Throws InvalidArgument for more than `most`, for repetitions, which have no end, for a sentence
+  /// of more than 10000 words and for more than four million words in all.
   [[nodiscard]] std::vector<std::vector<std::string>> sentences(std::size_t most = 10000) const;
 
   /// Its sentences as a network; model i is the word labels[i]. With a `silence` model it may stand
