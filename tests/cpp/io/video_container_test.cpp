@@ -19,7 +19,7 @@ Bytes operator+(Bytes a, const Bytes& b) {
   return a;
 }
 
-Bytes text(const std::string& s) { return {s.begin(), s.end()}; }
+Bytes bytes_of(const std::string& s) { return {s.begin(), s.end()}; }
 
 Bytes little(std::uint32_t v) {
   return {static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(v >> 8U),
@@ -31,8 +31,10 @@ Bytes big(std::uint32_t v) {
   return {b[3], b[2], b[1], b[0]};
 }
 
-Bytes riff(std::uint32_t size) { return text("RIFF") + little(size) + text("AVI ") + Bytes(96); }
-Bytes box(const char* type, std::uint32_t size) { return big(size) + text(type) + Bytes(92); }
+Bytes avi(std::uint32_t size) {
+  return bytes_of("RIFF") + little(size) + bytes_of("AVI ") + Bytes(96);
+}
+Bytes box(const char* type, std::uint32_t size) { return big(size) + bytes_of(type) + Bytes(92); }
 
 // An EBML header of 3 bytes, and a segment of 100 bytes that says to have `size`.
 Bytes matroska(const Bytes& size) {
@@ -55,38 +57,40 @@ std::string verdict(const Folder& folder, const Bytes& content) {
 
 TEST(VideoContainer, IsWholeWhenItIsAsLongAsItSays) {
   const Folder folder;
-  EXPECT_EQ(verdict(folder, riff(100)), "");
-  EXPECT_EQ(verdict(folder, riff(100) + riff(100)), "");
-  EXPECT_EQ(verdict(folder, riff(108)), "") << "as programs write that count the head";
-  EXPECT_EQ(verdict(folder, riff(0)), "") << "never filled in";
+  EXPECT_EQ(verdict(folder, avi(100)), "");
+  EXPECT_EQ(verdict(folder, avi(100) + avi(100)), "");
+  EXPECT_EQ(verdict(folder, avi(108)), "") << "as programs write that count the head";
+  EXPECT_EQ(verdict(folder, avi(0)), "") << "never filled in";
   EXPECT_EQ(verdict(folder, box("ftyp", 100) + box("mdat", 100)), "");
   EXPECT_EQ(verdict(folder, box("ftyp", 100) + box("mdat", 0)), "") << "to the end";
   EXPECT_EQ(
-      verdict(folder, box("ftyp", 100) + big(1) + text("mdat") + big(0) + big(50) + Bytes(34)), "");
+      verdict(folder, box("ftyp", 100) + big(1) + bytes_of("mdat") + big(0) + big(50) + Bytes(34)),
+      "");
   EXPECT_EQ(verdict(folder, matroska({0xE4})), "");
   EXPECT_EQ(verdict(folder, matroska({0xFF})), "") << "a stream";
   EXPECT_EQ(verdict(folder, matroska({0x01, 255, 255, 255, 255, 255, 255, 255})), "") << "a stream";
-  EXPECT_EQ(verdict(folder, text("something else entirely")), "");
+  EXPECT_EQ(verdict(folder, bytes_of("something else entirely")), "");
   EXPECT_EQ(verdict(folder, {}), "");
 }
 
 TEST(VideoContainer, ThatWasCutSaysByHowMuch) {
   const Folder folder;
-  EXPECT_NE(verdict(folder, riff(200)).find("108 of 208 bytes are there"), std::string::npos);
-  EXPECT_NE(verdict(folder, riff(100) + riff(300)), "");
+  EXPECT_NE(verdict(folder, avi(200)).find("108 of 208 bytes are there"), std::string::npos);
+  EXPECT_NE(verdict(folder, avi(100) + avi(300)), "");
   EXPECT_NE(verdict(folder, box("ftyp", 100) + box("mdat", 101)).find("200 of 201 "),
             std::string::npos);
-  EXPECT_NE(verdict(folder, box("ftyp", 100) + big(1) + text("mdat") + big(9) + big(9) + Bytes(34)),
-            "");
+  EXPECT_NE(
+      verdict(folder, box("ftyp", 100) + big(1) + bytes_of("mdat") + big(9) + big(9) + Bytes(34)),
+      "");
   EXPECT_NE(verdict(folder, box("mdat", 0xFFFFFFFF)), "");
-  EXPECT_NE(verdict(folder, big(1) + text("mdat") + Bytes(8, 0xFF)), "");
+  EXPECT_NE(verdict(folder, big(1) + bytes_of("mdat") + Bytes(8, 0xFF)), "");
   EXPECT_NE(verdict(folder, matroska({0xE5})), "");
   EXPECT_NE(verdict(folder, matroska({0x01, 255, 255, 255, 255, 255, 255, 254})), "");
 }
 
 TEST(VideoContainer, OfAnyLengthEndsWell) {
   const Folder folder;
-  for (const Bytes& whole : {riff(100), box("ftyp", 16) + box("moov", 8), matroska({0x40, 100}),
+  for (const Bytes& whole : {avi(100), box("ftyp", 16) + box("moov", 8), matroska({0x40, 100}),
                              matroska({0}), box("free", 9)}) {
     for (std::size_t length = 0; length <= whole.size(); ++length)
       verdict(folder, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
@@ -96,7 +100,7 @@ TEST(VideoContainer, OfAnyLengthEndsWell) {
 TEST(VideoContainer, WithAnyHeadEndsWell) {
   const Folder folder;
   Random random(1);
-  const std::vector<Bytes> seeds = {riff(100) + riff(60), box("ftyp", 100) + box("mdat", 60),
+  const std::vector<Bytes> seeds = {avi(100) + avi(60), box("ftyp", 100) + box("mdat", 60),
                                     matroska({0x40, 100}), matroska({0xFF})};
   for (int i = 0; i < 4000; ++i) {
     Bytes bytes = seeds[static_cast<std::size_t>(i) % seeds.size()];
