@@ -70,19 +70,25 @@ float class_threshold(std::vector<float> right, std::vector<float> wrong, std::s
 }
 
 // The score at which so large a share of sorted ones lies below.
-float quantile(const std::vector<float>& sorted, double share) {
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
-  return sorted[std::min(rank, sorted.size() - 1)];
+float quantile(const std::vector<float>& sorted, double share, bool interpolate) {
+  const auto count = static_cast<double>(sorted.size());
+  const double last = count - 1;
+  if (!interpolate) return sorted[static_cast<std::size_t>(std::min(share * count, last))];
+  const double rank = std::clamp((count + 1.0 / 3) * share - 2.0 / 3, 0.0, last);
+  const auto below = static_cast<std::size_t>(rank);
+  const auto part = static_cast<float>(rank - static_cast<double>(below));
+  const float above = sorted[std::min(below + 1, sorted.size() - 1)];
+  return (1 - part) * sorted[below] + part * above;
 }
 
 // Of all classes, from the scores of right decisions, sorted, and of other words.
 float threshold_of(const std::vector<float>& right, const RejectionRates& rates,
                    std::vector<float> others) {
-  const float least = quantile(right, rates.false_reject);
+  const float least = quantile(right, rates.false_reject, rates.interpolate);
   if (others.empty() || rates.false_accept >= 1) return least;
-  const float most = std::max(least, quantile(right, rates.max_false_reject));
+  const float most = std::max(least, quantile(right, rates.max_false_reject, rates.interpolate));
   std::sort(others.begin(), others.end());
-  return std::clamp(quantile(others, 1 - rates.false_accept), least, most);
+  return std::clamp(quantile(others, 1 - rates.false_accept, rates.interpolate), least, most);
 }
 
 }  // namespace

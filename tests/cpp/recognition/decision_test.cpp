@@ -89,6 +89,23 @@ TEST(Calibration, RejectsTheShareOfRightAnswersItWasAllowed) {
   EXPECT_THROW(Calibration::fit(samples, {0.9}), InvalidArgument);
 }
 
+// With scores 0..23, a share of 0.04 is (24 + 1/3) 0.04 - 2/3 = 0.30667 of the way to the second.
+TEST(Calibration, SetsThresholdsBetweenFewScores) {
+  std::vector<HeldOut> samples;
+  VectorF scores = VectorF::Zero(2);
+  scores[0] = 1;
+  for (int i = 0; i < 24; ++i) samples.push_back({scores, 0, static_cast<float>(i)});
+  const auto threshold = [&](double rate) {
+    RejectionRates rates{rate, rate};
+    rates.interpolate = true;
+    return Calibration::fit(samples, rates).threshold();
+  };
+  EXPECT_NEAR(threshold(0.04), 0.30667, 1e-4);
+  EXPECT_EQ(threshold(0), 0);
+  EXPECT_NEAR(threshold(0.5), 11.5, 1e-4);
+  EXPECT_EQ(Calibration::fit(samples, {0.05, 0.05}).threshold(), 1);
+}
+
 // Of `count` samples of class 0 and as many of class 1, all decided with margin `right`, but
 // `num_wrong` of class 1 that are misrecognised as class 0 with margin `wrong`.
 std::vector<HeldOut> with_false_alarms(int count, int num_wrong, float right, float wrong) {

@@ -30,6 +30,10 @@ struct RejectionRates {
   double false_reject = 0.02;      ///< of right decisions: so many in any case
   double max_false_reject = 0.02;  ///< and so many where others are accepted too often
   double false_accept = 1;         ///< of other words
+  /// Whether thresholds lie between scores, at the median-unbiased estimate of the quantile
+  /// (Hyndman and Fan, "Sample quantiles in statistical packages", 1996, definition 8). Of few
+  /// decisions, a threshold at one of them rejects more right ones than it was to.
+  bool interpolate = false;
 };
 
 class HRI_API Calibration {

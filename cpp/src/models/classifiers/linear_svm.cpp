@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/simd.hpp"
@@ -28,14 +29,88 @@ struct Hyperplane {
   float bias = 0;
 };
 
-// One class against the rest, by the plane that is nearest to `h`. Algorithm 1 of the paper for the
-// L2 loss: D_ii = 1 / (2 C), no upper bound on alpha. The paper begins at zero; from another plane
-// the same steps minimise the distance to that one in place of the length of the weights.
+// Margins of training rows by a plane that changes.
+class DirectMargins {
+ public:
+  DirectMargins(ConstMatrixRefF rows, float bias_feature, Hyperplane start)
+      : rows_(rows), bias_feature_(bias_feature), plane_(std::move(start)) {
+    plane_.bias /= bias_feature_;
+  }
+  [[nodiscard]] float of(std::size_t i) const {
+    return dot(row(i), plane_.weights.data(), dim()) + plane_.bias * bias_feature_;
+  }
+  // Adds `step` times row i to the plane.
+  void add(std::size_t i, float step) {
+    add_scaled(row(i), step, dim(), plane_.weights.data());
+    plane_.bias += step * bias_feature_;
+  }
+  [[nodiscard]] Hyperplane plane() const { return {plane_.weights, plane_.bias * bias_feature_}; }
+
+ private:
+  [[nodiscard]] const float* row(std::size_t i) const {
+    return rows_.data() + static_cast<Eigen::Index>(i) * rows_.outerStride();
+  }
+  [[nodiscard]] int dim() const { return static_cast<int>(rows_.cols()); }
+
+  ConstMatrixRefF rows_;
+  float bias_feature_;
+  Hyperplane plane_;
+};
+
+// The products of all rows with one another.
+MatrixF products_of(ConstMatrixRefF rows) {
+  const detail::RowTable table(rows);
+  MatrixF products(rows.rows(), table.padded_rows());
+  detail::row_kernels().dots(rows.data(), rows.outerStride(), rows.rows(), table.layout(),
+                             products.data(), products.cols());
+  return products;
+}
+
+// The same where rows are longer than they are many: by their products, which all classes share,
+// in steps as short as there are rows.
+class ProductMargins {
+ public:
+  ProductMargins(ConstMatrixRefF rows, const MatrixF& products, float bias_feature,
+                 Hyperplane start)
+      : products_(products), direct_(rows, bias_feature, std::move(start)) {
+    const auto count = static_cast<std::size_t>(rows.rows());
+    steps_.assign(count, 0.0F);
+    margins_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) margins_.push_back(direct_.of(i));
+    bias_square_ = bias_feature * bias_feature;
+  }
+  [[nodiscard]] float of(std::size_t i) const { return margins_[i] + bias_margin_; }
+  void add(std::size_t i, float step) {
+    add_scaled(products_.row(static_cast<Eigen::Index>(i)).data(), step,
+               static_cast<int>(margins_.size()), margins_.data());
+    bias_margin_ += step * bias_square_;
+    steps_[i] += step;
+  }
+  [[nodiscard]] Hyperplane plane() const {
+    DirectMargins result = direct_;
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      if (steps_[i] != 0) result.add(i, steps_[i]);
+    }
+    return result.plane();
+  }
+
+ private:
+  const MatrixF& products_;
+  DirectMargins direct_;  // of the plane at the start
+  float bias_square_ = 1;
+  float bias_margin_ = 0;  // what the bias adds to all
+  std::vector<float> margins_;
+  std::vector<float> steps_;
+};
+
+// One class against the rest, by the plane that is nearest to that of `margins`. Algorithm 1 of the
+// paper for the L2 loss: D_ii = 1 / (2 C), no upper bound on alpha. The paper begins at zero; from
+// another plane the same steps minimise the distance to that one in place of the length of the
+// weights.
+template <class Margins>
 Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
-                    const LinearSvmOptions& options, Hyperplane h) {
+                    const LinearSvmOptions& options, Margins margins) {
   const Eigen::Index count = rows.rows();
-  const int dim = static_cast<int>(rows.cols());
-  const auto bias_feature = static_cast<float>(options.bias_feature);
   const double diagonal = 0.5 / options.cost;
   std::vector<double> alpha(static_cast<std::size_t>(count), 0.0);
   std::vector<double> curvature(alpha.size());
@@ -45,7 +120,6 @@ Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
   }
   std::vector<std::size_t> order(alpha.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  h.bias /= bias_feature;
   Random random(options.seed + static_cast<std::uint64_t>(positive));
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     poll(options.should_stop);
@@ -53,25 +127,39 @@ Hyperplane separate(ConstMatrixRefF rows, Span<const int> classes, int positive,
     double highest = -std::numeric_limits<double>::infinity();
     double lowest = std::numeric_limits<double>::infinity();
     for (const std::size_t i : order) {
-      const float* x = rows.data() + static_cast<Eigen::Index>(i) * rows.outerStride();
       const float y = classes[i] == positive ? 1.0F : -1.0F;
-      const double margin =
-          static_cast<double>(dot(x, h.weights.data(), dim) + h.bias * bias_feature);
+      const auto margin = static_cast<double>(margins.of(i));
       const double gradient = static_cast<double>(y) * margin - 1.0 + diagonal * alpha[i];
       const double projected = alpha[i] == 0.0 ? std::min(gradient, 0.0) : gradient;
       highest = std::max(highest, projected);
       lowest = std::min(lowest, projected);
       if (projected == 0.0) continue;
       const double updated = std::max(alpha[i] - gradient / curvature[i], 0.0);
-      const float step = y * static_cast<float>(updated - alpha[i]);
+      margins.add(i, y * static_cast<float>(updated - alpha[i]));
       alpha[i] = updated;
-      add_scaled(x, step, dim, h.weights.data());
-      h.bias += step * bias_feature;
     }
     if (highest - lowest < options.tolerance) break;
   }
-  h.bias *= bias_feature;
-  return h;
+  return margins.plane();
+}
+
+// Every class against the rest, from planes to start with, which the result takes the place of.
+void separate_all(ConstMatrixRefF rows, Span<const int> classes, const LinearSvmOptions& options,
+                  MatrixF* weights, VectorF* biases) {
+  const auto bias_feature = static_cast<float>(options.bias_feature);
+  const bool wide = rows.rows() < rows.cols();
+  const MatrixF products = wide ? products_of(rows) : MatrixF();
+  for (Eigen::Index c = 0; c < weights->rows(); ++c) {
+    Hyperplane start{weights->row(c).transpose(), (*biases)[c]};
+    const auto positive = static_cast<int>(c);
+    const Hyperplane h =
+        wide ? separate(rows, classes, positive, options,
+                        ProductMargins(rows, products, bias_feature, std::move(start)))
+             : separate(rows, classes, positive, options,
+                        DirectMargins(rows, bias_feature, std::move(start)));
+    weights->row(c) = h.weights.transpose();
+    (*biases)[c] = h.bias;
+  }
 }
 
 }  // namespace
@@ -80,13 +168,9 @@ LinearSvm LinearSvm::train(ConstMatrixRefF rows, Span<const int> classes, int nu
                            const LinearSvmOptions& options) {
   validate_rows(rows, classes, num_classes, kNoClass);
   validate(options);
-  MatrixF weights(num_classes, rows.cols());
-  VectorF biases(num_classes);
-  for (int c = 0; c < num_classes; ++c) {
-    const Hyperplane h = separate(rows, classes, c, options, {VectorF::Zero(rows.cols()), 0});
-    weights.row(c) = h.weights.transpose();
-    biases[c] = h.bias;
-  }
+  MatrixF weights = MatrixF::Zero(num_classes, rows.cols());
+  VectorF biases = VectorF::Zero(num_classes);
+  separate_all(rows, classes, options, &weights, &biases);
   return {std::move(weights), std::move(biases)};
 }
 
@@ -96,16 +180,14 @@ LinearSvm LinearSvm::with_class(int index, ConstMatrixRefF rows, Span<const int>
   validate_width(rows, dim());
   validate_rows(rows, classes, num_classes() + 1, kNoClass);
   validate(options);
-  MatrixF weights(num_classes() + 1, dim());
-  VectorF biases(num_classes() + 1);
-  for (int c = 0; c <= num_classes(); ++c) {
-    Hyperplane before{VectorF::Zero(dim()), 0};
-    const int old = c < index ? c : c - 1;
-    if (c != index) before = {weights_.row(old).transpose(), biases_[old]};
-    const Hyperplane h = separate(rows, classes, c, options, std::move(before));
-    weights.row(c) = h.weights.transpose();
-    biases[c] = h.bias;
+  MatrixF weights = MatrixF::Zero(num_classes() + 1, dim());
+  VectorF biases = VectorF::Zero(num_classes() + 1);
+  for (int old = 0; old < num_classes(); ++old) {
+    const int c = old < index ? old : old + 1;
+    weights.row(c) = weights_.row(old);
+    biases[c] = biases_[old];
   }
+  separate_all(rows, classes, options, &weights, &biases);
   return {std::move(weights), std::move(biases)};
 }
 

@@ -31,10 +31,7 @@ VectorF GestureRecognizer::scores(ConstMatrixRefF features) const {
 Decision GestureRecognizer::recognise_features(ConstMatrixRefF features) const {
   if (features.rows() == 0) return {};
   const VectorF s = scores(features);
-  const float score = verifier_.dim() == 0
-                          ? scorer_->verification_score(features, s)
-                          : detail::log_odds(verifier_, scorer_->confidence_features(features, s));
-  return calibration_.decide(s, score, labels_);
+  return calibration_.decide(s, detail::verified_score(verifier_, *scorer_, features, s), labels_);
 }
 
 MatrixF GestureRecognizer::features(Span<const ImageView> clip, const HandSource& source,

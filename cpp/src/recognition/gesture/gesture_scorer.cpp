@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recognition/gesture/gesture_scorer.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "hri/core/error.hpp"
 
 namespace hri::detail {
@@ -12,6 +15,14 @@ bool has_states(GestureModel model) {
 }
 
 }  // namespace
+
+double margin(const VectorF& scores, Eigen::Index best) {
+  float second = -std::numeric_limits<float>::infinity();
+  for (Eigen::Index c = 0; c < scores.size(); ++c) {
+    if (c != best) second = std::max(second, scores[c]);
+  }
+  return static_cast<double>(scores[best] - second);
+}
 
 StackedRows stack_rows(const std::vector<std::vector<MatrixF>>& per_class) {
   Eigen::Index count = 0;

@@ -27,6 +27,9 @@ class GestureScorer {
   /// What the rejection threshold is compared with where no verifier was learned; larger is surer.
   [[nodiscard]] virtual float verification_score(ConstMatrixRefF rows,
                                                  const VectorF& scores) const = 0;
+  /// Log odds that the hand moves as gestures do, not rests, at most 0; 0 where nothing is known of
+  /// rests.
+  [[nodiscard]] virtual float movement_score(ConstMatrixRefF /*rows*/) const { return 0; }
   /// How many values confidence_features() gives; 0 where score says it all.
   [[nodiscard]] virtual Eigen::Index num_confidence_features() const { return 0; }
   /// What a verifier weighs; larger values are surer.
@@ -85,6 +88,9 @@ std::shared_ptr<const GestureScorer> read_trajectory_scorer(const ModelFile& fil
 
 /// Columns of GestureRecognizer::features behind the hand's shape: centre x, centre y, log area.
 constexpr int kNumTrackColumns = 3;
+
+/// How far the score of class `best` lies above that of the best other class.
+double margin(const VectorF& scores, Eigen::Index best);
 
 /// All rows of all gestures below each other, and the class of each row.
 struct StackedRows {

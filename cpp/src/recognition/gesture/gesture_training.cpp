@@ -62,10 +62,30 @@ GestureModel model_for(const std::vector<GestureSample>& samples) {
   return num_frames > kMostFrames ? GestureModel::svm : GestureModel::rbf;
 }
 
-// The same without class `left_out`; the classes behind it move up.
+// Classes that a scorer is trained without, to see how it takes what it does not know.
+using ClassGroup = std::vector<int>;
+
+// Which groups to leave out in a fold, by turns: one, or as many as it takes for kEnough samples to
+// be unknown once. At least two classes remain of three or more.
+std::vector<ClassGroup> left_out_groups(int fold, int num_classes, std::size_t num_samples) {
+  constexpr std::size_t kEnough = 30;  // of fewer, the weights would be chance
+  const int num_groups = std::min(kMaxFolds, num_classes);
+  const auto count = static_cast<std::size_t>(num_groups);
+  const int needed = static_cast<int>((kEnough * count + num_samples - 1) / num_samples);
+  std::vector<ClassGroup> groups;
+  for (int i = 0; i < std::clamp(needed, 1, num_groups); ++i) {
+    groups.emplace_back();
+    for (int c = (fold + i) % num_groups; c < num_classes; c += num_groups)
+      groups.back().push_back(c);
+  }
+  return groups;
+}
+
+// The same without some classes, in ascending order; those behind them move up.
 std::vector<std::vector<MatrixF>> without(std::vector<std::vector<MatrixF>> per_class,
-                                          int left_out) {
-  per_class.erase(per_class.begin() + left_out);
+                                          const ClassGroup& left_out) {
+  for (auto c = left_out.rbegin(); c != left_out.rend(); ++c)
+    per_class.erase(per_class.begin() + *c);
   return per_class;
 }
 
@@ -87,16 +107,19 @@ class Trials {
       if (folds_[i] != fold || samples_[i].features.rows() == 0) continue;
       const MatrixF& rows = samples_[i].features;
       const VectorF scores = scorer.scores(rows);
-      held_out_.push_back({scores, classes_[i], scorer.verification_score(rows, scores)});
+      held_out_.push_back({scores, classes_[i], detail::verified_score({}, scorer, rows, scores)});
+      movement_.push_back(scorer.movement_score(rows));
       confidence_features_.push_back(scorer.confidence_features(rows, scores));
     }
   }
 
-  // A scorer that knows nothing of class `left_out` decides on what the fold has of it.
-  void decide_unknown(const detail::GestureScorer& scorer, int fold, int left_out) {
+  // A scorer that knows nothing of the classes `left_out` decides on what the fold has of them.
+  void decide_unknown(const detail::GestureScorer& scorer, int fold, const ClassGroup& left_out) {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const MatrixF& rows = samples_[i].features;
-      if (folds_[i] == fold && classes_[i] == left_out && rows.rows() > 0)
+      const bool unknown =
+          std::find(left_out.begin(), left_out.end(), classes_[i]) != left_out.end();
+      if (folds_[i] == fold && unknown && rows.rows() > 0)
         unknown_.push_back(scorer.confidence_features(rows, scorer.scores(rows)));
     }
   }
@@ -112,7 +135,7 @@ class Trials {
     LogisticRegression verifier = detail::train_gesture_verifier(right, unknown_);
     if (verifier.dim() == 0) return verifier;
     for (std::size_t i = 0; i < held_out_.size(); ++i)
-      held_out_[i].score = detail::log_odds(verifier, confidence_features_[i]);
+      held_out_[i].score = detail::log_odds(verifier, confidence_features_[i], movement_[i]);
     return verifier;
   }
 
@@ -124,6 +147,7 @@ class Trials {
   const std::vector<int>& folds_;
   std::vector<HeldOut> held_out_;
   std::vector<VectorD> confidence_features_;  // of held_out_
+  std::vector<float> movement_;               // the same
   std::vector<VectorD> unknown_;              // of gestures whose class was left out
 };
 
@@ -162,15 +186,20 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
     const auto scorer = detail::train_gesture_scorer(rest, result.options_, should_stop);
     trials.decide(*scorer, fold);
     if (scorer->num_confidence_features() == 0 || num_classes < 3) continue;
-    const int left_out = fold % num_classes;
-    trials.decide_unknown(
-        *detail::train_gesture_scorer(without(rest, left_out), result.options_, should_stop), fold,
-        left_out);
+    for (const ClassGroup& left_out : left_out_groups(fold, num_classes, samples.size())) {
+      trials.decide_unknown(
+          *detail::train_gesture_scorer(without(rest, left_out), result.options_, should_stop),
+          fold, left_out);
+    }
   }
   if (progress) progress(num_folds, num_folds + 1);
   result.scorer_ = detail::train_gesture_scorer(all, result.options_, should_stop);
   result.verifier_ = trials.learn_verifier();
-  result.calibration_ = Calibration::fit(trials.held_out(), {options.false_reject_rate});
+  RejectionRates rates;
+  rates.false_reject = options.false_reject_rate;
+  rates.max_false_reject = options.false_reject_rate;
+  rates.interpolate = true;
+  result.calibration_ = Calibration::fit(trials.held_out(), rates);
   if (progress) progress(num_folds + 1, num_folds + 1);
   return result;
 }

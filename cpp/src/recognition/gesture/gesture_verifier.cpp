@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recognition/gesture/gesture_verifier.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "hri/core/error.hpp"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr const char* kPrefix = "verifier.";
 constexpr std::size_t kFewest = 20;  // trials of a kind; weights from fewer are chance
+constexpr float kResting = -20;      // log odds that no moving hand falls below
 
 }  // namespace
 
@@ -33,9 +35,18 @@ LogisticRegression train_gesture_verifier(const std::vector<VectorD>& right,
   return LogisticRegression::train(rows, yes, weights, {});
 }
 
-float log_odds(const LogisticRegression& verifier, const VectorD& features) {
-  return static_cast<float>(
-      verifier.log_odds({features.data(), static_cast<std::size_t>(features.size())}));
+float log_odds(const LogisticRegression& verifier, const VectorD& features, float movement) {
+  if (movement < 0) return kResting + movement;
+  const double odds =
+      verifier.log_odds({features.data(), static_cast<std::size_t>(features.size())});
+  return std::max(static_cast<float>(odds), kResting);
+}
+
+float verified_score(const LogisticRegression& verifier, const GestureScorer& scorer,
+                     ConstMatrixRefF rows, const VectorF& scores) {
+  const float movement = scorer.movement_score(rows);
+  if (verifier.dim() == 0) return scorer.verification_score(rows, scores) + movement;
+  return log_odds(verifier, scorer.confidence_features(rows, scores), movement);
 }
 
 void write_gesture_verifier(const LogisticRegression& verifier, ModelFile& file) {

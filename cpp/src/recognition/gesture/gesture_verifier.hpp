@@ -11,6 +11,7 @@
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/classifiers/logistic_regression.hpp"
+#include "recognition/gesture/gesture_scorer.hpp"
 
 namespace hri::detail {
 
@@ -18,8 +19,15 @@ namespace hri::detail {
 LogisticRegression train_gesture_verifier(const std::vector<VectorD>& right,
                                           const std::vector<VectorD>& unknown);
 
-/// Log odds that it was one of the gestures.
-float log_odds(const LogisticRegression& verifier, const VectorD& features);
+/// Log odds that it was one of the gestures, by what a scorer gives of it: its
+/// confidence_features(), and its movement_score(). A hand that rather rests than moves is none,
+/// whatever else speaks for it: it gets less than any that moves.
+float log_odds(const LogisticRegression& verifier, const VectorD& features, float movement);
+
+/// How sure it is that the rows of a gesture are one of those trained on, larger is surer: log
+/// odds, or the score of the scorer where nothing was learned. `scores` are those of the scorer.
+float verified_score(const LogisticRegression& verifier, const GestureScorer& scorer,
+                     ConstMatrixRefF rows, const VectorF& scores);
 
 void write_gesture_verifier(const LogisticRegression& verifier, ModelFile& file);
 /// Throws FormatError where the weights do not fit `num_confidence_features`. A file without a

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hri/core/error.hpp"
+#include "recognition/gesture/gesture_scorer.hpp"
+#include "recognition/gesture/trajectory.hpp"
 
 namespace hri::detail {
 namespace {
@@ -13,6 +16,7 @@ namespace {
 constexpr const char* kCentres = "path.centres";
 constexpr const char* kUsual = "path.usual_distance";
 constexpr float kLeast = 1e-3F;  // of a trajectory that lies on its centre
+constexpr float kLeastOfPart = 1e-6F;
 
 Eigen::Index centre_of(const KnownTrajectory& known) {
   return 2 * Eigen::Index{known.klass} + (known.final_stroke ? 1 : 0);
@@ -77,6 +81,23 @@ float TrajectoryCentres::log_distance(const VectorF& trajectory, Eigen::Index kl
   const float whole = (centres_.row(2 * klass) - trajectory.transpose()).squaredNorm();
   const float last = (centres_.row(2 * klass + 1) - trajectory.transpose()).squaredNorm();
   return std::log(std::min(whole, last) / static_cast<float>(usual_) + kLeast);
+}
+
+TrajectoryCentres::Distances TrajectoryCentres::log_distances(const VectorF& trajectory,
+                                                              Eigen::Index klass) const {
+  const Eigen::Index num_columns = trajectory.size() / kNumPoints;
+  float shape = std::numeric_limits<float>::infinity();
+  float way = shape;
+  for (Eigen::Index kind = 0; kind < 2; ++kind) {
+    const VectorF away = trajectory - centres_.row(2 * klass + kind).transpose();
+    const Eigen::Map<const MatrixF> points(away.data(), kNumPoints, num_columns);
+    const auto shapes = points.leftCols(num_columns - kNumTrackColumns);
+    const float stays = shapes.colwise().mean().squaredNorm() * static_cast<float>(kNumPoints);
+    shape = std::min(shape, std::max(shapes.squaredNorm() - stays, 0.0F));
+    way = std::min(way, points.rightCols(kNumTrackColumns).squaredNorm());
+  }
+  return {static_cast<double>(std::log(shape + kLeastOfPart)),
+          static_cast<double>(std::log(way + kLeastOfPart))};
 }
 
 void TrajectoryCentres::write(ModelFile& file) const {

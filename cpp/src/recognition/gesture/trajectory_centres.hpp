@@ -39,6 +39,14 @@ class TrajectoryCentres {
   /// trajectories lie from their centres on the average.
   [[nodiscard]] float log_distance(const VectorF& trajectory, Eigen::Index klass) const;
 
+  /// Logs of squared distances to the nearest centre of a class, by parts. What stays the same of a
+  /// shape, mostly the hand and the light, is left out.
+  struct Distances {
+    double shape = 0;  ///< of how the shape changes
+    double way = 0;    ///< of where the hand goes, and how large it gets
+  };
+  [[nodiscard]] Distances log_distances(const VectorF& trajectory, Eigen::Index klass) const;
+
   void write(ModelFile& file) const;
   /// Throws FormatError where the centres do not fit trajectories of `dim` values and the classes.
   static TrajectoryCentres read(const ModelFile& file, int dim, int num_classes);

@@ -6,9 +6,10 @@
 // that begins at rest, pauses and moves again is also learned from its final stroke alone, as a
 // signer in a stream may take up its starting pose long before. Copies with the hand turned stand
 // for the angles at which others hold theirs. Clips held at their first frame are negative
-// examples, so that shape and light at the beginning count for nothing. Confidence features are the
-// margin, the distance to the mean trajectory, and the displacement of the hand; non-gestures are
-// learned from gestures and the rests before them.
+// examples, so that shape and light at the beginning count for nothing. Planes know only what tells
+// the trained gestures apart, so a verifier weighs them, of the whole and of the final stroke,
+// beside the distances to the mean trajectory of the best class: of how the shape changes, and of
+// the way of the hand. Hands that rest are learned from gestures and the rests before them.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -84,12 +85,33 @@ class TrajectoryScorer : public GestureScorer {
                                          const VectorF& scores) const override {
     const VectorF trajectory = trajectory_vector(rows, shape_scale_);
     Eigen::Index best = 0;
-    const float nearness =
-        scores.maxCoeff(&best) - distance_weight_ * centres_.log_distance(trajectory, best);
-    if (motion_.dim() == 0) return nearness;
-    const double distance = max_displacement(trajectory);
-    const double odds = motion_.log_odds({&distance, 1});
-    return nearness + static_cast<float>(std::min(odds, 0.0));
+    return scores.maxCoeff(&best) - distance_weight_ * centres_.log_distance(trajectory, best);
+  }
+  [[nodiscard]] float movement_score(ConstMatrixRefF rows) const override {
+    if (motion_.dim() == 0) return 0;
+    const double distance = max_displacement(trajectory_vector(rows, shape_scale_));
+    return static_cast<float>(std::min(motion_.log_odds({&distance, 1}), 0.0));
+  }
+  [[nodiscard]] Eigen::Index num_confidence_features() const override {
+    return kNumConfidenceFeatures;
+  }
+  [[nodiscard]] VectorD confidence_features(ConstMatrixRefF rows,
+                                            const VectorF& scores) const override {
+    Eigen::Index best = 0;
+    scores.maxCoeff(&best);
+    const Eigen::Index final_stroke = find_rests(rows, shape_scale_).final_stroke;
+    const VectorF of_final =
+        final_stroke > 0 ? this->scores(rows.bottomRows(rows.rows() - final_stroke)) : scores;
+    const TrajectoryCentres::Distances distances =
+        centres_.log_distances(trajectory_vector(rows, shape_scale_), best);
+    VectorD result(kNumConfidenceFeatures);
+    result[kScore] = static_cast<double>(scores[best]);
+    result[kMargin] = margin(scores, best);
+    result[kFinalScore] = static_cast<double>(of_final[best]);
+    result[kFinalMargin] = margin(of_final, best);
+    result[kShape] = -distances.shape;
+    result[kWay] = -distances.way;
+    return result;
   }
   void write(ModelFile& file) const override {
     svm_.write(file, "path.svm.");
@@ -107,6 +129,17 @@ class TrajectoryScorer : public GestureScorer {
       const StopCheck& should_stop) const;
 
  private:
+  // What a verifier weighs of the best class.
+  enum ConfidenceFeature : Eigen::Index {
+    kScore,
+    kMargin,       // over the second class
+    kFinalScore,   // of the final stroke alone; of the whole where there is but one
+    kFinalMargin,  // and its margin
+    kShape,        // -log of the distance to the mean change of the shape
+    kWay,          // and to the mean way of the hand
+    kNumConfidenceFeatures,
+  };
+
   LinearSvm svm_;
   TrajectoryCentres centres_;
   float shape_scale_;

@@ -6,7 +6,6 @@
 // matter where a sign is shown.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "hri/core/error.hpp"
@@ -22,16 +21,6 @@ namespace hri::detail {
 namespace {
 
 constexpr float kLeastDistance = 1e-3F;  // of a frame that was trained on
-
-// What a verifier weighs of the radial kernel's best class.
-enum ConfidenceFeature : Eigen::Index {
-  kScore,
-  kMargin,     // over the second class
-  kNearest,    // -log of the distance to the frames nearest to it
-  kCentre,     // and to the mean of them all
-  kAgreement,  // share of it among the frames nearest of all
-  kNumConfidenceFeatures,
-};
 
 bool needs_components(GestureModel model) {
   return model == GestureModel::bayes || model == GestureModel::knn;
@@ -91,13 +80,9 @@ class VoteScorer : public GestureScorer {
     if (!rbf) return {};
     Eigen::Index best = 0;
     const float top = scores.maxCoeff(&best);
-    float second = -std::numeric_limits<float>::infinity();
-    for (Eigen::Index c = 0; c < scores.size(); ++c) {
-      if (c != best) second = std::max(second, scores[c]);
-    }
     VectorD result = VectorD::Zero(kNumConfidenceFeatures);
     result[kScore] = static_cast<double>(top);
-    result[kMargin] = static_cast<double>(top - second);
+    result[kMargin] = margin(scores, best);
     const MatrixF shapes = shape_rows(rows);
     const auto count = static_cast<double>(shapes.rows());
     for (Eigen::Index t = 0; t < shapes.rows(); ++t) {
@@ -130,6 +115,16 @@ class VoteScorer : public GestureScorer {
   }
 
  private:
+  // What a verifier weighs of the radial kernel's best class.
+  enum ConfidenceFeature : Eigen::Index {
+    kScore,
+    kMargin,     // over the second class
+    kNearest,    // -log of the distance to the frames nearest to it
+    kCentre,     // and to the mean of them all
+    kAgreement,  // share of it among the frames nearest of all
+    kNumConfidenceFeatures,
+  };
+
   [[nodiscard]] MatrixF shape_rows(ConstMatrixRefF rows) const {
     require(rows.cols() >= num_shape_columns,
             "features have fewer columns than the model was trained on");

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "hri/core/error.hpp"
+#include "hri/core/random.hpp"
 #include "models/model_testing.hpp"
 
 namespace hri {
@@ -40,6 +41,29 @@ TEST(LinearSvm, CountsRowsOfNoClassAgainstAll) {
   EXPECT_GT(model.decision_values({rows.row(1).data(), 2})[1], 0.3F);
   EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 1, -2, -1}, 2, {}), InvalidArgument);
   EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 0, -1, -1}, 2, {}), InvalidArgument);
+}
+
+// Rows longer than they are many are separated by their products with one another. Zeros behind
+// them change nothing but that.
+TEST(LinearSvm, FindsTheSamePlanesForWideRows) {
+  Random random(5);
+  MatrixF rows(24, 6);
+  std::vector<int> classes;
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    classes.push_back(static_cast<int>(r % 4) - 1);
+    for (Eigen::Index c = 0; c < 6; ++c)
+      rows(r, c) = static_cast<float>(random.uniform()) + (c == classes.back() ? 1.0F : 0.0F);
+  }
+  MatrixF wide = MatrixF::Zero(24, 40);
+  wide.leftCols(6) = rows;
+  LinearSvmOptions options;
+  options.tolerance = 1e-5;
+  const LinearSvm narrow_model = LinearSvm::train(rows, classes, 3, options);
+  const LinearSvm wide_model = LinearSvm::train(wide, classes, 3, options);
+  EXPECT_LT((narrow_model.weights() - wide_model.weights().leftCols(6)).cwiseAbs().maxCoeff(),
+            1e-3F);
+  EXPECT_EQ(wide_model.weights().rightCols(34).cwiseAbs().maxCoeff(), 0);
+  EXPECT_LT((narrow_model.biases() - wide_model.biases()).cwiseAbs().maxCoeff(), 1e-3F);
 }
 
 TEST(LinearSvm, MovesPlanesNoFurtherThanANewClassAsksFor) {
