@@ -57,12 +57,22 @@ class DirectMargins {
   Hyperplane plane_;
 };
 
-// The products of all rows with one another.
+// The products of all rows with one another. A block of rows is multiplied with the table from its
+// own place on, the rest is its mirror image: either way, products are added up in the same order.
 MatrixF products_of(ConstMatrixRefF rows) {
   const detail::RowTable table(rows);
-  MatrixF products(rows.rows(), table.padded_rows());
-  detail::row_kernels().dots(rows.data(), rows.outerStride(), rows.rows(), table.layout(),
-                             products.data(), products.cols());
+  const detail::RowLayout layout = table.layout();
+  const Eigen::Index count = rows.rows();
+  MatrixF products(count, table.padded_rows());
+  for (Eigen::Index first = 0; first < count; first += detail::kRowBlock) {
+    const detail::RowLayout rest{count - first, layout.dim, layout.values + first * layout.dim};
+    const Eigen::Index now = std::min<Eigen::Index>(detail::kRowBlock, count - first);
+    detail::row_kernels().dots(rows.data() + first * rows.outerStride(), rows.outerStride(), now,
+                               rest, &products(first, first), products.cols());
+    const Eigen::Index below = count - first - now;
+    products.block(first + now, first, below, now) =
+        products.block(first, first + now, now, below).transpose();
+  }
   return products;
 }
 
