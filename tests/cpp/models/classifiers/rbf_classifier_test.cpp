@@ -54,6 +54,24 @@ TEST(RbfClassifier, PlacesARowAmongThoseOfAClass) {
   EXPECT_THROW(static_cast<void>(model.place(row, 2)), InvalidArgument);
 }
 
+TEST(RbfClassifier, CountsTheClassAmongTheNearestRows) {
+  // Class 0: 1 to 30; class 1: -1 to -5.
+  MatrixF rows(35, 1);
+  std::vector<int> classes;
+  for (int i = 0; i < 35; ++i) {
+    rows(i, 0) = static_cast<float>(i < 30 ? i + 1 : 29 - i);
+    classes.push_back(i < 30 ? 0 : 1);
+  }
+  const RbfClassifier model = RbfClassifier::train(rows, classes, 2, {});
+  const std::vector<float> row{0.1F};
+  // Of twenty, all five of class 1; of as many as class 1 has: 1, -1, 2, -2, 3.
+  EXPECT_FLOAT_EQ(model.place(row, 0).agreement, 15.0F / 20);
+  EXPECT_FLOAT_EQ(model.place(row, 1).agreement, 2.0F / 5);
+  const std::vector<float> inside{25.0F};
+  EXPECT_EQ(model.place(inside, 0).agreement, 1);
+  EXPECT_EQ(model.place(inside, 1).agreement, 0);
+}
+
 TEST(RbfClassifier, SeparatesWhatNoPlaneDoes) {
   // A ring around a blob.
   const LabelledRows ring = blobs(24, 4, 8.0, 1, 2);
