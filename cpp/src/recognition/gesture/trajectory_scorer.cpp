@@ -6,10 +6,10 @@
 // that begins at rest, pauses and moves again is also learned from its final stroke alone, as a
 // signer in a stream may take up its starting pose long before. Copies with the hand turned stand
 // for the angles at which others hold theirs. Clips held at their first frame are negative
-// examples, so that shape and light at the beginning count for nothing. Planes know only what tells
-// the trained gestures apart, so a verifier weighs them, of the whole and of the final stroke,
-// beside the distances to the mean trajectory of the best class: of how the shape changes, and of
-// the way of the hand. Hands that rest are learned from gestures and the rests before them.
+// examples, so that shape and light at the beginning count for nothing. Planes know only how the
+// trained gestures differ, so a verifier weighs them, of the whole and of the final stroke, beside
+// the distances to the mean trajectory of the best class: of how the shape changes, and of the way
+// of the hand. Hands that rest are learned from gestures and the rests before them.
 #include <algorithm>
 #include <cmath>
 #include <string>
