@@ -291,14 +291,14 @@ TEST(GestureRecognizer, DoubtsMovementsFarFromTheMeanOfTheirClass) {
 // place and its light differ from take to take.
 MatrixF folding(int fingers, int take) {
   Random random(static_cast<std::uint64_t>(100 * fingers + take));
-  constexpr Eigen::Index kFrames = 24;
-  MatrixF rows(kFrames, 12);
+  constexpr Eigen::Index kFoldingFrames = 24;
+  MatrixF rows(kFoldingFrames, 12);
   const auto own = [&] { return static_cast<float>(random.uniform()) - 0.5F; };
   VectorF start(12);
   for (float& v : start) v = 1 + 0.3F * own();
   const float amount = 1 + 0.4F * own();
-  for (Eigen::Index t = 0; t < kFrames; ++t) {
-    const float done = std::max(0.0F, static_cast<float>(t) - 8) / (kFrames - 9);
+  for (Eigen::Index t = 0; t < kFoldingFrames; ++t) {
+    const float done = std::max(0.0F, static_cast<float>(t) - 8) / (kFoldingFrames - 9);
     rows.row(t) = start.transpose();
     for (Eigen::Index c = 0; c < 9; ++c) rows(t, c) += 0.02F * own();
     rows(t, fingers) += amount * done;
