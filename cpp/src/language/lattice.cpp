@@ -15,11 +15,41 @@ namespace {
 
 using detail::kImpossible;
 
-double log_sum(double a, double b) {
-  const double larger = std::max(a, b);
-  if (larger == kImpossible) return kImpossible;
-  return larger + std::log1p(std::exp(std::min(a, b) - larger));
+// log(sum of exp(terms)), -inf of none.
+double log_sum(const std::vector<double>& terms) {
+  double top = kImpossible;
+  for (const double term : terms) top = std::max(top, term);
+  if (top == kImpossible) return kImpossible;
+  double sum = 0;
+  for (const double term : terms) sum += std::exp(term - top);
+  return top + std::log(sum);
 }
+
+// By where they lead, then by where they come from; others stay in their order.
+std::vector<Lattice::Arc> ordered(const std::vector<Lattice::Arc>& arcs, std::size_t num_nodes) {
+  std::vector<std::size_t> places(num_nodes + 1);
+  for (const Lattice::Arc& arc : arcs) ++places[static_cast<std::size_t>(arc.to) + 1];
+  for (std::size_t n = 0; n < num_nodes; ++n) places[n + 1] += places[n];
+  std::vector<Lattice::Arc> result(arcs.size());
+  for (const Lattice::Arc& arc : arcs) result[places[static_cast<std::size_t>(arc.to)]++] = arc;
+  const auto comes_before = [](const Lattice::Arc& a, const Lattice::Arc& b) {
+    return a.from < b.from;
+  };
+  auto first = result.begin();
+  for (std::size_t n = 0; n < num_nodes; ++n) {
+    const auto last = result.begin() + static_cast<std::ptrdiff_t>(places[n]);
+    if (!std::is_sorted(first, last, comes_before)) std::stable_sort(first, last, comes_before);
+    first = last;
+  }
+  return result;
+}
+
+// An arc of a word, and the probability that the sentence has it.
+struct WordSpan {
+  std::int64_t first_frame;
+  std::int64_t last_frame;
+  double probability;
+};
 
 void check_scale(double scale) {
   require(scale > 0 && scale <= 1, "scale must lie above 0, up to 1");
@@ -52,9 +82,7 @@ Lattice::Lattice(std::vector<Node> nodes, std::vector<Arc> arcs)
     require((n + 1 == size) == (first_out_[static_cast<std::size_t>(n) + 1] == 0),
             "a node that is not the last is without arcs from it");
   }
-  std::stable_sort(arcs_.begin(), arcs_.end(), [](const Arc& a, const Arc& b) {
-    return std::pair(a.to, a.from) < std::pair(b.to, b.from);
-  });
+  arcs_ = ordered(arcs_, nodes_.size());
   for (std::size_t n = 0; n < nodes_.size(); ++n) first_out_[n + 1] += first_out_[n];
   std::vector<int> next(first_out_.begin(), first_out_.end());
   out_.resize(arcs_.size());
@@ -86,10 +114,23 @@ VectorD Lattice::posteriors(double scale) const {
   VectorD after = before;
   before[0] = 0;
   after[size - 1] = 0;
-  for (const Arc& arc : arcs_)
-    before[arc.to] = log_sum(before[arc.to], before[arc.from] + scale * arc.log_score());
-  for (auto arc = arcs_.rbegin(); arc != arcs_.rend(); ++arc)
-    after[arc->from] = log_sum(after[arc->from], after[arc->to] + scale * arc->log_score());
+  std::vector<double> terms;  // of a node
+  for (std::size_t a = 0; a < arcs_.size();) {
+    const int to = arcs_[a].to;
+    terms.clear();
+    for (; a < arcs_.size() && arcs_[a].to == to; ++a)
+      terms.push_back(before[arcs_[a].from] + scale * arcs_[a].log_score());
+    before[to] = log_sum(terms);
+  }
+  for (Eigen::Index n = size - 1; n-- > 0;) {
+    terms.clear();
+    const auto node = static_cast<std::size_t>(n);
+    for (int o = first_out_[node]; o < first_out_[node + 1]; ++o) {
+      const Arc& arc = arcs_[static_cast<std::size_t>(out_[static_cast<std::size_t>(o)])];
+      terms.push_back(after[arc.to] + scale * arc.log_score());
+    }
+    after[n] = log_sum(terms);
+  }
   for (Eigen::Index a = 0; a < result.size(); ++a) {
     const Arc& arc = arcs_[static_cast<std::size_t>(a)];
     result[a] = std::min(
@@ -101,16 +142,26 @@ VectorD Lattice::posteriors(double scale) const {
 std::vector<double> Lattice::confidences(const std::vector<DecodedWord>& sentence,
                                          double scale) const {
   const VectorD of_arcs = posteriors(scale);
+  std::map<int, std::vector<WordSpan>> spans;  // by model
+  for (const DecodedWord& word : sentence) spans[word.model];
+  std::vector<std::vector<WordSpan>*> spans_to(nodes_.size());  // null: no word of the sentence
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const auto found = spans.find(nodes_[n].model);
+    if (found != spans.end()) spans_to[n] = &found->second;
+  }
+  for (std::size_t a = 0; a < arcs_.size(); ++a) {
+    const auto to = static_cast<std::size_t>(arcs_[a].to);
+    if (spans_to[to] == nullptr) continue;
+    spans_to[to]->push_back({nodes_[static_cast<std::size_t>(arcs_[a].from)].frame,
+                             nodes_[to].frame, of_arcs[static_cast<Eigen::Index>(a)]});
+  }
   std::vector<double> result;
   for (const DecodedWord& word : sentence) {
     std::map<std::int64_t, double> changes;  // of the probability, by frame
-    for (std::size_t a = 0; a < arcs_.size(); ++a) {
-      const Node& to = nodes_[static_cast<std::size_t>(arcs_[a].to)];
-      const std::int64_t first = nodes_[static_cast<std::size_t>(arcs_[a].from)].frame;
-      if (to.model != word.model || to.frame <= word.first_frame || first >= word.last_frame)
-        continue;
-      changes[std::max(first, word.first_frame)] += of_arcs[static_cast<Eigen::Index>(a)];
-      changes[to.frame] -= of_arcs[static_cast<Eigen::Index>(a)];
+    for (const WordSpan& span : spans[word.model]) {
+      if (span.last_frame <= word.first_frame || span.first_frame >= word.last_frame) continue;
+      changes[std::max(span.first_frame, word.first_frame)] += span.probability;
+      changes[span.last_frame] -= span.probability;
     }
     double now = 0;
     double most = 0;

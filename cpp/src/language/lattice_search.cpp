@@ -90,7 +90,9 @@ struct Instance {
   const SearchWord* word;
   int entry;      // node of the lattice
   double before;  // the best score of what comes before
-  std::vector<double> states;
+  // States on which it goes on; none at first. Scores of the states are apart.
+  int first_alive = 0;
+  int last_alive = -1;
 };
 
 class ForwardPass {
@@ -108,6 +110,9 @@ class ForwardPass {
       ranks_[static_cast<std::size_t>(search.arcs[a].from)] = static_cast<int>(a) + 1;
     int& last = ranks_[static_cast<std::size_t>(search.final)];
     if (last == 0) last = static_cast<int>(search.arcs.size()) + 1;
+    for (const SearchChain& chain : search.models)
+      most_states_ = std::max(most_states_, static_cast<std::size_t>(chain.num_states));
+    next_.resize(most_states_);
   }
 
   // Nothing where there would be too many arcs.
@@ -183,7 +188,7 @@ class ForwardPass {
     }
     for (std::size_t w = 0; w < entries_.size(); ++w) {
       const auto& [node, score] = entries_[w];
-      if (node >= 0) open_.push_back({&search_.words[w], number(node), score, {}});
+      if (node >= 0) open_.push_back({&search_.words[w], number(node), score});
     }
   }
 
@@ -218,50 +223,63 @@ class ForwardPass {
 
   void advance(Eigen::Index t) {
     const double* const after = after_.of_states(t);
-    std::vector<double> next;
+    states_.resize(std::max(states_.size(), open_.size() * most_states_));
     std::size_t kept = 0;
-    for (Instance& instance : open_) {
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      Instance instance = open_[i];
       const SearchWord& word = *instance.word;
       const SearchChain& chain = search_.chain_of(word);
       const float* const emitted = emissions_.row(t).data() + chain.first_emission;
-      next.assign(static_cast<std::size_t>(chain.num_states), kImpossible);
-      bool is_alive = false;
-      double exit = kImpossible;
-      for (int j = 0; j < chain.num_states; ++j) {
-        double score = instance.states.empty() ? chain.log_start[j] : kImpossible;
-        if (!instance.states.empty()) {
-          for (const ChainStep* s = chain.steps_into(j); s != chain.end_of_steps_into(j); ++s)
-            score =
-                std::max(score, instance.states[static_cast<std::size_t>(s->from)] + s->log_weight);
-        }
-        score += static_cast<double>(emitted[j]);
-        if (!(instance.before + score + after[word.first_state + j] >= lowest_)) continue;
-        next[static_cast<std::size_t>(j)] = score;
-        is_alive = true;
-        exit = std::max(exit, score + chain.log_exit[j]);
-      }
+      const double exit = step(chain, states_.data() + i * most_states_, emitted,
+                               after + word.first_state, &instance);
       const double whole = instance.before + exit;
       if (whole + after_.of_exit(t + 1, word.node) >= lowest_) {
         ends_[static_cast<std::size_t>(instance.word - search_.words.data())].push_back(
             {instance.entry, exit, whole});
       }
-      if (!is_alive) continue;
-      instance.states.swap(next);
-      if (&open_[kept] != &instance) open_[kept] = std::move(instance);
-      ++kept;
+      if (instance.last_alive < 0) continue;
+      std::copy_n(next_.begin(), chain.num_states,
+                  states_.begin() + static_cast<std::ptrdiff_t>(kept * most_states_));
+      open_[kept++] = instance;
     }
-    open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(kept), open_.end());
+    open_.resize(kept, Instance{});
+  }
+
+  // One frame on: scores of the states into next_, and the best one at the end of the word.
+  double step(const SearchChain& chain, const double* before, const float* emitted,
+              const double* after, Instance* instance) {
+    const bool begins = instance->last_alive < 0;
+    // Other states cannot be reached.
+    const int first = begins ? 0 : std::max(0, instance->first_alive - chain.most_back);
+    const int last = begins ? chain.num_states - 1
+                            : std::min(chain.num_states - 1, instance->last_alive + chain.most_on);
+    std::fill_n(next_.begin(), chain.num_states, kImpossible);
+    instance->last_alive = -1;
+    double exit = kImpossible;
+    for (int j = first; j <= last; ++j) {
+      double score = begins ? chain.log_start[j] : kImpossible;
+      if (!begins) {
+        for (const ChainStep* s = chain.steps_into(j); s != chain.end_of_steps_into(j); ++s)
+          score = std::max(score, before[s->from] + s->log_weight);
+      }
+      score += static_cast<double>(emitted[j]);
+      if (!(instance->before + score + after[j] >= lowest_)) continue;
+      next_[static_cast<std::size_t>(j)] = score;
+      if (instance->last_alive < 0) instance->first_alive = j;
+      instance->last_alive = j;
+      exit = std::max(exit, score + chain.log_exit[j]);
+    }
+    return exit;
   }
 
   // Without nodes from which no arc goes on, as where sums of the same scores differ by rounding.
   Lattice finished() {
     std::vector<bool> goes_on(nodes_.size());
     goes_on.back() = true;
-    std::sort(arcs_.begin(), arcs_.end(),
-              [](const Lattice::Arc& a, const Lattice::Arc& b) { return a.to > b.to; });
-    for (const Lattice::Arc& arc : arcs_) {
-      if (goes_on[static_cast<std::size_t>(arc.to)])
-        goes_on[static_cast<std::size_t>(arc.from)] = true;
+    // Arcs were made in an order in which those from a node stand behind those that lead to it.
+    for (auto arc = arcs_.rbegin(); arc != arcs_.rend(); ++arc) {
+      if (goes_on[static_cast<std::size_t>(arc->to)])
+        goes_on[static_cast<std::size_t>(arc->from)] = true;
     }
     std::vector<Lattice::Node> nodes;
     std::vector<int> numbers(nodes_.size(), -1);
@@ -270,13 +288,14 @@ class ForwardPass {
       numbers[n] = static_cast<int>(nodes.size());
       nodes.push_back(nodes_[n]);
     }
-    std::vector<Lattice::Arc> arcs;
+    std::size_t kept = 0;
     for (Lattice::Arc arc : arcs_) {
       arc.from = numbers[static_cast<std::size_t>(arc.from)];
       arc.to = numbers[static_cast<std::size_t>(arc.to)];
-      if (arc.to >= 0) arcs.push_back(arc);
+      if (arc.to >= 0) arcs_[kept++] = arc;
     }
-    return {std::move(nodes), std::move(arcs)};
+    arcs_.resize(kept);
+    return {std::move(nodes), std::move(arcs_)};
   }
 
   const SearchNetwork& search_;
@@ -290,6 +309,9 @@ class ForwardPass {
   std::vector<int> orders_;  // of those of the frame
   std::vector<Lattice::Arc> arcs_;
   std::vector<Instance> open_;
+  std::vector<double> states_;                   // of these, most_states_ for each
+  std::vector<double> next_;                     // of one of them
+  std::size_t most_states_ = 0;                  // of a chain
   std::vector<std::vector<End>> ends_;           // of every word, before the next frame
   std::vector<std::pair<int, double>> entries_;  // of every word: node and score
   std::vector<int> here_;                        // nodes of the lattice, by those of the network

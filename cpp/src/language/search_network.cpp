@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/search_network.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "hri/core/error.hpp"
@@ -35,7 +36,10 @@ SearchChain search_chain_of(const WordChain& chain, int first_emission, const st
     model.first_step.push_back(static_cast<int>(model.steps.size()));
     for (int from = 0; from < size; ++from) {
       const double log_weight = chain.log_transition(from, to);
-      if (log_weight > kImpossible) model.steps.push_back({from, log_weight});
+      if (!(log_weight > kImpossible)) continue;
+      model.steps.push_back({from, log_weight});
+      model.most_back = std::max(model.most_back, from - to);
+      model.most_on = std::max(model.most_on, to - from);
     }
   }
   model.first_step.push_back(static_cast<int>(model.steps.size()));

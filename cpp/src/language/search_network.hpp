@@ -30,6 +30,8 @@ struct SearchChain {
   std::vector<int> first_step;   // of every state, and one past the last
   VectorD log_start;
   VectorD log_exit;
+  int most_back = 0;  // how far a step leads back at most, and on
+  int most_on = 0;
 
   [[nodiscard]] const ChainStep* steps_into(int state) const {
     return steps.data() + first_step[static_cast<std::size_t>(state)];

@@ -3,9 +3,11 @@
 #include "hri/language/word_emissions.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "language/emission_kernels.hpp"
 
 namespace hri {
 
@@ -45,24 +47,34 @@ Span<const float> PossibilisticEmissions::of(std::int32_t symbol) const {
 
 CodedPossibilities::CodedPossibilities(const GaussianEmissions& models,
                                        MultiStreamCodebook codebook)
-    : codebook_(std::move(codebook)) {
+    : codebook_(std::move(codebook)),
+      num_states_(models.num_states()),
+      stride_((num_states_ + detail::kRowFloats - 1) / detail::kRowFloats * detail::kRowFloats) {
   require(codebook_.dim() == models.dim() && codebook_.num_streams() == models.dim(),
           "codebook: it must have a stream for every column of the models");
+  std::ptrdiff_t num_rows = 0;
+  for (int c = 0; c < dim(); ++c) num_rows += codebook_.stream(c).centroids().rows();
+  table_.resize(static_cast<std::size_t>(num_rows * stride_));
+  std::ptrdiff_t first_row = 0;
   for (int c = 0; c < dim(); ++c) {
     MatrixF codewords = codebook_.stream(c).centroids();
     std::sort(codewords.data(), codewords.data() + codewords.size());
-    Column column;
+    Column column{{}, first_row};
     for (Eigen::Index k = 1; k < codewords.rows(); ++k)
       column.borders.push_back(0.5F * (codewords(k - 1, 0) + codewords(k, 0)));
-    column.table.resize(codewords.rows(), models.num_states());
+    while (column.borders.size() % detail::kRowFloats != 0)
+      column.borders.push_back(std::numeric_limits<float>::infinity());
+    MatrixF table(codewords.rows(), num_states_);
     Eigen::Index state = 0;
     for (const GaussianMixtureHmm& model : models.models()) {
       const MixtureBank& bank = model.bank();
       const MixtureBank part(bank.weights(), bank.means().col(c), bank.variances().col(c));
-      part.log_densities(codewords, column.table.middleCols(state, model.num_states()));
+      part.log_densities(codewords, table.middleCols(state, model.num_states()));
       state += model.num_states();
     }
-    column.table.colwise() -= column.table.rowwise().maxCoeff().eval();
+    table.colwise() -= table.rowwise().maxCoeff().eval();
+    for (Eigen::Index k = 0; k < table.rows(); ++k, ++first_row)
+      std::copy_n(table.row(k).data(), num_states_, table_.begin() + first_row * stride_);
     columns_.push_back(std::move(column));
   }
 }
@@ -72,14 +84,24 @@ void CodedPossibilities::compute(ConstMatrixRefF frames, MatrixRefF out) const {
   require(out.rows() == frames.rows() && out.cols() == num_states(),
           "out must have a row a frame and a column a state");
   require(frames.allFinite(), "frames must be finite");
+  thread_local std::vector<const float*> rows;
+  thread_local std::vector<float, detail::CacheLineAllocator<float>> sums;
+  rows.resize(columns_.size());
+  sums.resize(static_cast<std::size_t>(stride_));
+  const detail::EmissionKernels& kernels = detail::emission_kernels();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    out.row(t).setZero();
-    for (Eigen::Index c = 0; c < frames.cols(); ++c) {
-      const Column& column = columns_[static_cast<std::size_t>(c)];
-      const auto border =
-          std::upper_bound(column.borders.begin(), column.borders.end(), frames(t, c));
-      out.row(t) += column.table.row(border - column.borders.begin());
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const Column& column = columns_[c];
+      const std::ptrdiff_t codeword = kernels.count_up_to(
+          column.borders.data(), static_cast<std::ptrdiff_t>(column.borders.size()),
+          frames(t, static_cast<Eigen::Index>(c)));
+      rows[c] = table_.data() + (column.first_row + codeword) * stride_;
+      // Tables of many words are larger than the nearer caches.
+      for (std::ptrdiff_t j = 0; j < stride_; j += detail::kRowFloats)
+        __builtin_prefetch(rows[c] + j);
     }
+    kernels.add_rows(rows.data(), dim(), stride_, sums.data());
+    std::copy_n(sums.data(), num_states_, out.row(t).data());
   }
 }
 

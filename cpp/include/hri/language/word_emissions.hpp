@@ -4,9 +4,11 @@
 // Log scores of the states of all models of a ConnectedDecoder, frame by frame.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "hri/core/cache_line.hpp"
 #include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/models/codebook/multi_stream_codebook.hpp"
@@ -62,21 +64,26 @@ class HRI_API CodedPossibilities {
   CodedPossibilities(const GaussianEmissions& models, MultiStreamCodebook codebook);
 
   /// Of `frames` (num_frames, dim()) into `out` (num_frames, num_states()), natural log, model by
-  /// model. Allocates nothing. Throws InvalidArgument for other shapes and values not finite.
+  /// model. Allocates nothing once the thread has computed as many states. Throws InvalidArgument
+  /// for other shapes and values not finite.
   void compute(ConstMatrixRefF frames, MatrixRefF out) const;
 
   [[nodiscard]] int dim() const { return codebook_.dim(); }
-  [[nodiscard]] int num_states() const { return static_cast<int>(columns_.front().table.cols()); }
+  [[nodiscard]] int num_states() const { return num_states_; }
   [[nodiscard]] const MultiStreamCodebook& codebook() const { return codebook_; }
 
  private:
   struct Column {
-    std::vector<float> borders;  // between codewords, rising
-    MatrixF table;               // by codeword, rising, and state
+    std::vector<float> borders;  // between codewords, rising, padded
+    std::ptrdiff_t first_row;    // of the table: that of the lowest codeword
   };
 
   MultiStreamCodebook codebook_;
+  int num_states_;
+  std::ptrdiff_t stride_;  // of the table
   std::vector<Column> columns_;
+  // By column of the frames and codeword, rising, and state; rows are padded.
+  std::vector<float, detail::CacheLineAllocator<float>> table_;
 };
 
 }  // namespace hri
