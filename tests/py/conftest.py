@@ -17,6 +17,8 @@ from hri.io import write_wav_pcm16
 from hri.recognition.word import filler_words, recognizer
 from hri.synthetic.signer import make_gesture_corpus
 
+pytest.register_assert_rewrite("serving")  # a plugin of some test files, which import it, too
+
 RATE_HZ = 16000
 PERSONS = {"low": 500.0, "middle": 550.0, "high": 600.0}
 

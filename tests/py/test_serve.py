@@ -7,7 +7,6 @@ from __future__ import annotations
 import contextlib
 import http.client
 import json
-import logging
 import signal
 import socket as sockets
 import subprocess
@@ -19,40 +18,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
-pytest.importorskip("starlette")
-pytest.importorskip("uvicorn")
-pytest.importorskip("websockets")
+pytest.importorskip("serving")
 
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-import hri
 from drawn_hands import HIDDEN, picture
 from hri.core.errors import InvalidArgument, IoError
-from hri.robot import HOAP2, Robot, open_robot
+from hri.robot import HOAP2, Robot
 from hri.serve import PageServer, ServeLimits, Stage
 from hri.serve.limits import RateLimit
 from page_people import PICTURE, RATE_HZ, SOUND, connected, enter, framed, jpeg, open_socket, request, sound_messages
-from session_people import MOTIONS, signing, speech, train_signs, train_words
+from serving import LIMITS, own_origin, stop_by_button, stop_by_request
+from session_people import MOTIONS, signing, speech
 
-LIMITS = ServeLimits(stall_s=2.0, hello_s=1.0)
-
-
-@pytest.fixture(scope="module")
-def words() -> hri.WordRecognizer:
-    return train_words()
-
-
-@pytest.fixture(scope="module")
-def signs() -> hri.GestureRecognizer:
-    return train_signs()
-
-
-@pytest.fixture
-def robot() -> Iterator[Robot]:
-    with open_robot("kinematic") as opened:
-        yield opened
+pytest_plugins = ("serving",)
 
 
 @pytest.fixture
@@ -60,25 +39,6 @@ def stage(words: Any, signs: Any, robot: Robot) -> Iterator[Stage]:
     made = Stage(words, signs, robot, motions=MOTIONS, limits=LIMITS)
     yield made
     made.close()
-
-
-@pytest.fixture
-def server(stage: Stage) -> Iterator[PageServer]:
-    with PageServer(stage) as made:
-        yield made
-
-
-@pytest.fixture
-def cookie(server: PageServer) -> str:
-    return enter(server)
-
-
-@pytest.fixture
-def notes(caplog: pytest.LogCaptureFixture) -> pytest.LogCaptureFixture:
-    """What stands on the terminal."""
-    caplog.set_level(logging.WARNING, "hri.serve")
-    logging.getLogger("hri").propagate = True
-    return caplog
 
 
 def test_the_address_lets_in_one_visitor(server: PageServer, notes: pytest.LogCaptureFixture) -> None:
@@ -105,7 +65,7 @@ def test_other_sites_and_names_are_refused(server: PageServer, cookie: str, stag
         assert refused.value.response.status_code == 403
     assert request(server, "/", cookie, Host="evil.example")[0] == 400  # a name that leads here
     assert request(server, "/stop", cookie, "POST", Origin="http://evil.example")[0] == 403 and not robot.stopped
-    assert request(server, "/stop", "", "POST", Origin=f"http://127.0.0.1:{server.port}")[0] == 403
+    assert request(server, "/stop", "", "POST", Origin=own_origin(server))[0] == 403
 
 
 def test_a_word_moves_the_robot_and_the_page_sees_why(server: PageServer, cookie: str) -> None:
@@ -128,14 +88,6 @@ def test_a_sign_is_shown_with_the_time_of_its_picture(server: PageServer, cookie
         assert decision["final"] == "tall" and 1500 < decision["sent_ms"] < 3400
         hands = [m for m in page.messages if m.get("event") == "hand" and m["x"] is not None]
         assert hands and abs(hands[len(hands) // 2]["x"] - 0.5) < 0.15
-
-
-def stop_by_button(server: PageServer, cookie: str, page: Any) -> None:
-    page.say(type="stop")
-
-
-def stop_by_request(server: PageServer, cookie: str, page: Any) -> None:
-    assert request(server, "/stop", cookie, "POST", Origin=f"http://127.0.0.1:{server.port}")[0] == 204
 
 
 @pytest.mark.parametrize("press", [stop_by_button, stop_by_request])

@@ -9,15 +9,14 @@ import os
 import shutil
 import statistics
 from collections.abc import Callable, Iterator
+from copy import copy
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
-pytest.importorskip("starlette")
+pytest.importorskip("serving")
 pytest.importorskip("playwright")
 
 import hri
@@ -27,25 +26,22 @@ from hri.fusion import FusionOptions
 from hri.io import write_wav_pcm16
 from hri.language import Grammar, KnowledgeBase, StoredSentence
 from hri.media import write_image
-from hri.robot import Robot, open_robot
-from hri.serve import PageServer, ServeLimits, Stage
+from hri.robot import Robot
+from hri.serve import PageServer, Stage
 from hri.session import SessionOptions
-from session_people import MOTIONS, signing, speech, train_words
+from session_people import MOTIONS, signing, speech
 from test_commands import GRAMMAR, OPTIONS, tone_rows, tones
 
 api: Any = importlib.import_module("playwright.sync_api")
 CHROMIUM = shutil.which("chromium")
 WAIT_MS = 30_000
 
+pytest_plugins = ("serving",)
+
 pytestmark = [
     pytest.mark.alone,
     pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed: apt-get install chromium"),
 ]
-
-
-@pytest.fixture(scope="module")
-def words() -> hri.WordRecognizer:
-    return train_words()
 
 
 @pytest.fixture(scope="module")
@@ -74,22 +70,10 @@ def playwright() -> Iterator[Any]:
 
 
 @pytest.fixture
-def robot() -> Iterator[Robot]:
-    with open_robot("kinematic") as opened:
-        yield opened
-
-
-@pytest.fixture
 def stage(words: Any, signs: Any, robot: Robot) -> Iterator[Stage]:
-    made = Stage(words, signs, robot, motions=MOTIONS, limits=ServeLimits())
+    made = Stage(copy(words), signs, robot, motions=MOTIONS)
     yield made
     made.close()
-
-
-@pytest.fixture
-def server(stage: Stage) -> Iterator[PageServer]:
-    with PageServer(stage) as made:
-        yield made
 
 
 @pytest.fixture

@@ -4,18 +4,13 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-pytest.importorskip("cv2")
-pytest.importorskip("starlette")
-pytest.importorskip("uvicorn")
-pytest.importorskip("websockets")
+pytest.importorskip("serving")
+
 
 import hri
 from conftest import RATE_HZ
@@ -23,11 +18,12 @@ from hri.core.errors import InvalidArgument
 from hri.fusion import FusionOptions
 from hri.language import Grammar, KnowledgeBase, StoredSentence
 from hri.recognition import ConnectedWordRecognizer
-from hri.robot import Robot, open_robot
+from hri.robot import Robot
 from hri.serve import PageServer, ServeLimits, Stage
 from hri.session import SessionOptions
-from page_people import connected, enter, request
-from session_people import MOTIONS, speech, train_words
+from page_people import connected, request
+from serving import Serving, own_origin
+from session_people import MOTIONS, speech
 from test_commands import GRAMMAR, OPTIONS, tone_rows, tones
 
 LEFT = "#JSGF V1.0;\ngrammar left;\npublic <command> = 1 1 {side=left} {gesture=up};\n"
@@ -39,7 +35,7 @@ SENTENCES = SessionOptions(
     sentence_begin_labels=("flat",),
     sentence_end_labels=("stop",),
 )
-Serving = Callable[..., tuple[PageServer, str]]
+pytest_plugins = ("serving",)
 
 
 @pytest.fixture(scope="module")
@@ -52,30 +48,9 @@ def commands(connected_words: ConnectedWordRecognizer) -> hri.CommandRecognizer:
     return hri.CommandRecognizer(connected_words, Grammar.parse(GRAMMAR, "tones.jsgf"))
 
 
-@pytest.fixture
-def robot() -> Iterator[Robot]:
-    with open_robot("kinematic") as opened:
-        yield opened
-
-
-@pytest.fixture
-def serving() -> Iterator[Serving]:
-    """A server of a stage, and the cookie of a visitor."""
-    with ExitStack() as stack:
-
-        def start(*parts: Any, **options: Any) -> tuple[PageServer, str]:
-            stage = Stage(*parts, **options)
-            stack.callback(stage.close)
-            server = stack.enter_context(PageServer(stage))
-            return server, enter(server)
-
-        yield start
-
-
 def send(server: PageServer, cookie: str, grammar: bytes, origin: str = "") -> tuple[int, str]:
     """Status and text of what the page is answered."""
-    own = f"http://127.0.0.1:{server.port}"
-    status, _, body = request(server, "/grammar", cookie, "POST", grammar, Origin=origin or own)
+    status, _, body = request(server, "/grammar", cookie, "POST", grammar, Origin=origin or own_origin(server))
     return status, body.decode()
 
 
@@ -92,10 +67,8 @@ def test_a_command_is_shown_with_its_slots_and_moves_the_robot(serving: Serving,
 
 
 def test_the_page_changes_the_commands(
-    serving: Serving, commands: Any, robot: Robot, caplog: pytest.LogCaptureFixture
+    serving: Serving, commands: Any, robot: Robot, notes: pytest.LogCaptureFixture
 ) -> None:
-    caplog.set_level(logging.WARNING, "hri.serve")
-    logging.getLogger("hri").propagate = True
     server, cookie = serving(commands, None, robot, NEVER_ASKS)
     with connected(server, cookie) as page:
         for text, error in (
@@ -108,7 +81,7 @@ def test_the_page_changes_the_commands(
         ):
             status, answer = send(server, cookie, text)
             assert status == 422 and answer.startswith("The commands stay as they are: ") and error in answer
-            assert answer.removeprefix("The commands stay as they are: ") in caplog.text  # on the terminal, too
+            assert answer.removeprefix("The commands stay as they are: ") in notes.text  # on the terminal, too
         assert send(server, cookie, bytes(ServeLimits().max_grammar_bytes + 1))[0] == 413
         assert send(server, "", LEFT.encode())[0] == 403
         assert send(server, cookie, LEFT.encode(), "http://evil.example")[0] == 403
@@ -121,8 +94,8 @@ def test_the_page_changes_the_commands(
         page.await_event("motion_start", label="1 1")
 
 
-def test_single_words_have_no_grammar(serving: Serving) -> None:
-    server, cookie = serving(train_words(), None)
+def test_single_words_have_no_grammar(serving: Serving, words: Any) -> None:
+    server, cookie = serving(words, None)
     status, answer = send(server, cookie, LEFT.encode())
     assert status == 422 and "no commands of several words" in answer
 
@@ -137,9 +110,9 @@ def test_commands_without_a_label_of_the_options_are_refused(commands: Any, robo
         stage.close()
 
 
-def test_a_sentence_is_shown_with_the_nearest_stored_one(serving: Serving, robot: Robot) -> None:
+def test_a_sentence_is_shown_with_the_nearest_stored_one(serving: Serving, words: Any, robot: Robot) -> None:
     stored = KnowledgeBase([StoredSentence(("tall", "tall"), {"en": "Twice tall."}, ("flat",))], max_distance=0.6)
-    server, cookie = serving(train_words(), None, robot, SENTENCES, motions=MOTIONS, knowledge=stored)
+    server, cookie = serving(words, None, robot, SENTENCES, motions=MOTIONS, knowledge=stored)
     with connected(server, cookie) as page:
         given = {"begin": ["flat"], "end": ["stop"], "stored": ["tall tall"], "more": 0}
         assert page.messages[0]["sentences"] == given

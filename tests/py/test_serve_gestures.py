@@ -14,11 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
-pytest.importorskip("starlette")
-pytest.importorskip("uvicorn")
-pytest.importorskip("websockets")
+pytest.importorskip("serving")
+
 
 import hri
 from drawn_hands import FPS, SIDE_PX, Frame, picture, stills
@@ -29,34 +26,21 @@ from hri.serve import PageServer, ServeLimits, Stage
 from hri.serve.messages import read_command
 from hri.session import SessionOptions
 from page_people import PICTURE, Page, connected, enter, framed, jpeg, request, sound_messages
-from session_people import signing, train_signs
+from serving import answer, own_origin
+from session_people import signing
+
+pytest_plugins = ("serving",)
 
 LIMITS = ServeLimits(stall_s=2.0, hello_s=1.0, max_clip_bytes=1 << 20, max_clip_pictures=40)
 HINDI = "नमस्ते"
 CONJUNCT = "क्\u200dष"
 
 
-@pytest.fixture(scope="module")
-def trained() -> hri.GestureRecognizer:
-    return train_signs()
-
-
 @pytest.fixture
-def stage(trained: hri.GestureRecognizer) -> Iterator[Stage]:
-    made = Stage(None, trained, None, limits=LIMITS)
+def stage(signs: hri.GestureRecognizer) -> Iterator[Stage]:
+    made = Stage(None, signs, None, limits=LIMITS)
     yield made
     made.close()
-
-
-@pytest.fixture
-def server(stage: Stage) -> Iterator[PageServer]:
-    with PageServer(stage) as made:
-        yield made
-
-
-@pytest.fixture
-def cookie(server: PageServer) -> str:
-    return enter(server)
 
 
 def cross(seed: int) -> Frame:
@@ -66,13 +50,8 @@ def cross(seed: int) -> Frame:
     return np.where(red, flat, tall)
 
 
-def answer(page: Page, text: str) -> dict[str, Any]:
-    return page.await_message(lambda m: m["type"] == "teach" and text in m["text"])
-
-
 def upload(server: PageServer, cookie: str, body: bytes, name: str = "clip.jpg") -> tuple[int, str]:
-    own = f"http://127.0.0.1:{server.port}"
-    status, _, text = request(server, f"/sample?name={name}", cookie, "POST", body, Origin=own)
+    status, _, text = request(server, f"/sample?name={name}", cookie, "POST", body, Origin=own_origin(server))
     return status, text.decode()
 
 
@@ -95,7 +74,7 @@ def show(page: Page, frames: list[Frame]) -> dict[str, Any]:
 
 
 def test_a_gesture_is_added_by_three_samples_of_the_camera_and_undone(
-    server: PageServer, cookie: str, stage: Stage, trained: hri.GestureRecognizer, tmp_path: Path
+    server: PageServer, cookie: str, stage: Stage, signs: hri.GestureRecognizer, tmp_path: Path
 ) -> None:
     with connected(server, cookie) as page:
         teach(page, HINDI)
@@ -120,7 +99,7 @@ def test_a_gesture_is_added_by_three_samples_of_the_camera_and_undone(
         page.say(type="undo", mode="gesture")
         assert answer(page, f"“{HINDI}” is removed")["added"] == []
         assert stage.signs is not None
-        assert stage.signs.to_model_file().to_bytes() == trained.to_model_file().to_bytes()  # to the bit
+        assert stage.signs.to_model_file().to_bytes() == signs.to_model_file().to_bytes()  # to the bit
         page.say(type="undo", mode="gesture")
         answer(page, "there is nothing to undo")
 
@@ -144,9 +123,9 @@ def test_a_gesture_is_added_by_files_and_recognised(
             assert stage.signs.recognise(stills(sign, 40)).label == sign
 
 
-def test_stop_is_seen_while_a_gesture_is_recorded(trained: hri.GestureRecognizer) -> None:
+def test_stop_is_seen_while_a_gesture_is_recorded(signs: hri.GestureRecognizer) -> None:
     options = SessionOptions(retry_s=0.2, fusion=FusionOptions(stop_labels=("tall",)))
-    stage = Stage(None, trained, None, options, limits=LIMITS)
+    stage = Stage(None, signs, None, options, limits=LIMITS)
     with contextlib.closing(stage), PageServer(stage) as server, connected(server, enter(server)) as page:
         teach(page, HINDI)
         page.say(type="sample", mode="gesture")
@@ -230,8 +209,7 @@ def test_files_that_are_no_samples_are_refused_in_words(server: PageServer, cook
         ):
             got, why = upload(server, cookie, body, name)
             assert got == status and text in why and "/" not in why, (name, got, why)
-        own = f"http://127.0.0.1:{server.port}"
-        for key, origin in (("", own), (cookie, "http://evil.example")):
+        for key, origin in (("", own_origin(server)), (cookie, "http://evil.example")):
             assert request(server, "/sample?name=a.jpg", key, "POST", jpeg(cross(1)), Origin=origin)[0] == 403
         page.say(type="teach", label="cross", mode="gesture")  # the session has taken no harm
         answer(page, "3 times")

@@ -5,24 +5,28 @@
 from __future__ import annotations
 
 import queue
+from copy import copy
 from typing import Any
 
 import pytest
 
-pytest.importorskip("cv2")
-pytest.importorskip("starlette")
-pytest.importorskip("uvicorn")
+pytest.importorskip("serving")
+
 
 from conftest import RATE_HZ, tone_word
-from hri.robot import open_robot
-from hri.serve import ServeLimits, Stage
+from hri.robot import Robot
+from hri.serve import Stage
 from hri.session import Session
-from session_people import MOTIONS, train_words
+from serving import LIMITS
+from session_people import MOTIONS
+
+pytest_plugins = ("serving",)
 
 
-def test_resume_ends_a_stop_that_came_while_a_session_began(monkeypatch: pytest.MonkeyPatch) -> None:
-    robot = open_robot("kinematic")
-    stage = Stage(train_words(), None, robot, motions=MOTIONS, limits=ServeLimits(stall_s=2.0))
+def test_resume_ends_a_stop_that_came_while_a_session_began(
+    words: Any, robot: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stage = Stage(words, None, robot, motions=MOTIONS, limits=LIMITS)
     run, refusals = Session.run, []
 
     def stopped_first(self: Session, *sources: Any, **options: Any) -> Any:
@@ -47,18 +51,15 @@ def test_resume_ends_a_stop_that_came_while_a_session_began(monkeypatch: pytest.
         assert not robot.stopped
     finally:
         stage.close()
-        robot.close()
 
 
-def test_a_label_that_is_added_moves_the_robot_where_it_has_a_gesture_of_that_name() -> None:
-    words = train_words()
-    robot = open_robot("kinematic")
-    stage = Stage(words, None, robot)
+def test_a_label_that_is_added_moves_the_robot_where_it_has_a_gesture_of_that_name(words: Any, robot: Robot) -> None:
+    taught = copy(words)
+    stage = Stage(taught, None, robot)
     try:
         assert stage.welcome()["refused"] == dict.fromkeys(("flat", "tall"), "no gesture has this name")
-        words.add_word("5", [tone_word(700.0, 2000.0, take) for take in range(3)], RATE_HZ)
+        taught.add_word("5", [tone_word(700.0, 2000.0, take) for take in range(3)], RATE_HZ)
         stage.renew()
         assert stage.welcome()["motions"] == ["5"]
     finally:
         stage.close()
-        robot.close()

@@ -13,32 +13,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
-pytest.importorskip("starlette")
-pytest.importorskip("uvicorn")
-pytest.importorskip("websockets")
+pytest.importorskip("serving")
+
 
 import hri
 from hri.media import Audio
-from hri.robot import Robot, open_robot
-from hri.serve import PageServer, ServeLimits, Stage
+from hri.robot import Robot
+from hri.serve import PageServer, Stage
 from hri.serve.word_teacher import WordTeacher
-from page_people import RATE_HZ, connected, enter, request
-from session_people import MOTIONS, speech, train_words
+from page_people import RATE_HZ, connected, request
+from serving import LIMITS, answer
+from session_people import MOTIONS, speech
 
-LIMITS = ServeLimits(stall_s=2.0, hello_s=1.0)
-
-
-@pytest.fixture(scope="module")
-def words() -> hri.WordRecognizer:
-    return train_words()
-
-
-@pytest.fixture
-def robot() -> Iterator[Robot]:
-    with open_robot("kinematic") as opened:
-        yield opened
+pytest_plugins = ("serving",)
 
 
 @pytest.fixture
@@ -48,23 +35,9 @@ def stage(words: Any, robot: Robot) -> Iterator[Stage]:
     made.close()
 
 
-@pytest.fixture
-def server(stage: Stage) -> Iterator[PageServer]:
-    with PageServer(stage) as made:
-        yield made
-
-
-@pytest.fixture
-def cookie(server: PageServer) -> str:
-    return enter(server)
-
-
 def test_a_word_is_added_by_three_samples_and_undone(
     server: PageServer, cookie: str, stage: Stage, robot: Robot, tmp_path: Any
 ) -> None:
-    def answer(page: Any, text: str) -> None:
-        page.await_message(lambda m: m["type"] == "teach" and text in m["text"])
-
     rng = np.random.default_rng(2)
     with connected(server, cookie) as page:
         for command, text in (

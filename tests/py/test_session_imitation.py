@@ -27,6 +27,7 @@ FPS = 15.0
 NOSE = (160.0, 50.0)
 FACE_PX = 40.0
 HEIGHT_PX = 340.0
+HEIGHT = 240
 
 
 class OneFace:
@@ -38,13 +39,15 @@ class OneFace:
     def find(self, bgr: np.ndarray) -> Any:
         from hri.vision import Face
 
-        return Face(NOSE[0] - FACE_PX / 2, NOSE[1] - FACE_PX / 2, FACE_PX) if self.seen else None
+        scale = bgr.shape[0] / HEIGHT
+        corner = [scale * (place - FACE_PX / 2) for place in NOSE]
+        return Face(*corner, scale * FACE_PX) if self.seen else None
 
 
 def picture(*hands: tuple[float, float]) -> np.ndarray:
     """A person in a room: discs of skin for face and hands."""
     rng = np.random.default_rng(0)
-    frame = np.empty((240, 320, 3), np.uint8)
+    frame = np.empty((HEIGHT, 320, 3), np.uint8)
     frame[:] = (120, 90, 60)
     y, x = np.mgrid[:240, :320]
     for centre, radius in [(NOSE, 0.55 * FACE_PX), *((hand, 13.0) for hand in hands)]:
@@ -141,6 +144,9 @@ def test_the_person_is_found_in_pictures() -> None:
     assert person is not None and person.left_px is not None and person.right_px is not None
     assert np.hypot(*np.subtract(person.left_px, left)) < 6 and np.hypot(*np.subtract(person.right_px, right)) < 6
     assert person.nose_px == NOSE and person.height_px == pytest.approx(FACE_PX / 0.115)
+    small = np.ascontiguousarray(picture(left, right)[::4, ::4])  # another camera, whose pictures are smaller
+    again = tracker.process(small, 20 / FPS)
+    assert again is not None and again.nose_px == (NOSE[0] / 4, NOSE[1] / 4)
     assert PersonTracker(OneFace(False)).process(picture(), 0.0) is None
 
 

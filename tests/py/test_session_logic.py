@@ -329,6 +329,20 @@ def test_a_label_may_resume_and_no_ends_a_motion() -> None:
     assert kinds(talk.decide(pair("no"), 5.0)) == [("rest", "no"), ("state", "idle")]
 
 
+def test_a_button_begins_imitation_where_nothing_stands_against_it_and_ends_it() -> None:
+    assert kinds(Dialogue(motions=MOTIONS).imitate(0.0)) == [("say", "I cannot imitate you.")]
+    talk = Dialogue(SessionOptions(imitate_labels=("7",), wake_labels=("robot",), confirm_below=1.0), MOTIONS)
+    assert talk.rest("asked for") == []
+    talk.only_stop(2.0)
+    assert kinds(talk.imitate(1.9)) == [("ignored", "7")] and talk.state == "idle"
+    assert ("move", "7") in kinds(talk.imitate(2.1)) and talk.state == "acting"
+    assert kinds(talk.imitate(2.2)) == [("ignored", "7")]
+    assert kinds(talk.rest("asked for")) == [("rest", "asked for"), ("state", "idle")]
+    talk.imitate(3.0)
+    assert talk.halt("asked for")[0].kind == "stop" and talk.state == "stopped"
+    assert kinds(talk.imitate(4.0)) == [("ignored", "7")] and talk.rest("asked for") == [] and talk.state == "stopped"
+
+
 def test_a_fault_of_the_robot_stops_it_and_a_refused_motion_does_not() -> None:
     talk = Dialogue(motions=MOTIONS)
     talk.decide(pair("7"), 1.0)

@@ -81,6 +81,22 @@ def test_a_recorded_session_is_replayed_to_the_same_decisions(words: Any, signs:
     )
 
 
+def test_buttons_that_begin_and_end_imitation_are_replayed(words: Any, tmp_path: Path) -> None:
+    path = tmp_path / "buttons.mcap"
+    session = Session(words, options=SessionOptions(imitate_labels=("tall",)))
+    sound = ArraySource(speech([("flat", 1.5)], 4.0), RATE_HZ)
+    for count, event in enumerate(session.run(sound, recorder=McapRecorder(path))):
+        if count == 2:
+            session.imitate()
+            session.rest()  # nothing moves any more: without a robot it is carried out at once
+        assert event.event != "rest"
+    recording = read_recording(path)
+    found = decisions(recording.events)
+    assert next(e["text"] for e in found if e["event"] == "say") == "tall." and len(found) > 4
+    assert [e["command"] for e in recording.events if e["event"] == "asked"] == ["imitate", "rest"]
+    assert decisions([e.to_dict() for e in replay(recording, words)]) == found
+
+
 def test_devices_that_come_and_go_are_replayed_as_they_came(words: Any, signs: Any, tmp_path: Path) -> None:
     import cv2
 

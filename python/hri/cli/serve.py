@@ -27,7 +27,8 @@ def serve(chosen: ChosenSession, port: int, open_browser: bool) -> None:
 
     Prints an address; open it in a browser on this computer and press Start. The page shows the camera, the level, the
     most probable words and signs, which rule fired, what the robot says and does, and STOP, which is heeded at any
-    moment. The address lets in one visitor, and nothing leaves this computer. Ctrl-C stops the robot and ends.
+    moment. With --imitate a button makes the robot follow your arms, too. The address lets in one visitor, and nothing
+    leaves this computer. Ctrl-C stops the robot and ends.
 
     \b
     Examples:
@@ -35,6 +36,7 @@ def serve(chosen: ChosenSession, port: int, open_browser: bool) -> None:
       hri train gesture --data signed/
       hri serve --open
       hri serve --no-gesture --wake robot
+      hri serve --imitate follow
       hri serve --grammar robot.jsgf --stand --no-gesture
       hri serve --no-speech --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri serve --backend kinematic --port 0 --speech-model words.hri --gesture-model signs.hri

@@ -36,12 +36,6 @@ _NAO = "nao"
     "--camera", "camera_name", default="0", show_default=True, help="Number or address; nao: NAO's, at --url."
 )
 @stall_option
-@click.option(
-    "--imitate",
-    multiple=True,
-    metavar="LABEL",
-    help="From this word or sign on the arms move as yours do, until no or STOP.",
-)
 @click.option("--gui", is_flag=True, help="Show the robot in a window (pybullet).")
 @nao_url_option
 @click.option("--record", "record_path", type=OutputFile((".mcap",)), metavar="FILE", help="Keep everything (.mcap).")
@@ -55,7 +49,6 @@ def session(
     microphone_name: str | None,
     camera_name: str,
     stall_s: float,
-    imitate: tuple[str, ...],
     gui: bool,
     url: str | None,
     record_path: str | None,
@@ -92,7 +85,7 @@ def session(
     with_gesture = not chosen.no_gesture if live else video is not None
     if not (with_speech or with_gesture):
         raise click.UsageError("--no-speech and --no-gesture leave nothing")
-    options = chosen.session_options(imitate_labels=imitate)
+    options = chosen.session_options()
     words = chosen.load_words() if with_speech else None
     signs = chosen.load_signs() if with_gesture else None
     learned, stored = chosen.load_fusion(), chosen.load_knowledge()

@@ -46,6 +46,12 @@ _OPTIONS = (
     click.option(
         "--stop-threshold", type=float, metavar="P", help="Confidence from which STOP is sure; else the model's."
     ),
+    click.option(
+        "--imitate",
+        multiple=True,
+        metavar="LABEL",
+        help="From this word or sign on the arms move as yours do, until no or STOP.",
+    ),
     click.option("--resume", multiple=True, metavar="LABEL", help="A word or sign that ends STOP."),
     click.option(
         "--sentence-begin", multiple=True, metavar="LABEL", help="From this word or sign on comes a sentence."
@@ -108,6 +114,7 @@ class ChosenSession:
     wake: tuple[str, ...]
     stops: tuple[str, ...]
     stop_threshold: float | None
+    imitate: tuple[str, ...]
     resume: tuple[str, ...]
     sentence_begin: tuple[str, ...]
     sentence_end: tuple[str, ...]
@@ -131,6 +138,7 @@ class ChosenSession:
             fusion=FusionOptions(stop_labels=self.stops, stop_threshold=self.stop_threshold),
             wake_labels=self.wake,
             resume_labels=self.resume,
+            imitate_labels=self.imitate,
             sentence_begin_labels=self.sentence_begin,
             sentence_end_labels=self.sentence_end,
             language=self.language,

@@ -27,7 +27,7 @@ const LINES = {
   rest: (event) => `Rest: ${event.reason}.`,
   resumed: () => "Motions may begin again.",
   motion_start: (event) =>
-    `The robot moves: ${event.label}, ${Math.round(event.wait_ms + event.compute_ms)} ms after it was said or shown.`,
+    `The robot moves: ${event.label}, ${Math.round(event.wait_ms + event.compute_ms)} ms after it was asked for.`,
   halt: (event) => `The robot begins to stop, ${Math.round(event.wait_ms + event.compute_ms)} ms after STOP.`,
   motion_end: (event) => `The robot has ${event.completed ? "finished" : "stopped"}: ${event.label}.`,
   stall: (event) => `${event.mode === "speech" ? "Microphone" : "Camera"}: ${event.message}.`,

@@ -27,7 +27,17 @@ from hri.serve.connection import Reception, log
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
 
-_PAGE = ("index.html", "page.js", "link.js", "devices.js", "place.js", "sound.js", "teach.js", "commands.js")
+_PAGE = (
+    "index.html",
+    "page.js",
+    "link.js",
+    "devices.js",
+    "place.js",
+    "sound.js",
+    "teach.js",
+    "commands.js",
+    "imitation.js",
+)
 HOSTS = ("127.0.0.1", "localhost")
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _FORMS: dict[str, tuple[str, Callable[[ModelFile, str], bytes | str]]] = {

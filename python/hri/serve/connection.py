@@ -212,6 +212,10 @@ class Connection:
     def _obey(self, command: dict[str, Any]) -> None:
         if command["type"] == "resume":
             self._stage.resume()
+        elif command["type"] == "imitate":
+            self._stage.session.imitate()
+        elif command["type"] == "rest":
+            self._stage.session.rest()
         elif command["type"] != "hello":
             self._teaching.obey(command)
 

@@ -74,7 +74,7 @@ class GestureTeacher(Teacher):
         name : str
             The file's name as the person knows it.
         """
-        refused = self._refusal() or self._unnamed()
+        refused = self._refusal() or self._unready()
         if refused:
             return refused
         self._busy.acquire()

@@ -24,7 +24,7 @@ from hri.serve.limits import ServeLimits
 
 SOUND = 1
 PICTURE = 2
-COMMANDS = ("hello", "stop", "resume", "teach", "sample", "undo")
+COMMANDS = ("hello", "stop", "resume", "imitate", "rest", "teach", "sample", "undo")
 _TEACHING = ("teach", "sample", "undo")
 _HEADER = struct.Struct("<Bd")
 _MAX_SOUND_BYTES = 2 * 48000

@@ -22,8 +22,9 @@ from hri.serve.devices import PageCamera, PageMicrophone
 from hri.serve.limits import ServeLimits
 from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
+from hri.session.imitation import Faces
 from hri.session.live import PASSING
-from hri.session.logic import BY_BUTTON, SENTENCE
+from hri.session.logic import BY_BUTTON, MOTION_END, MOTION_START, REST, SENTENCE, STOP
 from hri.session.mover import Motion
 
 _MOST_KEPT = 60
@@ -53,7 +54,8 @@ class Stage:
     model_ids : mapping of mode to str, optional
     fusion : LearnedFusion, optional
     knowledge : KnowledgeBase, optional
-        As of `Session`, both.
+    faces : FaceFinder, optional
+        As of `Session`, all three.
 
     Attributes
     ----------
@@ -75,6 +77,7 @@ class Stage:
         model_ids: Mapping[str, str] | None = None,
         fusion: LearnedFusion | None = None,
         knowledge: KnowledgeBase | None = None,
+        faces: Faces | None = None,
     ) -> None:
         self.words, self.signs = words, signs
         self.limits = limits or ServeLimits()
@@ -85,10 +88,11 @@ class Stage:
         self._robot = robot
         self._options = options or SessionOptions(retry_s=0.2)
         self._model_ids = dict(model_ids or {})
-        self._motions, self._fusion, self._knowledge = motions, fusion, knowledge
+        self._motions, self._fusion, self._knowledge, self._faces = motions, fusion, knowledge, faces
         self._session = self._made()
         self._log: deque[dict[str, Any]] = deque(maxlen=_MOST_KEPT)
         self._state = IDLE
+        self._imitating = False
         self._begun_s = 0.0
         self._only_stop_until_s = 0.0
         self._joints: dict[str, float] = {}
@@ -176,6 +180,8 @@ class Stage:
             "teach": [mode for mode, one in (("speech", self.spoken), ("gesture", self.signs)) if one is not None],
             "grammar": None if self.grammar is None else self.grammar.text,
             "sentences": self._sentences(),
+            "imitate": list(self._imitated),
+            "imitating": self._imitating,
             "robot": self._robot.table.name if self._robot is not None else "",
             "words": [] if self.words is None else [str(label) for label in self.words.classes_],
             "signs": [] if self.signs is None else [str(label) for label in self.signs.classes_],
@@ -183,6 +189,11 @@ class Stage:
             "refused": self._session.refused,
             "log": list(self._log),
         }
+
+    @property
+    def _imitated(self) -> tuple[str, ...]:
+        """Labels from which on the robot imitates."""
+        return self._options.imitate_labels if self._robot is not None else ()
 
     def _sentences(self) -> dict[str, Any] | None:
         if not self._options.sentence_labels:
@@ -246,6 +257,7 @@ class Stage:
             model_ids=self._model_ids,
             fusion=self._fusion,
             knowledge=self._knowledge,
+            faces=self._faces,
         )
 
     def _refused(self, text: str) -> None:
@@ -304,7 +316,13 @@ class Stage:
 
     def _show_state(self, state: str) -> None:
         self._state = state
+        self._show_imitation(False)
         self.publish({"type": "event", "event": "state", "state": state})
+
+    def _show_imitation(self, on: bool) -> None:
+        if on != self._imitating:
+            self._imitating = on
+            self.publish({"type": "imitation", "on": on})
 
     def _heed(self, event: Event) -> None:
         message = {"type": "event", "passing": event.event in PASSING, **event.to_dict()}
@@ -315,6 +333,8 @@ class Stage:
             self.on_stop()
         elif event.event == "resumed":
             self._held = self._paused = False
+        if event.event in (MOTION_START, MOTION_END, STOP, REST):  # at STOP it is over, though the arms still brake
+            self._show_imitation(event.event == MOTION_START and event.fields["label"] in self._imitated)
         if event.mode == "gesture" and "nbest" in event.fields:
             sent_ms = self.camera.sent_ms(self._begun_s + event.time)
             if sent_ms is not None:

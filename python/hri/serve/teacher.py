@@ -18,6 +18,7 @@ from hri.robot import load_gestures
 from hri.serve.stage import Stage
 
 NUM_SAMPLES = 3
+MOVES = "wait until the robot rests"
 STOPPED = "STOP: this sample is not kept. Press Resume, then Record once more."
 
 
@@ -51,9 +52,9 @@ class Teacher(ABC):
         elif command["type"] == "teach":
             self._begin(command["label"])
         elif command["type"] == "sample":
-            unnamed = self._unnamed()
-            if unnamed:
-                self._answer(unnamed)
+            unready = self._unready()
+            if unready:
+                self._answer(unready)
             else:
                 self._sample()
         elif command["type"] == "undo":
@@ -116,8 +117,10 @@ class Teacher(ABC):
         self._label = label
         self._answer(self._prompt(label))
 
-    def _unnamed(self) -> str:
+    def _unready(self) -> str:
         """Why no sample can be taken; "" where a label waits for one."""
+        if self._stage.moving:  # a motion may last, as imitation does, and the session cannot begin anew meanwhile
+            return MOVES
         if self._label:
             return ""
         if self._full:

@@ -24,6 +24,9 @@ SENTENCE = "sentence"
 STATES = (IDLE, ATTENDING, LISTENING, CONFIRMING, ACTING, STOPPED, SENTENCE)
 MAX_SENTENCE_WORDS = 64
 _NOT_UNDERSTOOD = "I did not understand that."
+_ONLY_STOP = "only STOP counts while a sample is recorded"
+_STOPPED = "stopped until resume"
+_MOVES = "the robot moves"
 
 SAY = "say"
 MOVE = "move"
@@ -136,11 +139,11 @@ class Dialogue:
         if pair.first_s < self._only_stop_until_s:
             if status == ASK and any(entry.label in self._options.fusion.stop_labels for entry in pair.fused.nbest):
                 return self.halt(pair.fused.rule)  # nothing can be asked now
-            return [Action(IGNORE, label, "only STOP counts while a sample is recorded")]
+            return [Action(IGNORE, label, _ONLY_STOP)]
         if self.state == STOPPED:
             if label in self._options.resume_labels:
                 return self.resume()
-            return [Action(IGNORE, label, "stopped until resume")]
+            return [Action(IGNORE, label, _STOPPED)]
         if status == NO_INPUT:
             return [Action(IGNORE, label, "no input")]
         if status == ASK:
@@ -149,7 +152,7 @@ class Dialogue:
         if self.state == ACTING:
             if label in self._options.no_labels:
                 return [Action(REST, label, "taken back"), *self._calm()]
-            return [Action(IGNORE, label, "the robot moves")]
+            return [Action(IGNORE, label, _MOVES)]
         if self.state == CONFIRMING:
             return self._answer(pair, time_s)
         if self.state == SENTENCE or label in self._options.sentence_begin_labels:
@@ -176,6 +179,21 @@ class Dialogue:
         if self.state != STOPPED:
             return []
         return [Action(RESUME), Action(SAY, text="Ready."), *self._calm()]
+
+    def imitate(self, time_s: float) -> list[Action]:
+        """A person asks by a button to be imitated: as by the first of `imitate_labels`, without a question."""
+        label = next(iter(self._options.imitate_labels), "")
+        if label not in self._motions:
+            return [Action(SAY, text="I cannot imitate you.")]
+        if time_s < self._only_stop_until_s:
+            return [Action(IGNORE, label, _ONLY_STOP)]
+        if self.state in (STOPPED, ACTING):
+            return [Action(IGNORE, label, _STOPPED if self.state == STOPPED else _MOVES)]
+        return self._move(label)
+
+    def rest(self, why: str) -> list[Action]:
+        """A person ends the motion under way by a button, as "no" does."""
+        return [Action(REST, text=why), *self._calm()] if self.state == ACTING else []
 
     def _command(self, pair: Pair, time_s: float) -> list[Action]:
         fused = pair.fused

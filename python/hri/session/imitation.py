@@ -59,12 +59,14 @@ class PersonTracker:
         self._pair = HandPairTracker()
         self._face: Face | None = None
         self._seen_s = -np.inf
+        self._shape: tuple[int, ...] = ()
         self._until_next = 0
 
     def process(self, frame: Frame, time_s: float) -> SeenPerson | None:
         """The person in a picture (uint8, BGR); None where no face has been seen for a second."""
-        if time_s < self._seen_s:  # another stream
+        if time_s < self._seen_s or frame.shape != self._shape:  # another stream
             self._face = None
+        self._shape = frame.shape
         if self._until_next <= 0 or self._face is None:
             found = self._faces.find(frame)
             if found is not None:

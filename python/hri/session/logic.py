@@ -29,6 +29,7 @@ RESUMED = "resumed"
 SENTENCE = "sentence"
 ASKED = "asked"
 ONLY_STOP = "only_stop"
+IMITATE = "imitate"
 TICK = "tick"
 BY_BUTTON = "asked for"
 MOTION_START = "motion_start"
@@ -179,7 +180,11 @@ class SessionLogic:
             self._do(self.dialogue.halt(BY_BUTTON), cause, out)
         elif command == ONLY_STOP:
             self.dialogue.only_stop(event.time + event.fields["for_s"])
-        elif command:
+        elif command == IMITATE:
+            self._do(self.dialogue.imitate(event.time), cause, out)
+        elif command == REST:
+            self._do(self.dialogue.rest(BY_BUTTON), cause, out)
+        elif command == acts.RESUME:
             self._do(self.dialogue.resume(), cause, out)
         self._time_passes(event.time, cause, out)
 

@@ -32,7 +32,7 @@ from hri.session.feeds import Arrival, Clock, Feed, merge
 from hri.session.feeds import Recorder as StreamRecorder
 from hri.session.imitation import Faces, ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
-from hri.session.logic import ASKED, ONLY_STOP, STOP, TICK, Body, NoRobot, SessionLogic, session_event
+from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
 from hri.session.mover import Guided, Motion, Mover
 from hri.session.options import SessionOptions
 from hri.signal import EndpointerOptions
@@ -219,6 +219,14 @@ class Session:
     def only_stop(self, for_s: float) -> None:
         """Ignore what begins within so long from now, except STOP; the last call counts; from any thread."""
         self._ask(ONLY_STOP, for_s=for_s)
+
+    def imitate(self) -> None:
+        """Begin to imitate, as after the first of ``options.imitate_labels``, unless stopped; from any thread."""
+        self._ask(IMITATE)
+
+    def rest(self) -> None:
+        """End the motion under way, as "no" does; from any thread."""
+        self._ask(REST)
 
     def _ask(self, command: str, **fields: float) -> None:
         event = session_event(0.0, ASKED, command=command, **fields)

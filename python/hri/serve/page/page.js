@@ -5,6 +5,7 @@ import { showBars } from "./bars.js";
 import { CommandsPanel } from "./commands.js";
 import { Conversation } from "./conversation.js";
 import { inWords, openCamera, openMicrophone } from "./devices.js";
+import { ImitationPanel } from "./imitation.js";
 import { Link } from "./link.js";
 import { drawPlace } from "./place.js";
 import { drawRobot } from "./robot.js";
@@ -17,12 +18,14 @@ const at = (id) => document.getElementById(id);
 const link = new Link(heed, connection);
 const conversation = new Conversation(at("log"));
 const commands = new CommandsPanel(at("commands"));
+const imitation = new ImitationPanel(at("imitation"), link);
 const panels = new Map([...document.querySelectorAll("[data-teach]")].map((s) => [s.dataset.teach, new TeachPanel(s, link)]));
 const knows = { speech: false, gesture: false };
 let state = "";
 let measured = [];
 
 function showState(text) {
+  if (text === "not connected") imitation.show(false);
   state = text;
   at("state").textContent = text;
   at("state").dataset.state = text;
@@ -94,12 +97,13 @@ function heedWelcome(message) {
   showState(message.state);
   panels.forEach((panel, mode) => (panel.section.hidden = !message.teach.includes(mode)));
   commands.show(message.grammar);
+  imitation.offer(message.imitate.length > 0, message.imitating);
   conversation.clear();
   message.log.forEach((one) => (one.type === "event" ? conversation.heed(one) : conversation.write(one.text, "note")));
   showVocabulary(message);
 }
 
-function showVocabulary({ words, signs, grammar, sentences, robot, motions, refused }) {
+function showVocabulary({ words, signs, grammar, sentences, robot, motions, refused, imitate }) {
   const parts = [];
   if (words.length) parts.push(`${grammar === null ? "Words" : "Commands"}: ${words.join(", ")}.`);
   if (signs.length) parts.push(`Signs: ${signs.join(", ")}.`);
@@ -108,7 +112,9 @@ function showVocabulary({ words, signs, grammar, sentences, robot, motions, refu
     const more = sentences.more ? `, and ${sentences.more} more` : "";
     if (sentences.stored.length) parts.push(`Stored sentences: ${sentences.stored.map((one) => `“${one}”`).join(", ")}${more}.`);
   }
-  parts.push(robot ? `${robot} moves for: ${motions.join(", ") || "none of them"}.` : "There is no robot.");
+  const own = motions.filter((label) => !imitate.includes(label));
+  parts.push(robot ? `${robot} moves for: ${own.join(", ") || "none of them"}.` : "There is no robot.");
+  if (imitate.length) parts.push(`From ${imitate.join(" or ")} on it moves its arms as you do.`);
   const still = Object.entries(refused).map(([label, why]) => `${label} (${why})`);
   if (still.length) parts.push(`It does not move for: ${still.join(", ")}.`);
   at("vocabulary").replaceChildren(
@@ -124,6 +130,7 @@ function heed(message) {
   if (message.type === "welcome") heedWelcome(message);
   else if (message.type === "event") heedEvent(message);
   else if (message.type === "robot") drawRobot(at("robot"), at("joints"), message);
+  else if (message.type === "imitation") imitation.show(message.on);
   else if (message.type === "teach") panels.get(message.mode)?.heed(message);
   else {
     problem(message.text);
@@ -152,6 +159,7 @@ async function start() {
       await openCamera(at("camera"), (blob, takenMs) => link.picture(blob, takenMs), () => lost("camera"));
       problem("", "camera");
       at("camera-line").textContent = "Camera: on";
+      imitation.see(true);
     } catch (error) {
       missing.push(["camera", error]);
     }
@@ -161,6 +169,7 @@ async function start() {
 }
 
 function lost(what) {
+  if (what === "camera") imitation.see(false);
   problem(`The ${what} was unplugged. Plug it in and press Start again.`, what);
   at("start").disabled = false;
 }
