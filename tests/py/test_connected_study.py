@@ -11,7 +11,7 @@ from conftest import RATE_HZ, tone_word
 from hri.media.audio import Audio
 from hri.recognition import TranscribedWord, Transcript
 from hri.studies.clips import Clip
-from hri.studies.connected_words import EDGE_MS, MAX_DIGITS, _close, _strings
+from hri.studies.connected_words import EDGE_MS, MAX_DIGITS, _close, strings_of
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,7 @@ def clips() -> list[Clip]:
 
 @pytest.mark.parametrize("pause_ms", [0, 300])
 def test_strings_hold_every_clip_once(clips: list[Clip], pause_ms: int) -> None:
-    strings = _strings(clips, pause_ms)
+    strings = strings_of(clips, pause_ms)
     assert sorted(label for string in strings for label in string.labels) == sorted(label for label, _, _ in clips)
     assert all(1 <= len(string.labels) <= MAX_DIGITS for string in strings)
     for string in strings:
@@ -34,11 +34,11 @@ def test_strings_hold_every_clip_once(clips: list[Clip], pause_ms: int) -> None:
 
 
 def test_pauses_change_neither_order_nor_length_of_strings(clips: list[Clip]) -> None:
-    assert [s.labels for s in _strings(clips, 0)] == [s.labels for s in _strings(clips, 300)]
+    assert [s.labels for s in strings_of(clips, 0)] == [s.labels for s in strings_of(clips, 300)]
 
 
 def test_times_count_where_the_words_are_right(clips: list[Clip]) -> None:
-    string = _strings(clips, 100)[0]
+    string = strings_of(clips, 100)[0]
     shifts = np.zeros(2 * len(string.labels))
     shifts[0], shifts[-1] = 0.04, -0.06
     shifts = shifts.reshape(-1, 2)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from hri.htk import WordLattice
 from hri.io import write_wav_pcm16
 from hri.language import Grammar, NGramModel
 from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream
+from hri.synthetic.speech import make_speaker, speak
 
 WORDS = ["1", "2", "2", "1"]
 GRAMMAR = """#JSGF V1.0;
@@ -175,6 +177,23 @@ def test_command_line_trains_and_transcribes(hri, spoken: Path, sentence: np.nda
     assert film.code == 0 and (tmp_path / "wave.mp4").stat().st_size > 10000
     assert hri("transcribe").code == 2 and hri("transcribe", file, "--robot", "a.mp4").code == 2
     assert hri("transcribe", file, "--words", 1000).err.count("too short for 1000 words") == 1
+
+
+@pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="espeak-ng is not installed")
+def test_a_word_that_nobody_recorded_is_added_by_its_spelling(hri, spoken: Path, tmp_path: Path) -> None:
+    options = [f"words.{name}={value}" for name, value in OPTIONS["words"].items()]
+    arguments = ["--data", spoken, "--out", tmp_path / "words.hri", "--voices", 3]
+    arguments += [word for option in options for word in ("--option", option)]
+    trained = hri("train-connected", *arguments, "--add", "रुको", "--add", "go=come here", "--json", "-")
+    report = json.loads(trained.out)
+    assert report["labels"] == ["1", "2", "go", "रुको"] and report["synthetic_labels"] == ["रुको", "go"]
+    assert "not recorded, said by 3 synthetic voices: रुको go" in trained.err
+    said = speak("come here", "en", make_speaker(5))  # another voice
+    model = ConnectedWordRecognizer.load(tmp_path / "words.hri")
+    assert model.recognise(said).labels == ("go",)
+    for wrong in ("1", "go=", "=go"):
+        refused = hri("train-connected", *arguments, "--add", "go", "--add", wrong)
+        assert refused.code == 2 and f"--add {wrong!r}" in refused.err
 
 
 def test_command_line_says_what_is_missing(hri, spoken: Path, tmp_path: Path) -> None:

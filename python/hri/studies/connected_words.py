@@ -73,7 +73,7 @@ def join_clips(clips: Sequence[Clip], pause_ms: float, rng: np.random.Generator)
     return DigitString((samples + noise).astype(np.float32), [label for label, _, _ in clips], times_s)
 
 
-def _strings(clips: Sequence[Clip], pause_ms: float) -> list[DigitString]:
+def strings_of(clips: Sequence[Clip], pause_ms: float) -> list[DigitString]:
     """Every clip once, in strings of 1 to `MAX_DIGITS`, the same for every pause."""
     order = np.random.default_rng(SEED)
     noise = np.random.default_rng([SEED, round(pause_ms)])
@@ -121,7 +121,7 @@ def _language(labels: Sequence[str]) -> NGramModel:
     return NGramModel.train(rows, vocabulary=list(labels))
 
 
-def _directory(strings: Sequence[DigitString], labels: Sequence[str]) -> Grammar:
+def directory_of(strings: Sequence[DigitString], labels: Sequence[str]) -> Grammar:
     """The strings and others of as many words, as alternatives."""
     rng = np.random.default_rng([SEED, 3])
     sentences = {" ".join(f'"{label}"' for label in string.labels) for string in strings}
@@ -196,7 +196,7 @@ class Measured:
         self.counts[key] = self.counts.get(key, WordErrors()) + counted
 
 
-def _fitted(train: Sequence[Clip], progress: Progress, **options: Any) -> ConnectedWordRecognizer:
+def fit_connected(train: Sequence[Clip], progress: Progress, **options: Any) -> ConnectedWordRecognizer:
     return ConnectedWordRecognizer(**options).fit(
         [sound for _, _, sound in train],
         [label for label, _, _ in train],
@@ -218,16 +218,16 @@ def _measure(measured: Measured, person: str, test: Sequence[Clip], recognizer: 
     rate_hz = test[0][2].sample_rate_hz
     labels = sorted({label for label, _, _ in test})
     for pause_ms in PAUSES_MS:
-        strings = _strings(test, pause_ms)
+        strings = strings_of(test, pause_ms)
         measured.add(pause_ms, LOOP, person, strings, _by(recognizer, rate_hz))
         measured.add(pause_ms, KNOWN, person, strings, _by(recognizer, rate_hz, is_known=True))
     longest = max(PAUSES_MS)
-    strings = _strings(test, longest)
+    strings = strings_of(test, longest)
     for snr_db in NOISES_DB:
         rng = np.random.default_rng([SEED, 4, snr_db])
         noisy = [with_noise(string, snr_db, rng) for string in strings]
         measured.add(longest, f"{LOOP}, white noise at {snr_db} dB", person, noisy, _by(recognizer, rate_hz))
-    directed = copy.deepcopy(recognizer).set_grammar(_directory(strings, labels))
+    directed = copy.deepcopy(recognizer).set_grammar(directory_of(strings, labels))
     measured.add(longest, GRAMMAR, person, strings, _by(directed, rate_hz))
     rows = _rows_of_choices(test, labels, longest)
     measured.add(longest, FREE, person, rows, _by(recognizer, rate_hz))
@@ -239,9 +239,9 @@ def _measure_possibilities(
     measured: Measured, person: str, train: Sequence[Clip], test: Sequence[Clip], progress: Progress
 ) -> None:
     """The same densities as possibilities over codewords."""
-    model = _fitted(train, progress, words={"model": "ptbhmm"})
+    model = fit_connected(train, progress, words={"model": "ptbhmm"})
     for pause_ms in PAUSES_MS:
-        measured.add(pause_ms, POSSIBILISTIC, person, _strings(test, pause_ms), _by(model, test[0][2].sample_rate_hz))
+        measured.add(pause_ms, POSSIBILISTIC, person, strings_of(test, pause_ms), _by(model, test[0][2].sample_rate_hz))
 
 
 def _measure_unknown(
@@ -254,10 +254,10 @@ def _measure_unknown(
     longest = max(PAUSES_MS)
     strings = [
         replace(s, labels=["<unk>" if label in unknown else label for label in s.labels])
-        for s in _strings(test, longest)
+        for s in strings_of(test, longest)
     ]
     for words, is_on in ((MISSED, False), (UNKNOWN, True)):
-        model = _fitted(known, progress, unknown_words=is_on)
+        model = fit_connected(known, progress, unknown_words=is_on)
         measured.add(longest, words, person, strings, _by(model, rate_hz))
 
 
@@ -271,7 +271,7 @@ def _run(data_dir: Path, progress: Progress, *, source: str, takes: int | None =
         test = [clip for clip in clips if clip[1] == person]
         part = within(progress, person)
         isolated[person] = _isolated(train, test)
-        recognizer = _fitted(train, part)
+        recognizer = fit_connected(train, part)
         penalties[person] = recognizer.insertion_penalty
         _measure(measured, person, test, recognizer)
         _measure_unknown(measured, person, train, test, part)

@@ -26,7 +26,7 @@ from hri.htk import (
 )
 from hri.language import WordErrors, count_word_errors
 from hri.studies.clips import Clip, read_clips
-from hri.studies.connected_words import EDGE_MS, _strings
+from hri.studies.connected_words import EDGE_MS, strings_of
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.tables import statistics
 from hri.studies.word_features import WORD_FOLDERS
@@ -64,7 +64,7 @@ def _coded(clips: Sequence[Clip]) -> list[_String]:
     """Strings of each speaker, in an order and with noise that are always the same."""
     rate_hz = clips[0][2].sample_rate_hz
     persons = sorted({person for _, person, _ in clips})
-    joined = [s for who in persons for s in _strings([clip for clip in clips if clip[1] == who], PAUSE_MS)]
+    joined = [s for who in persons for s in strings_of([clip for clip in clips if clip[1] == who], PAUSE_MS)]
     extractor = FeatureExtractor(KIND, rate_hz)
     coded = []
     for string in joined:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import subprocess
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from os import PathLike
@@ -203,6 +203,80 @@ def _trimmed(samples: NDArray[np.float32]) -> NDArray[np.float32]:
     return samples[loud[0] : loud[-1] + 1] if loud.size else samples[:0]
 
 
+@dataclass(frozen=True)
+class _Saying:
+    """One word by one voice, once."""
+
+    speaker: Speaker
+    label: str
+    language: str
+    text: str
+    take: int
+
+
+def _sayings(words: Words, num_speakers: int, takes: int, seed: int) -> list[_Saying]:
+    """Every voice says every word; raises InvalidArgument for none."""
+    if num_speakers < 1 or takes < 1:
+        raise InvalidArgument(f"num_speakers is {num_speakers} and takes {takes}, both must be at least 1")
+    spoken = [
+        (label, language, text)
+        for language, table in words.items()
+        for label, text in (table if isinstance(table, Mapping) else {word: word for word in table}).items()
+    ]
+    if not spoken:
+        raise InvalidArgument("words is empty")
+    speakers = [make_speaker(index, seed) for index in range(num_speakers)]
+    return [_Saying(speaker, *word, take) for speaker in speakers for word in spoken for take in range(takes)]
+
+
+def _made(sayings: Sequence[_Saying], seed: int, progress: Callable[[int, int], None] | None) -> Iterator[Audio]:
+    """The sound of each, in order."""
+
+    def say(one: _Saying) -> Audio:
+        return speak(one.text, one.language, one.speaker, one.take, seed)
+
+    with ThreadPoolExecutor(os.cpu_count()) as executor:  # the synthesiser is a process of its own
+        pending = [executor.submit(say, one) for one in sayings]
+        try:
+            for done, future in enumerate(pending, start=1):
+                yield future.result()
+                if progress is not None:
+                    progress(done, len(pending))
+        except BaseException:
+            executor.shutdown(cancel_futures=True)
+            raise
+
+
+def speak_words(
+    words: Words,
+    num_speakers: int = 24,
+    takes: int = 1,
+    seed: int = 0,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[list[Audio], list[str], list[str]]:
+    """Say words that nobody recorded, to train on beside recordings of others.
+
+    Parameters
+    ----------
+    words, num_speakers, takes, seed, progress
+        As of `make_speech_corpus`.
+
+    Returns
+    -------
+    clips : list of Audio
+    labels, persons : list of str
+        What each says, and the name of its voice: ``fit(X + clips, y + labels, groups=groups + persons)``.
+
+    Raises
+    ------
+    InvalidArgument, IoError
+        As of `make_speech_corpus`.
+    """
+    sayings = _sayings(words, num_speakers, takes, seed)
+    clips = list(_made(sayings, seed, progress))
+    return clips, [one.label for one in sayings], [one.speaker.name for one in sayings]
+
+
 def make_speech_corpus(
     directory: str | PathLike[str],
     words: Words | None = None,
@@ -236,38 +310,14 @@ def make_speech_corpus(
     IoError
         When espeak-ng is not installed or a file cannot be written.
     """
-    if num_speakers < 1 or takes < 1:
-        raise InvalidArgument(f"num_speakers is {num_speakers} and takes {takes}, both must be at least 1")
-    spoken = [
-        (label, language, text)
-        for language, table in (DIGIT_WORDS if words is None else words).items()
-        for label, text in (table if isinstance(table, Mapping) else {word: word for word in table}).items()
-    ]
-    if not spoken:
-        raise InvalidArgument("words is empty")
-    root = start_corpus(directory, dict.fromkeys(label for label, _, _ in spoken))
+    sayings = _sayings(DIGIT_WORDS if words is None else words, num_speakers, takes, seed)
+    root = start_corpus(directory, dict.fromkeys(one.label for one in sayings))
     rows = []
-    total = num_speakers * takes * len(spoken)
-    speakers = [make_speaker(index, seed) for index in range(num_speakers)]
-    jobs = [(speaker, *word, take) for speaker in speakers for word in spoken for take in range(takes)]
-
-    def record(job: tuple[Speaker, str, str, str, int]) -> SampleRow:
-        speaker, label, language, text, take = job
-        audio = speak(text, language, speaker, take, seed)
-        name = f"{label}/{speaker.name}_{language}{take + 1}.wav"
+    for one, audio in zip(sayings, _made(sayings, seed, progress), strict=True):
+        take = f"{one.language}{one.take + 1}"
+        name = f"{one.label}/{one.speaker.name}_{take}.wav"
         write_wav_pcm16(str(root / name), audio.samples, audio.sample_rate_hz)
-        return SampleRow(name, label, speaker.name, f"{language}{take + 1}")
-
-    with ThreadPoolExecutor(os.cpu_count()) as executor:  # the synthesiser is a process of its own
-        pending = [executor.submit(record, job) for job in jobs]
-        try:
-            for future in pending:
-                rows.append(future.result())
-                if progress is not None:
-                    progress(len(rows), total)
-        except BaseException:
-            executor.shutdown(cancel_futures=True)
-            raise
+        rows.append(SampleRow(name, one.label, one.speaker.name, take))
     return finish_corpus(
         root,
         "speech",
