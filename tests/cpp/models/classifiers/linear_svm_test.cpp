@@ -43,18 +43,18 @@ TEST(LinearSvm, CountsRowsOfNoClassAgainstAll) {
   EXPECT_THROW(LinearSvm::train(rows, std::vector<int>{0, 0, -1, -1}, 2, {}), InvalidArgument);
 }
 
-// Rows longer than they are many are separated by their products with one another. Zeros behind
-// them change nothing but that.
+// Rows longer than they are many are separated by their products with one another, made in blocks
+// of 32 rows. Zeros behind them change nothing but that.
 TEST(LinearSvm, FindsTheSamePlanesForWideRows) {
   Random random(5);
-  MatrixF rows(24, 6);
+  MatrixF rows(70, 6);
   std::vector<int> classes;
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     classes.push_back(static_cast<int>(r % 4) - 1);
     for (Eigen::Index c = 0; c < 6; ++c)
       rows(r, c) = static_cast<float>(random.uniform()) + (c == classes.back() ? 1.0F : 0.0F);
   }
-  MatrixF wide = MatrixF::Zero(24, 40);
+  MatrixF wide = MatrixF::Zero(70, 80);
   wide.leftCols(6) = rows;
   LinearSvmOptions options;
   options.tolerance = 1e-5;
@@ -62,7 +62,7 @@ TEST(LinearSvm, FindsTheSamePlanesForWideRows) {
   const LinearSvm wide_model = LinearSvm::train(wide, classes, 3, options);
   EXPECT_LT((narrow_model.weights() - wide_model.weights().leftCols(6)).cwiseAbs().maxCoeff(),
             1e-3F);
-  EXPECT_EQ(wide_model.weights().rightCols(34).cwiseAbs().maxCoeff(), 0);
+  EXPECT_EQ(wide_model.weights().rightCols(74).cwiseAbs().maxCoeff(), 0);
   EXPECT_LT((narrow_model.biases() - wide_model.biases()).cwiseAbs().maxCoeff(), 1e-3F);
 }
 
