@@ -18,10 +18,10 @@ namespace {
 
 // Straight fingers that spread, or close, while the wrist stays where it is.
 GestureSample gesture(bool spreads, int take, float turn) {
-  constexpr Eigen::Index kFrames = 16;
-  MatrixF rows(kFrames, kNumLandmarkFeatures);
-  for (Eigen::Index t = 0; t < kFrames; ++t) {
-    const float done = static_cast<float>(t) / (kFrames - 1);
+  constexpr Eigen::Index kSpreadFrames = 16;
+  MatrixF rows(kSpreadFrames, kNumLandmarkFeatures);
+  for (Eigen::Index t = 0; t < kSpreadFrames; ++t) {
+    const float done = static_cast<float>(t) / (kSpreadFrames - 1);
     const float spread = 0.1F + 0.3F * (spreads ? done : 1 - done);
     MatrixF points(kNumLandmarks, 2);
     points.row(0) << 300, 300;
