@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
-#include "language/emission_kernels.hpp"
+#include "language/possibility_kernels.hpp"
 
 namespace hri {
 
@@ -88,7 +88,7 @@ void CodedPossibilities::compute(ConstMatrixRefF frames, MatrixRefF out) const {
   thread_local std::vector<float, detail::CacheLineAllocator<float>> sums;
   rows.resize(columns_.size());
   sums.resize(static_cast<std::size_t>(stride_));
-  const detail::EmissionKernels& kernels = detail::emission_kernels();
+  const detail::PossibilityKernels& kernels = detail::possibility_kernels();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const Column& column = columns_[c];
@@ -96,9 +96,6 @@ void CodedPossibilities::compute(ConstMatrixRefF frames, MatrixRefF out) const {
           column.borders.data(), static_cast<std::ptrdiff_t>(column.borders.size()),
           frames(t, static_cast<Eigen::Index>(c)));
       rows[c] = table_.data() + (column.first_row + codeword) * stride_;
-      // Tables of many words are larger than the nearer caches.
-      for (std::ptrdiff_t j = 0; j < stride_; j += detail::kRowFloats)
-        __builtin_prefetch(rows[c] + j);
     }
     kernels.add_rows(rows.data(), dim(), stride_, sums.data());
     std::copy_n(sums.data(), num_states_, out.row(t).data());

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The decoder of connected words allocates nothing a frame.
+// The decoder of connected words and its possibilities allocate nothing a frame.
 #include <gtest/gtest.h>
 
 #include "allocations/allocation_counter.hpp"
+#include "hri/language/word_emissions.hpp"
 #include "language/decoding_testing.hpp"
+#include "models/model_testing.hpp"
 
 namespace hri {
 namespace {
@@ -22,6 +24,19 @@ TEST(ConnectedDecoder, AllocatesNothingAFrame) {
             }),
             0);
   EXPECT_GT(decoder.finish().words.size(), 100U);
+}
+
+TEST(CodedPossibilities, AllocateNothingTheSecondTime) {
+  const MatrixF frames = testing_data::noise(200, 3, 1);
+  const GaussianEmissions models({GaussianMixtureHmm::train({frames}, {})});
+  CodebookOptions options;
+  options.num_codewords = 8;
+  const std::vector<int> widths{1, 1, 1};
+  const CodedPossibilities possibilities(models,
+                                         MultiStreamCodebook::train_lbg(frames, widths, options));
+  MatrixF scores(frames.rows(), possibilities.num_states());
+  possibilities.compute(frames, scores);
+  EXPECT_EQ(allocations_of([&] { possibilities.compute(frames, scores); }), 0);
 }
 
 }  // namespace

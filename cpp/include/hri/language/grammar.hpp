@@ -43,8 +43,8 @@ class HRI_API Grammar {
   [[nodiscard]] std::optional<Slots> slots_of(const std::vector<std::string>& sentence) const;
 
   /// Every sentence once, in the order in which the grammar has them, with its weights left aside.
-  /// Throws InvalidArgument for more than `most`, for repetitions, which have no end, for a sentence
-  /// of more than 10000 words and for more than four million words in all.
+  /// Throws InvalidArgument for more than `most`, for repetitions, which have no end, for a
+  /// sentence of more than 10000 words and for more than four million words in all.
   [[nodiscard]] std::vector<std::vector<std::string>> sentences(std::size_t most = 10000) const;
 
   /// Its sentences as a network; model i is the word labels[i]. With a `silence` model it may stand

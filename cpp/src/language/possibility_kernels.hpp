@@ -15,7 +15,7 @@ namespace hri::detail {
 /// register.
 constexpr std::ptrdiff_t kRowFloats = 16;
 
-struct EmissionKernels {
+struct PossibilityKernels {
   /// How many of the values, which rise, are at most x; `count` is a multiple of kRowFloats.
   std::ptrdiff_t (*count_up_to)(const float* values, std::ptrdiff_t count, float x);
   /// out[j] = ((0 + rows[0][j]) + rows[1][j]) + ..., for `size` columns, a multiple of kRowFloats.
@@ -24,9 +24,9 @@ struct EmissionKernels {
 };
 
 /// Those of the widest instruction set this machine has.
-const EmissionKernels& emission_kernels();
+const PossibilityKernels& possibility_kernels();
 
 /// Those of all instruction sets it has, for tests.
-Span<const EmissionKernels* const> all_emission_kernels();
+Span<const PossibilityKernels* const> all_possibility_kernels();
 
 }  // namespace hri::detail

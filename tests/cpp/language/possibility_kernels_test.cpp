@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "language/emission_kernels.hpp"
+#include "language/possibility_kernels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 namespace hri::detail {
 namespace {
 
-TEST(EmissionKernels, GiveTheSameBitsAsPlainLoopsOnEveryInstructionSet) {
+TEST(PossibilityKernels, GiveTheSameBitsAsPlainLoopsOnEveryInstructionSet) {
   const MatrixF table = testing_data::noise(60, 400, 1);
-  for (const EmissionKernels* kernels : all_emission_kernels()) {
+  for (const PossibilityKernels* kernels : all_possibility_kernels()) {
     for (const std::ptrdiff_t size : {16, 32, 48, 64, 96, 112, 208, 384}) {
       for (const std::ptrdiff_t num_rows : {0, 1, 2, 7, 40}) {
         std::vector<const float*> rows;
@@ -36,9 +36,9 @@ TEST(EmissionKernels, GiveTheSameBitsAsPlainLoopsOnEveryInstructionSet) {
   }
 }
 
-TEST(EmissionKernels, CountWhatUpperBoundFinds) {
+TEST(PossibilityKernels, CountWhatUpperBoundFinds) {
   const MatrixF noise = testing_data::noise(1, 4096, 2);
-  for (const EmissionKernels* kernels : all_emission_kernels()) {
+  for (const PossibilityKernels* kernels : all_possibility_kernels()) {
     for (const std::size_t size : {0, 1, 15, 16, 17, 127, 128, 129, 500, 4095}) {
       std::vector<float> values(noise.data(), noise.data() + size);
       std::sort(values.begin(), values.end());
