@@ -31,6 +31,7 @@ from hri.serve import PageServer, Stage
 from hri.session import SessionOptions
 from session_people import MOTIONS, signing, speech
 from test_commands import GRAMMAR, OPTIONS, tone_rows, tones
+from test_session_imitation import OneFace, picture, waving
 
 api: Any = importlib.import_module("playwright.sync_api")
 CHROMIUM = shutil.which("chromium")
@@ -138,8 +139,8 @@ def test_a_word_and_a_sign_move_the_robot_and_stop_stops_it(visit: Any, robot: R
     expect(page, "#rule").to_contain_text("tall: ")
     expect(page, "#log").to_contain_text("and sign tall")
     expect(page, "#log").to_contain_text("The robot moves: tall")
-    if picture := os.environ.get("HRI_SCREENSHOT"):  # the one in the documentation
-        page.screenshot(path=picture, full_page=True)
+    if path := os.environ.get("HRI_SCREENSHOT"):  # the one in the documentation
+        page.screenshot(path=path, full_page=True)
     page.click("#stop")
     expect(page, "#log").to_contain_text("The robot has stopped: tall")
     expect(page, "#state").to_have_text("stopped")
@@ -335,6 +336,38 @@ def test_commands_with_slots_are_shown_and_changed(visit: Any, robot: Robot) -> 
             expect(page, "#commands-line").to_have_text("Commands in use now: 5.")
             expect(page, "#vocabulary").to_contain_text("Commands: 1 1, 1 1 2, 2 1, 2 1 2, 2 2.")
             assert page.failures == []
+    finally:
+        stage.close()
+
+
+def test_the_robot_imitates_until_the_button_or_stop(visit: Any, signs: Any, robot: Robot) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    options = SessionOptions(imitate_labels=("tall",), retry_s=0.2)
+    stage = Stage(None, signs, robot, options, motions={}, faces=OneFace())
+    try:
+        with PageServer(stage) as server:
+            shown = [picture(*waving(count / FPS)) for count in range(40)]
+            page = visit(shown=shown, at=server, viewport={"width": 360, "height": 740})
+            expect(page, "#imitate").to_be_disabled()
+            expect(page, "#vocabulary").to_contain_text("From tall on it moves its arms as you do.")
+            page.click("#start")
+            expect(page, "#imitate").to_be_enabled()
+            page.press("#imitate", "Enter")
+            expect(page, "#imitate").to_have_text("Stop imitating")
+            expect(page, "#imitating").to_contain_text("The robot imitates you.")
+            expect(page, "#log").to_contain_text("The robot moves: tall")
+            assert page.evaluate("document.documentElement.scrollWidth") <= 360
+            faults = axe.run(page).response["violations"]
+            assert [(f["id"], f["nodes"][0]["html"]) for f in faults if f["impact"] in ("serious", "critical")] == []
+            page.click("#imitate")
+            expect(page, "#imitating").to_have_text("")
+            expect(page, "#state").not_to_have_text("acting")
+            page.click("#imitate")
+            expect(page, "#imitating").to_contain_text("The robot imitates you.")
+            page.keyboard.press("Escape")
+            expect(page, "#imitate").to_have_text("Imitate me")
+            expect(page, "#state").to_have_text("stopped")
+            assert robot.stopped and page.failures == []
     finally:
         stage.close()
 

@@ -93,8 +93,6 @@ def test_the_button_begins_imitation_and_ends_it(server: PageServer, cookie: str
         page.await_message(moves_an_arm)
         with connected(server, cookie) as again:  # the same page, whose line broke
             assert again.messages[0]["imitating"] is True
-            again.say(type="sample", mode="speech")
-            answer(again, "wait until the robot rests")
             again.say(type="rest")
             imitation(again, False)
             again.await_event("rest", reason="asked for")

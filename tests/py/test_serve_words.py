@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 import json
+import queue
+import threading
 import time
 from collections.abc import Iterator
 from copy import copy
@@ -17,6 +19,7 @@ pytest.importorskip("serving")
 
 
 import hri
+from conftest import tone_word
 from hri.media import Audio
 from hri.robot import Robot
 from hri.serve import PageServer, Stage
@@ -109,3 +112,23 @@ def test_stop_is_heard_while_a_word_is_recorded(server: PageServer, cookie: str,
         page.say(type="resume")
         page.await_event("state", state="idle")
         page.command("motion_start", speech([("flat", 0.8)], 3.0), label="flat")  # commands count again
+
+
+def test_what_is_learned_counts_as_soon_as_the_robot_rests(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    published: queue.Queue[dict[str, Any]] = queue.Queue()
+    stage.publish = published.put
+    moving = threading.Event()
+    monkeypatch.setattr(Stage, "moving", property(lambda _: moving.is_set()))
+    teacher = WordTeacher(stage)
+    teacher.obey({"type": "teach", "label": "hum"})
+    for take in range(2):
+        teacher._keep(Audio(tone_word(1500.0, 0.0, take), RATE_HZ))
+    moving.set()  # as by a command that was heard after the last sample
+    adding = threading.Thread(target=lambda: teacher._keep(Audio(tone_word(1500.0, 0.0, 2), RATE_HZ)))
+    adding.start()
+    while "as soon as the robot rests" not in published.get(timeout=20).get("text", ""):
+        pass
+    assert "hum" not in [str(label) for label in stage.session._labels]
+    moving.clear()
+    adding.join(20)
+    assert "hum" in [str(label) for label in stage.session._labels]

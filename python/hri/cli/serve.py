@@ -10,6 +10,7 @@ from contextlib import ExitStack
 import click
 
 from hri.cli.messages import note
+from hri.cli.recognizers import load_dataset
 from hri.cli.session_options import ChosenSession, session_options
 from hri.core.optional import import_optional
 
@@ -21,8 +22,14 @@ PORT = 8019
 @click.option(
     "--port", type=click.IntRange(0, 65535), default=PORT, show_default=True, help="0 takes any that is free."
 )
+@click.option(
+    "--speech-data",
+    type=click.Path(exists=True, file_okay=False),
+    metavar="DIR",
+    help="With --grammar: what the model was trained on, so that words can be added on the page.",
+)
 @click.option("--open", "open_browser", is_flag=True, help="Open the page in the browser.")
-def serve(chosen: ChosenSession, port: int, open_browser: bool) -> None:
+def serve(chosen: ChosenSession, port: int, speech_data: str | None, open_browser: bool) -> None:
     """Command a robot by words and signs from a page in the browser.
 
     Prints an address; open it in a browser on this computer and press Start. The page shows the camera, the level, the
@@ -38,11 +45,14 @@ def serve(chosen: ChosenSession, port: int, open_browser: bool) -> None:
       hri serve --no-gesture --wake robot
       hri serve --imitate follow
       hri serve --grammar robot.jsgf --stand --no-gesture
+      hri serve --grammar robot.jsgf --speech-data spoken/ --no-gesture
       hri serve --no-speech --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri serve --backend kinematic --port 0 --speech-model words.hri --gesture-model signs.hri
     """
     if chosen.no_speech and chosen.no_gesture:
         raise click.UsageError("--no-speech and --no-gesture leave nothing")
+    if speech_data is not None and (chosen.grammar_path is None or chosen.no_speech):
+        raise click.UsageError("--speech-data goes with --grammar: single words are added without it")
     for module in ("starlette", "uvicorn", "websockets"):
         import_optional(module, "web", "to serve the page")
     from hri.serve import PageServer, Stage
@@ -51,13 +61,23 @@ def serve(chosen: ChosenSession, port: int, open_browser: bool) -> None:
     words = None if chosen.no_speech else chosen.load_words()
     signs = None if chosen.no_gesture else chosen.load_signs()
     learned, stored = chosen.load_fusion(), chosen.load_knowledge()
+    recordings = None if speech_data is None else load_dataset(speech_data, "speech", None).samples
     with ExitStack() as stack:
         robot = chosen.open_robot()
         if robot is not None:
             stack.enter_context(robot)
         note("preparing the robot's motions")
         ids = chosen.model_ids
-        stage = Stage(words, signs, robot, options, model_ids=ids, fusion=learned, knowledge=stored)
+        stage = Stage(
+            words,
+            signs,
+            robot,
+            options,
+            model_ids=ids,
+            fusion=learned,
+            knowledge=stored,
+            recordings=recordings,
+        )
         stack.callback(stage.close)
         for label, why in stage.session.refused.items():
             note(f"no motion for {label}: {why}")

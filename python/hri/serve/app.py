@@ -163,7 +163,7 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         if not door.knows(request):
             return refused("without the token")
         name, _, form = request.url.path.strip("/").partition(".")
-        recognizer = stage.spoken if name == "words" else stage.signs
+        recognizer = stage.vocabulary if name == "words" else stage.signs
         if recognizer is None:
             return PlainTextResponse(f"There is no recogniser of {name}.", 404, _HEADERS)
         kind, content = _FORMS[form]

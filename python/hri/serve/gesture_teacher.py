@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import copy
 import time
+from collections import Counter
 from contextlib import closing
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from hri.live import FrameSource, Stalled, events, frame_results
 from hri.live.frames import Frame, TimedFrame
 from hri.live.spotting import FEWEST_FRAMES, SpottingStream, fault_of
 from hri.recognition import GestureRecognizer
+from hri.recognition.decision import RECOGNISED
 from hri.serve.clips import read_clip
 from hri.serve.devices import PageCamera
 from hri.serve.messages import Media
@@ -74,7 +76,7 @@ class GestureTeacher(Teacher):
         name : str
             The file's name as the person knows it.
         """
-        refused = self._refusal() or self._unready()
+        refused = self._refusal() or self._unnamed()
         if refused:
             return refused
         self._busy.acquire()
@@ -153,8 +155,14 @@ class GestureTeacher(Teacher):
         decision = self._signs.recognise_features(rows)
         if shown and self._is_stop(decision):
             return ""
-        self._keep_sample(rows, decision, f" It looks like “{decision.label}”: another gesture may be safer.")
+        if decision.status == RECOGNISED:
+            self._keep_sample(rows, decision.label, f" It looks like “{decision.label}”: another gesture may be safer.")
+        else:
+            self._keep_sample(rows)
         return ""
+
+    def _mistaken(self, label: str, samples: list[Any]) -> Counter[str]:
+        return self._mistaken_by(self._best_of, label, samples)
 
     def _best_of(self, sample: NDArray[np.float32], added: dict[str, list[NDArray[np.float32]]]) -> str:
         signs = copy.copy(self._before[0])

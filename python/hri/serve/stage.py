@@ -7,16 +7,18 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from typing import Any
+from pathlib import Path
+from typing import Any, Protocol
 
+from hri.core.display import short_list
 from hri.core.errors import Error, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.language import Grammar, KnowledgeBase
 from hri.live import Event
 from hri.page import figure
-from hri.recognition import CommandRecognizer, GestureRecognizer, WordRecognizer
+from hri.recognition import CommandRecognizer, ConnectedWordRecognizer, GestureRecognizer, WordRecognizer
 from hri.robot import Robot
 from hri.serve.devices import PageCamera, PageMicrophone
 from hri.serve.limits import ServeLimits
@@ -37,13 +39,25 @@ _LOGGED = frozenset(
 Publish = Callable[[dict[str, Any]], None]
 
 
+class Recording(Protocol):
+    """A word by a person, in a file."""
+
+    @property
+    def path(self) -> Path: ...
+    @property
+    def label(self) -> str: ...
+    @property
+    def person(self) -> str: ...
+
+
 class Stage:
     """A session that is fed by a page.
 
     Parameters
     ----------
     words : WordRecognizer or CommandRecognizer, optional
-        To words of a `WordRecognizer` the page may add others; of a `CommandRecognizer` it may change the grammar.
+        To words of a `WordRecognizer` the page may add others; of a `CommandRecognizer` it may change the grammar, and
+        add words with `recordings`.
     signs : GestureRecognizer, optional
     robot : Robot, optional
         Left open.
@@ -56,6 +70,14 @@ class Stage:
     knowledge : KnowledgeBase, optional
     faces : FaceFinder, optional
         As of `Session`, all three.
+    recordings : sequence of Recording, optional
+        What the words of a `CommandRecognizer` were trained on, as ``hri.datasets.Dataset.samples``, with
+        `unknown_words`: the page may add words then.
+
+    Raises
+    ------
+    InvalidArgument
+        As `Session`; for recordings of other words than the model's, and of a model without `unknown_words`.
 
     Attributes
     ----------
@@ -78,8 +100,12 @@ class Stage:
         fusion: LearnedFusion | None = None,
         knowledge: KnowledgeBase | None = None,
         faces: Faces | None = None,
+        recordings: Sequence[Recording] | None = None,
     ) -> None:
         self.words, self.signs = words, signs
+        self.recordings = recordings
+        if recordings is not None:
+            _require_recordings_of(words, recordings)
         self.limits = limits or ServeLimits()
         self.microphone = PageMicrophone(self.limits.stall_s)
         self.camera = PageCamera(self.limits.stall_s, self._refused)
@@ -166,6 +192,13 @@ class Stage:
         return self.words if isinstance(self.words, WordRecognizer) else None
 
     @property
+    def vocabulary(self) -> WordRecognizer | ConnectedWordRecognizer | None:
+        """What knows the words, and to which the page may add others; None where it may not."""
+        if isinstance(self.words, CommandRecognizer):
+            return None if self.recordings is None else self.words.words
+        return self.words
+
+    @property
     def grammar(self) -> Grammar | None:
         """Whose sentences are the commands, where they are of several words."""
         return self.words.grammar if isinstance(self.words, CommandRecognizer) else None
@@ -177,8 +210,11 @@ class Stage:
             "state": self._state,
             "speech": self.words is not None,
             "gesture": self.signs is not None,
-            "teach": [mode for mode, one in (("speech", self.spoken), ("gesture", self.signs)) if one is not None],
+            "teach": [mode for mode, one in (("speech", self.vocabulary), ("gesture", self.signs)) if one is not None],
             "grammar": None if self.grammar is None else self.grammar.text,
+            "made_of": [str(label) for label in self.words.words.classes_]
+            if isinstance(self.words, CommandRecognizer)
+            else [],
             "sentences": self._sentences(),
             "imitate": list(self._imitated),
             "imitating": self._imitating,
@@ -344,3 +380,17 @@ class Stage:
         if event.event in _LOGGED:
             self._log.append(message)
         self.publish(message)
+
+
+def _require_recordings_of(words: WordRecognizer | CommandRecognizer | None, recordings: Sequence[Recording]) -> None:
+    if not isinstance(words, CommandRecognizer):
+        raise InvalidArgument("recordings are needed only to add words to commands of several words")
+    labels, recorded = {str(label) for label in words.words.classes_}, {recording.label for recording in recordings}
+    if left := short_list(sorted(labels - recorded)):
+        raise InvalidArgument(f"no recordings are there of words that the model knows: {left}")
+    if left := short_list(sorted(recorded - labels)):
+        raise InvalidArgument(f"recordings are there of words that the model does not know: {left}")
+    if not words.words.options.unknown_words:
+        raise InvalidArgument(
+            "a new word would be taken for a command while it is recorded: train the model with unknown_words=true"
+        )

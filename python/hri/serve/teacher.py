@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -18,7 +19,9 @@ from hri.robot import load_gestures
 from hri.serve.stage import Stage
 
 NUM_SAMPLES = 3
-MOVES = "wait until the robot rests"
+BestOf = Callable[[Any, dict[str, list[Any]]], str]
+_WAIT_S = 0.1
+_MOVES = "That counts as soon as the robot rests …"
 STOPPED = "STOP: this sample is not kept. Press Resume, then Record once more."
 
 
@@ -52,9 +55,9 @@ class Teacher(ABC):
         elif command["type"] == "teach":
             self._begin(command["label"])
         elif command["type"] == "sample":
-            unready = self._unready()
-            if unready:
-                self._answer(unready)
+            unnamed = self._unnamed()
+            if unnamed:
+                self._answer(unnamed)
             else:
                 self._sample()
         elif command["type"] == "undo":
@@ -88,8 +91,11 @@ class Teacher(ABC):
         """Keep nothing of a sample that is being taken; whether there was one."""
 
     @abstractmethod
-    def _best_of(self, sample: Any, added: dict[str, list[Any]]) -> str:
-        """Most probable label of a sample, were these labels added, by their samples, and no others."""
+    def _mistaken(self, label: str, samples: list[Any]) -> Counter[str]:
+        """How many samples of others, each left out in its turn, are recognised as `label`, which was just added.
+
+        The others are those that were added here: of those trained before no samples are there.
+        """
 
     @abstractmethod
     def _add(self, label: str, samples: list[Any]) -> None:
@@ -117,10 +123,8 @@ class Teacher(ABC):
         self._label = label
         self._answer(self._prompt(label))
 
-    def _unready(self) -> str:
+    def _unnamed(self) -> str:
         """Why no sample can be taken; "" where a label waits for one."""
-        if self._stage.moving:  # a motion may last, as imitation does, and the session cannot begin anew meanwhile
-            return MOVES
         if self._label:
             return ""
         if self._full:
@@ -136,15 +140,13 @@ class Teacher(ABC):
         self._answer(STOPPED)
         return True
 
-    def _keep_sample(self, sample: Any, decision: Decision, warning: str) -> None:
-        """Keep a sample, which the recogniser took for `decision`; the last one is followed by adding."""
+    def _keep_sample(self, sample: Any, alike: str = "", warning: str = "") -> None:
+        """Keep a sample, which is like one of the label `alike`, if any; the last one is followed by adding."""
         if not self._label:  # the page is gone
             return
         self._samples.append(sample)
-        if decision.status == RECOGNISED:
-            self._alike[decision.label] += 1
-        else:
-            warning = ""
+        if alike:
+            self._alike[alike] += 1
         if len(self._samples) < NUM_SAMPLES:
             self._answer(f"Sample {len(self._samples)} of {NUM_SAMPLES}.{warning}")
             return
@@ -152,29 +154,31 @@ class Teacher(ABC):
         try:
             self._add(label, samples)
         finally:
-            alike = Counter(self._alike)
+            likened = Counter(self._alike)
             self.forget()
         self._full = label
         mistaken = self._mistaken(label, samples)
         self._added[label] = samples
-        self._stage.renew()
+        self._renew()
         moves = label in self._stage.session.motions
         does = "" if moves or label not in load_gestures() else " The robot cannot make its motion."
-        labels = [other for other, _ in (alike + mistaken).most_common()]
-        confused = [{"label": one, "samples": alike[one], "samples_of_other": mistaken[one]} for one in labels]
+        labels = [other for other, _ in (likened + mistaken).most_common()]
+        confused = [{"label": one, "samples": likened[one], "samples_of_other": mistaken[one]} for one in labels]
+        does += self._advice()
         self._answer(f"“{label}” is added.{self._warning(labels)}{does}", added=list(self._added), confused=confused)
 
-    def _mistaken(self, label: str, samples: list[Any]) -> Counter[str]:
-        """How many samples of others, each left out in its turn, are recognised as `label`.
+    def _advice(self) -> str:
+        """What is to be done after adding."""
+        return ""
 
-        The others are those that were added here: of those trained before no samples are there.
-        """
+    def _mistaken_by(self, best_of: BestOf, label: str, samples: list[Any]) -> Counter[str]:
+        """As `_mistaken`, by what gives the most probable label of a sample, were these labels added, and no others."""
         counts: Counter[str] = Counter()
         for other, theirs in self._added.items():
             self._answer(f"Trying “{other}” beside “{label}” …", progress=1.0)
             for number, sample in enumerate(theirs):
                 kept = theirs[:number] + theirs[number + 1 :]
-                counts[other] += self._best_of(sample, {other: kept, label: samples}) == label
+                counts[other] += best_of(sample, {other: kept, label: samples}) == label
         return +counts
 
     def _warning(self, confused: list[str]) -> str:
@@ -192,8 +196,16 @@ class Teacher(ABC):
         label = next(reversed(self._added))
         self._remove(label)
         del self._added[label]
-        self._stage.renew()
+        self._renew()
         self._answer(f"“{label}” is removed.", added=list(self._added), confused=[])
+
+    def _renew(self) -> None:
+        """Begin a new session as soon as the robot rests: commands count while something is learned."""
+        if self._stage.moving:
+            self._answer(_MOVES, progress=1.0)
+        while self._stage.moving:
+            time.sleep(_WAIT_S)
+        self._stage.renew()
 
     def _in_background(self, work: Callable[[], None]) -> None:
         self._busy.acquire()  # before the thread runs: the next command is refused already

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from hri.serve.command_teacher import CommandWordTeacher
 from hri.serve.gesture_teacher import GestureTeacher
 from hri.serve.stage import Stage
 from hri.serve.teacher import Teacher
@@ -21,12 +22,12 @@ class Teaching:
 
     Attributes
     ----------
-    words : WordTeacher
+    words : WordTeacher or CommandWordTeacher
     gestures : GestureTeacher
     """
 
     def __init__(self, stage: Stage) -> None:
-        self.words = WordTeacher(stage)
+        self.words = WordTeacher(stage) if stage.recordings is None else CommandWordTeacher(stage)
         self.gestures = GestureTeacher(stage)
         self._teachers: dict[str, Teacher] = {one.mode: one for one in (self.words, self.gestures)}
         stage.on_stop = self.interrupt

@@ -5,15 +5,19 @@
 from __future__ import annotations
 
 import copy
+from abc import abstractmethod
+from collections import Counter
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.media import Audio
+from hri.recognition import Decision, WordRecognizer
+from hri.recognition.decision import NO_INPUT, RECOGNISED
 from hri.serve.stage import Stage
 from hri.serve.teacher import NUM_SAMPLES, Teacher
-from hri.signal import Endpointer, EndpointerOptions
+from hri.signal import ActivityOptions, Endpointer, EndpointerOptions
 
 LONGEST_S = 5.0
 PAUSE_S = 1.0
@@ -21,8 +25,8 @@ PAUSE_S = 1.0
 _NOTHING = "I heard nothing: press Record once more."
 
 
-class WordTeacher(Teacher):
-    """Adds words to the recogniser of a stage.
+class SpokenTeacher(Teacher):
+    """Takes samples of words by the microphone of the page.
 
     Parameters
     ----------
@@ -62,16 +66,12 @@ class WordTeacher(Teacher):
         else:
             self._answer(_NOTHING)
 
-    def _labels(self) -> list[str] | None:
-        return None if self._stage.spoken is None else [str(label) for label in self._stage.spoken.classes_]
-
     def _prompt(self, label: str) -> str:
         return f"Say “{label}” after you press Record, {NUM_SAMPLES} times."
 
     def _sample(self) -> None:
         if self._parts is None:
-            assert self._stage.spoken is not None
-            options = EndpointerOptions(activity=self._stage.spoken.options.activity)
+            options = EndpointerOptions(activity=self._activity())
             self._endpointer = Endpointer(self._stage.microphone.sample_rate_hz, options)
             self._stage.only_stop(LONGEST_S + PAUSE_S)
             self._parts, self._num_heard = [], 0
@@ -84,18 +84,58 @@ class WordTeacher(Teacher):
         return parts is not None
 
     def _keep(self, clip: Audio) -> None:
-        assert self._stage.spoken is not None
-        decision = self._stage.spoken.recognise(clip)
-        if decision.status == "no_input":
+        decision = self._decide(clip)
+        if decision.status == NO_INPUT:
             self._answer(_NOTHING)
-            return
-        if self._is_stop(decision):
-            return
-        self._keep_sample(clip, decision, f" It sounds like “{decision.label}”: another word may be safer.")
+        elif not self._is_stop(decision):
+            self._keep_clip(clip, decision)
+
+    @abstractmethod
+    def _activity(self) -> ActivityOptions:
+        """How the recogniser finds speech."""
+
+    @abstractmethod
+    def _decide(self, clip: Audio) -> Decision:
+        """What the recogniser takes a sample for, which may be STOP."""
+
+    @abstractmethod
+    def _keep_clip(self, clip: Audio, decision: Decision) -> None:
+        """Keep a sample."""
+
+
+class WordTeacher(SpokenTeacher):
+    """Adds words to the `WordRecognizer` of a stage.
+
+    Parameters
+    ----------
+    stage : Stage
+    """
+
+    @property
+    def _words(self) -> WordRecognizer:
+        assert self._stage.spoken is not None
+        return self._stage.spoken
+
+    def _labels(self) -> list[str] | None:
+        return None if self._stage.spoken is None else [str(label) for label in self._words.classes_]
+
+    def _activity(self) -> ActivityOptions:
+        return self._words.options.activity
+
+    def _decide(self, clip: Audio) -> Decision:
+        return self._words.recognise(clip)
+
+    def _keep_clip(self, clip: Audio, decision: Decision) -> None:
+        if decision.status == RECOGNISED:
+            self._keep_sample(clip, decision.label, f" It sounds like “{decision.label}”: another word may be safer.")
+        else:
+            self._keep_sample(clip)
+
+    def _mistaken(self, label: str, samples: list[Any]) -> Counter[str]:
+        return self._mistaken_by(self._best_of, label, samples)
 
     def _best_of(self, sample: Audio, added: dict[str, list[Audio]]) -> str:
-        words = copy.copy(self._stage.spoken)
-        assert words is not None
+        words = copy.copy(self._words)
         for label in (*self._added, self._full):
             words.remove_word(label)
         for label, samples in added.items():
@@ -103,9 +143,7 @@ class WordTeacher(Teacher):
         return str(words.recognise(sample).nbest[0].label)
 
     def _add(self, label: str, samples: list[Any]) -> None:
-        assert self._stage.spoken is not None
-        self._stage.spoken.add_word(label, samples)
+        self._words.add_word(label, samples)
 
     def _remove(self, label: str) -> None:
-        assert self._stage.spoken is not None
-        self._stage.spoken.remove_word(label)
+        self._words.remove_word(label)

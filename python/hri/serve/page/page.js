@@ -103,9 +103,10 @@ function heedWelcome(message) {
   showVocabulary(message);
 }
 
-function showVocabulary({ words, signs, grammar, sentences, robot, motions, refused, imitate }) {
+function showVocabulary({ words, signs, grammar, sentences, robot, motions, refused, imitate, made_of: single }) {
   const parts = [];
   if (words.length) parts.push(`${grammar === null ? "Words" : "Commands"}: ${words.join(", ")}.`);
+  if (single.length) parts.push(`Commands are made of: ${single.join(", ")}.`);
   if (signs.length) parts.push(`Signs: ${signs.join(", ")}.`);
   if (sentences) {
     parts.push(`A sentence goes from ${sentences.begin.join(" or ")} to ${sentences.end.join(" or ")}.`);

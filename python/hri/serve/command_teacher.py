@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Words that a person adds at the page while a grammar of commands is in use."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from hri.media import Audio
+from hri.recognition import CommandRecognizer, ConnectedWordRecognizer, Decision
+from hri.serve.stage import Stage
+from hri.serve.teacher import NUM_SAMPLES
+from hri.serve.word_teacher import SpokenTeacher
+from hri.signal import ActivityOptions
+
+_SPEAKER = "added at the page"
+
+
+class CommandWordTeacher(SpokenTeacher):
+    """Adds words to those of which the commands of a stage are made, by training all of them anew.
+
+    Connected words are models of whole strings and take no word by itself, so the recordings that they were trained on
+    (``Stage.recordings``) are needed again. What was chosen in training, as the insertion penalty, stays. The grammar
+    stays, too: a person writes the new word into it.
+
+    Parameters
+    ----------
+    stage : Stage
+    """
+
+    def __init__(self, stage: Stage) -> None:
+        super().__init__(stage)
+        self._before: list[ConnectedWordRecognizer] = []
+        self._counted: Counter[str] = Counter()
+
+    @property
+    def _commands(self) -> CommandRecognizer:
+        assert isinstance(self._stage.words, CommandRecognizer)
+        return self._stage.words
+
+    def _labels(self) -> list[str] | None:
+        return [str(label) for label in self._commands.words.classes_]
+
+    def _activity(self) -> ActivityOptions:
+        return self._commands.words.options.words.activity
+
+    def _decide(self, clip: Audio) -> Decision:
+        return self._commands.recognise(clip)
+
+    def _keep_clip(self, clip: Audio, decision: Decision) -> None:
+        # Of the decision only STOP counts: by a grammar a word alone is like whatever sentence is the nearest.
+        self._keep_sample(clip)
+
+    def _advice(self) -> str:
+        return " Write it into the commands to use it."
+
+    def _mistaken(self, label: str, samples: list[Any]) -> Counter[str]:
+        return self._counted  # by the trainings of `_add`
+
+    def _add(self, label: str, samples: list[Any]) -> None:
+        """Train with a sample of every added word left out, each in its turn, and then with all."""
+        words = self._commands.words
+        added: dict[str, list[Audio]] = {**self._added, label: samples}
+        self._counted = Counter()
+        for step in range(NUM_SAMPLES + 1):
+            self._answer(
+                f"Learning “{label}”: step {step + 1} of {NUM_SAMPLES + 1} …", progress=step / (NUM_SAMPLES + 1)
+            )
+            more = self._trained(
+                words, {one: [clip for i, clip in enumerate(clips) if i != step] for one, clips in added.items()}
+            )
+            if step < NUM_SAMPLES:
+                self._try(more, {one: clips[step] for one, clips in added.items()}, label)
+        self._stage.words = CommandRecognizer(more, self._commands.grammar)  # which may be another one by now
+        self._before.append(words)
+
+    def _try(self, words: ConnectedWordRecognizer, left_out: Mapping[str, Audio], label: str) -> None:
+        """Count what the new word is taken for, and which others are taken for it."""
+        for one, clip in left_out.items():
+            best = words.recognise(clip, num_words=1).text
+            if one == label and best != label:
+                self._alike[best] += 1
+            elif one != label and best == label:
+                self._counted[one] += 1
+
+    def _trained(self, words: ConnectedWordRecognizer, added: Mapping[str, Sequence[Audio]]) -> ConnectedWordRecognizer:
+        """Another model with the options of `words`, of the stage's recordings and these."""
+        assert self._stage.recordings is not None
+        rows: list[tuple[Any, str, str]] = [(s.path, s.label, s.person) for s in self._stage.recordings]
+        rows += [(clip, label, _SPEAKER) for label, clips in added.items() for clip in clips]
+        clips, labels, speakers = map(list, zip(*rows, strict=True))
+        options = {**_loaded(words).options.as_dict(), "choose_penalty": False}
+        return ConnectedWordRecognizer(**options).fit(clips, labels, groups=speakers)
+
+    def _remove(self, label: str) -> None:
+        before = CommandRecognizer(self._before[-1], self._commands.grammar)  # refused while the grammar has the word
+        self._before.pop()
+        self._stage.words = before
+
+
+def _loaded(words: ConnectedWordRecognizer) -> ConnectedWordRecognizer:
+    """The same with what training chose for options: one that was trained in this process has those it was given."""
+    with TemporaryDirectory(prefix="hri-serve-") as folder:
+        words.save(Path(folder) / "words.hri")
+        return ConnectedWordRecognizer.load(Path(folder) / "words.hri")

@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Words that are added at the page while a grammar of commands is in use."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("serving")
+
+from conftest import RATE_HZ
+from hri import CommandRecognizer
+from hri.core.errors import InvalidArgument
+from hri.datasets import Dataset
+from hri.language import Grammar
+from hri.media import Audio
+from hri.recognition import ConnectedWordRecognizer
+from hri.robot import Robot
+from hri.serve import PageServer, Stage
+from hri.serve.command_teacher import CommandWordTeacher
+from hri.session import SessionOptions
+from page_people import connected, request
+from serving import LIMITS, answer, own_origin
+from test_commands import GRAMMAR, OPTIONS, tones
+
+pytest_plugins = ("serving",)
+
+HUM = "#JSGF V1.0;\ngrammar hum;\npublic <command> = hum {gesture=up} {side=left} | 2 1 {gesture=up} {side=right};\n"
+
+
+@pytest.fixture(scope="module")
+def recordings(spoken: Path) -> Dataset:
+    return Dataset.load(spoken)
+
+
+def trained(recordings: Dataset, **options: Any) -> ConnectedWordRecognizer:
+    samples = recordings.samples
+    return ConnectedWordRecognizer(**OPTIONS, **options).fit(
+        [s.path for s in samples], [s.label for s in samples], groups=[s.person for s in samples]
+    )
+
+
+@pytest.fixture(scope="module")
+def model(recordings: Dataset) -> ConnectedWordRecognizer:
+    return trained(recordings, unknown_words=True)
+
+
+@pytest.fixture
+def stage(model: ConnectedWordRecognizer, recordings: Dataset, robot: Robot) -> Iterator[Stage]:
+    commands = CommandRecognizer(model, Grammar.parse(GRAMMAR, "tones"))
+    options = SessionOptions(confirm_below=0.0, retry_s=0.2)
+    made = Stage(commands, None, robot, options, limits=LIMITS, recordings=recordings.samples)
+    yield made
+    made.close()
+
+
+def hum(take: float, rest_s: float = 0.25) -> np.ndarray:
+    """A tone that is higher than those of the words 1 and 2."""
+    rng = np.random.default_rng(round(10 * take))
+    time_s = np.arange(RATE_HZ // 2) / RATE_HZ
+    quiet = np.zeros(round(rest_s * RATE_HZ))
+    said = np.concatenate([quiet, 0.2 * np.sin(2 * np.pi * (1500 + 20 * take) * time_s), quiet])
+    return (said + 0.001 * rng.standard_normal(len(said))).astype("f4")
+
+
+def test_a_word_is_added_written_into_the_commands_and_undone(
+    server: PageServer, cookie: str, stage: Stage, model: ConnectedWordRecognizer, tmp_path: Path
+) -> None:
+    def use(grammar: str) -> None:
+        assert request(server, "/grammar", cookie, "POST", grammar.encode(), Origin=own_origin(server))[0] == 200
+
+    with connected(server, cookie) as page:
+        welcome = page.messages[0]
+        assert welcome["teach"] == ["speech"] and welcome["made_of"] == ["1", "2"]
+        page.say(type="teach", label="2", mode="speech")
+        answer(page, "“2” is a word already")
+        page.say(type="teach", label="hum", mode="speech")
+        answer(page, "3 times")
+        for take in range(3):
+            page.say(type="sample", mode="speech")
+            answer(page, "Speak now")
+            page.perform(hum(take, 1.0))
+            answer(page, f"Sample {take + 1} of 3." if take < 2 else "step 1 of 4")
+        added = answer(page, "“hum” is added.")
+        assert added["text"].endswith("Write it into the commands to use it.") and added["confused"] == []
+        renewed = [m for m in page.messages if m["type"] == "welcome"][-1]
+        assert renewed["made_of"] == ["1", "2", "hum"] and renewed["words"] == welcome["words"]
+        use(HUM)
+        page.say(type="undo", mode="speech")
+        answer(page, "not trained on: hum")  # while the commands have it
+        assert page.command("fused", hum(0.7, 1.5), final="hum")["slots"] == {"gesture": "up", "side": "left"}
+        page.await_event("motion_start", label="hum")
+        page.await_event("motion_end", label="hum")
+        (tmp_path / "words.hri").write_bytes(request(server, "/words.hri", cookie)[2])
+        kept = ConnectedWordRecognizer.load(tmp_path / "words.hri")
+        assert list(kept.classes_) == ["1", "2", "hum"] and kept.insertion_penalty == model.insertion_penalty
+        use(GRAMMAR)
+        page.say(type="undo", mode="speech")
+        answer(page, "“hum” is removed")
+    assert isinstance(stage.words, CommandRecognizer) and list(stage.words.words.classes_) == ["1", "2"]
+    assert stage.words.recognise(tones("2 1"), RATE_HZ).label == "2 1"
+
+
+def test_words_that_are_alike_are_named_both_ways(stage: Stage) -> None:
+    messages: list[dict[str, Any]] = []
+    stage.publish = messages.append
+    teacher = CommandWordTeacher(stage)
+    for label in ("hum", "buzz"):
+        teacher.obey({"type": "teach", "label": label})
+        for take in range(3):
+            teacher._keep(Audio(hum(take), RATE_HZ))
+    first, second = (m for m in messages if "is added" in m.get("text", ""))
+    assert first["confused"] == [] and second["added"] == ["hum", "buzz"]
+    assert "may be confused with “hum”" in second["text"]
+    (found,) = second["confused"]
+    assert found["label"] == "hum" and found["samples"] + found["samples_of_other"] >= 3
+
+
+def test_what_adding_words_needs_is_said(
+    hri: Any, model: Any, recordings: Dataset, spoken: Path, words: Any, tmp_path: Path
+) -> None:
+    grammar = Grammar.parse(GRAMMAR, "tones")
+    with pytest.raises(InvalidArgument, match="only to add words to commands"):
+        Stage(words, recordings=recordings.samples)
+    with pytest.raises(InvalidArgument, match="unknown_words=true"):
+        Stage(CommandRecognizer(trained(recordings, choose_penalty=False), grammar), recordings=recordings.samples)
+    commands = CommandRecognizer(model, grammar)
+    ones = [sample for sample in recordings.samples if sample.label == "1"]
+    with pytest.raises(InvalidArgument, match="no recordings are there of words that the model knows: 2"):
+        Stage(commands, recordings=ones)
+    threes = [replace(sample, label="3") for sample in ones]
+    with pytest.raises(InvalidArgument, match="words that the model does not know: 3"):
+        Stage(commands, recordings=[*recordings.samples, *threes])
+    model.save(tmp_path / "words.hri")
+    (tmp_path / "g.jsgf").write_text(GRAMMAR)
+    given = ("--no-gesture", "--backend", "none", "--speech-model", tmp_path / "words.hri")
+    for more, code, message in (
+        (("--speech-data", spoken), 2, "--speech-data goes with --grammar"),
+        (("--grammar", tmp_path / "g.jsgf", "--speech-data", tmp_path), 3, "no speech recordings"),
+        (("--grammar", tmp_path / "g.jsgf", "--speech-data", tmp_path / "gone"), 2, "gone"),
+    ):
+        result = hri("serve", *given, *more)
+        assert result.code == code and message in result.err, result.err
