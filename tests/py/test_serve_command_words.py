@@ -60,12 +60,12 @@ def stage(model: ConnectedWordRecognizer, recordings: Dataset, robot: Robot) -> 
     made.close()
 
 
-def hum(take: float, rest_s: float = 0.25) -> np.ndarray:
+def hum(take: float, rest_s: float = 0.25, base_hz: float = 1500) -> np.ndarray:
     """A tone that is higher than those of the words 1 and 2."""
     rng = np.random.default_rng(round(10 * take))
     time_s = np.arange(RATE_HZ // 2) / RATE_HZ
     quiet = np.zeros(round(rest_s * RATE_HZ))
-    said = np.concatenate([quiet, 0.2 * np.sin(2 * np.pi * (1500 + 20 * take) * time_s), quiet])
+    said = np.concatenate([quiet, 0.2 * np.sin(2 * np.pi * (base_hz + 20 * take) * time_s), quiet])
     return (said + 0.001 * rng.standard_normal(len(said))).astype("f4")
 
 
@@ -122,6 +122,29 @@ def test_words_that_are_alike_are_named_both_ways(stage: Stage) -> None:
     assert found["label"] == "hum" and found["samples"] + found["samples_of_other"] >= 3
 
 
+def test_voices_say_an_added_word_as_others_do(stage: Stage) -> None:
+    asked: list[str] = []
+
+    def speak(word: str) -> tuple[list[Audio], list[str], list[str]]:
+        asked.append(word)
+        clips = [Audio(hum(take, base_hz=2600), RATE_HZ) for take in range(4)]
+        return clips, [word] * 4, [f"voice{take}" for take in range(4)]
+
+    found = []
+    for stage.speak in (None, speak):
+        teacher = CommandWordTeacher(stage)
+        teacher.obey({"type": "teach", "label": "hum"})
+        for take in range(3):
+            teacher._keep(Audio(hum(take), RATE_HZ))
+        assert isinstance(stage.words, CommandRecognizer)
+        found.append(
+            [stage.words.words.recognise(hum(7, base_hz=hz), RATE_HZ, num_words=1).text for hz in (1500, 2600)]
+        )
+        teacher._undo()
+    assert found == [["hum", found[0][1]], ["hum", "hum"]] and found[0][1] != "hum"
+    assert asked == ["hum"]  # once for all trainings
+
+
 def test_what_adding_words_needs_is_said(
     hri: Any, model: Any, recordings: Dataset, spoken: Path, words: Any, tmp_path: Path
 ) -> None:
@@ -142,6 +165,7 @@ def test_what_adding_words_needs_is_said(
     given = ("--no-gesture", "--backend", "none", "--speech-model", tmp_path / "words.hri")
     for more, code, message in (
         (("--speech-data", spoken), 2, "--speech-data goes with --grammar"),
+        (("--grammar", tmp_path / "g.jsgf", "--voice", "en"), 2, "--voice goes with --speech-data"),
         (("--grammar", tmp_path / "g.jsgf", "--speech-data", tmp_path), 3, "no speech recordings"),
         (("--grammar", tmp_path / "g.jsgf", "--speech-data", tmp_path / "gone"), 2, "gone"),
     ):

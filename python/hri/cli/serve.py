@@ -13,6 +13,7 @@ from hri.cli.messages import note
 from hri.cli.recognizers import load_dataset
 from hri.cli.session_options import ChosenSession, session_options
 from hri.core.optional import import_optional
+from hri.synthetic.speech import speak_words
 
 PORT = 8019
 
@@ -28,8 +29,13 @@ PORT = 8019
     metavar="DIR",
     help="With --grammar: what the model was trained on, so that words can be added on the page.",
 )
+@click.option(
+    "--voice",
+    metavar="LANGUAGE",
+    help="With --speech-data: synthetic voices of this language (espeak-ng's name) say added words, too.",
+)
 @click.option("--open", "open_browser", is_flag=True, help="Open the page in the browser.")
-def serve(chosen: ChosenSession, port: int, speech_data: str | None, open_browser: bool) -> None:
+def serve(chosen: ChosenSession, port: int, speech_data: str | None, voice: str | None, open_browser: bool) -> None:
     """Command a robot by words and signs from a page in the browser.
 
     Prints an address; open it in a browser on this computer and press Start. The page shows the camera, the level, the
@@ -45,7 +51,7 @@ def serve(chosen: ChosenSession, port: int, speech_data: str | None, open_browse
       hri serve --no-gesture --wake robot
       hri serve --imitate follow
       hri serve --grammar robot.jsgf --stand --no-gesture
-      hri serve --grammar robot.jsgf --speech-data spoken/ --no-gesture
+      hri serve --grammar robot.jsgf --speech-data spoken/ --voice en --no-gesture
       hri serve --no-speech --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri serve --backend kinematic --port 0 --speech-model words.hri --gesture-model signs.hri
     """
@@ -53,6 +59,8 @@ def serve(chosen: ChosenSession, port: int, speech_data: str | None, open_browse
         raise click.UsageError("--no-speech and --no-gesture leave nothing")
     if speech_data is not None and (chosen.grammar_path is None or chosen.no_speech):
         raise click.UsageError("--speech-data goes with --grammar: single words are added without it")
+    if voice is not None and speech_data is None:
+        raise click.UsageError("--voice goes with --speech-data")
     for module in ("starlette", "uvicorn", "websockets"):
         import_optional(module, "web", "to serve the page")
     from hri.serve import PageServer, Stage
@@ -77,6 +85,7 @@ def serve(chosen: ChosenSession, port: int, speech_data: str | None, open_browse
             fusion=learned,
             knowledge=stored,
             recordings=recordings,
+            speak=None if voice is None else lambda word: speak_words({voice: {word: word}}),
         )
         stack.callback(stage.close)
         for label, why in stage.session.refused.items():

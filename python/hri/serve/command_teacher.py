@@ -24,8 +24,9 @@ class CommandWordTeacher(SpokenTeacher):
     """Adds words to those of which the commands of a stage are made, by training all of them anew.
 
     Connected words are models of whole strings and take no word by itself, so the recordings that they were trained on
-    (``Stage.recordings``) are needed again. What was chosen in training, as the insertion penalty, stays. The grammar
-    stays, too: a person writes the new word into it.
+    (``Stage.recordings``) are needed again. With ``Stage.speak`` synthetic voices say the word in training, too. What
+    was chosen in training, as the insertion penalty, stays. The grammar stays, too: a person writes the new word into
+    it.
 
     Parameters
     ----------
@@ -36,6 +37,7 @@ class CommandWordTeacher(SpokenTeacher):
         super().__init__(stage)
         self._before: list[ConnectedWordRecognizer] = []
         self._counted: Counter[str] = Counter()
+        self._spoken: dict[str, list[tuple[Audio, str, str]]] = {}
 
     @property
     def _commands(self) -> CommandRecognizer:
@@ -92,9 +94,18 @@ class CommandWordTeacher(SpokenTeacher):
         assert self._stage.recordings is not None
         rows: list[tuple[Any, str, str]] = [(s.path, s.label, s.person) for s in self._stage.recordings]
         rows += [(clip, label, _SPEAKER) for label, clips in added.items() for clip in clips]
+        rows += [row for label in added for row in self._voices(label)]
         clips, labels, speakers = map(list, zip(*rows, strict=True))
         options = {**_loaded(words).options.as_dict(), "choose_penalty": False}
         return ConnectedWordRecognizer(**options).fit(clips, labels, groups=speakers)
+
+    def _voices(self, label: str) -> list[tuple[Audio, str, str]]:
+        """What synthetic voices make of a word, and their names; nothing where there are none."""
+        if self._stage.speak is None:
+            return []
+        if label not in self._spoken:
+            self._spoken[label] = list(zip(*self._stage.speak(label), strict=True))
+        return self._spoken[label]
 
     def _remove(self, label: str) -> None:
         before = CommandRecognizer(self._before[-1], self._commands.grammar)  # refused while the grammar has the word

@@ -17,6 +17,7 @@ from hri.core.errors import Error, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.language import Grammar, KnowledgeBase
 from hri.live import Event
+from hri.media import Audio
 from hri.page import figure
 from hri.recognition import CommandRecognizer, ConnectedWordRecognizer, GestureRecognizer, WordRecognizer
 from hri.robot import Robot
@@ -37,6 +38,9 @@ _LOGGED = frozenset(
 )
 
 Publish = Callable[[dict[str, Any]], None]
+
+
+Spoken = tuple[list[Audio], list[str], list[str]]
 
 
 class Recording(Protocol):
@@ -73,6 +77,9 @@ class Stage:
     recordings : sequence of Recording, optional
         What the words of a `CommandRecognizer` were trained on, as ``hri.datasets.Dataset.samples``, with
         `unknown_words`: the page may add words then.
+    speak : callable of str, optional
+        Has synthetic voices say a word that is added so: clips, labels and names of voices, as
+        `hri.synthetic.speech.speak_words` gives them. Others than who taught the word are understood then, too.
 
     Raises
     ------
@@ -101,9 +108,10 @@ class Stage:
         knowledge: KnowledgeBase | None = None,
         faces: Faces | None = None,
         recordings: Sequence[Recording] | None = None,
+        speak: Callable[[str], Spoken] | None = None,
     ) -> None:
         self.words, self.signs = words, signs
-        self.recordings = recordings
+        self.recordings, self.speak = recordings, speak
         if recordings is not None:
             _require_recordings_of(words, recordings)
         self.limits = limits or ServeLimits()
