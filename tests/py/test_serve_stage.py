@@ -54,11 +54,11 @@ def test_resume_ends_a_stop_that_came_while_a_session_began(
 
 
 def test_a_label_that_is_added_moves_the_robot_where_it_has_a_gesture_of_that_name(words: Any, robot: Robot) -> None:
-    taught = copy(words)
-    stage = Stage(taught, None, robot)
+    changed = copy(words)
+    stage = Stage(changed, None, robot)
     try:
         assert stage.welcome()["refused"] == dict.fromkeys(("flat", "tall"), "no gesture has this name")
-        taught.add_word("5", [tone_word(700.0, 2000.0, take) for take in range(3)], RATE_HZ)
+        changed.add_word("5", [tone_word(700.0, 2000.0, take) for take in range(3)], RATE_HZ)
         stage.renew()
         assert stage.welcome()["motions"] == ["5"]
     finally:

@@ -83,7 +83,7 @@ def train_connected(
 ) -> None:
     """Train a recogniser of connected words on a folder of isolated ones.
 
-    A word that nobody recorded is learned from synthetic voices (--add): it is recognised less well than one that
+    A word without recordings is learned from synthetic voices (--add): it is recognised less well than one that
     people said, and better where a grammar leaves few words to choose from.
 
     \b

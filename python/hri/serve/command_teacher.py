@@ -81,7 +81,7 @@ class CommandWordTeacher(SpokenTeacher):
         self._before.append(words)
 
     def _try(self, words: ConnectedWordRecognizer, left_out: Mapping[str, Audio], label: str) -> None:
-        """Count what the new word is taken for, and which others are taken for it."""
+        """Count what the new word is mistaken for, and which others are mistaken for it."""
         for one, clip in left_out.items():
             best = words.recognise(clip, num_words=1).text
             if one == label and best != label:

@@ -79,7 +79,7 @@ class Stage:
         `unknown_words`: the page may add words then.
     speak : callable of str, optional
         Has synthetic voices say a word that is added so: clips, labels and names of voices, as
-        `hri.synthetic.speech.speak_words` gives them. Others than who taught the word are understood then, too.
+        `hri.synthetic.speech.speak_words` gives them. Others than who added the word are understood then, too.
 
     Raises
     ------
@@ -400,5 +400,5 @@ def _require_recordings_of(words: WordRecognizer | CommandRecognizer | None, rec
         raise InvalidArgument(f"recordings are there of words that the model does not know: {left}")
     if not words.words.options.unknown_words:
         raise InvalidArgument(
-            "a new word would be taken for a command while it is recorded: train the model with unknown_words=true"
+            "a new word would count as a command while it is recorded: train the model with unknown_words=true"
         )

@@ -24,7 +24,7 @@ from hri.synthetic.speech import speak_words
 
 DATA = ("fsdd", "hindi-digits")
 ADDED = 3
-"""Words of the ten that nobody said in training; others for every speaker, so that each is among them."""
+"""Words of the ten that no person said in training; others for every speaker, so that each is among them."""
 VOICES = 24
 PAUSE_MS = 300
 SEED = 0

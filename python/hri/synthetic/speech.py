@@ -254,7 +254,7 @@ def speak_words(
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[list[Audio], list[str], list[str]]:
-    """Say words that nobody recorded, to train on beside recordings of others.
+    """Say words without recordings, to train on beside recordings of others.
 
     Parameters
     ----------
