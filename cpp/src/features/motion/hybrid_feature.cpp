@@ -26,7 +26,7 @@ struct Place {
   std::size_t frame = 0;
 };
 
-// Edges of the silhouette, doubled so that an edge and the same from dark to bright agree.
+// Of the silhouette's edges; an edge from dark to bright has the same as one from bright to dark.
 struct Orientation {
   double angle_rad = 0;  // 0 <= angle < pi, from x towards y (down)
   double share = 0;      // 0: edges of every direction, 1: of one
@@ -83,7 +83,7 @@ float* put_angle(double share_of_circle, double length, HybridAngles form, float
   return to;
 }
 
-// A column of a row, to be divided by the largest; none where all are 0.
+// By their largest (eq. 5.10); zeros stay.
 void divide_by_largest(MatrixRefF values) {
   if (values.size() == 0) return;
   const float largest = values.maxCoeff();
@@ -96,7 +96,8 @@ struct Way {
   std::vector<int> step;
 };
 
-// A code of its own for each place; where there is no direction, that of the place before.
+// A code for each place; where there is no direction, that of the place before, and before the
+// first step that of the first.
 void fill_codes(const std::vector<Place>& places, double middle_x, double middle_y, Way* way) {
   int last_step = 0;
   int last_from_middle = 0;

@@ -87,8 +87,9 @@ class HRI_API HybridFeatureComputer {
   /// Places are the centroids in pixels. The speed of a row leads to the next (eq. 5.2), a frame of
   /// the pictures between; the last row repeats the one before. A chain code is 0 to the right, 2
   /// up, 4 to the left, 6 down; where the hand stays in its place, the code of the step before is
-  /// kept. A hand that never moves has speed 0 and codes 0. Throws InvalidArgument for masks of
-  /// different sizes or several channels, and an `out` that does not fit.
+  /// kept, before its first step that of the first. A hand that never moves has speed 0 and codes
+  /// 0. Throws InvalidArgument for masks of different sizes or several channels, and an `out` that
+  /// does not fit.
   Eigen::Index compute(Span<const ImageView> masks, MatrixRefF out) const;
   [[nodiscard]] MatrixF compute(Span<const ImageView> masks) const;
 
