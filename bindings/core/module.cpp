@@ -24,6 +24,7 @@ void bind_speech_features(py::module_& m);
 void bind_hand_shapes(py::module_& m);
 void bind_hand_pair(py::module_& m);
 void bind_two_hand_features(py::module_& m);
+void bind_motion_features(py::module_& m);
 void bind_hand_features(py::module_& m);
 void bind_hand_sources(py::module_& m);
 void bind_codebook(py::module_& m);
@@ -120,6 +121,7 @@ PYBIND11_MODULE(_native, m) {
   bind_hand_shapes(m);
   bind_hand_pair(m);
   bind_two_hand_features(m);
+  bind_motion_features(m);
   bind_hand_features(m);
   bind_hand_sources(m);
   bind_codebook(m);

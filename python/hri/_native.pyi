@@ -94,6 +94,8 @@ __all__: list[str] = [
     "HtkRecognizer",
     "HtkTranscription",
     "HtkWordLattice",
+    "HybridFeatureComputer",
+    "HybridFeatureOptions",
     "Interrupted",
     "InvalidArgument",
     "IoError",
@@ -181,6 +183,7 @@ __all__: list[str] = [
     "chain_code",
     "choose_num_states",
     "denoise",
+    "direction_code",
     "distance",
     "dwt",
     "dwt2",
@@ -2049,6 +2052,160 @@ class TwoHandFeatureComputer:
         """
     @property
     def options(self) -> TwoHandFeatureOptions:
+        """
+        As given.
+        """
+
+class HybridFeatureOptions:
+    """
+    Parts of the hybrid feature of a moving gesture (thesis eq. 5.2-5.13).
+
+    Parameters
+    ----------
+    use_moments : bool, default True
+        moment-invariant wavelet descriptors of the mask
+    moments : WaveletDescriptorOptions or dict
+        options of the descriptors
+    moment_scale : {'gesture', 'column'}, default 'gesture'
+        which largest moment they are divided by
+    use_orientation : bool, default True
+        orientation of the silhouette's edges at the second level of a DWT
+    wavelet : str, default 'haar'
+        wavelet of that transform; the name of a wavelet, such as 'db4'
+    crop_px : int, default 64
+        side of the square that the silhouette is scaled to before it; 16..256 px
+    use_chain_codes : bool, default True
+        directions, of eight, from the middle of the way and to the next place
+    angles : {'number', 'circle'}, default 'number'
+        columns of orientation and of each chain code
+    use_speed : bool, default True
+        share of the gesture's largest speed
+    speed_weight : float, default 0.5
+        factor of the speed; the thesis has 0.1 to 0.9; 0..1, 0 excluded
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        use_moments: bool = True,
+        moments: WaveletDescriptorOptions | collections.abc.Mapping[str, typing.Any] = ...,
+        moment_scale: typing.Literal["gesture", "column"] = "gesture",
+        use_orientation: bool = True,
+        wavelet: str = "haar",
+        crop_px: int = 64,
+        use_chain_codes: bool = True,
+        angles: typing.Literal["number", "circle"] = "number",
+        use_speed: bool = True,
+        speed_weight: float = 0.5,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def angles(self) -> typing.Literal["number", "circle"]:
+        """
+        columns of orientation and of each chain code
+        """
+    @angles.setter
+    def angles(self, arg1: typing.Any) -> None: ...
+    @property
+    def crop_px(self) -> int:
+        """
+        side of the square that the silhouette is scaled to before it
+        """
+    @crop_px.setter
+    def crop_px(self, arg1: typing.Any) -> None: ...
+    @property
+    def moment_scale(self) -> typing.Literal["gesture", "column"]:
+        """
+        which largest moment they are divided by
+        """
+    @moment_scale.setter
+    def moment_scale(self, arg1: typing.Any) -> None: ...
+    @property
+    def moments(self) -> WaveletDescriptorOptions:
+        """
+        options of the descriptors
+        """
+    @moments.setter
+    def moments(self, arg1: typing.Any) -> None: ...
+    @property
+    def speed_weight(self) -> float:
+        """
+        factor of the speed; the thesis has 0.1 to 0.9
+        """
+    @speed_weight.setter
+    def speed_weight(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_chain_codes(self) -> bool:
+        """
+        directions, of eight, from the middle of the way and to the next place
+        """
+    @use_chain_codes.setter
+    def use_chain_codes(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_moments(self) -> bool:
+        """
+        moment-invariant wavelet descriptors of the mask
+        """
+    @use_moments.setter
+    def use_moments(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_orientation(self) -> bool:
+        """
+        orientation of the silhouette's edges at the second level of a DWT
+        """
+    @use_orientation.setter
+    def use_orientation(self, arg1: typing.Any) -> None: ...
+    @property
+    def use_speed(self) -> bool:
+        """
+        share of the gesture's largest speed
+        """
+    @use_speed.setter
+    def use_speed(self, arg1: typing.Any) -> None: ...
+    @property
+    def wavelet(self) -> str:
+        """
+        wavelet of that transform
+        """
+    @wavelet.setter
+    def wavelet(self, arg1: typing.Any) -> None: ...
+
+class HybridFeatureComputer:
+    """
+    Moments, orientation, chain codes and speed of a moving hand, each in 0..1, joined.
+    """
+    def __init__(self, options: HybridFeatureOptions = ...) -> None: ...
+    def compute(
+        self, masks: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]]
+    ) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        float32, a row for every mask of the gesture that shows a hand: moments, orientation, chain code of the direction from the middle of the way, of the step to the next place, speed. masks: uint8, each of shape (height, width). Raises InvalidArgument.
+        """
+    @property
+    def num_features(self) -> int:
+        """
+        Columns of the features.
+        """
+    @property
+    def num_moments(self) -> int:
+        """
+        Those that are moments; they come first.
+        """
+    @property
+    def options(self) -> HybridFeatureOptions:
         """
         As given.
         """
@@ -9294,6 +9451,13 @@ def denoise(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The signal without its noise, of the same length.
+    """
+
+def direction_code(
+    dx: typing.SupportsFloat | typing.SupportsIndex, dy: typing.SupportsFloat | typing.SupportsIndex
+) -> int:
+    """
+    Freeman's direction of a way in image axes (y down): 0 right, 2 up, 4 left, 6 down; 0 for no way (thesis eq. 5.11). Raises InvalidArgument for what is not finite.
     """
 
 def distance(

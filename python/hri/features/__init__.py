@@ -18,6 +18,8 @@ from hri._native import (
     HandPairTracker,
     HandTrackComputer,
     HandTrackOptions,
+    HybridFeatureComputer,
+    HybridFeatureOptions,
     LandmarkPairOptions,
     LandmarkPairTracker,
     OrientationHistogramOptions,
@@ -34,6 +36,7 @@ from hri._native import (
 )
 from hri.features.frames import filter_bank, filter_edges, lpc_cepstrum, normalise_time, spectral_envelope
 from hri.features.hand import HAND_KINDS, hand_column_names, hand_features
+from hri.features.motion import direction_code, hybrid_column_names
 from hri.features.shapes import (
     b_spline_wavelet,
     chain_code,
@@ -68,6 +71,8 @@ __all__ = [
     "HandPairTracker",
     "HandTrackComputer",
     "HandTrackOptions",
+    "HybridFeatureComputer",
+    "HybridFeatureOptions",
     "LandmarkPairOptions",
     "LandmarkPairTracker",
     "OrientationHistogramOptions",
@@ -84,6 +89,7 @@ __all__ = [
     "chain_code",
     "column_names",
     "delta",
+    "direction_code",
     "filter_bank",
     "filter_edges",
     "hand_column_names",
@@ -91,6 +97,7 @@ __all__ = [
     "hand_scale_px",
     "hu_features",
     "hu_moments",
+    "hybrid_column_names",
     "lpc_cepstrum",
     "melspectrogram",
     "mfcc",

@@ -21,6 +21,8 @@ from hri._native import (
     HandFeatureOptions,
     HandTrackComputer,
     HandTrackOptions,
+    HybridFeatureComputer,
+    HybridFeatureOptions,
     OrientationHistogramOptions,
     SilhouetteCepstrumComputer,
     SilhouetteCepstrumOptions,
@@ -30,6 +32,7 @@ from hri._native import (
 )
 from hri.core.errors import InvalidArgument
 from hri.core.optional import import_opencv
+from hri.features.motion import hybrid_column_names
 from hri.features.shapes import hu_features
 
 Kind = Literal[
@@ -42,9 +45,11 @@ Kind = Literal[
     "chain-code",
     "moments",
     "track",
+    "hybrid",
 ]
 Picture = NDArray[np.uint8]
 Compute = Callable[[Picture, Picture], Any]
+Rows = Callable[[Sequence[Picture] | Picture, Sequence[Picture] | Picture], Any]
 
 FRAME_SIZE = (60, 40)
 """Width and height to which section 4.6.4 of the thesis scales whole pictures."""
@@ -63,11 +68,12 @@ def hand_features(
         One of `HAND_KINDS`: ``hand``, the concatenated features of `GestureRecognizer`; ``orientation`` histograms of
         the grey picture around the hand; ``frame-orientation``, of the whole grey picture, scaled to 60 x 40 (needs
         OpenCV); ``dwt-mfcc``, the cepstra of the silhouette; ``wavelet``, moment-invariant wavelet descriptors;
-        ``fourier`` descriptors; ``chain-code`` histograms; ``moments``, Hu's; ``track``, place, size, axis and speed.
+        ``fourier`` descriptors; ``chain-code`` histograms; ``moments``, Hu's; ``track``, place, size, axis and speed;
+        ``hybrid``, the hybrid feature of a whole gesture.
     **options
         Fields of the kind's options: `HandFeatureOptions`, `OrientationHistogramOptions`,
         `SilhouetteCepstrumOptions`, `WaveletDescriptorOptions`, `FourierDescriptorOptions`, `ChainCodeOptions`,
-        `HandTrackOptions`; moments have none.
+        `HandTrackOptions`, `HybridFeatureOptions`; moments have none.
 
     Returns
     -------
@@ -91,10 +97,7 @@ def hand_features(
     chosen, own = _chosen(kind, options)
     if len(greys) != len(masks):
         raise InvalidArgument(f"greys and masks differ in length: {len(greys)}, {len(masks)}")
-    if own.compute is None:
-        return np.asarray(HandTrackComputer(chosen).compute(list(masks)))
-    compute = own.compute(chosen)
-    rows = [compute(grey, mask) for grey, mask in zip(greys, masks, strict=True) if np.any(mask)]
+    rows = own.compute(chosen)(greys, masks)
     return np.asarray(rows, np.float32).reshape(len(rows), len(own.names(chosen)))
 
 
@@ -118,19 +121,36 @@ def _chosen(kind: str, options: dict[str, Any]) -> tuple[Any, _Kind]:
 
 @dataclass(frozen=True)
 class _Kind:
-    """How one kind is made: its options, a function of grey and mask (None for tracks), the names of its columns."""
+    """How one kind is made: its options, a function of all grey pictures and masks, the names of its columns."""
 
     options: Callable[..., Any]
-    compute: Callable[[Any], Compute] | None
+    compute: Callable[[Any], Rows]
     names: Callable[[Any], list[str]]
 
 
-def _of_mask(computer: Callable[[Any], Any]) -> Callable[[Any], Compute]:
+def _each(make: Callable[[Any], Compute]) -> Callable[[Any], Rows]:
+    """Of what is computed frame by frame: a row for each that shows a hand."""
+
+    def of_clip(options: Any) -> Rows:
+        compute = make(options)
+        return lambda greys, masks: [
+            compute(grey, mask) for grey, mask in zip(greys, masks, strict=True) if np.any(mask)
+        ]
+
+    return of_clip
+
+
+def _whole(computer: Callable[[Any], Any]) -> Callable[[Any], Rows]:
+    """Of what needs the whole clip."""
+    return lambda options: lambda greys, masks: computer(options).compute(list(masks))
+
+
+def _of_mask(computer: Callable[[Any], Any]) -> Callable[[Any], Rows]:
     def make(options: Any) -> Compute:
         compute = computer(options).compute
         return lambda grey, mask: compute(mask)
 
-    return make
+    return _each(make)
 
 
 def _no_options() -> None:
@@ -190,20 +210,21 @@ def _track_names(options: Any) -> list[str]:
 HAND_KINDS: dict[str, _Kind] = {
     "hand": _Kind(
         HandFeatureOptions,
-        lambda options: HandFeatureComputer(options).compute,
+        _each(lambda options: HandFeatureComputer(options).compute),
         lambda options: [f"f{i}" for i in range(HandFeatureComputer(options).num_features)],
     ),
-    "orientation": _Kind(_orientation_options, _orientation, _orientation_names),
-    "frame-orientation": _Kind(_orientation_options, _frame_orientation, _orientation_names),
+    "orientation": _Kind(_orientation_options, _each(_orientation), _orientation_names),
+    "frame-orientation": _Kind(_orientation_options, _each(_frame_orientation), _orientation_names),
     "dwt-mfcc": _Kind(SilhouetteCepstrumOptions, _of_mask(SilhouetteCepstrumComputer), _cepstrum_names),
     "wavelet": _Kind(WaveletDescriptorOptions, _of_mask(WaveletDescriptorComputer), _wavelet_names),
     "fourier": _Kind(FourierDescriptorOptions, _of_mask(FourierDescriptorComputer), _fourier_names),
     "chain-code": _Kind(ChainCodeOptions, _of_mask(ChainCodeComputer), _chain_code_names),
     "moments": _Kind(
         _no_options,
-        lambda options: lambda grey, mask: hu_features(mask),
+        _each(lambda options: lambda grey, mask: hu_features(mask)),
         lambda options: [f"hu{i}" for i in range(1, 8)],
     ),
-    "track": _Kind(HandTrackOptions, None, _track_names),
+    "track": _Kind(HandTrackOptions, _whole(HandTrackComputer), _track_names),
+    "hybrid": _Kind(HybridFeatureOptions, _whole(HybridFeatureComputer), hybrid_column_names),
 }
 """What `hand_features` can give, by name."""

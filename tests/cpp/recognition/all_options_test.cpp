@@ -10,6 +10,7 @@
 #include "hri/features/hand/hand_track.hpp"
 #include "hri/features/hand/landmark_pair.hpp"
 #include "hri/features/hand/two_hand_features.hpp"
+#include "hri/features/motion/hybrid_feature.hpp"
 #include "hri/htk/embedded_trainer.hpp"
 #include "hri/htk/feature_extractor.hpp"
 #include "hri/language/connected_decoder.hpp"
@@ -64,7 +65,7 @@ using All = testing::Types<
     GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
     htk::HtkFeatureOptions, htk::EmbeddedTrainerOptions, TwoHandFeatureOptions,
     SentenceRecognizerOptions, LandmarkPairOptions, LatticeOptions, ConnectedWordStreamOptions,
-    SubwordRecognizerOptions>;
+    SubwordRecognizerOptions, HybridFeatureOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {
