@@ -25,7 +25,7 @@ from hri.serve.devices import PageCamera, PageMicrophone
 from hri.serve.limits import ServeLimits
 from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
-from hri.session.imitation import Faces
+from hri.vision.persons import Faces
 from hri.session.live import PASSING
 from hri.session.logic import BY_BUTTON, MOTION_END, MOTION_START, REST, SENTENCE, STOP
 from hri.session.mover import Motion

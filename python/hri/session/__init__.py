@@ -3,7 +3,7 @@
 """A live session: words and signs paired, a dialogue, a robot that answers."""
 
 from hri.session.dialogue import STATES, Action, Dialogue
-from hri.session.imitation import Imitator, PersonTracker
+from hri.session.imitation import Imitator
 from hri.session.live import EventQueue
 from hri.session.mover import Guided
 from hri.session.nao_camera import NaoCamera
@@ -28,7 +28,6 @@ __all__ = [
     "Observation",
     "Pair",
     "Pairer",
-    "PersonTracker",
     "Recording",
     "Session",
     "SessionOptions",

@@ -30,7 +30,7 @@ from hri.robot import (
 )
 from hri.session.feeds import Arrival, Clock, Feed, merge
 from hri.session.feeds import Recorder as StreamRecorder
-from hri.session.imitation import Faces, ImitatingTap, Imitator
+from hri.session.imitation import ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
 from hri.session.mover import Guided, Motion, Mover
