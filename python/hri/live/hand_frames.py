@@ -200,7 +200,9 @@ class GestureRows:
         if not self._names:
             return sign.label
         first = self._num_rows - len(self._rows)
-        part = [self._rows[i - first] for i in range(max(first, sign.first_frame), min(self._num_rows, sign.last_frame))]
+        part = [
+            self._rows[i - first] for i in range(max(first, sign.first_frame), min(self._num_rows, sign.last_frame))
+        ]
         seen = [row for row in part if row is not None]
         nbest = self._gestures.recognise_features(np.stack(seen)).nbest if seen else ()
         return nbest[0].label if nbest else sign.label

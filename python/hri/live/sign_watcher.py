@@ -84,7 +84,9 @@ class SignWatcher:
             )
         self._hands = hands if hands is not None else PersonTracks()
         if self._hands.num_columns not in (None, num_columns):
-            raise InvalidArgument(f"hands gives {self._hands.num_columns} values a frame, the model takes {num_columns}")
+            raise InvalidArgument(
+                f"hands gives {self._hands.num_columns} values a frame, the model takes {num_columns}"
+            )
         self._intervals = {"hand_interval_s": hand_interval_s, "reconnect_s": reconnect_s}
         self._locale, self._model_id = locale, model_id
         self._on_result = on_result
@@ -166,9 +168,7 @@ class _SigningStream:
 
     def _head(self, row: Any) -> list[Event]:
         """That there is no head for tracks, once until there is one."""
-        if self._hands.num_columns is None or not np.isnan(row[-1]):
-            self._head_s = self._time_s
-        elif self._head_s is None:
+        if self._hands.num_columns is None or not np.isnan(row[-1]) or self._head_s is None:
             self._head_s = self._time_s
         elif self._time_s - self._head_s > NO_HEAD_S:
             fields = {"first_s": round(self._head_s, 4), "last_s": round(self._time_s, 4), "reason": "no_head"}
