@@ -53,14 +53,14 @@ def film(tracks: Tracks, height: int = 240, seed: int = 0) -> list[NDArray[np.ui
     """Pictures of a person with the face and the hands at these places; NaN hides one."""
     rng = np.random.default_rng(seed)
     y, x = np.mgrid[:height, : height * 4 // 3] * (240.0 / height)
+    wall = np.clip(np.array((120, 90, 60)) + rng.normal(0, 4, (*x.shape, 3)), 0, 255).astype(np.uint8)
     frames = []
     for left, right, head in tracks:
-        frame = np.empty((*x.shape, 3))
-        frame[:] = (120, 90, 60)
+        frame = wall.copy()
         for centre, radius in ((head, 0.55 * FACE_PX), (left, 13.0), (right, 13.0)):
             if np.isfinite(centre).all():
                 frame[(x - centre[0]) ** 2 + (y - centre[1]) ** 2 < radius**2] = (110, 140, 205)
-        frames.append(np.clip(frame + rng.normal(0, 4, frame.shape), 0, 255).astype(np.uint8))
+        frames.append(frame)
     return frames
 
 

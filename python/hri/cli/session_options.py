@@ -47,7 +47,7 @@ _OPTIONS = (
     click.option(
         "--gesture-model",
         type=model_file,
-        help="The same for gestures, or from 'hri train-sentences': signs then follow on one another in sentences.",
+        help="The same for gestures; or from 'hri train-sentences': signs then follow on one another in sentences.",
     ),
     click.option("--no-speech", is_flag=True, help="Signs only: use no microphone."),
     click.option("--no-gesture", is_flag=True, help="Words only: use no camera."),
