@@ -9205,7 +9205,7 @@ class SentenceStreamOptions:
         a longer sentence is cut, and one of more than 8192 frames; 0.5..300 s
     partial_s : float, default 0.3
         a sentence is searched again when it has grown by this; 0..1000000, 0 excluded, or infinite s
-    partial_share : float, default 0.1
+    partial_share : float, default 0.02
         and by this share of its length, so that long ones do not cost more and more; 0..10
     num_agreeing : int, default 2
         searches in a row that find a word which has ended, until it is stable; 1..100
@@ -9232,7 +9232,7 @@ class SentenceStreamOptions:
         context_s: float = 0.5,
         max_sentence_s: float = 30.0,
         partial_s: float = 0.3,
-        partial_share: float = 0.1,
+        partial_share: float = 0.02,
         num_agreeing: int = 2,
         scale_px: float = 0.0,
     ) -> None: ...

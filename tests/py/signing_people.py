@@ -73,5 +73,7 @@ class DrawnFace:
     def find(self, bgr: NDArray[np.uint8]) -> Any:
         from hri.vision import Face
 
+        if not self.seen:
+            return None
         scale = bgr.shape[0] / 240
-        return Face(*(scale * (place - FACE_PX / 2) for place in HEAD), scale * FACE_PX) if self.seen else None
+        return Face(scale * (HEAD[0] - FACE_PX / 2), scale * (HEAD[1] - FACE_PX / 2), scale * FACE_PX)

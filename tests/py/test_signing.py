@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Signed sentences live: streams of frames and of pictures, sessions, what is recorded and replayed; synthetic people."""
+"""Signed sentences live: streams of frames and of pictures, sessions, recordings of them; synthetic people."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from hri.core.errors import InvalidArgument, NotFittedError
 from hri.fusion import FusionOptions
 from hri.language import KnowledgeBase, StoredSentence
 from hri.live import ClipSource, Event, GestureRows, PersonTracks, SignWatcher
-from hri.recognition import SentenceStream, SentenceStreamOptions
+from hri.media import write_video
+from hri.recognition import SentenceRecognizer, SentenceStream, SentenceStreamOptions
 from hri.robot import open_robot
 from hri.session import McapRecorder, Session, SessionOptions, decisions, read_recording, replay
 from hri.vision.persons import Faces
@@ -258,3 +259,44 @@ def test_motions_are_for_words_and_answers_alone(sentences: hri.SentenceRecogniz
     with open_robot("kinematic") as robot:
         talk = Session(train_words(), sentences, robot=robot, motions=MOTIONS, faces=DrawnFace())
         assert set(talk.motions) == set(MOTIONS) and not set(talk.refused) & {"cat", "ball"}
+
+
+def test_the_command_line_takes_a_model_of_sentences(
+    hri: Any, sentences: SentenceRecognizer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("hri.vision.persons.face_finder", DrawnFace)
+    monkeypatch.setattr("hri.cli.watch.face_finder", lambda faces: DrawnFace())
+    model, video, stored = tmp_path / "signs.hri", tmp_path / "signs.avi", tmp_path / "stored.csv"
+    sentences.save(model)
+    write_video(video, film(shown(["cat", "ball"])), FPS)
+    stored.write_text("signs,en\ncat ball cat,The cat plays.\n", encoding="utf-8")
+    found = hri("watch", "--model", model, video)
+    assert found.code == 0, found.err
+    events = [json.loads(line) for line in found.out.splitlines()]
+    (end,) = [event for event in events if event["event"] == "signed"]
+    assert end["words"] == ["cat", "ball"] and end["model"].startswith("signs.hri:")
+    options = ("--gesture-model", model, "--backend", "none", "--knowledge", stored)
+    found = hri("session", *options, video)
+    assert found.code == 0, found.err
+    events = [json.loads(line) for line in found.out.splitlines()]
+    assert [event["text"] for event in events if event["event"] == "say"] == ["The cat plays."]
+    refused = hri("watch", "--model", model, "--faces", "never", video)
+    assert refused.code == 2 and "the head" in refused.err
+    tracks, words = zip(*(signed(["cat", "ball"], seed) for seed in range(8)), strict=True)
+    rows = SentenceRecognizer(input="rows", language_order=0, choose_weights=False)
+    rows.fit([one[:, 1] for one in tracks], words).save(model)
+    refused = hri("session", *options, video)
+    assert refused.code == 3 and "does not say which" in refused.err
+
+
+def test_the_page_shows_words_of_a_sentence_and_adds_no_gesture(sentences: hri.SentenceRecognizer) -> None:
+    pytest.importorskip("starlette")
+    from hri.serve import Stage
+
+    stage = Stage(None, sentences, knowledge=KNOWLEDGE, faces=DrawnFace())
+    try:
+        welcome = stage.welcome()
+        assert welcome["gesture"] and welcome["teach"] == [] and welcome["signs"] == ["ball", "cat", "stop"]
+        assert welcome["sentences"]["begin"] == [] and welcome["sentences"]["stored"][0] == "cat ball"
+    finally:
+        stage.close()

@@ -30,7 +30,7 @@ struct SentenceStreamOptions {
   double context_s = 0.5;
   double max_sentence_s = 30;
   double partial_s = 0.3;
-  double partial_share = 0.1;
+  double partial_share = 0.02;
   int num_agreeing = 2;
   double scale_px = 0;
 
