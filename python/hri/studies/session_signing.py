@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from hri.core.optional import import_opencv
 from hri.language import WordErrors, count_word_errors
 from hri.live import ClipSource, Event, GestureRows, Watcher
 from hri.live.frames import TimedFrame
@@ -35,26 +36,28 @@ SEED = 0
 FILE, STREAM, SINGLE = "as a file", "as a stream", "one by one"
 """`SINGLE`: the same stream, by a recogniser of single gestures, which need a rest between them."""
 MAX_GAP = 0.05
-REST_S, CONTEXT_S = 3.0, 3.0
-"""Clips begin and end with a still hand, up to 1.5 s each: no rest between two of them ends a sentence, and what the
-models know as part of a gesture is part of the sentence."""
+OPTIONS: dict[str, Any] = {"rest_s": 5.0, "leave_s": 5.0, "context_s": 10.0}
+"""Clips begin with a hand that is still for up to 4 s, or out of view, and end so: nothing of that ends a sentence, and
+what the models know as part of a gesture is part of the sentence."""
 
 
 class _Filmed(ClipSource):
-    """Clips one after the other, with the times they were filmed at."""
+    """Clips one after the other, with the times they were filmed at, all of the size of the first."""
 
     def __init__(self, clips: Sequence[GestureClip]) -> None:
         super().__init__((), 25.0, "joined clips")
         self._clips = clips
         self._timed = self._joined()
 
-    def _joined(self) -> Any:
-        begin_s = 0.0
+    def _joined(self) -> Iterator[TimedFrame]:
+        cv2 = import_opencv("to bring clips to one size")
+        begin_s, size = 0.0, None
         for clip in self._clips:
             read = read_frames(clip.path)
             times_s = [begin_s + time_s - read.times_s[0] for time_s in read.times_s]
-            timed: list[TimedFrame] = list(zip(read.frames, times_s, strict=True))
-            yield from timed
+            size = size or read.frames[0].shape[1::-1]
+            for frame, time_s in zip(read.frames, times_s, strict=True):
+                yield (frame if frame.shape[1::-1] == size else cv2.resize(frame, size)), time_s
             begin_s = times_s[-1] + (times_s[-1] - times_s[0]) / max(1, len(times_s) - 1)
 
 
@@ -106,8 +109,9 @@ class _Partial:
 
 
 def _streamed(words: SentenceRecognizer, rows: GestureRows, clips: Sequence[GestureClip]) -> list[Event]:
-    options = SentenceStreamOptions(rest_s=REST_S, context_s=CONTEXT_S)
-    return list(Session(None, words, segmenter=options, hands=rows).run(pictures=_Filmed(clips)))
+    return list(
+        Session(None, words, segmenter=SentenceStreamOptions(**OPTIONS), hands=rows).run(pictures=_Filmed(clips))
+    )
 
 
 def _one_by_one(gestures: GestureRecognizer, clips: Sequence[GestureClip]) -> list[str]:
@@ -148,7 +152,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
     fps = num_frames / duration_s
     return {
         "seed": SEED,
-        "stream": {"rest_s": REST_S, "context_s": CONTEXT_S},
+        "stream": OPTIONS,
         "rows": [count.row(way) for way, count in counts.items()],
         "stream_against_file": vars(agree.total),
         "signed_sentences_a_stream": float(np.mean(partial.parts)),
