@@ -35,6 +35,7 @@
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "hri/recognition/sentence/connected_word_stream.hpp"
 #include "hri/recognition/sentence/sentence_recognizer.hpp"
+#include "hri/recognition/sentence/sentence_stream.hpp"
 #include "hri/recognition/subword/subword_recognizer.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
@@ -64,7 +65,7 @@ using All = testing::Types<
     GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
     htk::HtkFeatureOptions, htk::EmbeddedTrainerOptions, TwoHandFeatureOptions,
     SentenceRecognizerOptions, LandmarkPairOptions, LatticeOptions, ConnectedWordStreamOptions,
-    SubwordRecognizerOptions>;
+    SubwordRecognizerOptions, SentenceStreamOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {
