@@ -26,6 +26,7 @@ KEYWORDS_OF = (
     _native.SpeechEmbeddingOptions,
     _native.ConnectedWordRecognizerOptions,
     _native.SentenceRecognizerOptions,
+    _native.SentenceStreamOptions,
     _native.SubwordRecognizerOptions,
 )
 

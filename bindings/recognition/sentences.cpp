@@ -15,6 +15,7 @@
 #include "core/options.hpp"
 #include "core/paths.hpp"
 #include "hri/recognition/sentence/sentence_recognizer.hpp"
+#include "hri/recognition/sentence/sentence_stream.hpp"
 #include "models/model_inputs.hpp"
 
 namespace py = pybind11;
@@ -22,6 +23,7 @@ namespace py = pybind11;
 namespace {
 
 using hri_bind::as_matrix;
+using hri_bind::as_span;
 using hri_bind::FloatArray;
 using Spans = std::vector<std::tuple<std::string, std::int64_t, std::int64_t>>;
 
@@ -60,6 +62,45 @@ hri::SentenceRecognizer train_sentences(const std::vector<FloatArray>& tracks,
 }
 
 }  // namespace
+
+void bind_sentence_stream(py::module_& m) {
+  hri_bind::bind_options<hri::SentenceStreamOptions>(m, "When signed sentences begin and end.");
+  py::class_<hri::StreamedSign, hri::RecognisedSign>(m, "StreamedSign",
+                                                     "One word of a sentence in a stream.")
+      .def_readonly("first_s", &hri::StreamedSign::first_s, "Time of its first frame.")
+      .def_readonly("last_s", &hri::StreamedSign::last_s, "Time of its last frame.");
+  py::class_<hri::SentenceEvent>(m, "SentenceEvent", "What happened with a frame.")
+      .def_readonly("kind", &hri::SentenceEvent::kind,
+                    "'none', 'start', 'partial', 'end' or 'dropped'.")
+      .def_readonly("reason", &hri::SentenceEvent::reason,
+                    "Why it ended: 'rested', 'left', 'cut', 'ended' or 'stalled'.")
+      .def_readonly("words", &hri::SentenceEvent::words, "In the order of time.")
+      .def_readonly("log_score", &hri::SentenceEvent::log_score, "Of the best path.")
+      .def_readonly("num_stable", &hri::SentenceEvent::num_stable,
+                    "So many of the first words are kept until the sentence ends.")
+      .def_readonly("first_s", &hri::SentenceEvent::first_s, "Its beginning.")
+      .def_readonly("last_s", &hri::SentenceEvent::last_s, "Its end, so far.");
+  py::class_<hri::SentenceStream>(m, "SentenceStream",
+                                  "A stream; hri.recognition.SentenceStream wraps it.")
+      .def(py::init<hri::SentenceRecognizer, const hri::SentenceStreamOptions&>(),
+           py::arg("recognizer"), py::arg("options"))
+      .def(
+          "push",
+          [](hri::SentenceStream& self, const FloatArray& row, double time_s) {
+            const auto span = as_span(row, "row");
+            const py::gil_scoped_release release;
+            return self.push(span, time_s);
+          },
+          py::arg("row"), py::arg("time_s"))
+      .def("finish", &hri::SentenceStream::finish, py::call_guard<py::gil_scoped_release>())
+      .def("interrupt", &hri::SentenceStream::interrupt)
+      .def_property_readonly("in_sentence", &hri::SentenceStream::in_sentence,
+                             "One has begun and not ended.")
+      .def_property_readonly("change", &hri::SentenceStream::change,
+                             "Movement in units of still_change.")
+      .def_property_readonly("num_columns", &hri::SentenceStream::num_columns, "Of a frame.")
+      .def_property_readonly("num_kept", &hri::SentenceStream::num_kept, "Frames in memory.");
+}
 
 void bind_sentences(py::module_& m) {
   hri_bind::bind_options<hri::SentenceRecognizerOptions>(m, "Options of SentenceRecognizer.");
@@ -117,4 +158,5 @@ void bind_sentences(py::module_& m) {
       .def_property_readonly("labels", &hri::SentenceRecognizer::labels)
       .def_property_readonly("options", &hri::SentenceRecognizer::options,
                              "As trained, with what training chose.");
+  bind_sentence_stream(m);
 }

@@ -137,8 +137,11 @@ __all__: list[str] = [
     "RecognisedSentence",
     "RecognisedSign",
     "ScoredRecording",
+    "SentenceEvent",
     "SentenceRecognizer",
     "SentenceRecognizerOptions",
+    "SentenceStream",
+    "SentenceStreamOptions",
     "SequenceModelOptions",
     "SequenceNetwork",
     "SequenceNetworkOptions",
@@ -154,6 +157,7 @@ __all__: list[str] = [
     "SpeechEmbeddingOptions",
     "StateChoice",
     "StateChoiceOptions",
+    "StreamedSign",
     "SubwordRecognizer",
     "SubwordRecognizerOptions",
     "TWO_HAND_TRACK_COLUMNS",
@@ -9334,6 +9338,231 @@ class SentenceRecognizer:
     def options(self) -> SentenceRecognizerOptions:
         """
         As trained, with what training chose.
+        """
+
+class SentenceStreamOptions:
+    """
+    When signed sentences begin and end.
+
+    Parameters
+    ----------
+    appear_s : float, default 0.1
+        a sentence has begun when the hands have moved for so long; 0..1000000, 0 excluded s
+    rest_s : float, default 1.0
+        hands that are still for so long end it; 0..1000000, 0 excluded s
+    leave_s : float, default 1.5
+        and so do hands that were not seen for so long; 0..1000000, 0 excluded s
+    still_change : float, default 0.25
+        hands are still while they have moved by less since compare_s ago, as a share of how much they move in the signs trained on; 0..1000000, 0 excluded
+    compare_s : float, default 0.2
+        time between the frames that are compared; 0..1000000, 0 excluded s
+    context_s : float, default 0.5
+        of the rest before and behind it is part of it; 0..10 s
+    max_sentence_s : float, default 30.0
+        a longer sentence is cut, and one of more than 8192 frames; 0.5..300 s
+    partial_s : float, default 0.3
+        a sentence is searched again when it has grown by this; 0..1000000, 0 excluded, or infinite s
+    partial_share : float, default 0.02
+        and by this share of its length, so that long ones do not cost more and more; 0..10
+    num_agreeing : int, default 2
+        searches in a row that find a word which has ended, until it is stable; 1..100
+    scale_px : float, default 0.0
+        of the signer, as SentenceRecognizer takes it; 0: of each sentence; 0..1000000 px
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        appear_s: float = 0.1,
+        rest_s: float = 1.0,
+        leave_s: float = 1.5,
+        still_change: float = 0.25,
+        compare_s: float = 0.2,
+        context_s: float = 0.5,
+        max_sentence_s: float = 30.0,
+        partial_s: float = 0.3,
+        partial_share: float = 0.02,
+        num_agreeing: int = 2,
+        scale_px: float = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def appear_s(self) -> float:
+        """
+        a sentence has begun when the hands have moved for so long
+        """
+    @appear_s.setter
+    def appear_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def compare_s(self) -> float:
+        """
+        time between the frames that are compared
+        """
+    @compare_s.setter
+    def compare_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def context_s(self) -> float:
+        """
+        of the rest before and behind it is part of it
+        """
+    @context_s.setter
+    def context_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def leave_s(self) -> float:
+        """
+        and so do hands that were not seen for so long
+        """
+    @leave_s.setter
+    def leave_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_sentence_s(self) -> float:
+        """
+        a longer sentence is cut, and one of more than 8192 frames
+        """
+    @max_sentence_s.setter
+    def max_sentence_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def num_agreeing(self) -> int:
+        """
+        searches in a row that find a word which has ended, until it is stable
+        """
+    @num_agreeing.setter
+    def num_agreeing(self, arg1: typing.Any) -> None: ...
+    @property
+    def partial_s(self) -> float:
+        """
+        a sentence is searched again when it has grown by this
+        """
+    @partial_s.setter
+    def partial_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def partial_share(self) -> float:
+        """
+        and by this share of its length, so that long ones do not cost more and more
+        """
+    @partial_share.setter
+    def partial_share(self, arg1: typing.Any) -> None: ...
+    @property
+    def rest_s(self) -> float:
+        """
+        hands that are still for so long end it
+        """
+    @rest_s.setter
+    def rest_s(self, arg1: typing.Any) -> None: ...
+    @property
+    def scale_px(self) -> float:
+        """
+        of the signer, as SentenceRecognizer takes it; 0: of each sentence
+        """
+    @scale_px.setter
+    def scale_px(self, arg1: typing.Any) -> None: ...
+    @property
+    def still_change(self) -> float:
+        """
+        hands are still while they have moved by less since compare_s ago, as a share of how much they move in the signs trained on
+        """
+    @still_change.setter
+    def still_change(self, arg1: typing.Any) -> None: ...
+
+class StreamedSign(RecognisedSign):
+    """
+    One word of a sentence in a stream.
+    """
+    @property
+    def first_s(self) -> float:
+        """
+        Time of its first frame.
+        """
+    @property
+    def last_s(self) -> float:
+        """
+        Time of its last frame.
+        """
+
+class SentenceEvent:
+    """
+    What happened with a frame.
+    """
+    @property
+    def first_s(self) -> float:
+        """
+        Its beginning.
+        """
+    @property
+    def kind(self) -> typing.Literal["none", "start", "partial", "end", "dropped"]:
+        """
+        'none', 'start', 'partial', 'end' or 'dropped'.
+        """
+    @property
+    def last_s(self) -> float:
+        """
+        Its end, so far.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        Of the best path.
+        """
+    @property
+    def num_stable(self) -> int:
+        """
+        So many of the first words are kept until the sentence ends.
+        """
+    @property
+    def reason(self) -> typing.Literal["none", "rested", "left", "cut", "ended", "stalled"]:
+        """
+        Why it ended: 'rested', 'left', 'cut', 'ended' or 'stalled'.
+        """
+    @property
+    def words(self) -> list[StreamedSign]:
+        """
+        In the order of time.
+        """
+
+class SentenceStream:
+    """
+    A stream; hri.recognition.SentenceStream wraps it.
+    """
+    def __init__(self, recognizer: SentenceRecognizer, options: SentenceStreamOptions) -> None: ...
+    def finish(self) -> SentenceEvent: ...
+    def interrupt(self) -> SentenceEvent: ...
+    def push(
+        self,
+        row: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        time_s: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> SentenceEvent: ...
+    @property
+    def change(self) -> float:
+        """
+        Movement in units of still_change.
+        """
+    @property
+    def in_sentence(self) -> bool:
+        """
+        One has begun and not ended.
+        """
+    @property
+    def num_columns(self) -> int:
+        """
+        Of a frame.
+        """
+    @property
+    def num_kept(self) -> int:
+        """
+        Frames in memory.
         """
 
 def activity_frames(

@@ -45,7 +45,8 @@ PYTHON = {
     "session": {"core", "media", "signal", "features", "vision", "recognition", "live", "fusion", "robot", "language"},
     "page": {"robot"},
     "serve": {
-        *("core", "io", "media", "signal", "recognition", "language", "live", "fusion", "robot", "session", "page"),
+        *("core", "io", "media", "signal", "vision", "recognition", "language", "live", "fusion", "robot"),
+        *("session", "page"),
     },
 }
 PYTHON["studies"] = {*PYTHON}

@@ -50,7 +50,7 @@ def test_every_clip_stands_in_as_many_sentences_and_none_alone() -> None:
 
 
 def test_the_study_splits_and_names_gestures(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(study, "_read", lambda *_: CLIPS)
+    monkeypatch.setattr(study, "read_gesture_clips", lambda *_: CLIPS)
     monkeypatch.setattr(study, "NUM_COMPONENTS", 3)
     (found,) = study.STUDIES
     result = found.run(None, lambda *_: None, folds=1)

@@ -17,7 +17,8 @@ from hri.live import ArraySource, ClipSource
 from hri.robot import Robot, Trajectory, check_trajectory, open_robot
 from hri.robot.imitation import LiveImitation, SeenPerson
 from hri.robot.model.arm import MIRROR, arm_of, arm_points
-from hri.session import Imitator, PersonTracker, Session, SessionOptions
+from hri.session import Imitator, Session, SessionOptions
+from hri.vision import PersonTracker
 from session_people import MOTIONS, speech, train_signs, train_words
 
 pytest.importorskip("cv2")
@@ -143,10 +144,10 @@ def test_the_person_is_found_in_pictures() -> None:
         person = tracker.process(picture(left, right), count / FPS)
     assert person is not None and person.left_px is not None and person.right_px is not None
     assert np.hypot(*np.subtract(person.left_px, left)) < 6 and np.hypot(*np.subtract(person.right_px, right)) < 6
-    assert person.nose_px == NOSE and person.height_px == pytest.approx(FACE_PX / 0.115)
+    assert person.face_px == NOSE and person.face_side_px == FACE_PX
     small = np.ascontiguousarray(picture(left, right)[::4, ::4])  # another camera, whose pictures are smaller
     again = tracker.process(small, 20 / FPS)
-    assert again is not None and again.nose_px == (NOSE[0] / 4, NOSE[1] / 4)
+    assert again is not None and again.face_px == (NOSE[0] / 4, NOSE[1] / 4)
     assert PersonTracker(OneFace(False)).process(picture(), 0.0) is None
 
 
@@ -186,7 +187,7 @@ def test_what_imitation_needs_is_said(words: Any, robot: Robot, monkeypatch: pyt
         Session(words, None, robot, SessionOptions(imitate_labels=("tall",)))
     with pytest.raises(InvalidArgument, match="no vocabulary"):
         Session(words, None, robot, SessionOptions(imitate_labels=("nowhere",)))
-    monkeypatch.setattr("hri.session.imitation.face_finder", lambda: None)
+    monkeypatch.setattr("hri.vision.persons.face_finder", lambda: None)
     with pytest.raises(InvalidArgument, match="opencv-data"):
         Imitator()
 

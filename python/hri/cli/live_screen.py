@@ -43,7 +43,7 @@ def report(events: Iterable[Event], as_json: bool, describe: Callable[[Event], s
     with Live(refresh_per_second=20) as screen:
         for event in events:
             line = describe(event)
-            if event.event in ("level", "hand", "partial"):
+            if event.event in ("level", "hand", "partial", "signing"):
                 screen.update(Text(meter(event) if event.event == "level" else hand_line(event)))
             elif line:
                 screen.console.print(Text(line))
@@ -59,6 +59,8 @@ def meter(event: Event, width: int = 40) -> str:
 
 def hand_line(event: Event) -> str:
     """Where the hand is, or what a gesture looks like so far."""
+    if event.event == "signing":
+        return f"so far  {' '.join(event.fields['words'])}  {event.time:7.1f} s"
     if event.decision is not None:
         best = ", ".join(f"{entry.label} {entry.probability:.2f}" for entry in event.decision.nbest[:3])
         return f"so far  {best or event.decision.status}  {event.time:7.1f} s"

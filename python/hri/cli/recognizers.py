@@ -15,7 +15,8 @@ from hri.cli.messages import note
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import parse_toml
 from hri.datasets import Dataset
-from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.io import ModelFile
+from hri.recognition import GestureRecognizer, SentenceRecognizer, WordRecognizer
 
 CLASSES: dict[str, type[WordRecognizer] | type[GestureRecognizer]] = {
     "speech": WordRecognizer,
@@ -52,6 +53,30 @@ def kept_model(mode: str) -> Path:
     if not path.is_file():
         raise InvalidArgument(f"there is no {mode} model yet: run 'hri train {mode} --data DIR', or name a model file")
     return path
+
+
+def load_signs(path: Path) -> GestureRecognizer | SentenceRecognizer:
+    """A recogniser of single gestures, or of signed sentences, as the file says.
+
+    Raises
+    ------
+    FormatError
+        For a file that holds neither.
+    InvalidArgument
+        For one of sentences that were given as rows of features.
+    """
+    try:
+        of_sentences = ModelFile.read(str(path)).kind == "sentence_recognizer"
+    except FormatError:
+        of_sentences = False  # GestureRecognizer.load says what is wrong
+    if not of_sentences:
+        return GestureRecognizer.load(path)
+    signs = SentenceRecognizer.load(path)
+    if signs.options.input == "rows":
+        raise InvalidArgument(
+            f"{path} was trained on rows of features, and does not say which: Session and SignWatcher in Python take it"
+        )
+    return signs
 
 
 def load_dataset(directory: str, mode: str, pattern: str | None) -> Dataset:

@@ -53,6 +53,7 @@ def serve(chosen: ChosenSession, port: int, speech_data: str | None, voice: str 
       hri serve --grammar robot.jsgf --stand --no-gesture
       hri serve --grammar robot.jsgf --speech-data spoken/ --voice en --no-gesture
       hri serve --no-speech --sentence-begin start --sentence-end end --knowledge sentences.csv
+      hri serve --no-speech --gesture-model sentences.hri --knowledge sentences.csv
       hri serve --backend kinematic --port 0 --speech-model words.hri --gesture-model signs.hri
     """
     if chosen.no_speech and chosen.no_gesture:

@@ -67,6 +67,7 @@ def session(
       hri session --wake robot --resume start --record class.mcap
       hri session --imitate follow --gui
       hri session --sentence-begin start --sentence-end end --knowledge sentences.csv
+      hri session --gesture-model sentences.hri --no-speech --knowledge sentences.csv
       hri session --grammar robot.jsgf --stand --gui --no-gesture
       hri session --backend kinematic --json words.wav signs.mp4
       hri session --replay class.mcap

@@ -14,13 +14,19 @@ from typing import Any
 import click
 
 from hri.cli.connected import connected_model
-from hri.cli.recognizers import kept_model
+from hri.cli.recognizers import kept_model, load_signs
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.fusion import RULES, FusionOptions, LearnedFusion
 from hri.language import Grammar, KnowledgeBase
 from hri.language.knowledge import MAX_DISTANCE
-from hri.recognition import CommandRecognizer, ConnectedWordRecognizer, GestureRecognizer, WordRecognizer
+from hri.recognition import (
+    CommandRecognizer,
+    ConnectedWordRecognizer,
+    GestureRecognizer,
+    SentenceRecognizer,
+    WordRecognizer,
+)
 from hri.robot import BACKENDS, ROBOTS, JointTable, Robot, open_robot
 from hri.session import SessionOptions
 
@@ -38,7 +44,11 @@ _OPTIONS = (
         metavar="JSGF",
         help="Commands of several words with slots; --speech-model is then from 'hri train-connected'.",
     ),
-    click.option("--gesture-model", type=model_file, help="The same for gestures."),
+    click.option(
+        "--gesture-model",
+        type=model_file,
+        help="The same for gestures; or from 'hri train-sentences': signs then follow on one another in sentences.",
+    ),
     click.option("--no-speech", is_flag=True, help="Signs only: use no microphone."),
     click.option("--no-gesture", is_flag=True, help="Words only: use no camera."),
     click.option("--wake", multiple=True, metavar="LABEL", help="Take commands only after this word or sign."),
@@ -160,10 +170,10 @@ class ChosenSession:
         self.model_ids["speech"] += f" {_name_and_hash(self.grammar_path)}"
         return commands
 
-    def load_signs(self) -> GestureRecognizer:
-        """What recognises gestures."""
-        recognizer: GestureRecognizer = self._load(GestureRecognizer, "gesture", self.gesture_model)
-        return recognizer
+    def load_signs(self) -> GestureRecognizer | SentenceRecognizer:
+        """What recognises gestures, or signed sentences."""
+        path = self._named("gesture", self.gesture_model)
+        return load_signs(path)
 
     def load_fusion(self) -> LearnedFusion | None:
         """The learned fusion, if any."""
@@ -184,9 +194,13 @@ class ChosenSession:
 
     def _load(self, kind: type[Any], mode: str, path: Path | None) -> Any:
         """The recogniser or fusion in a model file."""
+        return kind.load(self._named(mode, path))
+
+    def _named(self, mode: str, path: Path | None) -> Path:
+        """The model file, whose name and hash are kept."""
         chosen = path or kept_model(mode)
         self.model_ids[mode] = _name_and_hash(chosen)
-        return kind.load(chosen)
+        return chosen
 
 
 def session_options(command: Callable[..., None]) -> Callable[..., None]:

@@ -72,7 +72,7 @@ class _Screen:
             self._changing["state"] = str(event.fields["state"])
         elif event.event == "level":
             self._changing["speech"] = meter(event)
-        elif event.event in ("hand", "partial"):
+        elif event.event in ("hand", "partial", "signing"):
             self._changing["gesture"] = hand_line(event)
         else:
             line = describe(event)
@@ -93,6 +93,8 @@ def describe(event: Event) -> str:
         )
         label = fields["final"] or fields["status"]
         return f"{at}{label}  ({modes}; {fields['rule']}; {fields['why']})"
+    if event.event == "signed":
+        return f"{at}signs: {' '.join(fields['words'])}"
     if event.event == "say":
         return f"{at}robot: {fields['text']}"
     if event.event == "sentence":

@@ -14,13 +14,14 @@ import click
 from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, report, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
-from hri.cli.recognizers import kept_model
+from hri.cli.recognizers import kept_model, load_signs
 from hri.cli.result_screen import ResultScreen
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
-from hri.live import Event, FrameSource, VideoSource, Watcher
+from hri.live import Event, FrameSource, PersonTracks, SignWatcher, VideoSource, Watcher
 from hri.media import VIDEO_SUFFIXES
-from hri.recognition import GestureRecognizer
+from hri.recognition import SentenceRecognizer
+from hri.vision.faces import face_finder
 
 
 @click.command()
@@ -29,7 +30,7 @@ from hri.recognition import GestureRecognizer
     "--model",
     "model_path",
     type=click.Path(exists=True, dir_okay=False),
-    help="A model from 'hri train gesture'; the default is the one kept per user.",
+    help="A model from 'hri train gesture' or 'hri train-sentences'; the default is the one kept per user.",
 )
 @camera_option
 @events_json_option
@@ -73,6 +74,8 @@ def watch(
 ) -> None:
     """Recognise gestures as they are shown, from a camera or from videos played as a stream.
 
+    With a model from 'hri train-sentences' signs follow on one another in sentences, which end as the hands rest.
+
     On a terminal: where the hand is, gesture segments, and decisions. Otherwise, or with --json, one JSON object a
     line.
 
@@ -85,8 +88,10 @@ def watch(
     if video_path is not None and len(files) > 1:
         raise InvalidArgument("--video films one stream: give one file, or a camera")
     path = Path(model_path) if model_path else kept_model("gesture")
-    signs = GestureRecognizer.load(path)
-    if signs.options.source == "landmarks":
+    signs = load_signs(path)
+    if isinstance(signs, SentenceRecognizer) and faces == "never":
+        raise click.UsageError("--faces never: signed sentences need the head beside the hands")
+    if not isinstance(signs, SentenceRecognizer) and signs.options.source == "landmarks":
         note("hands: by their joints, as MediaPipe finds them")
     model_id = f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
     sources: Iterable[FrameSource] = (VideoSource(file, paced) for file in files)
@@ -94,12 +99,21 @@ def watch(
         sources = (camera(device, stall_s) for _ in range(1))
     for source in sources:
         with ResultScreen(video_path, source.fps, show, top) as screen:
-            watcher = Watcher(signs, reconnect_s=reconnect_s, faces=faces, model_id=model_id, on_result=screen.draw)
+            watcher: Watcher | SignWatcher
+            if isinstance(signs, SentenceRecognizer):
+                hands = PersonTracks(face_finder(faces or "auto"))
+                watcher = SignWatcher(
+                    signs, hands=hands, reconnect_s=reconnect_s, model_id=model_id, on_result=screen.draw
+                )
+            else:
+                watcher = Watcher(signs, reconnect_s=reconnect_s, faces=faces, model_id=model_id, on_result=screen.draw)
             report(watcher.watch(source), as_json, partial(describe, top=top))
 
 
 def describe(event: Event, top: int) -> str:
     """One line for people; "" for what they need not read."""
+    if event.event == "signed":
+        return f"{event.fields['first_s']:8.2f} - {event.fields['last_s']:.2f} s  {' '.join(event.fields['words'])}"
     if event.event != "decision" or event.decision is None:
         return describe_stream(event)
     best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in event.decision.nbest[:top])

@@ -9,10 +9,12 @@ from hri.live.events import Event
 from hri.live.frame_results import FrameResult, frame_results
 from hri.live.frames import ClipSource, FrameSource, VideoSource
 from hri.live.gesture_recorder import GestureRecorder
+from hri.live.hand_frames import GestureRows, HandFrames, PersonTracks
 from hri.live.listener import Listener
 from hri.live.microphone import MicrophoneSource, list_microphones
 from hri.live.recorder import WordRecorder
 from hri.live.ring import SampleRing
+from hri.live.sign_watcher import SignWatcher
 from hri.live.sources import ArraySource, AudioSource, FileSource, Stalled
 from hri.live.watch_picture import draw_result
 from hri.live.watcher import Watcher
@@ -29,9 +31,13 @@ __all__ = [
     "FrameResult",
     "FrameSource",
     "GestureRecorder",
+    "GestureRows",
+    "HandFrames",
     "Listener",
     "MicrophoneSource",
+    "PersonTracks",
     "SampleRing",
+    "SignWatcher",
     "Stalled",
     "VideoSource",
     "Watcher",

@@ -22,6 +22,8 @@ GESTURE_END = "gesture_end"
 GESTURE_DROPPED = "gesture_dropped"
 PARTIAL = "partial"
 PRELIMINARY = "preliminary"
+SIGNING = "signing"
+SIGNED = "signed"
 RECONNECTED = "reconnected"
 DECISION = "decision"
 WAKE = "wake"
@@ -46,7 +48,8 @@ class Event:
         "listening", "level", "speech_start", "speech_end", "speech_dropped" (what seemed to be speech was none),
         "decision", "wake" or "ignored" (said without the wake word), "overflow", "stall" or "ended"; while recording,
         "prompt", "recorded" and "refused" too. Of pictures "watching", "hand", "gesture_start", "gesture_end",
-        "gesture_dropped", "partial", "preliminary" and "reconnected" take the place of those of speech.
+        "gesture_dropped", "partial", "preliminary" and "reconnected" take the place of those of speech; of signed
+        sentences "signing" and "signed" that of decisions.
     fields : dict
         What belongs to this kind of event, see docs/listening.md and docs/watching.md.
     decision : Decision or None

@@ -335,6 +335,22 @@ class SentenceRecognizerKeywords(TypedDict, total=False):
     seed: int
 
 
+class SentenceStreamKeywords(TypedDict, total=False):
+    """Fields of `SentenceStreamOptions`."""
+
+    appear_s: float
+    rest_s: float
+    leave_s: float
+    still_change: float
+    compare_s: float
+    context_s: float
+    max_sentence_s: float
+    partial_s: float
+    partial_share: float
+    num_agreeing: int
+    scale_px: float
+
+
 class SubwordRecognizerKeywords(TypedDict, total=False):
     """Fields of `SubwordRecognizerOptions`."""
 

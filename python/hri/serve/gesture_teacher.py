@@ -91,12 +91,12 @@ class GestureTeacher(Teacher):
         return refused
 
     def _labels(self) -> list[str] | None:
-        return None if self._stage.signs is None else [str(label) for label in self._signs.classes_]
+        return None if self._stage.gestures is None else [str(label) for label in self._signs.classes_]
 
     @property
     def _signs(self) -> GestureRecognizer:
-        assert self._stage.signs is not None
-        return self._stage.signs
+        assert self._stage.gestures is not None
+        return self._stage.gestures
 
     def _prompt(self, label: str) -> str:
         return f"Press Record and show “{label}”, {NUM_SAMPLES} times; or choose {NUM_SAMPLES} files that show it."

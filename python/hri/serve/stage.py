@@ -19,16 +19,22 @@ from hri.language import Grammar, KnowledgeBase
 from hri.live import Event
 from hri.media import Audio
 from hri.page import figure
-from hri.recognition import CommandRecognizer, ConnectedWordRecognizer, GestureRecognizer, WordRecognizer
+from hri.recognition import (
+    CommandRecognizer,
+    ConnectedWordRecognizer,
+    GestureRecognizer,
+    SentenceRecognizer,
+    WordRecognizer,
+)
 from hri.robot import Robot
 from hri.serve.devices import PageCamera, PageMicrophone
 from hri.serve.limits import ServeLimits
 from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
-from hri.session.imitation import Faces
 from hri.session.live import PASSING
 from hri.session.logic import BY_BUTTON, MOTION_END, MOTION_START, REST, SENTENCE, STOP
 from hri.session.mover import Motion
+from hri.vision.persons import Faces
 
 _MOST_KEPT = 60
 _MOST_STORED = 50
@@ -62,7 +68,8 @@ class Stage:
     words : WordRecognizer or CommandRecognizer, optional
         To words of a `WordRecognizer` the page may add others; of a `CommandRecognizer` it may change the grammar, and
         add words with `recordings`.
-    signs : GestureRecognizer, optional
+    signs : GestureRecognizer or SentenceRecognizer, optional
+        To the gestures of a `GestureRecognizer` the page may add others.
     robot : Robot, optional
         Left open.
     options : SessionOptions, optional
@@ -97,7 +104,7 @@ class Stage:
     def __init__(
         self,
         words: WordRecognizer | CommandRecognizer | None = None,
-        signs: GestureRecognizer | None = None,
+        signs: GestureRecognizer | SentenceRecognizer | None = None,
         robot: Robot | None = None,
         options: SessionOptions | None = None,
         *,
@@ -211,6 +218,11 @@ class Stage:
         """Whose sentences are the commands, where they are of several words."""
         return self.words.grammar if isinstance(self.words, CommandRecognizer) else None
 
+    @property
+    def gestures(self) -> GestureRecognizer | None:
+        """What recognises single gestures, where signs are not of sentences."""
+        return self.signs if isinstance(self.signs, GestureRecognizer) else None
+
     def welcome(self) -> dict[str, Any]:
         """What a page that comes needs to know."""
         return {
@@ -218,7 +230,9 @@ class Stage:
             "state": self._state,
             "speech": self.words is not None,
             "gesture": self.signs is not None,
-            "teach": [mode for mode, one in (("speech", self.vocabulary), ("gesture", self.signs)) if one is not None],
+            "teach": [
+                mode for mode, one in (("speech", self.vocabulary), ("gesture", self.gestures)) if one is not None
+            ],
             "grammar": None if self.grammar is None else self.grammar.text,
             "made_of": [str(label) for label in self.words.words.classes_]
             if isinstance(self.words, CommandRecognizer)
@@ -240,7 +254,7 @@ class Stage:
         return self._options.imitate_labels if self._robot is not None else ()
 
     def _sentences(self) -> dict[str, Any] | None:
-        if not self._options.sentence_labels:
+        if not self._options.sentence_labels and not isinstance(self.signs, SentenceRecognizer):
             return None
         stored = () if self._knowledge is None else self._knowledge.sentences
         return {

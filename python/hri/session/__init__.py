@@ -3,7 +3,8 @@
 """A live session: words and signs paired, a dialogue, a robot that answers."""
 
 from hri.session.dialogue import STATES, Action, Dialogue
-from hri.session.imitation import Imitator, PersonTracker
+from hri.session.feeds import SessionRecorder
+from hri.session.imitation import Imitator
 from hri.session.live import EventQueue
 from hri.session.mover import Guided
 from hri.session.nao_camera import NaoCamera
@@ -13,7 +14,7 @@ from hri.session.pairing import Observation, Pair, Pairer
 from hri.session.reading import Recording, read_recording
 from hri.session.recording import McapRecorder
 from hri.session.replay import decisions, replay
-from hri.session.session import Session, SessionRecorder
+from hri.session.session import Session
 
 __all__ = [
     "STATES",
@@ -28,7 +29,6 @@ __all__ = [
     "Observation",
     "Pair",
     "Pairer",
-    "PersonTracker",
     "Recording",
     "Session",
     "SessionOptions",

@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from hri.fusion import ASK
 from hri.language import KnowledgeBase, StoredMatch
-from hri.recognition.decision import NO_INPUT, UNKNOWN
+from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN
 from hri.session.options import SessionOptions
 from hri.session.pairing import Pair
 
@@ -154,10 +154,64 @@ class Dialogue:
                 return [Action(REST, label, "taken back"), *self._calm()]
             return [Action(IGNORE, label, _MOVES)]
         if self.state == CONFIRMING:
-            return self._answer(pair, time_s)
+            return self._answer(label, status, time_s)
         if self.state == SENTENCE or label in self._options.sentence_begin_labels:
             return self._collect(label, time_s)
         return self._command(pair, time_s)
+
+    def signing(self, words: Sequence[str]) -> list[Action]:
+        """Words of a signed sentence that goes on, which stand until its end: STOP among them does not wait for it."""
+        stop = self._stop_among(words)
+        return self.halt("STOP among the signs", stop) if stop and self.state != STOPPED else []
+
+    def signed(self, words: Sequence[str], first_s: float, time_s: float) -> list[Action]:
+        """A sentence of signs that was recognised as one, and when it began.
+
+        Where the options have labels that begin and end a sentence, words count between these, which may be in several
+        signed sentences; else every signed sentence is one. One of a single label that answers a question, takes back
+        or resumes does so.
+        """
+        text, alone = " ".join(words), words[0] if len(words) == 1 else ""
+        if self._stop_among(words):
+            return self.signing(words) or [Action(IGNORE, text, _STOPPED)]
+        if first_s < self._only_stop_until_s:
+            return [Action(IGNORE, text, _ONLY_STOP)]
+        if self.state == STOPPED:
+            return self.resume() if alone in self._options.resume_labels else [Action(IGNORE, text, _STOPPED)]
+        if self.state == ACTING:
+            if alone in self._options.no_labels:
+                return [Action(REST, alone, "taken back"), *self._calm()]
+            return [Action(IGNORE, text, _MOVES)]
+        if self.state == CONFIRMING:
+            return self._answer(alone, RECOGNISED, time_s) if alone else [Action(IGNORE, text, "it is no answer")]
+        if self._options.sentence_begin_labels:
+            return self._collected(words, time_s)
+        if self._options.wake_labels:
+            called = words[0] in self._options.wake_labels
+            attended = called or first_s <= self._attend_until_s
+            self._attend_until_s = time_s + self._options.attend_s if called and len(words) == 1 else -math.inf
+            words = words[1:] if called else words
+            if not words:
+                return self._go(ATTENDING) if self.state != LISTENING else []
+            if not attended:
+                return [Action(IGNORE, text, "not preceded by the wake word"), *self._calm()]
+        self._words = list(words)
+        return self._read()
+
+    def _stop_among(self, words: Sequence[str]) -> str:
+        return next((word for word in words if word in self._options.fusion.stop_labels), "")
+
+    def _collected(self, words: Sequence[str], time_s: float) -> list[Action]:
+        """Of the words of a signed sentence those that stand in one that was begun."""
+        done: list[Action] = []
+        begun = self.state == SENTENCE
+        for word in words:
+            if self.state == SENTENCE or word in self._options.sentence_begin_labels:
+                begun = True
+                done += self._collect(word, time_s)
+            elif self.state == ACTING:  # it has ended, and is answered
+                break
+        return done if begun else [Action(IGNORE, " ".join(words), "no sentence was begun")]
 
     def moved(self, message: str, fault: bool) -> list[Action]:
         """The motion has ended: "" as it should, else why not; a fault of the robot's stops it."""
@@ -243,8 +297,7 @@ class Dialogue:
         self._answers = answers[1:]
         return [*said, *self._go(ACTING), Action(MOVE, answers[0])]
 
-    def _answer(self, pair: Pair, time_s: float) -> list[Action]:
-        label, status = pair.fused.label, pair.fused.status
+    def _answer(self, label: str, status: str, time_s: float) -> list[Action]:
         if status == UNKNOWN:
             return self._ask(self._asked, time_s)
         if label in self._options.no_labels:

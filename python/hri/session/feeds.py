@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, TypeVar
 
@@ -15,6 +15,7 @@ from hri.live import AudioSource, Event, FrameSource
 from hri.live.events import ENDED, RECONNECTED, STALL
 from hri.live.frames import TimedFrame
 from hri.live.sources import Stalled
+from hri.robot import Trajectory
 
 LEAK = 5e-4
 """By how much of a second the clock of a sound card or a camera may lose against the computer's in a second."""
@@ -33,6 +34,30 @@ class Recorder(Protocol):
 
     def picture(self, frame: Any, stream_s: float, offset_s: float, stream: int) -> None:
         """A picture and its time in the stream."""
+        ...
+
+
+class SessionRecorder(Recorder, Protocol):
+    """Keeps a session; called by several threads."""
+
+    def begin(self, about: Mapping[str, Any]) -> None:
+        """A session begins; what a replay needs to know of it. Raises InvalidArgument while another one is recorded."""
+        ...
+
+    def event(self, event: Event) -> None:
+        """What happened, in the order in which it was heeded."""
+        ...
+
+    def joints(self, time_s: float, positions_rad: Mapping[str, float]) -> None:
+        """Where the joints are sent."""
+        ...
+
+    def motion(self, time_s: float, label: str, trajectory: Trajectory) -> None:
+        """A motion begins."""
+        ...
+
+    def end(self) -> None:
+        """The session is over."""
         ...
 
 
@@ -149,7 +174,7 @@ class Feed(Generic[Source]):
     source : AudioSource, FrameSource, or callable that opens one
         One that is given open does not come back once it has vanished.
     watch : callable
-        Gives the events of a source, as `Listener.listen` and `Watcher.watch` do.
+        Gives the events of a source, as `Listener.listen`, `Watcher.watch` and `SignWatcher.watch` do.
     clock : callable, optional
         The session's time, where it goes on by itself.
     recorder : Recorder, optional
@@ -236,7 +261,9 @@ class Feed(Generic[Source]):
         """The event in the session's time, which never falls."""
         offset_s = offset_s if math.isfinite(offset_s) else self.time_s
         self.time_s = max(self.time_s, event.time + offset_s)
-        moved = {name: round(event.fields[name] + offset_s, 4) for name in _TIMES if name in event.fields}
+        moved: dict[str, Any] = {n: round(event.fields[n] + offset_s, 4) for n in _TIMES if n in event.fields}
+        if "times_s" in event.fields:  # of the words of a signed sentence
+            moved["times_s"] = [[round(t + offset_s, 4) for t in span] for span in event.fields["times_s"]]
         return replace(event, time=self.time_s, fields=event.fields | moved)
 
 

@@ -99,6 +99,8 @@ class SessionLogic:
         In place of ``options.rule``.
     knowledge : KnowledgeBase, optional
         Stored sentences.
+    whole_sentences : bool
+        Signs come as sentences, and belong to no word.
     """
 
     def __init__(
@@ -109,12 +111,15 @@ class SessionLogic:
         on_say: Callable[[str], None] | None = None,
         fusion: LearnedFusion | None = None,
         knowledge: KnowledgeBase | None = None,
+        whole_sentences: bool = False,
     ) -> None:
         self._body = body
         self._on_say = on_say
         self.pairer = Pairer(options, fusion)
         self.dialogue = Dialogue(options, labels, knowledge)
         self._unsettled: set[str] = set()
+        self._whole_sentences = whole_sentences
+        self._signing = self._signs_stopped = False
         self._state = self.dialogue.state
 
     def process(self, arrival: Arrival) -> list[Event]:
@@ -127,6 +132,8 @@ class SessionLogic:
             self._moved(event, cause, out)
         elif event.mode == "session":
             self._asked(event, cause, out)
+        elif event.mode == "gesture" and self._whole_sentences:
+            self._heed_signs(event, cause, out)
         else:
             self._heed(event, cause, out)
         out += self.passed(event.time)
@@ -169,6 +176,24 @@ class SessionLogic:
             self._do(self.dialogue.decide(pair, time_s), decided, out)
         self._time_passes(time_s, cause, out)
 
+    def _heed_signs(self, event: Event, cause: Cause, out: list[Event]) -> None:
+        """Heed an event of a stream of signed sentences."""
+        fields, time_s = event.fields, event.time
+        if event.event == kinds.GESTURE_START:
+            self._signing, self._signs_stopped = True, False
+        elif event.event == kinds.SIGNING and not self._signs_stopped:
+            actions = self.dialogue.signing(fields["words"][: fields["num_stable"]])
+            self._signs_stopped = bool(actions)
+            self._do(actions, cause, out)
+        elif event.event == kinds.SIGNED:
+            self._signing = False
+            if not self._signs_stopped:
+                actions = self.dialogue.signed(fields["words"], fields["first_s"], time_s)
+                self._do(actions, Cause(fields["last_s"], time_s, cause.computed_s), out)
+        elif event.event == kinds.GESTURE_DROPPED or is_over(event):
+            self._signing = False
+        self._time_passes(time_s, cause, out)
+
     def _moved(self, event: Event, cause: Cause, out: list[Event]) -> None:
         if event.event == MOTION_END:
             self._do(self.dialogue.moved(event.fields["message"], event.fields["fault"]), cause, out)
@@ -190,7 +215,7 @@ class SessionLogic:
 
     def _time_passes(self, time_s: float, cause: Cause, out: list[Event]) -> None:
         self._do(self.dialogue.tick(time_s), cause, out)
-        self._do(self.dialogue.activity(self.pairer.active, time_s), cause, out)
+        self._do(self.dialogue.activity(self.pairer.active or self._signing, time_s), cause, out)
         self.pairer.hurried = self.dialogue.state == ACTING
 
     def _do(self, actions: list[Action], cause: Cause, out: list[Event]) -> None:

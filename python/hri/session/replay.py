@@ -15,18 +15,27 @@ from numpy.typing import NDArray
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
-from hri.live import Event, Listener, Watcher
+from hri.live import Event, HandFrames, Listener
 from hri.live.events import OVERFLOW
 from hri.live.frames import TimedFrame
 from hri.live.sources import Stalled
 from hri.media import decode_image
-from hri.recognition import CommandRecognizer, GestureRecognizer, GestureSegmenterOptions, WordRecognizer
+from hri.recognition import (
+    CommandRecognizer,
+    GestureRecognizer,
+    GestureSegmenterOptions,
+    SentenceRecognizer,
+    SentenceStreamOptions,
+    WordRecognizer,
+)
 from hri.session.feeds import Alignment, Arrival, Feed
 from hri.session.live import PASSING
 from hri.session.logic import ASKED, MOTION_END, TICK, NoRobot, SessionLogic
 from hri.session.reading import Message, Recording, wrong
 from hri.session.recording import PCM_16, PCM_FLOAT
+from hri.session.watching import watcher_of
 from hri.signal import EndpointerOptions
+from hri.vision.persons import Faces
 
 REPEATED = ("fused", "state", "say", "ignored", "stop", "rest", "resumed", "sentence")
 """Events of a session that a replay repeats."""
@@ -43,9 +52,12 @@ def decisions(events: list[dict[str, Any]]) -> list[dict[str, Any]]:
 def replay(
     recording: Recording,
     words: WordRecognizer | CommandRecognizer | None = None,
-    signs: GestureRecognizer | None = None,
+    signs: GestureRecognizer | SentenceRecognizer | None = None,
     fusion: LearnedFusion | None = None,
     knowledge: KnowledgeBase | None = None,
+    *,
+    hands: HandFrames | None = None,
+    faces: Faces | None = None,
 ) -> Iterator[Event]:
     """The events of a recorded session, recognised and decided on anew; no robot moves.
 
@@ -60,6 +72,9 @@ def replay(
         Needed where one decided.
     knowledge : KnowledgeBase, optional
         Needed where sentences were looked up in one.
+    hands : HandFrames, optional
+    faces : FaceFinder, optional
+        As of `Session`, both.
 
     Raises
     ------
@@ -83,11 +98,18 @@ def replay(
     if recording.pictures:
         if signs is None:
             raise InvalidArgument(f"{recording.path}: pictures were recorded, and need a recogniser of gestures")
-        segmenter = None if recording.segmenter is None else GestureSegmenterOptions(**recording.segmenter)
-        seen = Watcher(signs, segmenter, model_id=recording.models.get("gesture", ""))
+        segmenter = (
+            None if recording.segmenter is None else _segmenter_of(recording, isinstance(signs, SentenceRecognizer))
+        )
+        seen = watcher_of(signs, segmenter, hands, faces, recording.models.get("gesture", ""))
         feeds["gesture"] = Feed("gesture", _Streams(recording, "gesture"), seen.watch)
     logic = SessionLogic(
-        recording.options, NoRobot(reports=False), recording.labels, fusion=fusion, knowledge=knowledge
+        recording.options,
+        NoRobot(reports=False),
+        recording.labels,
+        fusion=fusion,
+        knowledge=knowledge,
+        whole_sentences=isinstance(signs, SentenceRecognizer),
     )
     streams = {mode: feed.events() for mode, feed in feeds.items()}
     for given in recording.events:
@@ -97,6 +119,15 @@ def replay(
         if given["event"] not in _GIVEN and given["mode"] in feeds:
             event = _next(streams, feeds[given["mode"]], given)
         yield from logic.process(Arrival(event or as_event(given), time.perf_counter()))
+
+
+def _segmenter_of(recording: Recording, of_sentences: bool) -> GestureSegmenterOptions | SentenceStreamOptions:
+    """Raises InvalidArgument where the model is of another kind than the recorded one."""
+    kind = SentenceStreamOptions if of_sentences else GestureSegmenterOptions
+    try:
+        return kind(**(recording.segmenter or {}))
+    except TypeError as error:
+        raise InvalidArgument(f"{recording.path}: was recorded with another kind of signs: {error}") from error
 
 
 def as_event(given: dict[str, Any]) -> Event:

@@ -11,13 +11,20 @@ from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import asdict, replace
-from typing import Any, Protocol
+from typing import Any
 
 from hri.core.errors import Error, FormatError, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
-from hri.live import AudioSource, Event, FrameSource, Listener, Watcher
-from hri.recognition import CommandRecognizer, GestureRecognizer, GestureSegmenterOptions, WordRecognizer
+from hri.live import AudioSource, Event, FrameSource, HandFrames, Listener
+from hri.recognition import (
+    CommandRecognizer,
+    GestureRecognizer,
+    GestureSegmenterOptions,
+    SentenceRecognizer,
+    SentenceStreamOptions,
+    WordRecognizer,
+)
 from hri.robot import (
     NAO,
     Robot,
@@ -28,14 +35,15 @@ from hri.robot import (
     nao_gesture_trajectory,
     needs_feet,
 )
-from hri.session.feeds import Arrival, Clock, Feed, merge
-from hri.session.feeds import Recorder as StreamRecorder
-from hri.session.imitation import Faces, ImitatingTap, Imitator
+from hri.session.feeds import Arrival, Clock, Feed, SessionRecorder, merge
+from hri.session.imitation import ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
 from hri.session.mover import Guided, Motion, Mover
 from hri.session.options import SessionOptions
+from hri.session.watching import watcher_of
 from hri.signal import EndpointerOptions
+from hri.vision.persons import Faces
 
 SoundSource = AudioSource | Callable[[], AudioSource]
 PictureSource = FrameSource | Callable[[], FrameSource]
@@ -45,30 +53,6 @@ _TICK_S = 1.0
 _CLOSE_S = 5.0
 
 
-class SessionRecorder(StreamRecorder, Protocol):
-    """Keeps a session; called by several threads."""
-
-    def begin(self, about: Mapping[str, Any]) -> None:
-        """A session begins; what a replay needs to know of it. Raises InvalidArgument while another one is recorded."""
-        ...
-
-    def event(self, event: Event) -> None:
-        """What happened, in the order in which it was heeded."""
-        ...
-
-    def joints(self, time_s: float, positions_rad: Mapping[str, float]) -> None:
-        """Where the joints are sent."""
-        ...
-
-    def motion(self, time_s: float, label: str, trajectory: Trajectory) -> None:
-        """A motion begins."""
-        ...
-
-    def end(self) -> None:
-        """The session is over."""
-        ...
-
-
 class Session:
     """A person commands by word and sign, the robot answers.
 
@@ -76,8 +60,9 @@ class Session:
     ----------
     words : WordRecognizer or CommandRecognizer, optional
         Trained or loaded; needed for sound.
-    signs : GestureRecognizer, optional
-        Trained or loaded; needed for pictures.
+    signs : GestureRecognizer or SentenceRecognizer, optional
+        Trained or loaded; needed for pictures. With a `SentenceRecognizer` signs follow on one another, and each signed
+        sentence is decided on as one.
     robot : Robot, optional
         Moved by `run`, and left open. Without one nothing moves, and every command counts as carried out.
     options : SessionOptions, optional
@@ -87,8 +72,10 @@ class Session:
         cannot make are left out, and `refused` says why.
     endpointer : EndpointerOptions, optional
         When a word begins and ends; see `hri.live.Listener`.
-    segmenter : GestureSegmenterOptions, optional
-        When a gesture begins and ends; see `hri.live.Watcher`.
+    segmenter : GestureSegmenterOptions or SentenceStreamOptions, optional
+        When a gesture, or a signed sentence, begins and ends; see `hri.live.Watcher` and `SignWatcher`.
+    hands : HandFrames, optional
+        What a `SentenceRecognizer` gets of the pictures; see `hri.live.SignWatcher`.
     on_say : callable of str, optional
         Gets what the robot says, in the thread that decides; it must not wait.
     model_ids : mapping of mode to str, optional
@@ -97,9 +84,11 @@ class Session:
     fusion : LearnedFusion, optional
         Fuses words and signs in place of ``options.rule``.
     faces : FaceFinder, optional
-        Finds the person who is imitated (``options.imitate_labels``); by default by OpenCV's cascade.
+        Finds the person who is imitated (``options.imitate_labels``), or whose hands make tracks for a
+        `SentenceRecognizer`; by default by OpenCV's cascade.
     knowledge : KnowledgeBase, optional
-        Stored sentences: what the robot says at the end of one (``options.sentence_end_labels``) and answers with.
+        Stored sentences: what the robot says at the end of one (a signed one, or by ``options.sentence_end_labels``)
+        and answers with.
 
     Attributes
     ----------
@@ -109,8 +98,8 @@ class Session:
     Raises
     ------
     InvalidArgument
-        Without any recogniser, for a label of the options that neither knows, and for stored sentences where no
-        label begins one.
+        Without any recogniser, for a label of the options that neither knows, for stored sentences where no label
+        begins one and none are signed, for options of another kind of signs, and as of `SignWatcher`.
     NotFittedError
         For a recogniser or a fusion that is not trained.
     """
@@ -118,13 +107,14 @@ class Session:
     def __init__(
         self,
         words: WordRecognizer | CommandRecognizer | None = None,
-        signs: GestureRecognizer | None = None,
+        signs: GestureRecognizer | SentenceRecognizer | None = None,
         robot: Robot | None = None,
         options: SessionOptions | None = None,
         *,
         motions: Mapping[str, Motion] | None = None,
         endpointer: EndpointerOptions | None = None,
-        segmenter: GestureSegmenterOptions | None = None,
+        segmenter: GestureSegmenterOptions | SentenceStreamOptions | None = None,
+        hands: HandFrames | None = None,
         on_say: Callable[[str], None] | None = None,
         model_ids: Mapping[str, str] | None = None,
         fusion: LearnedFusion | None = None,
@@ -137,6 +127,13 @@ class Session:
         self._robot = robot
         self._on_say = on_say
         self._labels = {str(label) for one in (words, signs) if one is not None for label in one.classes_}
+        # Words of a signed sentence are no commands.
+        self._command_labels = {
+            str(label)
+            for one in (words, signs)
+            if one is not None and not isinstance(one, SentenceRecognizer)
+            for label in one.classes_
+        }
         chosen = self.options
         for label in (*chosen.wake_labels, *chosen.resume_labels, *chosen.imitate_labels, *chosen.sentence_labels):
             if label not in self._labels:
@@ -148,13 +145,14 @@ class Session:
             ids.setdefault("fusion", fusion.kind)
         self._knowledge = knowledge
         if knowledge is not None:
-            if not chosen.sentence_begin_labels:
+            if not (chosen.sentence_begin_labels or isinstance(signs, SentenceRecognizer)):
                 raise InvalidArgument("knowledge: stored sentences need labels that begin and end one")
             ids.setdefault("knowledge", f"{len(knowledge.sentences)} sentences")
         self._endpointer, self._segmenter = endpointer, segmenter
         self._slots = words.commands_ if isinstance(words, CommandRecognizer) else {}
         self._listener = None if words is None else Listener(words, endpointer, model_id=ids.get("speech", ""))
-        self._watcher = None if signs is None else Watcher(signs, segmenter, model_id=ids.get("gesture", ""))
+        self._whole_sentences = isinstance(signs, SentenceRecognizer)
+        self._watcher = None if signs is None else watcher_of(signs, segmenter, hands, faces, ids.get("gesture", ""))
         self._imitator: Imitator | None = None
         if self.options.imitate_labels and robot is not None:
             if signs is None:
@@ -273,7 +271,7 @@ class Session:
             guided = Guided(self._imitator.joint_names, self._imitator.target_at)
             found |= dict.fromkeys(self.options.imitate_labels, guided)
         led = {*self.options.control_labels, *self.options.fusion.stop_labels, *found}
-        for label in sorted((self._labels - led) | self._answers()):
+        for label in sorted((self._command_labels - led) | self._answers()):
             if motions is None and not self._slots.get(label) and label not in load_gestures():
                 self.refused[label] = "no gesture has this name"
             elif motions is not None and label not in motions:
@@ -311,10 +309,12 @@ class Session:
         }
 
     def _commands(self) -> Collection[str]:
-        return self._labels | self._answers() if self._robot is None else self._motions.keys()
+        return self._command_labels | self._answers() if self._robot is None else self._motions.keys()
 
     def _logic(self, body: Body) -> SessionLogic:
-        return SessionLogic(self.options, body, self._commands(), self._on_say, self._fusion, self._knowledge)
+        return SessionLogic(
+            self.options, body, self._commands(), self._on_say, self._fusion, self._knowledge, self._whole_sentences
+        )
 
     @contextmanager
     def _begun(self, clock: Clock | None, recorder: SessionRecorder | None) -> Iterator[Body]:

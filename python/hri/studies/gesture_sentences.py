@@ -49,6 +49,7 @@ class GestureClip:
     label: str
     condition: str
     rows: Rows
+    path: Path = Path()
 
 
 @dataclass(frozen=True)
@@ -64,11 +65,11 @@ class GestureSentence:
         return [label for label, _, _ in self.spans]
 
 
-class _Shapes:
+class Shapes:
     """Rows of hand features to principal components of the shape and the track beside them."""
 
     def __init__(self, clips: Sequence[GestureClip]) -> None:
-        shapes = np.concatenate([_seen(clip.rows)[::6, :-TRACK_COLUMNS] for clip in clips]).astype(np.float64)
+        shapes = np.concatenate([seen_rows(clip.rows)[::6, :-TRACK_COLUMNS] for clip in clips]).astype(np.float64)
         self._mean = shapes.mean(axis=0)
         centred = shapes - self._mean
         # Of the small side: there are fewer rows than columns.
@@ -81,7 +82,8 @@ class _Shapes:
         return np.hstack([shape, TRACK_SCALE * rows[:, -TRACK_COLUMNS:]]).astype(np.float32)
 
 
-def _seen(rows: Rows) -> Rows:
+def seen_rows(rows: Rows) -> Rows:
+    """Those that show a hand."""
     return rows[~np.isnan(rows[:, 0])]
 
 
@@ -90,30 +92,35 @@ def join(clips: Sequence[GestureClip], gaps: Sequence[int]) -> GestureSentence:
     parts, spans, length = [clips[0].rows], [(clips[0].label, 0, len(clips[0].rows))], len(clips[0].rows)
     for before, clip, gap in zip(clips, clips[1:], gaps, strict=False):
         share = (np.arange(1, gap + 1) / (gap + 1))[:, None]
-        first, last = _seen(before.rows)[-1], _seen(clip.rows)[0]
+        first, last = seen_rows(before.rows)[-1], seen_rows(clip.rows)[0]
         parts += [((1 - share) * first + share * last).astype(np.float32), clip.rows]
         spans.append((clip.label, length + gap, length + gap + len(clip.rows)))
         length += gap + len(clip.rows)
     return GestureSentence(np.concatenate(parts), spans)
 
 
+def clips_together(clips: Sequence[GestureClip], rng: np.random.Generator) -> list[list[GestureClip]]:
+    """Every clip once, two to `MAX_GESTURES` at a time."""
+    left, together = [clips[i] for i in rng.permutation(len(clips))], []
+    while left:
+        count = int(rng.integers(2, MAX_GESTURES + 1))
+        if len(left) == count + 1:  # no clip stays alone
+            count += 1 if count == 2 else -1
+        together.append(left[:count])
+        left = left[count:]
+    return together
+
+
 def sentences_of(clips: Sequence[GestureClip], gap: int | None, seed: int) -> list[GestureSentence]:
     """Every clip `NUM_ORDERS` times, in sentences of 2 to `MAX_GESTURES`, the same for every gap; None: of any gap."""
     rng = np.random.default_rng(seed)
-    sentences = []
-    for _ in range(NUM_ORDERS):
-        left = [clips[i] for i in rng.permutation(len(clips))]
-        while left:
-            count = int(rng.integers(2, MAX_GESTURES + 1))
-            if len(left) == count + 1:  # no clip stays alone
-                count += 1 if count == 2 else -1
-            drawn = [int(rng.choice(GAPS)) for _ in left[:count]]
-            sentences.append(join(left[:count], drawn if gap is None else [gap] * count))
-            left = left[count:]
-    return sentences
+    together = [some for _ in range(NUM_ORDERS) for some in clips_together(clips, rng)]
+    gaps = [[int(rng.choice(GAPS)) if gap is None else gap for _ in some] for some in together]
+    return [join(some, each) for some, each in zip(together, gaps, strict=True)]
 
 
-def _read(data_dir: Path, progress: Progress) -> list[GestureClip]:
+def read_gesture_clips(data_dir: Path, progress: Progress) -> list[GestureClip]:
+    """All clips of `FOLDER`, hands found in each by itself."""
     dataset = Dataset.load(data_dir / FOLDER, "gesture", PATTERN)
     own = data_dir / FOLDER / CONDITIONS
     names = [f"{sample.label}/{sample.take}" for sample in dataset.samples]
@@ -125,12 +132,12 @@ def _read(data_dir: Path, progress: Progress) -> list[GestureClip]:
         found = [recognizer.observation_features([hand]) for hand in hands]
         width = max(rows.shape[1] for rows in found)
         rows = [row[0] if len(row) else np.full(width, np.nan, np.float32) for row in found]
-        clips.append(GestureClip(sample.label, condition, np.asarray(rows, np.float32)))
+        clips.append(GestureClip(sample.label, condition, np.asarray(rows, np.float32), sample.path))
         progress("finding hands", len(clips), len(dataset))
     return clips
 
 
-def _train(clips: Sequence[GestureClip], shapes: _Shapes, model: Any) -> SentenceRecognizer:
+def train_words(clips: Sequence[GestureClip], shapes: Shapes, model: Any) -> SentenceRecognizer:
     """On joined clips of one condition each; the insertion penalty is chosen on conditions held out."""
     sentences, groups = [], []
     for number, condition in enumerate(sorted({clip.condition for clip in clips})):
@@ -141,9 +148,9 @@ def _train(clips: Sequence[GestureClip], shapes: _Shapes, model: Any) -> Sentenc
     return recognizer.fit([shapes(s.rows) for s in sentences], [s.spans for s in sentences], groups=groups)
 
 
-def _whole(gestures: GestureRecognizer, rows: Rows) -> str:
+def name_whole(gestures: GestureRecognizer, rows: Rows) -> str:
     """The best name of a part, rejected or not; "" where it shows no hand."""
-    seen = _seen(rows)
+    seen = seen_rows(rows)
     nbest = gestures.recognise_features(seen).nbest if len(seen) else ()
     return nbest[0].label if nbest else ""
 
@@ -178,7 +185,7 @@ class _Counts:
 def _run(
     data_dir: Path, progress: Progress, *, model: Sequence[str] = MODELS, folds: int | None = None
 ) -> dict[str, Any]:
-    clips = _read(data_dir, progress)
+    clips = read_gesture_clips(data_dir, progress)
     conditions = list(dict.fromkeys(clip.condition for clip in clips))[:folds]
     counts: dict[tuple[int | str, str, str], _Counts] = {}
     penalties: dict[str, dict[str, float]] = {name: {} for name in model}
@@ -186,14 +193,14 @@ def _run(
     for done, condition in enumerate(conditions):
         train = [clip for clip in clips if clip.condition != condition]
         test = [clip for clip in clips if clip.condition == condition]
-        shapes = _Shapes(train)
+        shapes = Shapes(train)
         gestures = GestureRecognizer(source="silhouettes")
-        gestures.fit_features([_seen(clip.rows) for clip in train], [clip.label for clip in train])
+        gestures.fit_features([seen_rows(clip.rows) for clip in train], [clip.label for clip in train])
         labels = [[clip.label] for clip in test]
-        alone = [[_whole(gestures, clip.rows)] for clip in test]
+        alone = [[name_whole(gestures, clip.rows)] for clip in test]
         counts.setdefault((ISOLATED, "", "whole gestures"), _Counts()).add(condition, labels, alone)
         for name in model:
-            words = _train(train, shapes, name)
+            words = train_words(train, shapes, name)
             penalties[name][condition] = words.trained_options.decoder.insertion_penalty
             known = [list(words.recognise_spans(shapes(c.rows), [(0, len(c.rows))]).labels) for c in test]
             counts.setdefault((ISOLATED, name, FRAMES), _Counts()).add(condition, labels, known)
@@ -207,7 +214,7 @@ def _run(
                 near = [close for s, f in zip(sentences, found, strict=True) for close in _near(s, f)]
                 truth = [s.labels for s in sentences]
                 named = [
-                    [_whole(gestures, s.rows[w.first_frame : w.last_frame]) for w in f.words]
+                    [name_whole(gestures, s.rows[w.first_frame : w.last_frame]) for w in f.words]
                     for s, f in zip(sentences, found, strict=True)
                 ]
                 counts.setdefault((gap, name, FRAMES), _Counts()).add(

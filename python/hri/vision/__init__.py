@@ -11,6 +11,7 @@ from hri._native import HandColourOptions, HandFinderOptions, HandObservation, M
 from hri.core.lazy import loader
 from hri.vision.faces import find_cascade
 from hri.vision.hands import background_of, find_hands, find_silhouettes
+from hri.vision.persons import PersonTracker, TrackedPerson
 
 if TYPE_CHECKING:
     from hri._native_vision import (
@@ -53,8 +54,10 @@ __all__ = [
     "MaskSmoothingOptions",
     "PersonHands",
     "PersonOptions",
+    "PersonTracker",
     "SilhouetteExtractor",
     "SilhouetteOptions",
+    "TrackedPerson",
     "background_of",
     "find_cascade",
     "find_hands",

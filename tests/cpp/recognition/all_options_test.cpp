@@ -36,6 +36,7 @@
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "hri/recognition/sentence/connected_word_stream.hpp"
 #include "hri/recognition/sentence/sentence_recognizer.hpp"
+#include "hri/recognition/sentence/sentence_stream.hpp"
 #include "hri/recognition/subword/subword_recognizer.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
@@ -65,7 +66,7 @@ using All = testing::Types<
     GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
     htk::HtkFeatureOptions, htk::EmbeddedTrainerOptions, TwoHandFeatureOptions,
     SentenceRecognizerOptions, LandmarkPairOptions, LatticeOptions, ConnectedWordStreamOptions,
-    SubwordRecognizerOptions, HybridFeatureOptions>;
+    SubwordRecognizerOptions, HybridFeatureOptions, SentenceStreamOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

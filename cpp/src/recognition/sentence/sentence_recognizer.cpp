@@ -123,11 +123,25 @@ MatrixF SentenceRecognizer::log_emissions(ConstMatrixRefF frames) const {
   return result;
 }
 
-RecognisedSentence SentenceRecognizer::recognise(ConstMatrixRefF tracks, double scale_px) const {
+// Has seen all frames of a sentence.
+ConnectedDecoder SentenceRecognizer::decoder_behind(ConstMatrixRefF tracks, double scale_px) const {
   const MatrixF scores = log_emissions(frames_of(tracks, scale_px));
   ConnectedDecoder decoder(chains_, *network_, options_.decoder);
   for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
-  const DecodedSentence decoded = decoder.finish();
+  return decoder;
+}
+
+RecognisedSentence SentenceRecognizer::recognise(ConstMatrixRefF tracks, double scale_px) const {
+  return sentence_of(decoder_behind(tracks, scale_px).finish());
+}
+
+RecognisedSentence SentenceRecognizer::recognise_begun(ConstMatrixRefF tracks,
+                                                       double scale_px) const {
+  return sentence_of(decoder_behind(tracks, scale_px).partial());
+}
+
+// Without what lies between the words.
+RecognisedSentence SentenceRecognizer::sentence_of(const DecodedSentence& decoded) const {
   RecognisedSentence sentence;
   sentence.log_score = decoded.log_score;
   for (const DecodedWord& word : decoded.words) {

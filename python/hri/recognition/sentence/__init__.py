@@ -9,6 +9,7 @@ from hri.recognition.sentence.recognizer import (
     TranscribedWord,
     Transcript,
 )
+from hri.recognition.sentence.sign_stream import SentenceEvent, SentenceStream, StreamedSign
 from hri.recognition.sentence.signs import RecognisedSentence, RecognisedSign, SentenceRecognizer
 from hri.recognition.sentence.stream import ConnectedWordStream, UtteranceResult
 
@@ -19,7 +20,10 @@ __all__ = [
     "ConnectedWordStream",
     "RecognisedSentence",
     "RecognisedSign",
+    "SentenceEvent",
     "SentenceRecognizer",
+    "SentenceStream",
+    "StreamedSign",
     "TranscribedWord",
     "Transcript",
     "UtteranceResult",

@@ -81,6 +81,11 @@ function heedEvent(event) {
     showBars(at(`bars-${event.mode}`), event.nbest);
     if (event.sent_ms !== undefined) measure(event.sent_ms);
   }
+  if (event.event === "signing" || event.event === "signed") {
+    const line = document.createElement("li");
+    line.textContent = event.event === "signing" ? `So far: ${event.words.join(" ")} …` : event.words.join(" ");
+    at("bars-gesture").replaceChildren(line);
+  }
   if (event.event === "fused") {
     showBars(at("bars-fused"), event.nbest);
   }
@@ -109,7 +114,11 @@ function showVocabulary({ words, signs, grammar, sentences, robot, motions, refu
   if (single.length) parts.push(`Commands are made of: ${single.join(", ")}.`);
   if (signs.length) parts.push(`Signs: ${signs.join(", ")}.`);
   if (sentences) {
-    parts.push(`A sentence goes from ${sentences.begin.join(" or ")} to ${sentences.end.join(" or ")}.`);
+    parts.push(
+      sentences.begin.length
+        ? `A sentence goes from ${sentences.begin.join(" or ")} to ${sentences.end.join(" or ")}.`
+        : "A signed sentence goes from the first movement of the hands to their rest.",
+    );
     const more = sentences.more ? `, and ${sentences.more} more` : "";
     if (sentences.stored.length) parts.push(`Stored sentences: ${sentences.stored.map((one) => `“${one}”`).join(", ")}${more}.`);
   }

@@ -149,6 +149,10 @@ class HRI_API SentenceRecognizer {
   /// The sentence that tracks (num_frames, kNumTwoHandTrackColumns) or rows show; `scale_px` as in
   /// training (0: of the tracks). Throws InvalidArgument as train() does.
   [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF tracks, double scale_px = 0) const;
+  /// What is best so far of a sentence that goes on: its last word may be one that has not ended.
+  /// Throws InvalidArgument as train() does.
+  [[nodiscard]] RecognisedSentence recognise_begun(ConstMatrixRefF tracks,
+                                                   double scale_px = 0) const;
   /// The same where the frames of the words are known: one word for each of `spans`, whose labels
   /// are not read; with_language false: each by itself. Throws InvalidArgument as train() does.
   [[nodiscard]] RecognisedSentence recognise_spans(ConstMatrixRefF tracks,
@@ -171,6 +175,8 @@ class HRI_API SentenceRecognizer {
   [[nodiscard]] MatrixF log_emissions(ConstMatrixRefF frames) const;
   [[nodiscard]] VectorD scores_of(ConstMatrixRefF frames) const;
   [[nodiscard]] MatrixD language_table() const;
+  [[nodiscard]] ConnectedDecoder decoder_behind(ConstMatrixRefF tracks, double scale_px) const;
+  [[nodiscard]] RecognisedSentence sentence_of(const DecodedSentence& decoded) const;
 
   SentenceRecognizerOptions options_;
   std::vector<std::string> labels_;
