@@ -16,30 +16,26 @@
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "hri/recognition/sentence/connected_word_stream.hpp"
 #include "models/model_inputs.hpp"
+#include "recognition/word_samples.hpp"
 
 namespace py = pybind11;
 
 namespace {
 
 using hri_bind::as_span;
+using hri_bind::as_word_samples;
 using hri_bind::FloatArray;
 
-hri::ConnectedWordRecognizer train_connected(const std::vector<FloatArray>& samples,
-                                             const std::vector<int>& sample_rates_hz,
-                                             const std::vector<std::string>& labels,
-                                             const std::vector<std::string>& groups,
-                                             const hri::ConnectedWordRecognizerOptions& options,
-                                             const std::function<void(int, int)>& progress) {
-  hri::require(samples.size() == labels.size() && samples.size() == sample_rates_hz.size() &&
-                   samples.size() == groups.size(),
-               "X, sample_rate_hz, y and groups differ in length");
-  std::vector<hri::WordSample> words;
-  words.reserve(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::string name = "X[" + std::to_string(i) + "]";
-    words.push_back(
-        {as_span(samples[i], name.c_str()), sample_rates_hz[i], labels[i], groups[i], name});
-  }
+hri::ConnectedWordRecognizer train_connected(
+    const std::vector<FloatArray>& samples, const std::vector<int>& sample_rates_hz,
+    const std::vector<std::string>& labels, const std::vector<std::string>& groups,
+    const hri::ConnectedWordRecognizerOptions& options,
+    const std::function<void(int, int)>& progress, const std::vector<FloatArray>& fillers,
+    const std::vector<int>& filler_rates_hz, const std::vector<std::string>& filler_labels,
+    const std::vector<std::string>& filler_groups) {
+  const auto words = as_word_samples(samples, sample_rates_hz, labels, groups, "X");
+  const auto others =
+      as_word_samples(fillers, filler_rates_hz, filler_labels, filler_groups, "fillers");
   hri::TrainingProgress with_gil;
   if (progress) {
     with_gil = [&progress](int done, int total) {
@@ -48,7 +44,8 @@ hri::ConnectedWordRecognizer train_connected(const std::vector<FloatArray>& samp
     };
   }
   const py::gil_scoped_release release;
-  return hri::ConnectedWordRecognizer::train(words, options, with_gil, hri_bind::interrupted);
+  return hri::ConnectedWordRecognizer::train(words, options, with_gil, hri_bind::interrupted,
+                                             others);
 }
 
 }  // namespace
@@ -87,7 +84,10 @@ void bind_connected_words(py::module_& m) {
                                            "Connected words; hri.ConnectedWordRecognizer wraps it.")
       .def_static("train", &train_connected, py::arg("samples"), py::arg("sample_rates_hz"),
                   py::arg("labels"), py::arg("groups"), py::arg("options"),
-                  py::arg("progress") = nullptr)
+                  py::arg("progress") = nullptr, py::arg("fillers") = std::vector<FloatArray>{},
+                  py::arg("filler_rates_hz") = std::vector<int>{},
+                  py::arg("filler_labels") = std::vector<std::string>{},
+                  py::arg("filler_groups") = std::vector<std::string>{})
       .def_static(
           "load",
           [](const hri_bind::Path& path) { return hri::ConnectedWordRecognizer::load(path.text); },
@@ -126,6 +126,8 @@ void bind_connected_words(py::module_& m) {
       .def("lattice", &hri::ConnectedWordRecognizer::lattice, py::arg("recording"),
            py::arg("num_words") = 0, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("labels", &hri::ConnectedWordRecognizer::labels)
+      .def_property_readonly("num_fillers", &hri::ConnectedWordRecognizer::num_fillers,
+                             "Filler words with a model; none without unknown_words.")
       .def_property_readonly("options", &hri::ConnectedWordRecognizer::options,
                              "As trained, with what training chose.");
   hri_bind::bind_options<hri::ConnectedWordStreamOptions>(m, "Options of ConnectedWordStream.");

@@ -15,6 +15,7 @@
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "models/model_inputs.hpp"
+#include "recognition/word_samples.hpp"
 
 namespace py = pybind11;
 
@@ -23,6 +24,7 @@ namespace {
 using hri_bind::as_image;
 using hri_bind::as_matrix;
 using hri_bind::as_span;
+using hri_bind::as_word_samples;
 using hri_bind::ByteArray;
 using hri_bind::FloatArray;
 
@@ -70,28 +72,6 @@ void bind_decision(py::module_& m) {
       .def_readonly("last_s", &hri::UtteranceDecision::last_s, "Its end, in seconds.")
       .def_readonly("decision", &hri::UtteranceDecision::decision,
                     "The Decision; empty for segments.");
-}
-
-// Errors name recording i as "list[i]", after the caller's own argument.
-std::vector<hri::WordSample> as_word_samples(const std::vector<FloatArray>& samples,
-                                             const std::vector<int>& sample_rates_hz,
-                                             const std::vector<std::string>& labels,
-                                             const std::vector<std::string>& groups,
-                                             const std::string& list) {
-  const bool fits = samples.size() == labels.size() && samples.size() == sample_rates_hz.size() &&
-                    (groups.empty() || samples.size() == groups.size());
-  if (!fits) {
-    hri::fail(hri::ErrorKind::invalid_argument,
-              list + ", sample_rate_hz, labels and groups differ in length");
-  }
-  std::vector<hri::WordSample> words;
-  words.reserve(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::string name = list + "[" + std::to_string(i) + "]";
-    words.push_back({as_span(samples[i], name.c_str()), sample_rates_hz[i], labels[i],
-                     groups.empty() ? "" : groups[i], name});
-  }
-  return words;
 }
 
 hri::WordRecognizer with_word(const hri::WordRecognizer& self, const std::string& label,

@@ -16,8 +16,25 @@ constexpr const char* kConnectedKind = "connected_word_recognizer";
 constexpr const char* kLanguageEntry = "language";
 constexpr const char* kGrammar = "grammar";
 constexpr const char* kCodebookEntry = "codebook.";
+constexpr const char* kNumFillers = "num_fillers";
+constexpr std::int64_t kMaxFillers = 10000;
 
 std::string entry_of(std::size_t model) { return "hmm." + std::to_string(model) + "."; }
+std::string filler_entry(std::int64_t model) { return "filler." + std::to_string(model) + "."; }
+
+FillerModels read_fillers(const ModelFile& file) {
+  FillerModels fillers;
+  if (!file.has(kNumFillers)) return fillers;
+  const std::int64_t count = file.integer(kNumFillers);
+  if (count < 1 || count > kMaxFillers) {
+    fail(ErrorKind::format, file.name() + ": field '" + kNumFillers +
+                                "': " + std::to_string(count) + " does not lie in 1.." +
+                                std::to_string(kMaxFillers));
+  }
+  for (std::int64_t f = 0; f < count; ++f)
+    fillers.push_back(GaussianMixtureHmm::read(file, filler_entry(f)));
+  return fillers;
+}
 
 }  // namespace
 
@@ -28,6 +45,11 @@ ModelFile ConnectedWordRecognizer::to_model_file() const {
   detail::write_options(options_, file);
   for (std::size_t m = 0; m < models().size(); ++m) models()[m].write(file, entry_of(m));
   file.set_vector("final_stays", final_stays_);
+  if (fillers_ != nullptr) {
+    file.set_integer(kNumFillers, num_fillers());
+    for (std::int64_t f = 0; f < num_fillers(); ++f)
+      fillers_->models()[static_cast<std::size_t>(f)].write(file, filler_entry(f));
+  }
   if (possibilities_ != nullptr) possibilities_->codebook().write(file, kCodebookEntry);
   if (language_ != nullptr) file.set_text(kLanguageEntry, language_->to_arpa());
   if (grammar_ != nullptr) file.set_text(kGrammar, grammar_->text());
@@ -60,7 +82,7 @@ ConnectedWordRecognizer ConnectedWordRecognizer::read(const ModelFile& file) {
   if (options.words.model == SequenceModelKind::ptbhmm)
     codebook = MultiStreamCodebook::read(file, kCodebookEntry);
   ConnectedWordRecognizer result(options, std::move(labels), std::move(models), final_stays,
-                                 std::move(codebook));
+                                 std::move(codebook), read_fillers(file));
   if (file.has(kLanguageEntry)) {
     result = result.with_language(
         NGramModel::parse(file.text(kLanguageEntry), file.name() + ": language"));

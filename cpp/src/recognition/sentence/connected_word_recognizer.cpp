@@ -41,7 +41,8 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
                                                  std::vector<std::string> labels,
                                                  std::vector<GaussianMixtureHmm> models,
                                                  const VectorD& final_stays,
-                                                 std::optional<MultiStreamCodebook> codebook)
+                                                 std::optional<MultiStreamCodebook> codebook,
+                                                 FillerModels fillers)
     : options_(with_rate(validated(options))),
       labels_(std::move(labels)),
       final_stays_(final_stays),
@@ -57,7 +58,13 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
   const bool is_possibilistic = options_.words.model == SequenceModelKind::ptbhmm;
   require(codebook.has_value() == is_possibilistic,
           "there must be a codebook exactly where words.model is ptbhmm");
+  if (!fillers.empty()) {
+    fillers_ = std::make_shared<const GaussianEmissions>(std::move(fillers));
+    require(fillers_->dim() == emissions_->dim(), "fillers and models differ in their features");
+  }
   if (is_possibilistic) {
+    if (fillers_ != nullptr)
+      filler_possibilities_ = std::make_shared<const CodedPossibilities>(*fillers_, *codebook);
     possibilities_ = std::make_shared<const CodedPossibilities>(*emissions_, std::move(*codebook));
   }
   for (std::size_t m = 0; m < num_models; ++m) {
@@ -67,7 +74,7 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
   }
   if (options_.unknown_words) {
     chains_.push_back(
-        detail::unknown_chain(this->models().front().num_states(), options_.unknown_penalty));
+        detail::unknown_chain(detail::mean_word_length(this->models(), final_stays_)));
   }
 }
 
@@ -113,6 +120,23 @@ double ScoredRecording::seconds_of(std::int64_t frame) const {
 }
 
 ScoredRecording ConnectedWordRecognizer::score(Span<const float> audio, int sample_rate_hz) const {
+  MatrixF fillers;
+  ScoredRecording recording =
+      score_models(audio, sample_rate_hz, options_.unknown_words ? &fillers : nullptr);
+  MatrixF& scores = recording.log_emissions;
+  if (!options_.unknown_words || scores.rows() == 0) return recording;
+  const VectorF unknown =
+      detail::unknown_background(scores, states_of_words(), models().back().num_states(), fillers,
+                                 options_.unknown_rank)
+          .scores(options_.unknown_lead, options_.unknown_margin);
+  const Eigen::Index num_states = chains_.back().log_start.size();
+  scores.conservativeResize(Eigen::NoChange, scores.cols() + num_states);
+  scores.rightCols(num_states).colwise() = unknown;
+  return recording;
+}
+
+ScoredRecording ConnectedWordRecognizer::score_models(Span<const float> audio, int sample_rate_hz,
+                                                      MatrixF* fillers) const {
   detail::CutSentence sentence = front_end_->cut(audio, sample_rate_hz);
   ScoredRecording recording;
   recording.notes = std::move(sentence.notes);
@@ -123,17 +147,19 @@ ScoredRecording ConnectedWordRecognizer::score(Span<const float> audio, int samp
   recording.frame_s = (front_end_->middle_of(1) - front_end_->middle_of(0)) / rate_hz;
   if (sentence.samples.empty()) return recording;
   const MatrixF frames = front_end_->frames(std::move(sentence.samples));
-  MatrixF known(frames.rows(), emissions_->num_states());
+  recording.log_emissions.resize(frames.rows(), emissions_->num_states());
   if (possibilities_ != nullptr) {
-    possibilities_->compute(frames, known);
+    possibilities_->compute(frames, recording.log_emissions);
   } else {
-    emissions_->compute(frames, known);
+    emissions_->compute(frames, recording.log_emissions);
   }
-  if (options_.unknown_words) {
-    known.conservativeResize(Eigen::NoChange, known.cols() + chains_.back().log_start.size());
-    detail::score_unknown(states_of_words(), options_.unknown_rank, &known);
+  if (fillers == nullptr || fillers_ == nullptr) return recording;
+  fillers->resize(frames.rows(), fillers_->num_states());
+  if (filler_possibilities_ != nullptr) {
+    filler_possibilities_->compute(frames, *fillers);
+  } else {
+    fillers_->compute(frames, *fillers);
   }
-  recording.log_emissions = std::move(known);
   return recording;
 }
 

@@ -95,18 +95,42 @@ class ConnectedWordTrainer {
         should_stop_(std::move(should_stop)) {}
 
   ConnectedWordRecognizer run(const std::vector<WordSample>& samples,
+                              const std::vector<WordSample>& fillers,
                               const TrainingProgress& progress) {
     read(samples);
     const int num_folds = options_.choose_penalty ? assign_folds() : 0;
     const int num_steps = num_folds + 1;
     if (progress) progress(0, num_steps);
-    if (num_folds > 0) choose(num_folds, num_steps, progress);
-    ConnectedWordRecognizer result = recognizer(options_, train_without(kOfNoFold));
+    if (options_.unknown_words && !fillers.empty())
+      fillers_ = fillers_of(fillers, options_, should_stop_);
+    const std::vector<Fold> folds = train_folds(num_folds, num_steps, progress);
+    TrainedWords all = train_without(kOfNoFold);
+    if (!folds.empty()) choose(folds, all);
+    ConnectedWordRecognizer result = recognizer(options_, std::move(all));
     if (progress) progress(num_steps, num_steps);
     return result;
   }
 
  private:
+  // A recogniser that was trained without some speakers, and strings of these.
+  using Fold = std::pair<ConnectedWordRecognizer, std::vector<WordString>>;
+
+  // The words of strings of their own: the models of the vocabulary and of silence are the same
+  // with fillers and without.
+  static FillerModels fillers_of(const std::vector<WordSample>& samples,
+                                 ConnectedWordRecognizerOptions options,
+                                 const StopCheck& should_stop) {
+    options.words.model = SequenceModelKind::hmm;  // possibilities come of its densities
+    std::vector<std::string> labels;
+    labels.reserve(samples.size());
+    for (const WordSample& sample : samples) labels.push_back(sample.label);
+    ConnectedWordTrainer trainer(options, sorted_labels(labels), should_stop);
+    trainer.read(samples);
+    FillerModels models = trainer.train_without(kOfNoFold).models;
+    models.pop_back();  // that of silence
+    return models;
+  }
+
   // Words without speech are left out, but every label needs one.
   void read(const std::vector<WordSample>& samples) {
     words_.resize(samples.size());
@@ -243,32 +267,49 @@ class ConnectedWordTrainer {
 
   [[nodiscard]] ConnectedWordRecognizer recognizer(const ConnectedWordRecognizerOptions& options,
                                                    TrainedWords trained) const {
-    return {options, labels_, std::move(trained.models), trained.final_stays,
-            std::move(trained.codebook)};
+    return {options,
+            labels_,
+            std::move(trained.models),
+            trained.final_stays,
+            std::move(trained.codebook),
+            fillers_};
   }
 
-  // On strings of every fold, by models of the others.
-  void choose(int num_folds, int num_steps, const TrainingProgress& progress) {
+  // What is to be chosen with, without the unknown word.
+  [[nodiscard]] ConnectedWordRecognizerOptions options_of_folds() const {
     ConnectedWordRecognizerOptions of_folds = options_;
     of_folds.unknown_words = false;
+    return of_folds;
+  }
+
+  // Models of all folds but one each; the insertion penalty is chosen on strings of this one.
+  std::vector<Fold> train_folds(int num_folds, int num_steps, const TrainingProgress& progress) {
     detail::HeldOutChoices choices(should_stop_);
-    std::vector<std::pair<ConnectedWordRecognizer, std::vector<WordString>>> folds;
+    std::vector<Fold> folds;
     for (int fold = 0; fold < num_folds; ++fold) {
       if (usable(fold)) {
         folds.emplace_back(
-            recognizer(of_folds, train_without(fold)),
+            recognizer(options_of_folds(), train_without(fold)),
             maker_.join(words_where([fold](const SpokenWord& w) { return w.fold == fold; }),
                         options_.words.seed));
         choices.try_penalties(folds.back().first, folds.back().second);
       }
       if (progress) progress(fold + 1, num_steps);
     }
-    options_.decoder.insertion_penalty = choices.best_penalty();
-    if (folds.empty()) return;
-    for (auto& [trained, strings] : folds) {
+    if (num_folds > 0) options_.decoder.insertion_penalty = choices.best_penalty();
+    return folds;
+  }
+
+  // The rest, with this penalty; `all` are the models that know all speakers.
+  void choose(const std::vector<Fold>& folds, const TrainedWords& all) {
+    detail::HeldOutChoices choices(should_stop_);
+    const ConnectedWordRecognizer of_all = recognizer(options_of_folds(), all);
+    for (const auto& [trained, strings] : folds) {
       const ConnectedWordRecognizer weighted = trained.with_decoder(options_.decoder);
       choices.try_scales(weighted, strings);
-      if (options_.unknown_words) choices.try_unknown(weighted, strings);
+      if (!options_.unknown_words) continue;
+      choices.try_unknown(weighted, strings, true);
+      choices.try_unknown(of_all, strings, false);
     }
     options_.confidence_scale = choices.best_scale();
     if (options_.unknown_words) choices.set_best_unknown(&options_);
@@ -279,13 +320,15 @@ class ConnectedWordTrainer {
   StringMaker maker_;
   StopCheck should_stop_;
   std::vector<SpokenWord> words_;
+  FillerModels fillers_;
 };
 
 }  // namespace
 
 ConnectedWordRecognizer ConnectedWordRecognizer::train(
     const std::vector<WordSample>& samples, const ConnectedWordRecognizerOptions& options,
-    const TrainingProgress& progress, const StopCheck& should_stop) {
+    const TrainingProgress& progress, const StopCheck& should_stop,
+    const std::vector<WordSample>& fillers) {
   validate(options);
   std::vector<std::string> labels;
   std::set<std::string> speakers;
@@ -302,7 +345,8 @@ ConnectedWordRecognizer ConnectedWordRecognizer::train(
     used.words.num_mixtures =
         std::clamp(static_cast<int>(speakers.size()) / kSpeakersPerMixture, 1, kMaxMixtures);
   }
-  return ConnectedWordTrainer(used, sorted_labels(labels), should_stop).run(samples, progress);
+  return ConnectedWordTrainer(used, sorted_labels(labels), should_stop)
+      .run(samples, fillers, progress);
 }
 
 }  // namespace hri

@@ -5,10 +5,13 @@
 from __future__ import annotations
 
 import logging
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from os import PathLike
 from typing import Any, Unpack
+
+import numpy as np
 
 from hri import _native
 from hri.core.errors import InvalidArgument
@@ -18,6 +21,7 @@ from hri.recognition.base import Recognizer
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
 from hri.recognition.keywords import ConnectedDecoderKeywords, ConnectedWordRecognizerKeywords
 from hri.recognition.loading import load_native
+from hri.recognition.word.fillers import FillerWord, filler_words
 
 _log = logging.getLogger(__name__)
 
@@ -131,6 +135,16 @@ def _word_of(word: _native.TranscribedWord) -> TranscribedWord:
     return TranscribedWord(word.label, word.first_s, word.last_s, word.log_score, word.confidence, word.unknown)
 
 
+def _speakers_of(fillers: Sequence[FillerWord]) -> list[str]:
+    """Take the n-th recording of every label as speaker n's."""
+    count: Counter[str] = Counter()
+    speakers = []
+    for word in fillers:
+        speakers.append(str(count[word.label]))
+        count[word.label] += 1
+    return speakers
+
+
 class ConnectedWordRecognizer(Recognizer):
     """Recognise words that follow one another, with pauses between them or without.
 
@@ -170,6 +184,7 @@ class ConnectedWordRecognizer(Recognizer):
         sample_rate_hz: int | Sequence[int] | None = None,
         groups: Sequence[str] | None = None,
         progress: Callable[[int, int], None] | None = None,
+        fillers: Sequence[FillerWord] | None = None,
     ) -> ConnectedWordRecognizer:
         """Train on isolated words.
 
@@ -186,6 +201,10 @@ class ConnectedWordRecognizer(Recognizer):
             speakers held out.
         progress : callable, optional
             Called with (done, total) training steps.
+        fillers : sequence of FillerWord, optional
+            With ``unknown_words``: words outside the vocabulary, whose sounds unknown words may have; by default those
+            that come with the package (`filler_words`). With an empty sequence unknown words are hardly found. Those
+            of one label count as of different speakers, and the first of all labels as of the same one.
 
         Raises
         ------
@@ -199,6 +218,9 @@ class ConnectedWordRecognizer(Recognizer):
             raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d recordings of %d words", len(clips), len(set(y)))
+        others: Sequence[FillerWord] = ()
+        if self.options.unknown_words:
+            others = filler_words() if fillers is None else fillers
         with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(
                 [clip.samples for clip in clips],
@@ -207,6 +229,10 @@ class ConnectedWordRecognizer(Recognizer):
                 speakers,
                 self.options,
                 progress,
+                [np.ascontiguousarray(word.samples, dtype=np.float32) for word in others],
+                [word.sample_rate_hz for word in others],
+                [word.label for word in others],
+                _speakers_of(others),
             )
         return self
 

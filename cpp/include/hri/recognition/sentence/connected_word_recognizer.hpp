@@ -39,8 +39,9 @@ struct HRI_API ConnectedWordRecognizerOptions {
   double confidence_scale = 0.02;
   double min_confidence = 0;
   bool unknown_words = false;
-  int unknown_rank = 4;
-  double unknown_penalty = -20;
+  int unknown_rank = 16;
+  double unknown_lead = 12;
+  double unknown_margin = 13;
   ConnectedDecoderOptions decoder;
   LatticeOptions lattice{1000, 200000};
 
@@ -60,7 +61,7 @@ struct HRI_API ConnectedWordRecognizerOptions {
       "times that the boundaries of words are moved to where the models put them, and the models "
       "trained again");
     v("choose_penalty", o.choose_penalty, any_value,
-      "decoder.insertion_penalty, confidence_scale, unknown_rank and unknown_penalty are chosen on "
+      "decoder.insertion_penalty, confidence_scale, unknown_lead and unknown_margin are chosen on "
       "strings of speakers held out");
     v("confidence_scale", o.confidence_scale, within(1e-6, 1),
       "factor on log scores in confidences, as neighbouring frames do not score independently");
@@ -69,9 +70,14 @@ struct HRI_API ConnectedWordRecognizerOptions {
     v("unknown_words", o.unknown_words, any_value,
       "sounds that fit no word of the vocabulary become words marked unknown");
     v("unknown_rank", o.unknown_rank, within(1, 1000),
-      "an unknown word scores the mean of so many best states in every frame");
-    v("unknown_penalty", o.unknown_penalty, within(-1e6, 0),
-      "added to the log score at every unknown word");
+      "states that an unknown word's score in a frame is the mean of, the best of all words and "
+      "filler words");
+    v("unknown_lead", o.unknown_lead, within(0, 1e6),
+      "how far the best state of the words lies above this mean on average, before the speaker is "
+      "known");
+    v("unknown_margin", o.unknown_margin, within(0, 1e6),
+      "how far below the average of the best states an unknown word scores in a frame; larger: "
+      "fewer unknown words");
     v("decoder", o.decoder, any_value, "how sentences are searched");
     v("lattice", o.lattice, any_value, "which other sentences are kept, for confidences");
   }
@@ -130,26 +136,32 @@ struct ScoredRecording {
 };
 
 namespace detail {
+class HeldOutChoices;
 class SentenceFrontEnd;
-}
+}  // namespace detail
 
 /// Immutable; const calls are safe from several threads. Copies share their models.
 class HRI_API ConnectedWordRecognizer {
  public:
   /// From trained parts: `models` are those of the sorted `labels` and behind them that of silence;
   /// `final_stays` the probability of each to stay in its last state; `codebook` is that of the
-  /// kind ptbhmm. Throws InvalidArgument for parts that do not fit each other, and options out of
+  /// kind ptbhmm; with options.unknown_words the states of `fillers` count as sounds of unknown
+  /// words. Throws InvalidArgument for parts that do not fit each other, and options out of
   /// range.
   ConnectedWordRecognizer(const ConnectedWordRecognizerOptions& options,
                           std::vector<std::string> labels, std::vector<GaussianMixtureHmm> models,
                           const VectorD& final_stays,
-                          std::optional<MultiStreamCodebook> codebook = std::nullopt);
+                          std::optional<MultiStreamCodebook> codebook = std::nullopt,
+                          FillerModels fillers = {});
 
-  /// Trains on isolated words. Throws InvalidArgument as WordRecognizer::train() does; Interrupted.
+  /// Trains on isolated words. `fillers` are words outside the vocabulary, of any speakers, which
+  /// are used with options.unknown_words alone: unknown words are found by their sounds, too.
+  /// Throws InvalidArgument as WordRecognizer::train() does; Interrupted.
   static ConnectedWordRecognizer train(const std::vector<WordSample>& samples,
                                        const ConnectedWordRecognizerOptions& options,
                                        const TrainingProgress& progress = {},
-                                       const StopCheck& should_stop = {});
+                                       const StopCheck& should_stop = {},
+                                       const std::vector<WordSample>& fillers = {});
 
   /// The same with a language model of order 1 or 2, which has to know all labels; the scale is
   /// options().decoder.language_scale. Throws InvalidArgument.
@@ -193,6 +205,10 @@ class HRI_API ConnectedWordRecognizer {
   [[nodiscard]] const std::vector<GaussianMixtureHmm>& models() const {
     return emissions_->models();
   }
+  /// Of filler words; none without options().unknown_words.
+  [[nodiscard]] int num_fillers() const {
+    return fillers_ == nullptr ? 0 : static_cast<int>(fillers_->models().size());
+  }
   [[nodiscard]] const VectorD& final_stays() const { return final_stays_; }
   /// Of the words, of silence, and with options().unknown_words that of the unknown word.
   [[nodiscard]] const std::vector<WordChain>& chains() const { return chains_; }
@@ -200,7 +216,16 @@ class HRI_API ConnectedWordRecognizer {
   [[nodiscard]] int unknown_word() const { return silence() + 1; }
 
  private:
+  friend class detail::HeldOutChoices;
+
   static ConnectedWordRecognizer read(const ModelFile& file);
+  /// score() without the unknown word; `fillers` gets the scores of the states of filler words.
+  [[nodiscard]] ScoredRecording score_models(Span<const float> audio, int sample_rate_hz,
+                                             MatrixF* fillers) const;
+  /// The same at the rate of the front end.
+  [[nodiscard]] ScoredRecording score_models(Span<const float> audio, MatrixF* fillers) const {
+    return score_models(audio, options_.words.cepstra.sample_rate_hz, fillers);
+  }
   [[nodiscard]] WordNetwork network(int num_words) const;
   [[nodiscard]] std::vector<TranscribedWord> words_of(const std::vector<DecodedWord>& decoded,
                                                       const ScoredRecording& recording) const;
@@ -214,7 +239,9 @@ class HRI_API ConnectedWordRecognizer {
   VectorD final_stays_;
   std::shared_ptr<const detail::SentenceFrontEnd> front_end_;
   std::shared_ptr<const GaussianEmissions> emissions_;
-  std::shared_ptr<const CodedPossibilities> possibilities_;  // of the kind ptbhmm
+  std::shared_ptr<const CodedPossibilities> possibilities_;         // of the kind ptbhmm
+  std::shared_ptr<const GaussianEmissions> fillers_;                // nullptr: there are none
+  std::shared_ptr<const CodedPossibilities> filler_possibilities_;  // of the kind ptbhmm
   std::vector<WordChain> chains_;
   std::shared_ptr<const NGramModel> language_;
   std::shared_ptr<const Grammar> grammar_;
