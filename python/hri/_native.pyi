@@ -7458,17 +7458,19 @@ class ConnectedWordRecognizerOptions:
     num_alignments : int, default 1
         times that the boundaries of words are moved to where the models put them, and the models trained again; 0..10
     choose_penalty : bool, default True
-        decoder.insertion_penalty, confidence_scale, unknown_rank and unknown_penalty are chosen on strings of speakers held out
+        decoder.insertion_penalty, confidence_scale and unknown_lead are chosen on strings of speakers held out
     confidence_scale : float, default 0.02
         factor on log scores in confidences, as neighbouring frames do not score independently; 1e-06..1
     min_confidence : float, default 0.0
         words of less confidence are marked unknown; 0..1
     unknown_words : bool, default False
         sounds that fit no word of the vocabulary become words marked unknown
-    unknown_rank : int, default 4
-        an unknown word scores the mean of so many best states in every frame; 1..1000
-    unknown_penalty : float, default -20.0
-        added to the log score at every unknown word; -1000000..0
+    unknown_rank : int, default 16
+        states that an unknown word's score in a frame is the mean of, the best of all words and filler words; 1..1000
+    unknown_lead : float, default 12.0
+        how far the best state of the words lies above this mean on average, before the speaker is known; 0..1000000
+    unknown_margin : float, default 0.9
+        an unknown word scores as much below the average of the best states, as a share of unknown_lead; larger: fewer words are unknown; 0..1000
     decoder : ConnectedDecoderOptions or dict
         how sentences are searched
     lattice : LatticeOptions or dict
@@ -7496,8 +7498,9 @@ class ConnectedWordRecognizerOptions:
         confidence_scale: float = 0.02,
         min_confidence: float = 0.0,
         unknown_words: bool = False,
-        unknown_rank: int = 4,
-        unknown_penalty: float = -20.0,
+        unknown_rank: int = 16,
+        unknown_lead: float = 12.0,
+        unknown_margin: float = 0.9,
         decoder: ConnectedDecoderOptions | collections.abc.Mapping[str, typing.Any] = ...,
         lattice: LatticeOptions | collections.abc.Mapping[str, typing.Any] = ...,
     ) -> None: ...
@@ -7510,7 +7513,7 @@ class ConnectedWordRecognizerOptions:
     @property
     def choose_penalty(self) -> bool:
         """
-        decoder.insertion_penalty, confidence_scale, unknown_rank and unknown_penalty are chosen on strings of speakers held out
+        decoder.insertion_penalty, confidence_scale and unknown_lead are chosen on strings of speakers held out
         """
     @choose_penalty.setter
     def choose_penalty(self, arg1: typing.Any) -> None: ...
@@ -7578,16 +7581,23 @@ class ConnectedWordRecognizerOptions:
     @silence_states.setter
     def silence_states(self, arg1: typing.Any) -> None: ...
     @property
-    def unknown_penalty(self) -> float:
+    def unknown_lead(self) -> float:
         """
-        added to the log score at every unknown word
+        how far the best state of the words lies above this mean on average, before the speaker is known
         """
-    @unknown_penalty.setter
-    def unknown_penalty(self, arg1: typing.Any) -> None: ...
+    @unknown_lead.setter
+    def unknown_lead(self, arg1: typing.Any) -> None: ...
+    @property
+    def unknown_margin(self) -> float:
+        """
+        an unknown word scores as much below the average of the best states, as a share of unknown_lead; larger: fewer words are unknown
+        """
+    @unknown_margin.setter
+    def unknown_margin(self, arg1: typing.Any) -> None: ...
     @property
     def unknown_rank(self) -> int:
         """
-        an unknown word scores the mean of so many best states in every frame
+        states that an unknown word's score in a frame is the mean of, the best of all words and filler words
         """
     @unknown_rank.setter
     def unknown_rank(self, arg1: typing.Any) -> None: ...
@@ -7727,6 +7737,10 @@ class ConnectedWordRecognizer:
         groups: collections.abc.Sequence[str],
         options: ConnectedWordRecognizerOptions,
         progress: collections.abc.Callable[[int, int], None] | None = None,
+        fillers: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = [],
+        filler_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+        filler_labels: collections.abc.Sequence[str] = [],
+        filler_groups: collections.abc.Sequence[str] = [],
     ) -> ConnectedWordRecognizer: ...
     def lattice(
         self, recording: ScoredRecording, num_words: typing.SupportsInt | typing.SupportsIndex = 0
@@ -7750,6 +7764,11 @@ class ConnectedWordRecognizer:
     def with_language(self, language: NGramModel) -> ConnectedWordRecognizer: ...
     @property
     def labels(self) -> list[str]: ...
+    @property
+    def num_fillers(self) -> int:
+        """
+        Filler words with a model; none without unknown_words.
+        """
     @property
     def options(self) -> ConnectedWordRecognizerOptions:
         """

@@ -20,7 +20,7 @@ from hri.datasets import Dataset
 from hri.htk import WordLattice
 from hri.io import write_wav_pcm16
 from hri.language import Grammar, NGramModel
-from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream
+from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream, FillerWord
 from hri.synthetic.speech import make_speaker, speak
 
 WORDS = ["1", "2", "2", "1"]
@@ -117,6 +117,30 @@ def test_a_grammar_fills_slots(words: ConnectedWordRecognizer, sentence: np.ndar
     assert found.to_dict()["slots"] == found.slots
     with pytest.raises(InvalidArgument, match="the grammar has the word '3', which is no label"):
         words.set_grammar(Grammar.parse("#JSGF V1.0;\ngrammar g;\npublic <s> = 3;", "g"))
+
+
+def test_unknown_words_are_found_by_fillers(spoken: Path, tmp_path: Path) -> None:
+    samples = Dataset.load(spoken).samples
+    clips, labels = [s.path for s in samples], [s.label for s in samples]
+    fillers = [
+        FillerWord(tone_word(base_hz + 10 * take, 20, 300 + take), RATE_HZ, str(base_hz))
+        for base_hz in (1500, 2000, 2500, 3000)
+        for take in range(3)
+    ]
+    fillers.append(FillerWord(np.zeros(10, np.float32), RATE_HZ, "1"))  # a label is no filler
+    model = ConnectedWordRecognizer(**OPTIONS, unknown_words=True, unknown_margin=0.3)
+    model.fit(clips, labels, groups=[s.person for s in samples], fillers=fillers)
+    said = [tone_word(575, 800, 60), tone_word(2240, 30, 61), tone_word(575, -350, 62)]
+    audio = np.concatenate([clip[RATE_HZ // 10 : 4 * RATE_HZ // 5] for clip in said])
+    found = model.recognise(audio, RATE_HZ)
+    assert found.labels == ("1", "<unk>", "2") and found.words[1].unknown
+    model.save(tmp_path / "m.hri")
+    assert ConnectedWordRecognizer.load(tmp_path / "m.hri").recognise(audio, RATE_HZ) == found
+    stream = ConnectedWordStream(model, RATE_HZ)
+    assert [r.transcript.labels for r in (*stream.process(audio), *stream.finish()) if r.is_final] == [found.labels]
+    with pytest.raises(InvalidArgument, match="no recording of the label 'quiet' has speech in it"):
+        silence = FillerWord(np.zeros(RATE_HZ, np.float32), RATE_HZ, "quiet")
+        ConnectedWordRecognizer(**OPTIONS, unknown_words=True).fit(clips, labels, fillers=[silence])
 
 
 def test_a_stream_gives_what_it_has_and_ends_as_the_file_does(

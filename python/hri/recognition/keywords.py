@@ -301,7 +301,8 @@ class ConnectedWordRecognizerKeywords(TypedDict, total=False):
     min_confidence: float
     unknown_words: bool
     unknown_rank: int
-    unknown_penalty: float
+    unknown_lead: float
+    unknown_margin: float
     decoder: _native.ConnectedDecoderOptions | ConnectedDecoderKeywords
     lattice: _native.LatticeOptions | LatticeKeywords
 

@@ -38,6 +38,7 @@ FREE, BIGRAM = "digits in a row of 3 choices, any order", "digits in a row of 3 
 GRAMMAR = "one of the strings and 200 others, by a grammar"
 POSSIBILISTIC = "any number of words, PTBHMM"
 MISSED, UNKNOWN = "3 of 10 words not trained on", "3 of 10 words not trained on, unknown words on"
+REJECTING = "any number of words, unknown words on"
 NOISES_DB = (20, 10)
 """Signal to noise, white noise."""
 NUM_OTHERS = 200
@@ -247,7 +248,7 @@ def _measure_possibilities(
 def _measure_unknown(
     measured: Measured, person: str, train: Sequence[Clip], test: Sequence[Clip], progress: Progress
 ) -> None:
-    """The last words of the vocabulary are not trained on, and said."""
+    """The last words of the vocabulary are not trained on, and said; and what finding them costs where all are known."""
     unknown = sorted({label for label, _, _ in test})[-NUM_UNKNOWN:]
     known = [clip for clip in train if clip[0] not in unknown]
     rate_hz = test[0][2].sample_rate_hz
@@ -259,6 +260,9 @@ def _measure_unknown(
     for words, is_on in ((MISSED, False), (UNKNOWN, True)):
         model = fit_connected(known, progress, unknown_words=is_on)
         measured.add(longest, words, person, strings, _by(model, rate_hz))
+    rejecting = fit_connected(train, progress, unknown_words=True)
+    for pause_ms in (min(PAUSES_MS), longest):
+        measured.add(pause_ms, REJECTING, person, strings_of(test, pause_ms), _by(rejecting, rate_hz))
 
 
 def _run(data_dir: Path, progress: Progress, *, source: str, takes: int | None = None) -> dict[str, Any]:

@@ -128,7 +128,7 @@ ScoredRecording ConnectedWordRecognizer::score(Span<const float> audio, int samp
   const VectorF unknown =
       detail::unknown_background(scores, states_of_words(), models().back().num_states(), fillers,
                                  options_.unknown_rank)
-          .scores(options_.unknown_lead, options_.unknown_margin);
+          .scores(options_.unknown_lead, options_.unknown_margin * options_.unknown_lead);
   const Eigen::Index num_states = chains_.back().log_start.size();
   scores.conservativeResize(Eigen::NoChange, scores.cols() + num_states);
   scores.rightCols(num_states).colwise() = unknown;

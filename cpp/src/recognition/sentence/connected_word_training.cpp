@@ -305,14 +305,13 @@ class ConnectedWordTrainer {
     detail::HeldOutChoices choices(should_stop_);
     const ConnectedWordRecognizer of_all = recognizer(options_of_folds(), all);
     for (const auto& [trained, strings] : folds) {
-      const ConnectedWordRecognizer weighted = trained.with_decoder(options_.decoder);
-      choices.try_scales(weighted, strings);
+      choices.try_scales(trained.with_decoder(options_.decoder), strings);
       if (!options_.unknown_words) continue;
-      choices.try_unknown(weighted, strings, true);
-      choices.try_unknown(of_all, strings, false);
+      choices.add_leads(trained, strings, true);
+      choices.add_leads(of_all, strings, false);
     }
     options_.confidence_scale = choices.best_scale();
-    if (options_.unknown_words) choices.set_best_unknown(&options_);
+    if (choices.expected_lead() > 0) options_.unknown_lead = choices.expected_lead();
   }
 
   ConnectedWordRecognizerOptions options_;
@@ -342,8 +341,10 @@ ConnectedWordRecognizer ConnectedWordRecognizer::train(
     if (takes_lowest) rate_hz = std::min(rate_hz, sample.sample_rate_hz);
   }
   if (used.words.num_mixtures == 0) {
+    // Sharper models keep foreign words apart better.
+    const int per_mixture = used.unknown_words ? 1 : kSpeakersPerMixture;
     used.words.num_mixtures =
-        std::clamp(static_cast<int>(speakers.size()) / kSpeakersPerMixture, 1, kMaxMixtures);
+        std::clamp(static_cast<int>(speakers.size()) / per_mixture, 1, kMaxMixtures);
   }
   return ConnectedWordTrainer(used, sorted_labels(labels), should_stop)
       .run(samples, fillers, progress);

@@ -12,7 +12,8 @@ namespace hri::detail {
 namespace {
 
 constexpr double kPriorFrames = 40;  // about a word: what the prior counts as, in frames of speech
-constexpr int kLongestWord = 500;    // frames
+constexpr std::ptrdiff_t kStatesPerRank = 4;
+constexpr int kLongestWord = 500;  // frames
 
 }  // namespace
 
@@ -62,8 +63,9 @@ UnknownBackground unknown_background(const MatrixF& models, const std::vector<bo
     }
     const float best = *std::max_element(scores.begin(), scores.end());
     for (Eigen::Index s = 0; s < fillers.cols(); ++s) scores.push_back(fillers(t, s));
-    const auto num_best =
-        std::min(static_cast<std::ptrdiff_t>(rank), static_cast<std::ptrdiff_t>(scores.size()));
+    const auto num_states = static_cast<std::ptrdiff_t>(scores.size());
+    const auto num_best = std::min(static_cast<std::ptrdiff_t>(rank),
+                                   std::max(num_states / kStatesPerRank, std::ptrdiff_t{1}));
     const auto last = scores.begin() + num_best;
     std::nth_element(scores.begin(), last - 1, scores.end(), std::greater<>());
     const double sum = std::accumulate(scores.begin(), last, 0.0);

@@ -39,8 +39,8 @@ struct UnknownBackground {
 };
 
 /// `models` has the log scores of all states, the last `num_silence` those of silence; `is_of_word`
-/// says which are those of words, `fillers` has those of filler words, or no column. Where there
-/// are fewer than `rank` states, all count.
+/// says which are those of words, `fillers` has those of filler words, or no column. The
+/// `rank` best states count, but no more than one in four.
 UnknownBackground unknown_background(const MatrixF& models, const std::vector<bool>& is_of_word,
                                      int num_silence, const MatrixF& fillers, int rank);
 

@@ -203,8 +203,8 @@ class ConnectedWordRecognizer(Recognizer):
             Called with (done, total) training steps.
         fillers : sequence of FillerWord, optional
             With ``unknown_words``: words outside the vocabulary, whose sounds unknown words may have; by default those
-            that come with the package (`filler_words`). With an empty sequence unknown words are hardly found. Those
-            of one label count as of different speakers, and the first of all labels as of the same one.
+            that come with the package (`filler_words`). Words that are labels are left out. With an empty sequence
+            unknown words are hardly found. The n-th recordings of all labels count as one speaker's.
 
         Raises
         ------
@@ -218,9 +218,9 @@ class ConnectedWordRecognizer(Recognizer):
             raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d recordings of %d words", len(clips), len(set(y)))
-        others: Sequence[FillerWord] = ()
+        others: list[FillerWord] = []
         if self.options.unknown_words:
-            others = filler_words() if fillers is None else fillers
+            others = [word for word in (filler_words() if fillers is None else fillers) if word.label not in set(y)]
         with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(
                 [clip.samples for clip in clips],

@@ -123,6 +123,7 @@ TEST(ConnectedWordRecognizer, IsLessSureOfWordsBetweenTwo) {
 TEST(ConnectedWordRecognizer, MarksSoundsThatAreNoWord) {
   ConnectedWordRecognizerOptions options = small_options();
   options.unknown_words = true;
+  options.unknown_margin = 0.5;
   const auto rejecting = ConnectedWordRecognizer::train(clips().samples, options);
   EXPECT_EQ(labels_of(rejecting.recognise(sentence(kWords, 0.1), kRateHz)), kWords);
   // Two known words, and between them a tone far above those of both.

@@ -41,7 +41,7 @@ struct HRI_API ConnectedWordRecognizerOptions {
   bool unknown_words = false;
   int unknown_rank = 16;
   double unknown_lead = 12;
-  double unknown_margin = 13;
+  double unknown_margin = 0.9;
   ConnectedDecoderOptions decoder;
   LatticeOptions lattice{1000, 200000};
 
@@ -61,8 +61,8 @@ struct HRI_API ConnectedWordRecognizerOptions {
       "times that the boundaries of words are moved to where the models put them, and the models "
       "trained again");
     v("choose_penalty", o.choose_penalty, any_value,
-      "decoder.insertion_penalty, confidence_scale, unknown_lead and unknown_margin are chosen on "
-      "strings of speakers held out");
+      "decoder.insertion_penalty, confidence_scale and unknown_lead are chosen on strings of "
+      "speakers held out");
     v("confidence_scale", o.confidence_scale, within(1e-6, 1),
       "factor on log scores in confidences, as neighbouring frames do not score independently");
     v("min_confidence", o.min_confidence, within(0, 1),
@@ -75,9 +75,9 @@ struct HRI_API ConnectedWordRecognizerOptions {
     v("unknown_lead", o.unknown_lead, within(0, 1e6),
       "how far the best state of the words lies above this mean on average, before the speaker is "
       "known");
-    v("unknown_margin", o.unknown_margin, within(0, 1e6),
-      "how far below the average of the best states an unknown word scores in a frame; larger: "
-      "fewer unknown words");
+    v("unknown_margin", o.unknown_margin, within(0, 1000),
+      "an unknown word scores as much below the average of the best states, as a share of "
+      "unknown_lead; larger: fewer words are unknown");
     v("decoder", o.decoder, any_value, "how sentences are searched");
     v("lattice", o.lattice, any_value, "which other sentences are kept, for confidences");
   }
@@ -222,10 +222,6 @@ class HRI_API ConnectedWordRecognizer {
   /// score() without the unknown word; `fillers` gets the scores of the states of filler words.
   [[nodiscard]] ScoredRecording score_models(Span<const float> audio, int sample_rate_hz,
                                              MatrixF* fillers) const;
-  /// The same at the rate of the front end.
-  [[nodiscard]] ScoredRecording score_models(Span<const float> audio, MatrixF* fillers) const {
-    return score_models(audio, options_.words.cepstra.sample_rate_hz, fillers);
-  }
   [[nodiscard]] WordNetwork network(int num_words) const;
   [[nodiscard]] std::vector<TranscribedWord> words_of(const std::vector<DecodedWord>& decoded,
                                                       const ScoredRecording& recording) const;
