@@ -248,7 +248,7 @@ def _measure_possibilities(
 def _measure_unknown(
     measured: Measured, person: str, train: Sequence[Clip], test: Sequence[Clip], progress: Progress
 ) -> None:
-    """The last words of the vocabulary are not trained on, and said; and what finding them costs where all are known."""
+    """The last words of the vocabulary are not trained on, and said; then all are known."""
     unknown = sorted({label for label, _, _ in test})[-NUM_UNKNOWN:]
     known = [clip for clip in train if clip[0] not in unknown]
     rate_hz = test[0][2].sample_rate_hz

@@ -121,10 +121,9 @@ class ConnectedWordTrainer {
                                  ConnectedWordRecognizerOptions options,
                                  const StopCheck& should_stop) {
     options.words.model = SequenceModelKind::hmm;  // possibilities come of its densities
-    std::vector<std::string> labels;
-    labels.reserve(samples.size());
-    for (const WordSample& sample : samples) labels.push_back(sample.label);
-    ConnectedWordTrainer trainer(options, sorted_labels(labels), should_stop);
+    std::set<std::string> labels;
+    for (const WordSample& sample : samples) labels.insert(sample.label);
+    ConnectedWordTrainer trainer(options, {labels.begin(), labels.end()}, should_stop);
     trainer.read(samples);
     FillerModels models = trainer.train_without(kOfNoFold).models;
     models.pop_back();  // that of silence

@@ -41,7 +41,7 @@ struct HRI_API ConnectedWordRecognizerOptions {
   bool unknown_words = false;
   int unknown_rank = 16;
   double unknown_lead = 12;
-  double unknown_margin = 0.9;
+  double unknown_margin = 1;
   ConnectedDecoderOptions decoder;
   LatticeOptions lattice{1000, 200000};
 
