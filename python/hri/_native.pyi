@@ -7469,7 +7469,7 @@ class ConnectedWordRecognizerOptions:
         states that an unknown word's score in a frame is the mean of, the best of all words and filler words; 1..1000
     unknown_lead : float, default 12.0
         how far the best state of the words lies above this mean on average, before the speaker is known; 0..1000000
-    unknown_margin : float, default 0.9
+    unknown_margin : float, default 1.0
         an unknown word scores as much below the average of the best states, as a share of unknown_lead; larger: fewer words are unknown; 0..1000
     decoder : ConnectedDecoderOptions or dict
         how sentences are searched
@@ -7500,7 +7500,7 @@ class ConnectedWordRecognizerOptions:
         unknown_words: bool = False,
         unknown_rank: int = 16,
         unknown_lead: float = 12.0,
-        unknown_margin: float = 0.9,
+        unknown_margin: float = 1.0,
         decoder: ConnectedDecoderOptions | collections.abc.Mapping[str, typing.Any] = ...,
         lattice: LatticeOptions | collections.abc.Mapping[str, typing.Any] = ...,
     ) -> None: ...
