@@ -240,6 +240,19 @@ class ConnectedWordTrainer {
     return all;
   }
 
+  // With unknown words no more than people said the word, such as the one who added it.
+  [[nodiscard]] int num_mixtures_of(int label) const {
+    std::set<std::string> speakers;
+    std::set<std::string> all;
+    for (const SpokenWord& word : words_) {
+      all.insert(word.group);
+      if (word.label == label) speakers.insert(word.group);
+    }
+    const int most = options_.words.num_mixtures;
+    if (!options_.unknown_words || all.size() < 2) return most;
+    return std::min(most, static_cast<int>(speakers.size()));
+  }
+
   [[nodiscard]] TrainedWords train_models(const ClassSequences& sequences) const {
     std::vector<std::optional<GaussianMixtureHmm>> models(sequences.size());
     TrainedWords trained;
@@ -249,7 +262,8 @@ class ConnectedWordTrainer {
       GaussianMixtureHmmOptions options;
       options.topology.num_states =
           is_silence ? options_.silence_states : options_.words.num_states;
-      options.num_mixtures = is_silence ? options_.silence_mixtures : options_.words.num_mixtures;
+      options.num_mixtures =
+          is_silence ? options_.silence_mixtures : num_mixtures_of(static_cast<int>(c));
       options.max_iterations = options_.words.max_iterations;
       options.seed = options_.words.seed;
       options.should_stop = stop;
