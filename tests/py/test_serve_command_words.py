@@ -137,9 +137,7 @@ def test_voices_say_an_added_word_as_others_do(stage: Stage) -> None:
         for take in range(3):
             teacher._keep(Audio(hum(take), RATE_HZ))
         assert isinstance(stage.words, CommandRecognizer)
-        found.append(
-            [stage.words.words.recognise(hum(7, base_hz=hz), RATE_HZ, num_words=1).text for hz in (1500, 900)]
-        )
+        found.append([stage.words.words.recognise(hum(7, base_hz=hz), RATE_HZ, num_words=1).text for hz in (1500, 900)])
         teacher._undo()
     assert found == [["hum", found[0][1]], ["hum", "hum"]] and found[0][1] != "hum"
     assert asked == ["hum"]  # once for all trainings
