@@ -178,8 +178,8 @@ class _Counts:
     def row(self, gap: int | str, model: str, names: str) -> Row:
         right = 1 - (self.total.substitutions + self.total.deletions) / self.total.num_words
         row = {"frames_between": gap, "model": model, "names": names, **statistics(self.errors, "word_error")}
-        row |= {"word_error_all": self.total.rate, "words_right": right, **vars(self.total)}
-        return row | ({"boundaries_near": float(np.mean(self.near))} if self.near else {})
+        over_all = {"word_error": self.total.rate, "words_right": right, **vars(self.total)}
+        return row | {"over_all": over_all | ({"boundaries_near": float(np.mean(self.near))} if self.near else {})}
 
 
 def _run(
@@ -234,7 +234,7 @@ def _run(
 
 
 def _passed(rows: Sequence[Row]) -> bool | None:
-    by_gap = {r["frames_between"]: r for r in rows if (r["model"], r["names"]) == ("hmm", WHOLE)}
+    by_gap = {r["frames_between"]: r["over_all"] for r in rows if (r["model"], r["names"]) == ("hmm", WHOLE)}
     if not by_gap:
         return None
     near = min(row["boundaries_near"] for row in by_gap.values())
