@@ -201,3 +201,17 @@ except _native.IoError as error:
     assert "m.hri" in done.stdout
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == ["m.hri"]
+
+
+SEEDS = sorted((Path(__file__).resolve().parents[1] / "fuzz" / "seeds" / "model_fuzz").glob("*.hri"))
+READERS = {
+    "connected_word_recognizer": hri.ConnectedWordRecognizer,
+    "sentence_recognizer": hri.SentenceRecognizer,
+    "word_recognizer": hri.WordRecognizer,
+}
+
+
+@pytest.mark.parametrize("seed", SEEDS, ids=lambda path: path.stem)
+def test_models_that_fuzzing_begins_with_are_taken(seed: Path) -> None:
+    """One that is refused at its first field leads no deeper."""
+    assert len(READERS[_native.ModelFile.read(str(seed)).kind].load(seed).classes_) >= 1
