@@ -11,6 +11,7 @@ import time
 import numpy as np
 
 import hand_pictures
+import timing
 from hri import GestureRecognizer, read_audio
 from hri.live import ArraySource, ClipSource, Listener, Watcher
 from hri.recognition import WordRecognizer
@@ -100,6 +101,10 @@ class _ClockedFrames(ClipSource):
         return timed
 
 
+def _new_signers() -> tuple[int, ...]:
+    return NEW_SIGNERS if timing.most_repeats is None else NEW_SIGNERS[:1]
+
+
 def _watched(signs: GestureRecognizer, streams: dict[str, list[tuple[list[np.ndarray], int]]]) -> Timed:
     """Watch streams of one gesture each."""
     latency_s, waited_ms, frame_ms, right, total = [], [], [], 0, 0
@@ -141,7 +146,7 @@ def gesture_latency() -> Timed:
     return _watched(
         signs,
         {
-            name: [hand_pictures.movement_stream(name, person, 1, WAIT_FRAMES) for person in NEW_SIGNERS]
+            name: [hand_pictures.movement_stream(name, person, 1, WAIT_FRAMES) for person in _new_signers()]
             for name in hand_pictures.MOVEMENTS
         },
     )
@@ -157,7 +162,10 @@ def sign_latency() -> Timed:
     )
     return _watched(
         signs,
-        {sign: [hand_pictures.sign_stream(sign, person, 3, WAIT_FRAMES) for person in NEW_SIGNERS] for sign in SIGNS},
+        {
+            sign: [hand_pictures.sign_stream(sign, person, 3, WAIT_FRAMES) for person in _new_signers()]
+            for sign in SIGNS
+        },
     )
 
 

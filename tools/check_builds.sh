@@ -4,9 +4,10 @@
 #   asan      Clang, with address and undefined-behaviour sanitizers: all tests of the core, all instruction sets; half an hour,
 #             of which GTEST_FILTER may leave out what trains most, as .ci/run does
 #   python    Clang, with the same sanitizers: Python's tests of signals, features and models
-#   tsan      thread sanitizer: the tests that start threads
+#   tsan      thread sanitizer: the tests that start threads; in shared libraries, whose exports are looked at, too
 #   wheel     the package as pip builds and installs it, see tools/check_fresh_install.sh
-#   small     no exceptions, no training: programs that only recognise, the size of one, and how errors are reported
+#   small     no exceptions, no training, as part of another project: programs that only recognise, the size of one, what is
+#             installed, and how errors are reported
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -31,6 +32,15 @@ tests_of() {
     wait "${halves[0]}"
     wait "${halves[1]}"
   done
+}
+
+# names_missing_file PROGRAM: which fails, as it should, for a model that is not there.
+names_missing_file() {
+  local output
+  if output=$("$1" missing.hri missing.wav 2>&1) || [[ $output != *missing.hri* ]]; then
+    printf '%s reports no missing file: %s\n' "$1" "$output" >&2
+    return 1
+  fi
 }
 
 check_asan() {
@@ -63,9 +73,20 @@ check_python() {
 }
 
 check_tsan() {
-  cmake --preset tsan -DHRI_BUILD_VISION=OFF
-  cmake --build build/tsan --target thread_tests
+  local consumer=build/tsan/consumer
+  cmake --preset tsan -DHRI_BUILD_VISION=OFF -DBUILD_SHARED_LIBS=ON
+  cmake --build build/tsan --target thread_tests hri_core
   build/tsan/tests/cpp/thread_tests --gtest_brief=1 --gtest_filter='*Thread*'
+  # Shared libraries take a build of their own, and this one is no slower for them.
+  tools/check_exports.sh build/tsan
+  rm -rf build/tsan/installed "$consumer"
+  cmake --install build/tsan --component development --prefix build/tsan/installed
+  test -f build/tsan/installed/lib/pkgconfig/hri-core.pc
+  cmake -S examples/consumer -B "$consumer" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-fsanitize=thread \
+    -DCMAKE_PREFIX_PATH="$PWD/build/tsan/installed"
+  cmake --build "$consumer" --target recognise_word
+  # What the library throws reaches the program.
+  names_missing_file "$consumer/recognise_word"
 }
 
 check_wheel() {
@@ -74,10 +95,15 @@ check_wheel() {
 
 check_small() {
   local prefix=$PWD/build/small/installed program=build/small/consumer/recognise_word size status=0
-  cmake -S . -B build/small -G Ninja -DCMAKE_BUILD_TYPE=Release -DHRI_BUILD_VISION=OFF -DHRI_EXCEPTIONS=OFF \
-    -DHRI_INFERENCE_ONLY=ON -DHRI_SIMD=OFF -DHRI_UNITY_BUILD=ON
+  local options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DHRI_EXCEPTIONS=OFF -DHRI_INFERENCE_ONLY=ON -DHRI_SIMD=OFF
+    -DHRI_UNITY_BUILD=ON)
+  cmake -S examples/subproject -B build/small "${options[@]}" -DHRI_INSTALL=OFF
   cmake --build build/small
-  rm -rf "$prefix" build/small/consumer
+  rm -rf "$prefix" build/small/alone build/small/consumer
+  cmake --install build/small --prefix build/small/alone
+  [[ $(cd build/small/alone && find . -type f) == ./bin/recognise_word ]] ||
+    { echo "a project installs parts of libhri that it did not ask for" >&2; return 1; }
+  cmake -S examples/subproject -B build/small -DHRI_INSTALL=ON
   cmake --install build/small --component development --prefix "$prefix"
   cmake -S examples/consumer -B build/small/consumer -G Ninja -DCMAKE_BUILD_TYPE=MinSizeRel -DCMAKE_PREFIX_PATH="$prefix"
   cmake --build build/small/consumer

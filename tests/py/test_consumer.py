@@ -7,7 +7,6 @@ from __future__ import annotations
 import os
 import re
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -19,8 +18,6 @@ from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("HRI_BUILD_DIR")
-# Builds of the whole core that are tried once take a fraction of the time to compile.
-UNOPTIMISED = ("-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DHRI_UNITY_BUILD=ON")
 
 pytestmark = [
     pytest.mark.slow,
@@ -149,55 +146,6 @@ def test_vision_brings_opencv_to_those_who_ask(installed: Path, tmp_path: Path) 
     run("cmake", "-S", tmp_path, "-B", build, f"-DCMAKE_PREFIX_PATH={installed}")
     run("cmake", "--build", build)
     assert run(build / "x") == "0\n"
-
-
-SUBPROJECT = f"""cmake_minimum_required(VERSION 3.22)
-project(app LANGUAGES CXX)
-include(FetchContent)
-FetchContent_Declare(hri SOURCE_DIR {ROOT})
-FetchContent_MakeAvailable(hri)
-add_executable(app {ROOT}/examples/consumer/recognise_word.cpp)
-target_link_libraries(app PRIVATE hri::core)
-install(TARGETS app)
-"""
-
-
-@pytest.fixture(scope="module")
-def subproject(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Path], Path]:
-    """Gives the build folder of a project that has libhri, shared, as a part of it, installed with an option."""
-    source = tmp_path_factory.mktemp("subproject")
-    (source / "CMakeLists.txt").write_text(SUBPROJECT)
-    build = source / "build"
-
-    def install(option: str, prefix: Path) -> Path:
-        run(
-            *("cmake", "-S", source, "-B", build, "-G", "Ninja", *UNOPTIMISED, "-DHRI_SIMD=OFF", option),
-            *("-DBUILD_SHARED_LIBS=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON"),
-        )
-        run("cmake", "--build", build, "--parallel", "2")
-        run("cmake", "--install", build, "--prefix", prefix)
-        return build
-
-    return install
-
-
-def test_a_subproject_installs_nothing_of_its_own(subproject: Callable[[str, Path], Path], tmp_path: Path) -> None:
-    build = subproject("-DHRI_INSTALL=OFF", tmp_path)
-    assert [path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()] == ["bin/app"]
-    done = subprocess.run([str(build / "app"), "missing.hri", "x.wav"], capture_output=True, text=True)
-    assert done.returncode != 0 and "missing.hri" in done.stderr
-
-
-def test_shared_libraries_export_the_interface_alone(subproject: Callable[[str, Path], Path], tmp_path: Path) -> None:
-    build = subproject("-DHRI_INSTALL=ON", tmp_path / "prefix")
-    run(ROOT / "tools" / "check_exports.sh", build / "_deps" / "hri-build")
-    assert (tmp_path / "prefix" / "lib" / "pkgconfig" / "hri-core.pc").exists()
-    consumer = ("-S", ROOT / "examples" / "consumer", "-B", tmp_path / "build")
-    run("cmake", *consumer, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={tmp_path / 'prefix'}")
-    run("cmake", "--build", tmp_path / "build")
-    program = tmp_path / "build" / "recognise_word"
-    done = subprocess.run([str(program), "missing.hri", "x.wav"], capture_output=True, text=True)
-    assert done.returncode != 0 and "missing.hri" in done.stderr
 
 
 def test_missing_component_is_named(installed: Path, tmp_path: Path) -> None:
