@@ -71,7 +71,7 @@ def _coded(clips: Sequence[Clip]) -> list[_String]:
         frames = extractor.compute(string.samples)
         # End points cut close; as labels do, words reach into the pauses on either side.
         half_s = PAUSE_MS / 2000
-        times_s = [(first - half_s, last + half_s) for first, last in string.times_s]
+        times_s = [(first - half_s, last + half_s) for first, last in string.times_s["clip_times"]]
         words = [frames[round(FRAMES_A_S * first) : round(FRAMES_A_S * last)] for first, last in times_s]
         coded.append(_String(frames, string.labels, words))
     return coded

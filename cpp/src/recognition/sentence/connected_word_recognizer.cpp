@@ -9,6 +9,7 @@
 #include "hri/core/error.hpp"
 #include "recognition/sentence/sentence_front_end.hpp"
 #include "recognition/sentence/unknown_word.hpp"
+#include "recognition/sentence/word_times.hpp"
 
 namespace hri {
 namespace {
@@ -47,6 +48,8 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
       labels_(std::move(labels)),
       final_stays_(final_stays),
       front_end_(std::make_shared<const detail::SentenceFrontEnd>(options.words)),
+      times_(std::make_shared<const detail::WordTimes>(front_end_->sample_rate_hz(),
+                                                       options_.words.activity)),
       emissions_(std::make_shared<const GaussianEmissions>(std::move(models))) {
   require(labels_ == sorted_labels(labels_), "labels are not sorted");
   const std::size_t num_models = this->models().size();
@@ -146,6 +149,8 @@ ScoredRecording ConnectedWordRecognizer::score_models(Span<const float> audio, i
       (static_cast<double>(sentence.offset) + front_end_->middle_of(-0.5)) / rate_hz;
   recording.frame_s = (front_end_->middle_of(1) - front_end_->middle_of(0)) / rate_hz;
   if (sentence.samples.empty()) return recording;
+  recording.activity = times_->frames(sentence.recorded);
+  recording.activity_first_s = static_cast<double>(sentence.recorded_offset) / rate_hz;
   const MatrixF frames = front_end_->frames(std::move(sentence.samples));
   recording.log_emissions.resize(frames.rows(), emissions_->num_states());
   if (possibilities_ != nullptr) {
@@ -214,7 +219,9 @@ Transcript ConnectedWordRecognizer::recognise_begun(const ScoredRecording& recor
   const MatrixF& scores = recording.log_emissions;
   for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
   std::vector<DecodedWord> words = decoder.take_decided();
-  *num_decided = words_of(words, recording).size();
+  *num_decided = static_cast<std::size_t>(
+      std::count_if(words.begin(), words.end(),
+                    [this](const DecodedWord& word) { return word.model != silence(); }));
   const DecodedSentence rest = decoder.partial();
   words.insert(words.end(), rest.words.begin(), rest.words.end());
   Transcript transcript;
@@ -252,6 +259,7 @@ std::vector<TranscribedWord> ConnectedWordRecognizer::words_of(
     found.log_score = word.log_score;
     words.push_back(std::move(found));
   }
+  times_->extend(recording, &words);
   return words;
 }
 

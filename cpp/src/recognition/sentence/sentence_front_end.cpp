@@ -69,6 +69,11 @@ CutSentence SentenceFrontEnd::cut(Span<const float> audio, int sample_rate_hz) c
             audio.begin() + static_cast<std::ptrdiff_t>(last),
             result.samples.begin() + static_cast<std::ptrdiff_t>(edge - (speech.first - first)));
   add_floor(&result.samples);
+  const std::size_t around = samples_of(kAroundMs);
+  result.recorded_offset = speech.first - std::min(around, speech.first);
+  result.recorded.assign(
+      audio.begin() + static_cast<std::ptrdiff_t>(result.recorded_offset),
+      audio.begin() + static_cast<std::ptrdiff_t>(std::min(audio.size(), speech.last + around)));
   return result;
 }
 

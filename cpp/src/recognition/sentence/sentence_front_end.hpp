@@ -17,14 +17,17 @@ namespace hri::detail {
 
 /// An utterance at the rate of the front end, with kEdgeMs around its speech.
 struct CutSentence {
-  std::vector<float> samples;      ///< empty without speech
-  std::int64_t offset = 0;         ///< of its first sample in the recording; may be negative
+  std::vector<float> samples;   ///< empty without speech
+  std::int64_t offset = 0;      ///< of its first sample in the recording; may be negative
+  std::vector<float> recorded;  ///< as it is, with kAroundMs around the speech where there are
+  std::size_t recorded_offset = 0;
   std::vector<std::string> notes;  ///< what was converted on the way
 };
 
 class SentenceFrontEnd {
  public:
   static constexpr double kEdgeMs = 100;
+  static constexpr double kAroundMs = 300;
 
   /// Throws InvalidArgument naming the option that is out of range.
   explicit SentenceFrontEnd(const WordRecognizerOptions& options, double warp_factor = 1);

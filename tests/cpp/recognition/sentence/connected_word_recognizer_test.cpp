@@ -72,6 +72,51 @@ TEST(ConnectedWordRecognizer, FindsWordsAndTheirTimes) {
   }
 }
 
+TEST(ConnectedWordRecognizer, HearsWhereWordsBesidePausesBeginAndEnd) {
+  // Hiss that no word was trained with leads to the first and the third tone and away from the
+  // last.
+  std::vector<float> audio = sentence({"rise", "fall", "rise"}, 0.3);
+  Random random(3);
+  const auto hiss = [&](double first_s, double last_s) {
+    for (auto n = static_cast<std::size_t>(first_s * kRateHz); n < last_s * kRateHz; ++n)
+      audio[n] += static_cast<float>(0.02 * random.normal());
+  };
+  hiss(0.1, 0.2);
+  hiss(1.7, 1.8);
+  hiss(2.3, 2.4);
+  const ScoredRecording heard = trained().score(audio, kRateHz);
+  ScoredRecording unheard = heard;
+  unheard.activity.clear();
+  const Transcript found = trained().recognise(heard, {0, 3});
+  const Transcript decoded = trained().recognise(unheard, {0, 3});
+  ASSERT_EQ(labels_of(found), (std::vector<std::string>{"rise", "fall", "rise"})) << found.text();
+  EXPECT_NEAR(found.words[0].first_s, 0.1, 0.03);
+  EXPECT_NEAR(found.words[2].first_s, 1.7, 0.03);
+  EXPECT_NEAR(found.words[2].last_s, 2.4, 0.03);
+  const auto no_later = [](const TranscribedWord& outer, const TranscribedWord& inner) {
+    EXPECT_LE(outer.first_s, inner.first_s);
+    EXPECT_GE(outer.last_s, inner.last_s);
+    EXPECT_EQ(outer.label, inner.label);
+    EXPECT_EQ(outer.log_score, inner.log_score);
+    EXPECT_EQ(outer.confidence, inner.confidence);
+  };
+  // Nothing but times depends on it.
+  EXPECT_EQ(found.log_score, decoded.log_score);
+  ASSERT_EQ(found.words.size(), decoded.words.size());
+  for (std::size_t i = 0; i < found.words.size(); ++i) no_later(found.words[i], decoded.words[i]);
+  ASSERT_EQ(found.alternatives.size(), decoded.alternatives.size());
+  for (std::size_t a = 0; a < found.alternatives.size(); ++a) {
+    EXPECT_EQ(found.alternatives[a].log_score, decoded.alternatives[a].log_score);
+    ASSERT_EQ(found.alternatives[a].words.size(), decoded.alternatives[a].words.size());
+    for (std::size_t i = 0; i < found.alternatives[a].words.size(); ++i)
+      no_later(found.alternatives[a].words[i], decoded.alternatives[a].words[i]);
+  }
+  EXPECT_EQ(found.alternatives[0].words[2].last_s, found.words[2].last_s);
+  std::size_t num_decided = 0;
+  const Transcript begun = trained().recognise_begun(heard, &num_decided);
+  EXPECT_EQ(begun.words[0].first_s, found.words[0].first_s);
+}
+
 TEST(ConnectedWordRecognizer, FindsSoManyWordsAsThereAre) {
   const std::vector<float> audio = sentence(kWords, 0);
   const Transcript found = trained().recognise(audio, kRateHz, {5});

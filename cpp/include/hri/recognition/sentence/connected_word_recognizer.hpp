@@ -25,6 +25,7 @@
 #include "hri/models/codebook/multi_stream_codebook.hpp"
 #include "hri/recognition/training.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
+#include "hri/signal/activity_meter.hpp"
 
 namespace hri {
 
@@ -88,9 +89,9 @@ struct HRI_API ConnectedWordRecognizerOptions {
 struct TranscribedWord {
   static constexpr const char* kUnknown = "<unk>";
 
-  std::string label;   ///< kUnknown: no word of the vocabulary fits
-  double first_s = 0;  ///< from the beginning of the recording
-  double last_s = 0;
+  std::string label;     ///< kUnknown: no word of the vocabulary fits
+  double first_s = 0;    ///< from the beginning of the recording; where its sound begins
+  double last_s = 0;     ///< where it ends, beside a pause by the rule of find_speech()
   double log_score = 0;  ///< what it adds to the transcript's
   /// How probable it is that this word was said here, by the other sentences that might have been;
   /// nothing where it was not asked for, or the recording is too long for a lattice.
@@ -129,6 +130,10 @@ struct ScoredRecording {
   MatrixF log_emissions;  ///< (num_frames, states of all chains); no frame without speech
   double first_s = 0;     ///< where the first frame begins
   double frame_s = 0;     ///< from one frame to the next
+  /// How the same audio sounds, for the times of words beside pauses; without these frames the
+  /// times are the decoder's.
+  std::vector<ActivityFrame> activity;
+  double activity_first_s = 0;  ///< where the first of them begins
   std::vector<std::string> notes;
 
   /// Where a frame begins, in seconds of the recording.
@@ -138,6 +143,7 @@ struct ScoredRecording {
 namespace detail {
 class HeldOutChoices;
 class SentenceFrontEnd;
+class WordTimes;
 }  // namespace detail
 
 /// Immutable; const calls are safe from several threads. Copies share their models.
@@ -234,6 +240,7 @@ class HRI_API ConnectedWordRecognizer {
   std::vector<std::string> labels_;
   VectorD final_stays_;
   std::shared_ptr<const detail::SentenceFrontEnd> front_end_;
+  std::shared_ptr<const detail::WordTimes> times_;
   std::shared_ptr<const GaussianEmissions> emissions_;
   std::shared_ptr<const CodedPossibilities> possibilities_;         // of the kind ptbhmm
   std::shared_ptr<const GaussianEmissions> fillers_;                // nullptr: there are none
