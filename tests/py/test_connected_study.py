@@ -11,7 +11,15 @@ from conftest import RATE_HZ, tone_word
 from hri.media.audio import Audio
 from hri.recognition import TranscribedWord, Transcript
 from hri.studies.clips import Clip
-from hri.studies.connected_words import EDGE_MS, MAX_DIGITS, _close, strings_of
+from hri.studies.connected_words import (
+    EDGE_MS,
+    MAX_DIGITS,
+    _close,
+    clip_end_points,
+    end_points,
+    level_end_points,
+    strings_of,
+)
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +35,7 @@ def test_strings_hold_every_clip_once(clips: list[Clip], pause_ms: int) -> None:
     for string in strings:
         expected_s = 2 * EDGE_MS / 1000 + len(string.labels) * (1.0 + pause_ms / 1000)
         assert len(string.samples) / RATE_HZ == pytest.approx(expected_s)
-        for number, (first_s, last_s) in enumerate(string.times_s):
+        for number, (first_s, last_s) in enumerate(string.times_s["times"]):
             begins_s = EDGE_MS / 1000 + number * (1.0 + pause_ms / 1000)
             assert first_s == pytest.approx(begins_s + 0.25, abs=0.03)
             assert last_s == pytest.approx(begins_s + 0.75, abs=0.03)
@@ -42,8 +50,20 @@ def test_times_count_where_the_words_are_right(clips: list[Clip]) -> None:
     shifts = np.zeros(2 * len(string.labels))
     shifts[0], shifts[-1] = 0.04, -0.06
     shifts = shifts.reshape(-1, 2)
-    times = np.asarray(string.times_s) + shifts
+    times = np.asarray(string.times_s["times"]) + shifts
     words = [TranscribedWord(label, *pair, 0.0) for label, pair in zip(string.labels, times.tolist(), strict=True)]
     close = _close(string, Transcript(tuple(words)))
     assert close == [True] * (2 * len(words) - 1) + [False]
     assert _close(string, Transcript(tuple(words[1:]))) == []
+
+
+def test_end_points_of_a_clip_cut_close_are_those_of_its_word() -> None:
+    """Found in the clip as it is they lie within the word, whose quiet end is all that there is of noise."""
+    time_s = np.arange(round(0.45 * RATE_HZ)) / RATE_HZ
+    level = np.where(time_s < 0.3, 0.3, 0.03)
+    clip = (level * np.sin(2 * np.pi * 200 * time_s)).astype(np.float32)
+    for find in (end_points, level_end_points):
+        first, last = find(clip, RATE_HZ)
+        assert first == pytest.approx(0, abs=0.03 * RATE_HZ)
+        assert last == pytest.approx(len(clip), abs=0.03 * RATE_HZ)
+    assert clip_end_points(clip, RATE_HZ)[1] < 0.4 * RATE_HZ

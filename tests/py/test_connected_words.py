@@ -64,6 +64,21 @@ def test_words_and_their_times_are_found(words: ConnectedWordRecognizer, sentenc
     assert words.recognise(np.zeros(RATE_HZ, np.float32), RATE_HZ).words == ()
 
 
+def test_times_reach_what_hisses_beside_a_pause(words: ConnectedWordRecognizer, sentence: np.ndarray) -> None:
+    """Sounds that no word was trained with, before the first tone and behind the last, are of these words."""
+    rng = np.random.default_rng(4)
+    audio = np.concatenate([sentence, (0.001 * rng.standard_normal(RATE_HZ // 2)).astype(np.float32)])
+    first_s, last_s = 0.35, 0.2 + 0.7 * 3 + 0.65
+    for begins_s, ends_s in ((first_s - 0.12, first_s), (last_s, last_s + 0.12)):
+        part = slice(round(begins_s * RATE_HZ), round(ends_s * RATE_HZ))
+        audio[part] += (0.02 * rng.standard_normal(part.stop - part.start)).astype(np.float32)
+    found = words.recognise(audio, RATE_HZ).words
+    assert [word.label for word in found] == WORDS
+    assert found[0].first_s == pytest.approx(first_s - 0.12, abs=0.04)
+    assert found[-1].last_s == pytest.approx(last_s + 0.12, abs=0.04)
+    assert found[1].first_s == pytest.approx(0.2 + 0.7 + 0.15, abs=0.05)
+
+
 def test_a_model_goes_through_a_file_a_copy_and_a_pickle(
     words: ConnectedWordRecognizer, sentence: np.ndarray, tmp_path: Path
 ) -> None:

@@ -37,7 +37,8 @@ class TranscribedWord:
     ----------
     label : str
     first_s, last_s : float
-        Its beginning and end from the beginning of the recording.
+        Its beginning and end from the beginning of the recording: beside a pause where its sound begins and ends, as
+        `find_speech` finds them; between words without a pause where the models meet.
     log_score : float
         What it adds to the transcript's.
     confidence : float or None
