@@ -18,7 +18,7 @@ from conftest import RATE_HZ, tone_word
 from hri.core.errors import FormatError, InvalidArgument, NotFittedError
 from hri.datasets import Dataset
 from hri.htk import WordLattice
-from hri.io import write_wav_pcm16
+from hri.io import SpokenWords, write_wav_pcm16
 from hri.language import Grammar, NGramModel
 from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream, FillerWord
 from hri.synthetic.speech import make_speaker, speak
@@ -227,12 +227,17 @@ def test_a_word_that_nobody_recorded_is_added_by_its_spelling(hri, spoken: Path,
     report = json.loads(trained.out)
     assert report["labels"] == ["1", "2", "go", "रुको"] and report["synthetic_labels"] == ["रुको", "go"]
     assert "not recorded, said by 3 synthetic voices: रुको go" in trained.err
+    assert SpokenWords.read_beside(tmp_path / "words.hri") == SpokenWords("en", {"रुको": "रुको", "go": "come here"}, 3)
     said = speak("come here", "en", make_speaker(5))  # another voice
     model = ConnectedWordRecognizer.load(tmp_path / "words.hri")
     assert model.recognise(said).labels == ("go",)
     for wrong in ("1", "go=", "=go"):
         refused = hri("train-connected", *arguments, "--add", "go", "--add", wrong)
         assert refused.code == 2 and f"--add {wrong!r}" in refused.err
+    refused = hri("train-connected", *arguments, "--add", "go", "--voice", "../en")
+    assert refused.code == 3 and "'../en' is no name of a language" in refused.err
+    assert hri("train-connected", *arguments).code == 0
+    assert SpokenWords.read_beside(tmp_path / "words.hri") is None  # it has no such words any more
 
 
 def test_command_line_says_what_is_missing(hri, spoken: Path, tmp_path: Path) -> None:

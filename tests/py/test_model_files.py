@@ -177,6 +177,11 @@ def test_models_of_another_kind_are_refused_by_name(signed: Path, tmp_path: Path
         hri.WordRecognizer.load(tmp_path / "g.hri")
     with pytest.raises(IoError, match="missing"):
         hri.WordRecognizer.load(tmp_path / "missing.hri")
+    spans = [[("a", 4, 10), ("b", 12, 20)]] * 4
+    sentences = hri.SentenceRecognizer(input="rows", choose_weights=False)
+    sentences.fit([np.random.default_rng(i).normal(size=(24, 2)) for i in range(4)], spans).save(tmp_path / "s.hri")
+    with pytest.raises(FormatError, match=r"SentenceRecognizer\.load, 'hri session'.*--gesture-model.*'hri watch'"):
+        hri.GestureRecognizer.load(tmp_path / "s.hri")
 
 
 def test_full_disk_keeps_the_old_file(tmp_path: Path) -> None:

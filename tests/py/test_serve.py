@@ -90,6 +90,16 @@ def test_a_sign_is_shown_with_the_time_of_its_picture(server: PageServer, cookie
         assert hands and abs(hands[len(hands) // 2]["x"] - 0.5) < 0.15
 
 
+def test_a_page_is_sent_what_the_camera_does_not_see(server: PageServer, cookie: str) -> None:
+    with connected(server, cookie) as page:
+        assert page.messages[0]["missing_texts"]["hand"]["en"].startswith("No hand seen: ")
+        assert set(page.messages[0]["missing_texts"]["face"]) == {"en", "hi"}
+        page.perform(frames=signing([("tall", 5.4)], 7.6))
+        page.await_event("hand", missing="hand", x=None)
+        page.await_event("hand", missing="")
+        page.await_event("decision", mode="gesture", final="tall")
+
+
 @pytest.mark.parametrize("press", [stop_by_button, stop_by_request])
 def test_stop_stops_in_mid_motion_and_resume_goes_on(server: PageServer, cookie: str, robot: Robot, press: Any) -> None:
     with connected(server, cookie) as page:

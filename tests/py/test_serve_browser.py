@@ -150,6 +150,24 @@ def test_a_word_and_a_sign_move_the_robot_and_stop_stops_it(visit: Any, robot: R
     assert page.failures == []
 
 
+def test_what_the_camera_does_not_see_is_said_in_two_languages(visit: Any) -> None:
+    page = visit(shown=signing([("flat", 7.0)], 11.0, hold_s=2.0), viewport={"width": 360, "height": 740})
+    expect(page, "#missing").to_be_empty()
+    page.evaluate(
+        """() => { window.said = []; const part = document.getElementById("missing");
+            new MutationObserver(() => window.said.push(part.textContent)).observe(part, { childList: true }); }"""
+    )
+    page.click("#start")
+    expect(page, "#missing [lang=en]").to_have_text("No hand seen: hold your hand where the camera sees it.")
+    expect(page, "#missing [lang=hi]").to_contain_text("हाथ नहीं दिख रहा है")
+    assert page.get_attribute("#missing", "aria-live") == "polite"
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    expect(page, "#missing").to_be_empty()
+    said = page.evaluate("window.said")
+    assert len(said) == 2 and said[1] == "", "once said, and once taken back"
+    assert page.failures == []
+
+
 def test_bars_follow_a_picture_at_once(visit: Any, capsys: pytest.CaptureFixture[str]) -> None:
     """Time from taking a picture to drawing what is recognised in it; `pytest -s` prints it."""
     import cv2

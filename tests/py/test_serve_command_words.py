@@ -4,7 +4,11 @@
 
 from __future__ import annotations
 
+import io
+import zipfile
+from collections import Counter
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,12 +22,14 @@ from conftest import RATE_HZ
 from hri import CommandRecognizer
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
+from hri.io import SpokenWords
 from hri.language import Grammar
 from hri.media import Audio
 from hri.recognition import ConnectedWordRecognizer
 from hri.robot import Robot
 from hri.serve import PageServer, Stage
 from hri.serve.command_teacher import CommandWordTeacher
+from hri.serve.samples import samples_zip
 from hri.session import SessionOptions
 from page_people import connected, request
 from serving import LIMITS, answer, own_origin
@@ -98,13 +104,22 @@ def test_a_word_is_added_written_into_the_commands_and_undone(
         page.await_event("motion_start", label="hum")
         page.await_event("motion_end", label="hum")
         (tmp_path / "words.hri").write_bytes(request(server, "/words.hri", cookie)[2])
+        archive = request(server, "/samples.zip", cookie)
         kept = ConnectedWordRecognizer.load(tmp_path / "words.hri")
         assert list(kept.classes_) == ["1", "2", "hum"] and kept.insertion_penalty == model.insertion_penalty
+        assert renewed["has_samples"] and not welcome["has_samples"] and archive[0] == 200
         use(GRAMMAR)
         page.say(type="undo", mode="speech")
         answer(page, "“hum” is removed")
     assert isinstance(stage.words, CommandRecognizer) and list(stage.words.words.classes_) == ["1", "2"]
     assert stage.words.recognise(tones("2 1"), RATE_HZ).label == "2 1"
+    assert request(server, "/samples.zip", cookie)[0] == 404 and request(server, "/samples.zip", "")[0] == 403
+    with zipfile.ZipFile(io.BytesIO(archive[2])) as packed:
+        packed.extractall(tmp_path / "samples")
+    more = Dataset.load(tmp_path / "samples", "speech").samples
+    assert [(s.label, s.person, s.take) for s in more] == [("hum", "page", str(take)) for take in (1, 2, 3)]
+    commands = CommandRecognizer(kept, Grammar.parse(HUM, "hum"))  # to which words may be added again
+    Stage(commands, limits=LIMITS, recordings=[*stage.recordings, *more]).close()
 
 
 def test_words_that_are_alike_are_named_both_ways(stage: Stage) -> None:
@@ -143,6 +158,51 @@ def test_voices_say_an_added_word_as_others_do(stage: Stage) -> None:
     assert asked == ["hum"]  # once for all trainings
 
 
+def test_words_of_synthetic_voices_are_said_again_in_training(recordings: Dataset, robot: Robot) -> None:
+    asked: list[int] = []
+
+    def say_again() -> tuple[list[Audio], list[str], list[str]]:
+        asked.append(1)
+        return [Audio(hum(take, base_hz=3000), RATE_HZ) for take in range(4)], ["beep"] * 4, list("abcd")
+
+    clips, labels, voices = say_again()
+    samples = recordings.samples
+    words = ConnectedWordRecognizer(**OPTIONS, unknown_words=True).fit(
+        [*(s.path for s in samples), *clips],
+        [*(s.label for s in samples), *labels],
+        groups=[*(s.person for s in samples), *voices],
+    )
+    commands = CommandRecognizer(words, Grammar.parse(GRAMMAR, "tones"))
+    with pytest.raises(InvalidArgument, match="no recordings are there of words that the model knows: beep"):
+        Stage(commands, recordings=samples)
+    with pytest.raises(InvalidArgument, match="words that the model does not know: high"):
+        Stage(commands, recordings=samples, spoken=say_again, spoken_labels=["beep", "high"])
+    with pytest.raises(InvalidArgument, match="spoken words go with recordings"):
+        Stage(commands, spoken=say_again, spoken_labels=["beep"])
+    asked.clear()
+    stage = Stage(commands, None, robot, limits=LIMITS, recordings=samples, spoken=say_again, spoken_labels=["beep"])
+    try:
+        teacher = CommandWordTeacher(stage)
+        for label, base_hz in (("hum", 1500.0), ("whistle", 2200.0)):
+            teacher.obey({"type": "teach", "label": label})
+            for take in range(3):
+                teacher._keep(Audio(hum(take, base_hz=base_hz), RATE_HZ))
+        assert isinstance(stage.words, CommandRecognizer)
+        more = stage.words.words
+        assert [str(label) for label in more.classes_] == ["1", "2", "beep", "hum", "whistle"]
+        assert more.recognise(hum(5, base_hz=3000), RATE_HZ, num_words=1).text == "beep"
+        assert more.recognise(hum(5), RATE_HZ, num_words=1).text == "hum"
+        assert len(asked) == 1  # once for all trainings
+        kept = Counter((label, person) for _, label, person in teacher.samples())
+        assert kept["hum", "page"] == kept["whistle", "page"] == 3 and kept["beep", "synthetic-a"] == 1
+        assert len(zipfile.ZipFile(io.BytesIO(samples_zip(teacher.samples()))).namelist()) == 11  # and the manifest
+        for label in ("../up", "a/b", "c:d", ".hidden"):
+            with pytest.raises(InvalidArgument, match="cannot be the name of a folder"):
+                samples_zip([(Audio(hum(0), RATE_HZ), label, "page")])
+    finally:
+        stage.close()
+
+
 def test_what_adding_words_needs_is_said(
     hri: Any, model: Any, recordings: Dataset, spoken: Path, words: Any, tmp_path: Path
 ) -> None:
@@ -161,6 +221,14 @@ def test_what_adding_words_needs_is_said(
     model.save(tmp_path / "words.hri")
     (tmp_path / "g.jsgf").write_text(GRAMMAR)
     given = ("--no-gesture", "--backend", "none", "--speech-model", tmp_path / "words.hri")
+    sideways = SpokenWords("en", {"sideways": "sideways"}, 2)
+    sideways.write_beside(tmp_path / "words.hri")
+    result = hri("serve", *given, "--grammar", tmp_path / "g.jsgf", "--speech-data", spoken)
+    assert result.code == 3 and "does not know: sideways" in result.err
+    copy(model).set_decoder(insertion_penalty=-3.0).save(tmp_path / "words.hri")  # another model of the same name
+    result = hri("serve", *given, "--grammar", tmp_path / "g.jsgf", "--speech-data", spoken)
+    assert result.code == 3 and "words.hri.spoken.json: belongs to another model" in result.err
+    SpokenWords.remove_beside(tmp_path / "words.hri")
     for more, code, message in (
         (("--speech-data", spoken), 2, "--speech-data goes with --grammar"),
         (("--grammar", tmp_path / "g.jsgf", "--voice", "en"), 2, "--voice goes with --speech-data"),

@@ -66,6 +66,19 @@ def test_what_is_far_from_every_stored_sentence_is_not_understood() -> None:
     assert done[0].words == () and kinds(done[1:])[0] == ("say", "I did not understand that.")
 
 
+def test_words_of_a_signed_sentence_that_were_rejected_are_not_known() -> None:
+    talk = Dialogue(SessionOptions(), MOTIONS, KNOWLEDGE)
+    done = talk.signed(["you", "<unk>", "why"], 0.0, 1.0)
+    assert done[0].words == ("you", "unknown", "why") and done[0].nearest.sentence.words == ("you", "sad", "why")
+    talk = Dialogue(SessionOptions(), MOTIONS)
+    assert kinds(talk.signed(["<unk>", "<unk>"], 2.0, 3.0))[1] == ("say", "I did not understand that.")
+    assert talk.signing(["<unk>"]) == []
+    (asked, _) = talk.decide(ask(), 4.0)
+    assert talk.state == "confirming"
+    assert kinds(talk.signed(["<unk>"], 5.0, 6.0)) == [("say", asked.text)]
+    assert kinds(talk.signed(["5"], 6.0, 7.0))[-1] == ("move", "5")
+
+
 def test_what_is_rejected_is_a_word_that_is_not_known() -> None:
     talk = Dialogue(OPTIONS, MOTIONS, KNOWLEDGE)
     talk.decide(pair("start"), 1.0)

@@ -228,7 +228,7 @@ def test_rows_of_gestures_are_named_by_the_whole_of_each(sentences: hri.Sentence
         places, spans = [(160.0, 120.0)] * (8 + rest), []
         for label in labels:
             first = len(places)
-            way = {"left": (-60, 0), "up": (0, -60)}[label]
+            way = {"left": (-60, 0), "up": (0, -60), "between": (-45, -45)}[label]
             places += [(160 + way[0] * s, 120 + way[1] * s) for s in np.sin(np.linspace(0, np.pi, 16))]
             spans.append((label, first, len(places)))
         places += [(160.0, 120.0)] * (8 + rest)
@@ -253,6 +253,18 @@ def test_rows_of_gestures_are_named_by_the_whole_of_each(sentences: hri.Sentence
         talk = Session(None, signs, hands=hands)
         events = list(talk.run(pictures=ClipSource(frames, FPS)))
         assert [event.fields["words"] for event in of_kind(events, "sentence")] == [["up", "left", "left"]]
+    frames, _ = moved(["up", "between", "left"], 21, rest=30)  # which no recogniser was trained on
+    strict = hri.GestureRecognizer(use_faces=False, false_reject_rate=0.25)
+    strict.fit([clip for clip, _ in clips], [label for _, label in clips])
+    named, forced = (
+        GestureRows(strict, lambda found: found[:, -3:-1], names=True, reject_unknown=reject, faces="never")
+        for reject in (True, False)
+    )
+    found = [list(Session(None, signs, hands=hands).run(pictures=ClipSource(frames, FPS))) for hands in (named, forced)]
+    rejecting, forcing = ([event.fields["words"] for event in of_kind(events, "signed")] for events in found)
+    assert rejecting == [["up", "<unk>", "left"]] and forcing == [["up", "up", "left"]]
+    assert of_kind(found[0], "sentence")[0].fields["words"] == ["up", "unknown", "left"]
+    assert of_kind(found[0], "say")[0].fields["text"] == "up unknown left"
 
 
 def test_motions_are_for_words_and_answers_alone(sentences: hri.SentenceRecognizer) -> None:

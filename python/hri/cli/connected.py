@@ -27,6 +27,7 @@ from hri.cli.recognizers import (
 from hri.core.errors import InvalidArgument
 from hri.core.files import make_folder
 from hri.htk import WordLattice
+from hri.io import SpokenWords
 from hri.language import Grammar, NGramModel
 from hri.live import AudioSource, FileSource
 from hri.media import read_audio
@@ -101,6 +102,7 @@ def train_connected(
     path = default_model(MODE) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     spellings = _spellings(added, dataset.labels)
+    spoken = SpokenWords(voice, spellings, num_voices, seed) if spellings else None  # refuses what is wrong now
     clips = [read_audio(sample.path) for sample in dataset.samples]
     labels = [sample.label for sample in dataset.samples]
     persons = [sample.person for sample in dataset.samples]
@@ -117,6 +119,10 @@ def train_connected(
     if model is not None:
         recognizer.set_language(model)
     recognizer.save(path)
+    if spoken is not None:
+        note(f"how these words were said: {spoken.write_beside(path)}")
+    else:
+        SpokenWords.remove_beside(path)
     say(str(path), json_path)
     note(f"{len(dataset)} recordings, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
     if spellings:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 import click
 
 from hri.live import CameraSource, Event, MicrophoneSource
+from hri.live.visibility import missing_text
 
 device_option = click.option("--device", help="Number or part of the name of the microphone.")
 events_json_option = click.option("--json", "as_json", is_flag=True, help="Write JSON lines also on a terminal.")
@@ -58,13 +59,15 @@ def meter(event: Event, width: int = 40) -> str:
 
 
 def hand_line(event: Event) -> str:
-    """Where the hand is, or what a gesture looks like so far."""
+    """Where the hand is, what is missing for it to be seen, or what a gesture looks like so far."""
     if event.event == "signing":
         return f"so far  {' '.join(event.fields['words'])}  {event.time:7.1f} s"
     if event.decision is not None:
         best = ", ".join(f"{entry.label} {entry.probability:.2f}" for entry in event.decision.nbest[:3])
         return f"so far  {best or event.decision.status}  {event.time:7.1f} s"
     fields = event.fields
+    if missing := missing_text(fields.get("missing", "")):
+        return f"{missing}  {event.time:7.1f} s"
     if fields["x"] is None:
         return f"no hand  {event.time:7.1f} s"
     state = "gesture" if fields["in_gesture"] else "       "

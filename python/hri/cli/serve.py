@@ -6,13 +6,17 @@ from __future__ import annotations
 
 import webbrowser
 from contextlib import ExitStack
+from functools import partial
 
 import click
 
+from hri.cli.connected import connected_model
 from hri.cli.messages import note
 from hri.cli.recognizers import load_dataset
 from hri.cli.session_options import ChosenSession, session_options
 from hri.core.optional import import_optional
+from hri.io import SpokenWords
+from hri.media import Audio
 from hri.synthetic.speech import speak_words
 
 PORT = 8019
@@ -25,9 +29,10 @@ PORT = 8019
 )
 @click.option(
     "--speech-data",
+    multiple=True,
     type=click.Path(exists=True, file_okay=False),
     metavar="DIR",
-    help="With --grammar: what the model was trained on, so that words can be added on the page.",
+    help="With --grammar: what the model was trained on, so that words can be added on the page. May be repeated.",
 )
 @click.option(
     "--voice",
@@ -35,7 +40,9 @@ PORT = 8019
     help="With --speech-data: synthetic voices of this language (espeak-ng's name) say added words, too.",
 )
 @click.option("--open", "open_browser", is_flag=True, help="Open the page in the browser.")
-def serve(chosen: ChosenSession, port: int, speech_data: str | None, voice: str | None, open_browser: bool) -> None:
+def serve(
+    chosen: ChosenSession, port: int, speech_data: tuple[str, ...], voice: str | None, open_browser: bool
+) -> None:
     """Command a robot by words and signs from a page in the browser.
 
     Prints an address; open it in a browser on this computer and press Start. The page shows the camera, the level, the
@@ -58,9 +65,9 @@ def serve(chosen: ChosenSession, port: int, speech_data: str | None, voice: str 
     """
     if chosen.no_speech and chosen.no_gesture:
         raise click.UsageError("--no-speech and --no-gesture leave nothing")
-    if speech_data is not None and (chosen.grammar_path is None or chosen.no_speech):
+    if speech_data and (chosen.grammar_path is None or chosen.no_speech):
         raise click.UsageError("--speech-data goes with --grammar: single words are added without it")
-    if voice is not None and speech_data is None:
+    if voice is not None and not speech_data:
         raise click.UsageError("--voice goes with --speech-data")
     for module in ("starlette", "uvicorn", "websockets"):
         import_optional(module, "web", "to serve the page")
@@ -70,7 +77,10 @@ def serve(chosen: ChosenSession, port: int, speech_data: str | None, voice: str 
     words = None if chosen.no_speech else chosen.load_words()
     signs = None if chosen.no_gesture else chosen.load_signs()
     learned, stored = chosen.load_fusion(), chosen.load_knowledge()
-    recordings = None if speech_data is None else load_dataset(speech_data, "speech", None).samples
+    recordings, spoken = None, None
+    if speech_data:
+        recordings = [sample for folder in speech_data for sample in load_dataset(folder, "speech", None).samples]
+        spoken = SpokenWords.read_beside(chosen.speech_model or connected_model())
     with ExitStack() as stack:
         robot = chosen.open_robot()
         if robot is not None:
@@ -86,6 +96,8 @@ def serve(chosen: ChosenSession, port: int, speech_data: str | None, voice: str 
             fusion=learned,
             knowledge=stored,
             recordings=recordings,
+            spoken=None if spoken is None else partial(_say_again, spoken),
+            spoken_labels=() if spoken is None else spoken.texts,
             speak=None if voice is None else lambda word: speak_words({voice: {word: word}}),
         )
         stack.callback(stage.close)
@@ -97,3 +109,7 @@ def serve(chosen: ChosenSession, port: int, speech_data: str | None, voice: str 
         if open_browser:
             webbrowser.open(server.address)
         server.run()
+
+
+def _say_again(words: SpokenWords) -> tuple[list[Audio], list[str], list[str]]:
+    return speak_words({words.language: words.texts}, words.num_voices, 1, words.seed)

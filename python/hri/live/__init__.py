@@ -16,10 +16,12 @@ from hri.live.recorder import WordRecorder
 from hri.live.ring import SampleRing
 from hri.live.sign_watcher import SignWatcher
 from hri.live.sources import ArraySource, AudioSource, FileSource, Stalled
+from hri.live.visibility import MISSING_TEXTS, Visibility, missing_text
 from hri.live.watch_picture import draw_result
 from hri.live.watcher import Watcher
 
 __all__ = [
+    "MISSING_TEXTS",
     "ArraySource",
     "Attention",
     "AudioSource",
@@ -40,9 +42,11 @@ __all__ = [
     "SignWatcher",
     "Stalled",
     "VideoSource",
+    "Visibility",
     "Watcher",
     "WordRecorder",
     "draw_result",
     "frame_results",
     "list_microphones",
+    "missing_text",
 ]

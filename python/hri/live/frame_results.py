@@ -20,6 +20,7 @@ from hri.live import events
 from hri.live.events import Event
 from hri.live.frames import Frame, FrameSource
 from hri.live.sources import Stalled
+from hri.live.visibility import Visibility
 from hri.recognition import GestureSegment
 from hri.vision import HandObservation
 
@@ -47,7 +48,8 @@ class Stream(Protocol):
 
     @property
     def spotter(self) -> Any:
-        """With the attributes `hand`, `place` and `in_gesture` of `hri.recognition.GestureSpotter`."""
+        """With the attributes `hand`, `place` and `in_gesture` of `hri.recognition.GestureSpotter`; and `face_seen`,
+        where it knows whether a face was."""
         ...
 
 
@@ -68,6 +70,8 @@ class FrameResult:
         Where the hand was in the last two seconds, in shares of the picture's width and height.
     in_gesture : bool
         A gesture has begun and not ended.
+    missing : str
+        What the pictures lack for a hand to be seen, as `Visibility` says.
     """
 
     time_s: float
@@ -77,6 +81,7 @@ class FrameResult:
     hand: HandObservation | None = None
     track: list[tuple[float, float]] = field(default_factory=list)
     in_gesture: bool = False
+    missing: str = ""
 
     @property
     def quality(self) -> float:
@@ -90,6 +95,7 @@ def frame_results(
     *,
     hand_interval_s: float = 0.1,
     reconnect_s: float = 0.0,
+    visibility: Visibility | None = None,
     **metadata: Any,
 ) -> Generator[FrameResult, None, None]:
     """What is found until the source ends; it is closed then, and also when the caller stops early.
@@ -102,6 +108,8 @@ def frame_results(
         How often the hand's place is reported.
     reconnect_s : float
         For how long a source that stalled is opened again and again; 0 gives up at once.
+    visibility : Visibility, optional
+        Says what is missing; by default one that misses no face.
     **metadata
         Fields of the first event.
 
@@ -114,6 +122,8 @@ def frame_results(
     """
     track: deque[tuple[float, float, float]] = deque()
     next_hand_s, num_lost, time_s = 0.0, 0, 0.0
+    visibility = visibility or Visibility()
+    visibility.reset()
     yield FrameResult(
         0.0, [gesture_event(0.0, events.WATCHING, {"source": source.name, "fps": source.fps, **metadata})]
     )
@@ -125,6 +135,7 @@ def frame_results(
                 happened = stream.interrupt()
                 yield FrameResult(time_s, [*happened, gesture_event(time_s, events.STALL, {"message": str(stalled)})])
                 track.clear()
+                visibility.reset()
                 if not _comes_back(source, reconnect_s):
                     raise
                 yield FrameResult(time_s, [gesture_event(time_s, events.RECONNECTED)])
@@ -140,6 +151,8 @@ def frame_results(
             result.hand, result.in_gesture = spotter.hand, spotter.in_gesture
             result.mask = result.hand.mask
             place = spotter.place
+            face_seen = getattr(spotter, "face_seen", None)
+            result.missing = visibility.push(frame, time_s, place is not None, face_seen)
             if place is not None:
                 track.append((time_s, place[0], place[1]))
             while track and track[0][0] <= time_s - _TRACK_S:
@@ -183,4 +196,5 @@ def _comes_back(source: FrameSource, reconnect_s: float) -> bool:
 def _hand(result: FrameResult, place: tuple[float, float, float] | None) -> Event:
     x, y, area = (None, None, 0.0) if place is None else (round(place[0], 4), round(place[1], 4), place[2])
     fields = {"area": round(area, 4), "x": x, "y": y, "quality": round(result.quality, 3)}
-    return gesture_event(result.time_s, events.HAND, {**fields, "in_gesture": result.in_gesture})
+    seen = {"in_gesture": result.in_gesture, "missing": result.missing}
+    return gesture_event(result.time_s, events.HAND, {**fields, **seen})

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from hri.core.errors import InvalidArgument
 from hri.live.frames import Frame
 from hri.recognition import GestureRecognizer, StreamedSign
+from hri.recognition.decision import UNKNOWN as REJECTED
+from hri.recognition.sentence.recognizer import UNKNOWN
 from hri.vision.faces import face_finder
 from hri.vision.persons import Faces, PersonTracker
 
@@ -135,6 +137,9 @@ class GestureRows:
         was trained on, such as principal components; by default they are the same.
     names : bool
         Each word that the `SentenceRecognizer` finds is named by `gestures`, which sees the whole of it.
+    reject_unknown : bool
+        With `names`: a word that `gestures` rejects is ``<unk>``, as a word is that `ConnectedWordRecognizer` does not
+        know; otherwise it has the name of the gesture that it is most like.
     faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder
         Whether the hand is that of the person whose face is seen, where one is.
 
@@ -154,6 +159,7 @@ class GestureRows:
         project: Callable[[Row], Row] | None = None,
         *,
         names: bool = False,
+        reject_unknown: bool = True,
         faces: Any = "auto",
     ) -> None:
         if gestures.options.source != "silhouettes" or gestures.options.num_hands != 1:
@@ -163,7 +169,10 @@ class GestureRows:
         from hri.vision import HandFinder
 
         self._gestures, self._project, self._names = gestures, project, names
-        self._finder = HandFinder(gestures.options.hands, faces=face_finder(faces))
+        self._reject_unknown = reject_unknown
+        self.faces = face_finder(faces)
+        """What finds faces; None where hands are found without."""
+        self._finder = HandFinder(gestures.options.hands, faces=self.faces)
         self.reset()
 
     def reset(self) -> None:
@@ -196,7 +205,7 @@ class GestureRows:
         return np.full(self._width or 0, np.nan, np.float32)
 
     def name(self, sign: StreamedSign) -> str:
-        """The best of the gestures, rejected or not, for the frames of a word."""
+        """The best of the gestures for the frames of a word; ``<unk>`` where they reject it."""
         if not self._names:
             return sign.label
         first = self._num_rows - len(self._rows)
@@ -204,8 +213,12 @@ class GestureRows:
             self._rows[i - first] for i in range(max(first, sign.first_frame), min(self._num_rows, sign.last_frame))
         ]
         seen = [row for row in part if row is not None]
-        nbest = self._gestures.recognise_features(np.stack(seen)).nbest if seen else ()
-        return nbest[0].label if nbest else sign.label
+        if not seen:
+            return sign.label
+        found = self._gestures.recognise_features(np.stack(seen))
+        if self._reject_unknown and found.status == REJECTED:
+            return UNKNOWN
+        return found.nbest[0].label if found.nbest else sign.label
 
     def keep(self, num_rows: int) -> None:
         """Forget older rows."""

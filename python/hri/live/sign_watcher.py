@@ -18,6 +18,7 @@ from hri.live.frame_results import FrameResult, frame_results, gesture_event
 from hri.live.frames import Frame, FrameSource
 from hri.live.hand_frames import HandFrames, PersonTracks
 from hri.live.sources import require_positive
+from hri.live.visibility import Visibility
 from hri.recognition import Decision, SentenceEvent, SentenceRecognizer, SentenceStream, SentenceStreamOptions
 
 if TYPE_CHECKING:
@@ -101,7 +102,9 @@ class SignWatcher:
         """
         stream = _SigningStream(SentenceStream(self._recognizer, **self._options), self._hands)
         stream.metadata = {"locale": self._locale, "model": self._model_id}
-        with closing(frame_results(source, stream, **self._intervals, model=self._model_id)) as results:
+        seen = Visibility(getattr(self._hands, "faces", None), needs_face=stream.face_seen is not None)
+        results = frame_results(source, stream, **self._intervals, visibility=seen, model=self._model_id)
+        with closing(results):
             for result in results:
                 if self._on_result is not None:
                     self._on_result(result, None)
@@ -117,6 +120,8 @@ class _SigningStream:
         self._time_s = 0.0
         self._shape: tuple[int, ...] = ()
         self._head_s: float | None = None
+        self.face_seen = None if hands.num_columns is None else True
+        """Whether the head was, in the last picture; None where hands need none."""
         self._reset()
 
     def _reset(self) -> None:
@@ -150,6 +155,8 @@ class _SigningStream:
             self._shape = frame.shape
         self._time_s = time_s
         row = self._hands.push(frame, time_s, self._sentences.in_sentence)
+        if self.face_seen is not None:
+            self.face_seen = not np.isnan(row[-1])
         if not len(row):  # no hand was seen yet, and how many features it has is not known
             row = np.full(self._sentences.num_columns, np.nan, np.float32)
         happened += self._events(lambda: self._sentences.push(row, time_s)) + self._head(row)

@@ -8,6 +8,7 @@ import numpy as np
 
 from hri.live.frame_results import FrameResult
 from hri.live.frames import Frame
+from hri.live.visibility import MISSING_TEXTS
 from hri.recognition import Decision
 from hri.vision.drawing import paint_edges, paint_lines, paint_mask, paint_track
 
@@ -32,6 +33,8 @@ def draw_result(result: FrameResult, decision: Decision | None, top: int = 3) ->
 def _lines(result: FrameResult, decision: Decision | None, top: int) -> list[str]:
     state = "gesture" if result.in_gesture else "hand" if result.mask is not None and result.mask.any() else "no hand"
     lines = [f"{result.time_s:6.2f} s  {state}  quality {result.quality:.2f}"]
+    if result.missing:
+        lines.append(MISSING_TEXTS[result.missing]["en"])
     if decision is not None:
         lines.append(decision.label)
         lines += [f"{entry.label} {entry.probability:.2f}" for entry in decision.nbest[:top]]

@@ -16,8 +16,10 @@ from hri.live.events import Event, decision_fields
 from hri.live.frame_results import FrameResult, frame_results, gesture_event, segment_event
 from hri.live.frames import Frame, FrameSource
 from hri.live.sources import require_positive
+from hri.live.visibility import Visibility
 from hri.recognition import Decision, GestureRecognizer, GestureSegmenterOptions
 from hri.recognition.quality import mask_quality
+from hri.vision.faces import face_finder
 from hri.vision.landmarks import LandmarkTracker
 
 if TYPE_CHECKING:
@@ -105,13 +107,21 @@ class Watcher:
                 landmarks = stack.enter_context(LandmarkTracker(max_hands=self._recognizer.options.num_hands))
             native = self._recognizer.stream(self._options, faces=self._faces)
             stream = _DecidingStream(native, landmarks, self._locale, self._model_id)
-            results = frame_results(source, stream, **self._intervals, model=self._model_id)
+            seen = Visibility(self._face_finder(), needs_face=True)
+            results = frame_results(source, stream, **self._intervals, visibility=seen, model=self._model_id)
             for result in stack.enter_context(closing(results)):
                 decided = [event.decision for event in result.events if event.decision is not None]
                 newest = decided[-1] if decided else newest
                 if self._on_result is not None:
                     self._on_result(result, newest)
                 yield from result.events
+
+    def _face_finder(self) -> Any:
+        """By which hands are found; None where they are found without faces."""
+        options = self._recognizer.options
+        if options.source == "landmarks":
+            return None
+        return face_finder(("auto" if options.use_faces else "never") if self._faces is None else self._faces)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,10 @@ _KINDS = {
     "word_recognizer": ("word recogniser", "WordRecognizer.load and --speech-model take it"),
     "connected_word_recognizer": ("recogniser of connected words", "ConnectedWordRecognizer.load takes it"),
     "subword_recognizer": ("recogniser of words made of units", "SubwordRecognizer.load and 'hri recognise' take it"),
-    "sentence_recognizer": ("recogniser of signed sentences", "SentenceRecognizer.load takes it"),
+    "sentence_recognizer": (
+        "recogniser of signed sentences",
+        "SentenceRecognizer.load, 'hri session' and 'hri serve' (--gesture-model) and 'hri watch' (--model) take it",
+    ),
     "gesture_recognizer": ("gesture recogniser", "GestureRecognizer.load and --gesture-model take it"),
 }
 

@@ -19,11 +19,14 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
+from hri.core.errors import InvalidArgument
 from hri.core.files import write_bytes
 from hri.io import ModelFile, model_as_cpp, model_as_json
 from hri.page import COMPONENTS, component
+from hri.serve.command_teacher import CommandWordTeacher
 from hri.serve.commands import change_commands
 from hri.serve.connection import Reception, log
+from hri.serve.samples import samples_zip
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
 
@@ -37,6 +40,7 @@ _PAGE = (
     "teach.js",
     "commands.js",
     "imitation.js",
+    "missing.js",
 )
 HOSTS = ("127.0.0.1", "localhost")
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
@@ -170,6 +174,20 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         attached = {"Content-Disposition": f'attachment; filename="{name}.{form}"'}
         return Response(content(recognizer.to_model_file(), name), media_type=kind, headers=_HEADERS | attached)
 
+    async def samples(request: Request) -> Response:
+        """What words were added by, and what synthetic voices said: a model with added words is trained anew on it."""
+        if not door.knows(request):
+            return refused("without the token")
+        rows = teaching.words.samples() if isinstance(teaching.words, CommandWordTeacher) else []
+        if not rows:
+            return PlainTextResponse("No word was added to those of commands.", 404, _HEADERS)
+        try:
+            content = await asyncio.to_thread(samples_zip, rows)
+        except InvalidArgument as error:
+            return PlainTextResponse(str(error), 409, _HEADERS)
+        attached = {"Content-Disposition": 'attachment; filename="samples.zip"'}
+        return Response(content, media_type="application/zip", headers=_HEADERS | attached)
+
     async def sample(request: Request) -> Response:
         """A file that shows the gesture that is being added; the query names it."""
         if not door.knows(request) or not door.is_own_page(request):
@@ -214,6 +232,7 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         Route("/stop", stop, methods=["POST"]),
         Route("/sample", sample, methods=["POST"]),
         Route("/grammar", grammar, methods=["POST"]),
+        Route("/samples.zip", samples),
         *(Route(f"/{name}.{form}", model) for name in _MODELS for form in _FORMS),
         WebSocketRoute("/talk", talk),
         Route("/{name}", file),

@@ -24,7 +24,8 @@ class CommandWordTeacher(SpokenTeacher):
     """Adds words to those of which the commands of a stage are made, by training all of them anew.
 
     Connected words are models of whole strings and take no word by itself, so the recordings that they were trained on
-    (``Stage.recordings``) are needed again. With ``Stage.speak`` synthetic voices say the word in training, too. What
+    (``Stage.recordings``) are needed again; of words without recordings synthetic voices say them once more
+    (``Stage.say_again``). With ``Stage.speak`` synthetic voices say the word in training, too. What
     was chosen in training, as the insertion penalty, stays. The grammar stays, too: a person writes the new word into
     it.
 
@@ -38,6 +39,7 @@ class CommandWordTeacher(SpokenTeacher):
         self._before: list[ConnectedWordRecognizer] = []
         self._counted: Counter[str] = Counter()
         self._spoken: dict[str, list[tuple[Audio, str, str]]] = {}
+        self._again: list[tuple[Audio, str, str]] | None = None
 
     @property
     def _commands(self) -> CommandRecognizer:
@@ -94,10 +96,27 @@ class CommandWordTeacher(SpokenTeacher):
         assert self._stage.recordings is not None
         rows: list[tuple[Any, str, str]] = [(s.path, s.label, s.person) for s in self._stage.recordings]
         rows += [(clip, label, _SPEAKER) for label, clips in added.items() for clip in clips]
+        rows += self._said_again()
         rows += [row for label in added for row in self._voices(label)]
         clips, labels, speakers = map(list, zip(*rows, strict=True))
         options = {**_loaded(words).options.as_dict(), "choose_penalty": False}
         return ConnectedWordRecognizer(**options).fit(clips, labels, groups=speakers)
+
+    def samples(self) -> list[tuple[Audio, str, str]]:
+        """What the words in use were trained on beside ``Stage.recordings``: clip, word, and who or what said it.
+
+        Empty while no word is added here.
+        """
+        rows = [(clip, label, "page") for label, clips in self._added.items() for clip in clips]
+        said = [row for label in self._added for row in self._voices(label)] + (self._again or [])
+        return rows + [(clip, label, f"synthetic-{voice}") for clip, label, voice in said if rows]
+
+    def _said_again(self) -> list[tuple[Audio, str, str]]:
+        """What synthetic voices said in the first training, said once more."""
+        if self._again is None:
+            say_again = self._stage.say_again
+            self._again = [] if say_again is None else list(zip(*say_again(), strict=True))
+        return self._again
 
     def _voices(self, label: str) -> list[tuple[Audio, str, str]]:
         """What synthetic voices make of a word, and their names; nothing where there are none."""

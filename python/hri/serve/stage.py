@@ -7,7 +7,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import Any, Protocol
@@ -16,7 +16,7 @@ from hri.core.display import short_list
 from hri.core.errors import Error, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.language import Grammar, KnowledgeBase
-from hri.live import Event
+from hri.live import MISSING_TEXTS, Event
 from hri.media import Audio
 from hri.page import figure
 from hri.recognition import (
@@ -84,6 +84,11 @@ class Stage:
     recordings : sequence of Recording, optional
         What the words of a `CommandRecognizer` were trained on, as ``hri.datasets.Dataset.samples``, with
         `unknown_words`: the page may add words then.
+    spoken : callable without arguments, optional
+        Says the words again that synthetic voices said in training, and gives what `speak` gives; called once, when it
+        is needed.
+    spoken_labels : collection of str
+        The words that `spoken` says.
     speak : callable of str, optional
         Has synthetic voices say a word that is added so: clips, labels and names of voices, as
         `hri.synthetic.speech.speak_words` gives them. Others than who added the word are understood then, too.
@@ -115,12 +120,17 @@ class Stage:
         knowledge: KnowledgeBase | None = None,
         faces: Faces | None = None,
         recordings: Sequence[Recording] | None = None,
+        spoken: Callable[[], Spoken] | None = None,
+        spoken_labels: Collection[str] = (),
         speak: Callable[[str], Spoken] | None = None,
     ) -> None:
         self.words, self.signs = words, signs
-        self.recordings, self.speak = recordings, speak
+        self.recordings, self.say_again, self.speak = recordings, spoken, speak
+        self._first_vocabulary = self.vocabulary
         if recordings is not None:
-            _require_recordings_of(words, recordings)
+            _require_recordings_of(words, recordings, spoken_labels)
+        elif spoken is not None:
+            raise InvalidArgument("spoken words go with recordings of the others")
         self.limits = limits or ServeLimits()
         self.microphone = PageMicrophone(self.limits.stall_s)
         self.camera = PageCamera(self.limits.stall_s, self._refused)
@@ -228,6 +238,8 @@ class Stage:
         return {
             "type": "welcome",
             "state": self._state,
+            "missing_texts": MISSING_TEXTS,
+            "has_samples": self.recordings is not None and self.vocabulary is not self._first_vocabulary,
             "speech": self.words is not None,
             "gesture": self.signs is not None,
             "teach": [
@@ -404,10 +416,13 @@ class Stage:
         self.publish(message)
 
 
-def _require_recordings_of(words: WordRecognizer | CommandRecognizer | None, recordings: Sequence[Recording]) -> None:
+def _require_recordings_of(
+    words: WordRecognizer | CommandRecognizer | None, recordings: Sequence[Recording], spoken: Collection[str]
+) -> None:
     if not isinstance(words, CommandRecognizer):
         raise InvalidArgument("recordings are needed only to add words to commands of several words")
-    labels, recorded = {str(label) for label in words.words.classes_}, {recording.label for recording in recordings}
+    labels = {str(label) for label in words.words.classes_}
+    recorded = {recording.label for recording in recordings} | set(spoken)
     if left := short_list(sorted(labels - recorded)):
         raise InvalidArgument(f"no recordings are there of words that the model knows: {left}")
     if left := short_list(sorted(recorded - labels)):

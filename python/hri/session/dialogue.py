@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from hri.fusion import ASK
 from hri.language import KnowledgeBase, StoredMatch
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN
+from hri.recognition.sentence.recognizer import UNKNOWN as UNKNOWN_WORD
 from hri.session.options import SessionOptions
 from hri.session.pairing import Pair
 
@@ -169,8 +170,9 @@ class Dialogue:
 
         Where the options have labels that begin and end a sentence, words count between these, which may be in several
         signed sentences; else every signed sentence is one. One of a single label that answers a question, takes back
-        or resumes does so.
+        or resumes does so. A word that was rejected (``<unk>``) counts as "unknown", as a rejected sign does.
         """
+        words = [UNKNOWN if word == UNKNOWN_WORD else word for word in words]
         text, alone = " ".join(words), words[0] if len(words) == 1 else ""
         if self._stop_among(words):
             return self.signing(words) or [Action(IGNORE, text, _STOPPED)]
@@ -183,7 +185,8 @@ class Dialogue:
                 return [Action(REST, alone, "taken back"), *self._calm()]
             return [Action(IGNORE, text, _MOVES)]
         if self.state == CONFIRMING:
-            return self._answer(alone, RECOGNISED, time_s) if alone else [Action(IGNORE, text, "it is no answer")]
+            status = UNKNOWN if alone == UNKNOWN else RECOGNISED
+            return self._answer(alone, status, time_s) if alone else [Action(IGNORE, text, "it is no answer")]
         if self._options.sentence_begin_labels:
             return self._collected(words, time_s)
         if self._options.wake_labels:
@@ -286,7 +289,8 @@ class Dialogue:
         """The sentence has ended: say it, and answer by motions."""
         words = tuple(self._words)
         nearest = self._knowledge.nearest(words) if self._knowledge is not None and words else None
-        text, answers = " ".join(words) or _NOT_UNDERSTOOD, []
+        understood = any(word != UNKNOWN for word in words)
+        text, answers = " ".join(words) if understood else _NOT_UNDERSTOOD, []
         if self._knowledge is not None and nearest is not None:
             known = nearest.distance <= self._knowledge.max_distance
             text = nearest.sentence.text(self._options.language) if known else _NOT_UNDERSTOOD

@@ -7,6 +7,7 @@ import { Conversation } from "./conversation.js";
 import { inWords, openCamera, openMicrophone } from "./devices.js";
 import { ImitationPanel } from "./imitation.js";
 import { Link } from "./link.js";
+import { MissingPanel } from "./missing.js";
 import { drawPlace } from "./place.js";
 import { drawRobot } from "./robot.js";
 import { TeachPanel } from "./teach.js";
@@ -18,6 +19,7 @@ const at = (id) => document.getElementById(id);
 const link = new Link(heed, connection);
 const conversation = new Conversation(at("log"));
 const commands = new CommandsPanel(at("commands"));
+const missing = new MissingPanel(at("missing"));
 const imitation = new ImitationPanel(at("imitation"), link);
 const panels = new Map([...document.querySelectorAll("[data-teach]")].map((s) => [s.dataset.teach, new TeachPanel(s, link)]));
 const knows = { speech: false, gesture: false };
@@ -25,7 +27,10 @@ let state = "";
 let measured = [];
 
 function showState(text) {
-  if (text === "not connected") imitation.show(false);
+  if (text === "not connected") {
+    imitation.show(false);
+    missing.show();
+  }
   state = text;
   at("state").textContent = text;
   at("state").dataset.state = text;
@@ -75,7 +80,11 @@ function heedEvent(event) {
     at("level").textContent = `${event.level_db} dB`;
     at("level-label").textContent = event.in_speech ? "Microphone: a word" : "Microphone: on";
   }
-  if (event.event === "hand") drawPlace(at("place"), at("camera"), event);
+  if (event.event === "hand") {
+    drawPlace(at("place"), at("camera"), event);
+    missing.show(event.missing);
+  }
+  if (event.mode === "gesture" && ["stall", "ended"].includes(event.event)) missing.show();
   if (event.event === "say") at("said").textContent = event.text;
   if (event.nbest && event.event !== "fused") {
     showBars(at(`bars-${event.mode}`), event.nbest);
@@ -99,9 +108,12 @@ function heedEvent(event) {
 function heedWelcome(message) {
   Object.assign(knows, { speech: message.speech, gesture: message.gesture });
   problem("", "line");
+  missing.texts = message.missing_texts;
+  missing.show();
   showState(message.state);
   panels.forEach((panel, mode) => (panel.section.hidden = !message.teach.includes(mode)));
   commands.show(message.grammar);
+  at("word-samples").hidden = !message.has_samples;
   imitation.offer(message.imitate.length > 0, message.imitating);
   conversation.clear();
   message.log.forEach((one) => (one.type === "event" ? conversation.heed(one) : conversation.write(one.text, "note")));
@@ -150,7 +162,7 @@ function heed(message) {
 
 async function start() {
   at("start").disabled = true;
-  const missing = [];
+  const failed = [];
   if (knows.speech) {
     try {
       const microphone = await openMicrophone((samples) => link.sound(samples), () => lost("microphone"));
@@ -161,7 +173,7 @@ async function start() {
         link.open();
       }
     } catch (error) {
-      missing.push(["microphone", error]);
+      failed.push(["microphone", error]);
     }
   }
   if (knows.gesture) {
@@ -171,15 +183,18 @@ async function start() {
       at("camera-line").textContent = "Camera: on";
       imitation.see(true);
     } catch (error) {
-      missing.push(["camera", error]);
+      failed.push(["camera", error]);
     }
   }
-  missing.forEach(([what, error]) => problem(inWords(error, what), what));
-  at("start").disabled = missing.length === 0;
+  failed.forEach(([what, error]) => problem(inWords(error, what), what));
+  at("start").disabled = failed.length === 0;
 }
 
 function lost(what) {
-  if (what === "camera") imitation.see(false);
+  if (what === "camera") {
+    imitation.see(false);
+    missing.show();
+  }
   problem(`The ${what} was unplugged. Plug it in and press Start again.`, what);
   at("start").disabled = false;
 }
