@@ -44,7 +44,8 @@ void WordTimes::extend(const ScoredRecording& recording,
   for (std::size_t i = 0; i < words->size();) {
     TranscribedWord& first = (*words)[i];
     // Behind the words that follow one another without a pause.
-    while (++i < words->size() && (*words)[i].first_s <= (*words)[i - 1].last_s) continue;
+    ++i;
+    while (i < words->size() && (*words)[i].first_s <= (*words)[i - 1].last_s) ++i;
     TranscribedWord& last = (*words)[i - 1];
     const double to_s = i < words->size() ? quietest_s(recording, last.last_s, (*words)[i].first_s)
                                           : middle_s(recording, recording.activity.size());
