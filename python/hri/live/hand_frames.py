@@ -139,7 +139,7 @@ class GestureRows:
         Each word that the `SentenceRecognizer` finds is named by `gestures`, which sees the whole of it.
     reject_unknown : bool
         With `names`: a word that `gestures` rejects is ``<unk>``, as a word is that `ConnectedWordRecognizer` does not
-        know; otherwise it has the name of the gesture that it is most like.
+        know; otherwise it has the name of the gesture that it is most like. Known words are lost for it, too.
     faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder
         Whether the hand is that of the person whose face is seen, where one is.
 
@@ -159,7 +159,7 @@ class GestureRows:
         project: Callable[[Row], Row] | None = None,
         *,
         names: bool = False,
-        reject_unknown: bool = True,
+        reject_unknown: bool = False,
         faces: Any = "auto",
     ) -> None:
         if gestures.options.source != "silhouettes" or gestures.options.num_hands != 1:
@@ -205,7 +205,7 @@ class GestureRows:
         return np.full(self._width or 0, np.nan, np.float32)
 
     def name(self, sign: StreamedSign) -> str:
-        """The best of the gestures for the frames of a word; ``<unk>`` where they reject it."""
+        """The best of the gestures for the frames of a word, or ``<unk>``."""
         if not self._names:
             return sign.label
         first = self._num_rows - len(self._rows)

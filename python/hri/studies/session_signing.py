@@ -131,7 +131,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         gestures = GestureRecognizer(source="silhouettes")
         gestures.fit_features([seen_rows(clip.rows) for clip in train], [clip.label for clip in train])
         words = train_words(train, shapes, "hmm")
-        rows = GestureRows(gestures, shapes, names=True, reject_unknown=False, faces="never")
+        rows = GestureRows(gestures, shapes, names=True, faces="never")
         together = clips_together(test, np.random.default_rng(SEED))
         found: dict[str, list[list[str]]] = {way: [] for way in counts}
         for some in together:
