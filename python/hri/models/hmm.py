@@ -100,9 +100,7 @@ class _Hmm(SavedEstimator, ABC):
         model = self._fitted
         return np.concatenate([model.posterior(sequence) for sequence in self._sequences(X, lengths)])
 
-    def score_samples(
-        self, X: ArrayLike, lengths: Sequence[int] | None = None
-    ) -> tuple[float, NDArray[np.float64]]:
+    def score_samples(self, X: ArrayLike, lengths: Sequence[int] | None = None) -> tuple[float, NDArray[np.float64]]:
         """Log-likelihood and state posteriors by one pass of forward and backward.
 
         Returns

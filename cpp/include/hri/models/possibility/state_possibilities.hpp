@@ -9,7 +9,7 @@
 //   gamma_T(i) = 1,  gamma_t(i) = max over j of (s_ij and pi_j(o_{t+1}) and gamma_{t+1}(j)).
 // Then the largest (phi_t(i) and gamma_t(i)) of every frame is the possibility of the whole
 // sequence, and eq. 4.17 is the case of the first frame. Under the literal max gamma is 1 in all
-// states at all frames, and so is what is joined with it: it tells no states apart.
+// states at all frames, and so is what is joined with it: it separates no states.
 #pragma once
 
 #include "hri/core/types.hpp"
