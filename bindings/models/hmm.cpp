@@ -17,6 +17,7 @@
 #include "models/model_inputs.hpp"
 
 namespace py = pybind11;
+using hri_bind::as_integers;
 using hri_bind::as_matrix;
 using hri_bind::as_symbols;
 using hri_bind::as_vector;
@@ -137,6 +138,62 @@ void bind_gaussian_mixture(py::module_& m) {
   bind_files(cls);
 }
 
+void bind_forward_backward(py::module_& m) {
+  using Both = hri::ForwardBackward;
+  py::class_<Both>(m, "ForwardBackward",
+                   "Forward and backward log probabilities of an HMM's states, natural logs.")
+      .def_readonly("log_likelihood", &Both::log_likelihood,
+                    "log P(frames | model); -inf for an impossible sequence.")
+      .def_property_readonly(
+          "log_forward", [](const Both& self) { return to_array(self.log_forward); },
+          "log P(frames 0..t, state of t), float64, shape (num_frames, num_states).")
+      .def_property_readonly(
+          "log_backward", [](const Both& self) { return to_array(self.log_backward); },
+          "log P(frames after t | state of t), float64, shape (num_frames, num_states).");
+}
+
+// Both kinds of HMM; `convert` takes the argument of the caller to what the model scores.
+template <class Model, class Array, class Convert>
+void bind_states(py::class_<Model>& cls, const char* argument, const Convert& convert) {
+  cls.def(
+      "posterior",
+      [convert](const Model& self, const Array& array) {
+        const auto values = convert(array);
+        hri::MatrixD gamma;
+        {
+          const py::gil_scoped_release release;
+          gamma = self.posterior(values);
+        }
+        return to_array(gamma);
+      },
+      py::arg(argument),
+      "P(state | all of the sequence), shape (num_frames, num_states). Raises InvalidArgument "
+      "where "
+      "the sequence is impossible.");
+  cls.def(
+      "state_posteriors",
+      [convert](const Model& self, const Array& array) {
+        const auto values = convert(array);
+        hri::MatrixD gamma;
+        double log_likelihood = 0;
+        {
+          const py::gil_scoped_release release;
+          log_likelihood = self.state_posteriors(values, &gamma);
+        }
+        return py::make_tuple(log_likelihood, to_array(gamma));
+      },
+      py::arg(argument),
+      "Log-likelihood of the sequence, and posterior() of it, all 0 where it is impossible.");
+  cls.def(
+      "forward_backward",
+      [convert](const Model& self, const Array& array) {
+        const auto values = convert(array);
+        const py::gil_scoped_release release;
+        return self.forward_backward(values);
+      },
+      py::arg(argument), "Forward and backward log probabilities of the states, frame by frame.");
+}
+
 void bind_gaussian_mixture_hmm(py::module_& m) {
   using Model = hri::GaussianMixtureHmm;
   using Options = hri::GaussianMixtureHmmOptions;
@@ -198,18 +255,8 @@ void bind_gaussian_mixture_hmm(py::module_& m) {
         return py::make_tuple(score, to_array(path));
       },
       py::arg("frames"), "log P(frames, best path | model) and the path, int32.");
-  cls.def(
-      "posterior",
-      [](const Model& self, const FloatArray& frames) {
-        const auto matrix = as_matrix(frames, "frames");
-        hri::MatrixD gamma;
-        {
-          const py::gil_scoped_release release;
-          gamma = self.posterior(matrix);
-        }
-        return to_array(gamma);
-      },
-      py::arg("frames"), "P(state | all frames), shape (num_frames, num_states).");
+  bind_states<Model, FloatArray>(
+      cls, "frames", [](const FloatArray& frames) { return as_matrix(frames, "frames"); });
   cls.def(
       "sample",
       [](const Model& self, int count, std::uint64_t seed) {
@@ -289,18 +336,8 @@ void bind_discrete_hmm(py::module_& m) {
         return py::make_tuple(score, to_array(path));
       },
       py::arg("symbols"), "log P(symbols, best path | model) and the path, int32.");
-  cls.def(
-      "posterior",
-      [](const Model& self, const py::array& array) {
-        const Integers symbols(array, "symbols");
-        hri::MatrixD gamma;
-        {
-          const py::gil_scoped_release release;
-          gamma = self.posterior(symbols.span());
-        }
-        return to_array(gamma);
-      },
-      py::arg("symbols"), "P(state | all symbols), shape (num_symbols_given, num_states).");
+  bind_states<Model, py::array>(
+      cls, "symbols", [](const py::array& array) { return as_integers(array, "symbols"); });
   cls.def(
       "sample",
       [](const Model& self, int count, std::uint64_t seed) {
@@ -325,6 +362,7 @@ void bind_hmm_tools(py::module_& m);
 void bind_hmm(py::module_& m) {
   bind_topology(m);
   bind_gaussian_mixture(m);
+  bind_forward_backward(m);
   bind_gaussian_mixture_hmm(m);
   bind_discrete_hmm(m);
   bind_hmm_tools(m);

@@ -37,6 +37,31 @@ py::array_t<float> scores_of(const Model& self, const py::array& symbols) {
   return out;
 }
 
+constexpr const char* kStateDoc =
+    "Possibility and necessity of each state at each frame under one class (thesis eq. 4.10-4.17 "
+    "and 4.23). Raises InvalidArgument for a conditioned minimum unless concentration is 1.";
+
+void bind_state_possibilities(py::module_& m) {
+  using States = hri::StatePossibilities;
+  py::class_<States> cls(m, "StatePossibilities",
+                         "What one class of a set of possibility-theory HMMs says of its states, "
+                         "frame by frame; float64, shape (num_frames, num_states).");
+  cls.def_readonly("log_possibility", &States::log_possibility,
+                   "Of the whole sequence (eq. 4.12), natural log; -inf for impossible.");
+  const auto matrix = [&cls](const char* name, hri::MatrixD States::*member, const char* doc) {
+    cls.def_property_readonly(
+        name, [member](const States& self) { return to_array(self.*member); }, doc);
+  };
+  matrix("log_forward", &States::log_forward,
+         "log of phi_t(i) (eq. 4.10-4.11), of the best path through frames 0..t that ends in i.");
+  matrix(
+      "log_backward", &States::log_backward,
+      "log of gamma_t(i) (eq. 4.15-4.16), of the best way on from i through the frames after t.");
+  matrix("possibility", &States::possibility,
+         "Of state i at frame t given all frames (eq. 4.23), 0..1; 1 for the best state.");
+  matrix("necessity", &States::necessity, "1 - the possibility of the best other state, 0..1.");
+}
+
 void bind_set(py::module_& m) {
   using Rule = hri::PossibilisticRule;
   hri_bind::bind_options<Rule>(m, "How a PossibilisticHmmSet is scored.");
@@ -113,6 +138,14 @@ void bind_set(py::module_& m) {
       },
       py::arg("class_index"), py::arg("symbols"),
       "Log possibility of the best path and the path, int32.");
+  cls.def(
+      "state_possibilities",
+      [](const Set& self, int class_index, const py::array& symbols) {
+        const hri::SymbolSequence s = as_integers(symbols, "symbols");
+        const py::gil_scoped_release release;
+        return self.state_possibilities(class_index, s);
+      },
+      py::arg("class_index"), py::arg("symbols"), kStateDoc);
   const auto matrix = [&cls](const char* name, auto method, const char* doc) {
     cls.def(
         name, [method](const Set& self, int c) { return to_array((self.*method)(c)); },
@@ -198,6 +231,14 @@ void bind_gaussian_set(py::module_& m) {
       },
       py::arg("class_index"), py::arg("frames"),
       "Log possibility of the best path and the path, int32.");
+  cls.def(
+      "state_possibilities",
+      [](const Model& self, int class_index, const FloatArray& frames) {
+        const auto matrix = as_matrix(frames, "frames");
+        const py::gil_scoped_release release;
+        return self.state_possibilities(class_index, matrix);
+      },
+      py::arg("class_index"), py::arg("frames"), kStateDoc);
   cls.def_property_readonly("models", &Model::models, "The HMMs before scaling.");
   cls.def_property_readonly("num_classes", &Model::num_classes, "Number of classes.");
   cls.def_property_readonly("dim", &Model::dim, "Columns of the rows it takes.");
@@ -251,6 +292,7 @@ void bind_possibility_stream(py::module_& m) {
 }  // namespace
 
 void bind_possibilistic(py::module_& m) {
+  bind_state_possibilities(m);
   bind_set(m);
   bind_gaussian_set(m);
   bind_fixed_point(m);

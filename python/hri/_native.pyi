@@ -48,6 +48,7 @@ __all__: list[str] = [
     "FilterBankOptions",
     "FixedPointHmmSet",
     "FormatError",
+    "ForwardBackward",
     "FourierDescriptorComputer",
     "FourierDescriptorOptions",
     "GaussianBayes",
@@ -157,6 +158,7 @@ __all__: list[str] = [
     "SpeechEmbeddingOptions",
     "StateChoice",
     "StateChoiceOptions",
+    "StatePossibilities",
     "StreamedSign",
     "SubwordRecognizer",
     "SubwordRecognizerOptions",
@@ -4488,6 +4490,26 @@ class GaussianMixture:
         Mixture weights.
         """
 
+class ForwardBackward:
+    """
+    Forward and backward log probabilities of an HMM's states, natural logs.
+    """
+    @property
+    def log_backward(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        log P(frames after t | state of t), float64, shape (num_frames, num_states).
+        """
+    @property
+    def log_forward(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        log P(frames 0..t, state of t), float64, shape (num_frames, num_states).
+        """
+    @property
+    def log_likelihood(self) -> float:
+        """
+        log P(frames | model); -inf for an impossible sequence.
+        """
+
 class GaussianMixtureHmmOptions:
     """
     Options of GaussianMixtureHmm.
@@ -4653,6 +4675,10 @@ class GaussianMixtureHmm:
         """
         weights (num_states, num_mixtures); means and variances (num_states * num_mixtures, dim), state by state.
         """
+    def forward_backward(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> ForwardBackward:
+        """
+        Forward and backward log probabilities of the states, frame by frame.
+        """
     def log_likelihood(self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> float:
         """
         log P(frames | model), natural log; emissions in float.
@@ -4665,7 +4691,7 @@ class GaussianMixtureHmm:
         self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
-        P(state | all frames), shape (num_frames, num_states).
+        P(state | all of the sequence), shape (num_frames, num_states). Raises InvalidArgument where the sequence is impossible.
         """
     def retrain(
         self,
@@ -4681,6 +4707,12 @@ class GaussianMixtureHmm:
     ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.int32]]:
         """
         Frames drawn from the model, and their states.
+        """
+    def state_posteriors(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> tuple[float, numpy.typing.NDArray[numpy.float64]]:
+        """
+        Log-likelihood of the sequence, and posterior() of it, all 0 where it is impossible.
         """
     def viterbi(
         self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
@@ -4862,6 +4894,10 @@ class DiscreteHmm:
         """
         emission has shape (num_states, num_symbols).
         """
+    def forward_backward(self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]) -> ForwardBackward:
+        """
+        Forward and backward log probabilities of the states, frame by frame.
+        """
     def log_likelihood(self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]) -> float:
         """
         log P(symbols | model), natural log.
@@ -4874,7 +4910,7 @@ class DiscreteHmm:
         self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
-        P(state | all symbols), shape (num_symbols_given, num_states).
+        P(state | all of the sequence), shape (num_frames, num_states). Raises InvalidArgument where the sequence is impossible.
         """
     def retrain(
         self,
@@ -4890,6 +4926,12 @@ class DiscreteHmm:
     ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
         """
         Symbols drawn from the model, and their states.
+        """
+    def state_posteriors(
+        self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
+    ) -> tuple[float, numpy.typing.NDArray[numpy.float64]]:
+        """
+        Log-likelihood of the sequence, and posterior() of it, all 0 where it is impossible.
         """
     def viterbi(
         self, symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]
@@ -5123,6 +5165,36 @@ class StateChoice:
         Of the best candidate.
         """
 
+class StatePossibilities:
+    """
+    What one class of a set of possibility-theory HMMs says of its states, frame by frame; float64, shape (num_frames, num_states).
+    """
+    @property
+    def log_backward(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        log of gamma_t(i) (eq. 4.15-4.16), of the best way on from i through the frames after t.
+        """
+    @property
+    def log_forward(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        log of phi_t(i) (eq. 4.10-4.11), of the best path through frames 0..t that ends in i.
+        """
+    @property
+    def log_possibility(self) -> float:
+        """
+        Of the whole sequence (eq. 4.12), natural log; -inf for impossible.
+        """
+    @property
+    def necessity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        1 - the possibility of the best other state, 0..1.
+        """
+    @property
+    def possibility(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of state i at frame t given all frames (eq. 4.23), 0..1; 1 for the best state.
+        """
+
 class PossibilisticRule:
     """
     How a PossibilisticHmmSet is scored.
@@ -5336,6 +5408,14 @@ class PossibilisticHmmSet:
         """
         Possibilities, shape (num_states,).
         """
+    def state_possibilities(
+        self,
+        class_index: typing.SupportsInt | typing.SupportsIndex,
+        symbols: numpy.ndarray[typing.Any, numpy.dtype[typing.Any]],
+    ) -> StatePossibilities:
+        """
+        Possibility and necessity of each state at each frame under one class (thesis eq. 4.10-4.17 and 4.23). Raises InvalidArgument for a conditioned minimum unless concentration is 1.
+        """
     def transition(self, class_index: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
         """
         Possibilities, shape (num_states, num_states).
@@ -5426,6 +5506,14 @@ class PossibilisticGaussianHmmSet:
     ) -> numpy.typing.NDArray[numpy.float32]:
         """
         log possibility of the frames under each class, float32, shape (num_classes,).
+        """
+    def state_possibilities(
+        self,
+        class_index: typing.SupportsInt | typing.SupportsIndex,
+        frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+    ) -> StatePossibilities:
+        """
+        Possibility and necessity of each state at each frame under one class (thesis eq. 4.10-4.17 and 4.23). Raises InvalidArgument for a conditioned minimum unless concentration is 1.
         """
     def viterbi(
         self,

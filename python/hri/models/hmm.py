@@ -90,9 +90,37 @@ class _Hmm(SavedEstimator, ABC):
         return self.decode(X, lengths)[1]
 
     def predict_proba(self, X: ArrayLike, lengths: Sequence[int] | None = None) -> NDArray[np.float64]:
-        """Posterior of every state for every frame, shape (num_frames, num_states)."""
+        """Posterior of every state for every frame, shape (num_frames, num_states).
+
+        Raises
+        ------
+        InvalidArgument
+            For a sequence that is impossible under the model.
+        """
         model = self._fitted
         return np.concatenate([model.posterior(sequence) for sequence in self._sequences(X, lengths)])
+
+    def score_samples(self, X: ArrayLike, lengths: Sequence[int] | None = None) -> tuple[float, NDArray[np.float64]]:
+        """Log-likelihood and state posteriors by one pass of forward and backward.
+
+        Returns
+        -------
+        log_prob : float
+            Log-likelihood (natural) of all sequences of `X`, added up.
+        posteriors : ndarray of float64, shape (num_frames, num_states)
+            As `predict_proba` gives them.
+
+        Raises
+        ------
+        InvalidArgument
+            For a sequence that is impossible under the model: it has no posteriors.
+        """
+        model = self._fitted
+        found = [model.state_posteriors(sequence) for sequence in self._sequences(X, lengths)]
+        for i, (log_prob, _) in enumerate(found):
+            if not np.isfinite(log_prob):
+                raise InvalidArgument(f"sequence {i} is impossible under the model")
+        return float(sum(log_prob for log_prob, _ in found)), np.concatenate([rows for _, rows in found])
 
     def sample(self, num_samples: int = 1, seed: int = 0) -> tuple[NDArray[Any], NDArray[np.int32]]:
         """Draw a sequence.

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
-from hri._native import PossibilisticHmmOptions, PossibilisticHmmSet
+from hri._native import PossibilisticHmmOptions, PossibilisticHmmSet, StatePossibilities
 from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
@@ -89,11 +89,39 @@ class PTBHMM(SavedEstimator):
 
     def decode(self, symbols: ArrayLike, label: Any) -> tuple[float, NDArray[np.int32]]:
         """Log possibility of the best path of one sequence under the model of `label`, and the path."""
+        score, path = self._fitted.viterbi(self._index_of(label), _symbols(symbols, "symbols"))
+        return float(score), path
+
+    def state_possibilities(self, symbols: ArrayLike, label: Any) -> StatePossibilities:
+        """Possibility and necessity of every state at every symbol under the model of `label` (thesis eq. 4.23).
+
+        Parameters
+        ----------
+        symbols : integer array_like, shape (num_frames,)
+        label : object
+            One of `classes_`.
+
+        Returns
+        -------
+        StatePossibilities
+            ``possibility``, ``necessity``, and what they come from: ``log_forward`` (eq. 4.10-4.11) and
+            ``log_backward`` (eq. 4.15-4.16), each float64 of shape (num_frames, num_states), and
+            ``log_possibility`` of the whole. Where that is -inf nothing is known of the states: all are fully
+            possible, none is necessary.
+
+        Raises
+        ------
+        InvalidArgument
+            For another label, symbols the model does not have, or a rule of a conditioned minimum whose
+            ``concentration`` is not 1.
+        """
+        return self._fitted.state_possibilities(self._index_of(label), _symbols(symbols, "symbols"))
+
+    def _index_of(self, label: Any) -> int:
         found = np.flatnonzero(self._fitted is not None and self.classes_ == label)
         if len(found) != 1:
             raise InvalidArgument(f"no class {label!r}; there are: {', '.join(map(str, self.classes_))}")
-        score, path = self._fitted.viterbi(int(found[0]), _symbols(symbols, "symbols"))
-        return float(score), path
+        return int(found[0])
 
     def score(self, X: Sequence[ArrayLike], y: ArrayLike) -> float:
         """Share of sequences whose label is predicted, 0..1."""

@@ -51,6 +51,24 @@ TYPED_TEST(Scoring, AllocatesNothingTheSecondTime) {
   }
 }
 
+TYPED_TEST(Scoring, AllocatesForFramesOnceNotOneByOne) {
+  for (const Topology& topology : kTopologies) {
+    const auto model = TypeParam::make(topology, 1);
+    const auto allocations = [&model](int num_frames) {
+      const auto s = TypeParam::sequence(num_frames, 2);
+      MatrixD posteriors;
+      const auto states = [&] {
+        EXPECT_TRUE(std::isfinite(model.forward_backward(s).log_likelihood));
+        EXPECT_TRUE(std::isfinite(model.state_posteriors(s, &posteriors)));
+      };
+      states();
+      return allocations_of(states);
+    };
+    // Long sequences may want other arithmetic, with buffers of its own.
+    EXPECT_LE(allocations(3000), allocations(3) + 10);
+  }
+}
+
 TEST(Streams, AllocateNothingAtAll) {
   std::vector<DiscreteHmm> discrete;
   std::vector<GaussianMixtureHmm> gaussian;

@@ -65,6 +65,27 @@ TEST(PossibilisticSets, AllocateNothingTheSecondTime) {
   }
 }
 
+TEST(StatePossibilities, AllocateForFramesOnceNotOneByOne) {
+  for (const Topology& topology : topologies()) {
+    for (PossibilisticRule rule : rules()) {
+      rule.concentration = 1;
+      const PossibilisticHmmSet discrete(classes<DiscreteCase>(topology, 3), rule);
+      const PossibilisticGaussianHmmSet gaussian(classes<GaussianCase>(topology, 3), rule);
+      const auto allocations = [&](int num_frames) {
+        const SymbolSequence s = DiscreteCase::sequence(num_frames, 2);
+        const MatrixF frames = GaussianCase::sequence(num_frames, 2);
+        const auto states = [&] {
+          EXPECT_TRUE(std::isfinite(discrete.state_possibilities(1, s).log_possibility));
+          EXPECT_TRUE(std::isfinite(gaussian.state_possibilities(1, frames).log_possibility));
+        };
+        states();
+        return allocations_of(states);
+      };
+      EXPECT_EQ(allocations(300), allocations(3));
+    }
+  }
+}
+
 TEST(PossibilisticStreams, AllocateNothingAtAll) {
   const SymbolSequence s = DiscreteCase::sequence(300, 2);
   for (const Topology& topology : topologies()) {

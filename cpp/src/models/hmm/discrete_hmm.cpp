@@ -153,7 +153,7 @@ DiscreteHmm DiscreteHmm::retrain(const std::vector<SymbolSequence>& sequences,
     double total = 0;
     for (const SymbolSequence& s : sequences) {
       poll(options.should_stop);
-      total += model.forward_backward(s, &gamma, &counts);
+      total += model.expect(s, &gamma, &counts);
       for (std::size_t t = 0; t < s.size(); ++t) {
         by_symbol.row(s[t]) += Eigen::Map<const Eigen::RowVectorXd>(
             gamma.row(static_cast<std::ptrdiff_t>(t)), by_symbol.cols());
@@ -209,17 +209,30 @@ double DiscreteHmm::viterbi(Span<const std::int32_t> symbols, std::vector<int>* 
 }
 
 MatrixD DiscreteHmm::posterior(Span<const std::int32_t> symbols) const {
-  validate_all(symbols);
-  detail::PaddedMatrix gamma;
-  require(std::isfinite(forward_backward(symbols, &gamma, nullptr)),
+  MatrixD result;
+  require(std::isfinite(state_posteriors(symbols, &result)),
           "symbols are impossible under the model");
-  const auto num_frames = static_cast<Eigen::Index>(symbols.size());
-  using Padded = Eigen::Map<const MatrixD, Eigen::Unaligned, Eigen::OuterStride<>>;
-  return Padded(gamma.row(0), num_frames, num_states(), Eigen::OuterStride<>(gamma.stride()));
+  return result;
 }
 
-double DiscreteHmm::forward_backward(Span<const std::int32_t> symbols, detail::PaddedMatrix* gamma,
-                                     detail::ChainCounts* counts) const {
+double DiscreteHmm::state_posteriors(Span<const std::int32_t> symbols, MatrixD* posteriors) const {
+  validate_all(symbols);
+  thread_local detail::PaddedMatrix gamma;
+  const double log_likelihood = expect(symbols, &gamma, nullptr);
+  const auto num_frames = static_cast<Eigen::Index>(symbols.size());
+  using Padded = Eigen::Map<const MatrixD, Eigen::Unaligned, Eigen::OuterStride<>>;
+  *posteriors =
+      Padded(gamma.row(0), num_frames, num_states(), Eigen::OuterStride<>(gamma.stride()));
+  return log_likelihood;
+}
+
+ForwardBackward DiscreteHmm::forward_backward(Span<const std::int32_t> symbols) const {
+  validate_all(symbols);
+  return detail::both_ways(chain_, rows_by(symbols, log_by_symbol_));
+}
+
+double DiscreteHmm::expect(Span<const std::int32_t> symbols, detail::PaddedMatrix* gamma,
+                           detail::ChainCounts* counts) const {
   gamma->resize(static_cast<std::ptrdiff_t>(symbols.size()), num_states());
   double score = 0;
   const bool scaled =

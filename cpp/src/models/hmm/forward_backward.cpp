@@ -129,7 +129,55 @@ void count_jumps_in_logs(const MarkovChain& chain, const double* alpha, const do
   }
 }
 
+// Forward in logs: log P(frames 0..t, state) into row t of `alpha`, whose padding holds -inf, as it
+// does in all vectors below; `scratch` holds twice as many values as a row. Gives log P(frames).
+double log_forward(const MarkovChain& chain, const Rows<double>& log_b, double* scratch,
+                   PaddedMatrix* alpha) {
+  const int n = chain.num_states();
+  for (std::ptrdiff_t t = 0; t < log_b.num_frames; ++t) {
+    double* now = alpha->row(t);
+    if (t == 0) {
+      std::copy_n(chain.log_start().data(), n, now);
+    } else {
+      log_forward_step(chain, alpha->row(t - 1), scratch, now);
+    }
+    const double* row = log_b[t];
+    for (int j = 0; j < n; ++j) now[j] += row[j];
+  }
+  const double* last = alpha->row(log_b.num_frames - 1);
+  return log_sum(0, n, [&](int i) { return last[i]; });
+}
+
+// One step of the way back: `beta` from what it is at the next frame, whose log emissions are
+// `row`, to what it is at this one. `after` becomes log P(frames from the next on | its state).
+void log_step_back(const MarkovChain& chain, const double* row, double* scratch, double* after,
+                   double* beta) {
+  for (int j = 0; j < chain.num_states(); ++j) after[j] = row[j] + beta[j];
+  log_backward_step(chain, after, scratch, beta);
+}
+
 }  // namespace
+
+ForwardBackward both_ways(const MarkovChain& chain, const Rows<double>& log_b) {
+  const int n = chain.num_states();
+  const std::ptrdiff_t num_frames = log_b.num_frames;
+  PaddedMatrix alpha(num_frames, n, kMinusInf);
+  PaddedMatrix way_back(2, n, kMinusInf);
+  AlignedVector scratch(static_cast<std::size_t>(2 * alpha.stride()));
+  ForwardBackward result;
+  result.log_likelihood = log_forward(chain, log_b, scratch.data(), &alpha);
+  result.log_forward.resize(num_frames, n);
+  result.log_backward.resize(num_frames, n);
+  double* beta = way_back.row(0);
+  std::fill(beta, beta + n, 0.0);
+  for (std::ptrdiff_t t = num_frames - 1; t >= 0; --t) {
+    if (t + 1 < num_frames)
+      log_step_back(chain, log_b[t + 1], scratch.data(), way_back.row(1), beta);
+    std::copy_n(alpha.row(t), n, result.log_forward.data() + t * n);
+    std::copy_n(beta, n, result.log_backward.data() + t * n);
+  }
+  return result;
+}
 
 double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, double* gamma,
                         std::ptrdiff_t stride, ChainCounts* counts) {
@@ -139,18 +187,7 @@ double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, dou
   PaddedMatrix alpha(num_frames, n, kMinusInf);
   const std::ptrdiff_t count = alpha.stride();
   AlignedVector scratch(static_cast<std::size_t>(2 * count));
-  for (std::ptrdiff_t t = 0; t < num_frames; ++t) {
-    double* now = alpha.row(t);
-    if (t == 0) {
-      std::copy_n(chain.log_start().data(), n, now);
-    } else {
-      log_forward_step(chain, alpha.row(t - 1), scratch.data(), now);
-    }
-    const double* row = log_b[t];
-    for (int j = 0; j < n; ++j) now[j] += row[j];
-  }
-  const double* last = alpha.row(num_frames - 1);
-  const double total = log_sum(0, n, [&](int i) { return last[i]; });
+  const double total = log_forward(chain, log_b, scratch.data(), &alpha);
   std::fill(gamma, gamma + num_frames * stride, 0.0);
   if (total == kMinusInf) return total;
 
@@ -163,9 +200,7 @@ double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, dou
   for (std::ptrdiff_t t = num_frames - 1; t >= 0; --t) {
     const double* now = alpha.row(t);
     if (t + 1 < num_frames) {
-      const double* row = log_b[t + 1];
-      for (int j = 0; j < n; ++j) after[j] = row[j] + beta[j];
-      log_backward_step(chain, after, scratch.data(), beta);
+      log_step_back(chain, log_b[t + 1], scratch.data(), after, beta);
       if (counts != nullptr) {
         const double alpha_top = kernels.largest(now, count);
         // As long as no pair is too far above the total, terms that underflow are none that count.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hri/core/types.hpp"
+#include "hri/models/hmm/forward_backward.hpp"
 #include "hri/models/hmm/markov_chain.hpp"
 
 namespace hri::detail {
@@ -54,7 +55,10 @@ struct ChainCounts {
         land(VectorD::Zero(num_states)) {}
 };
 
-/// Forward and backward in logs: log P(frames), state posteriors in `gamma` (num_frames rows of
+/// Forward and backward in logs, row by row.
+ForwardBackward both_ways(const MarkovChain& chain, const Rows<double>& log_b);
+
+/// The same for training: log P(frames), state posteriors in `gamma` (num_frames rows of
 /// `stride` values, 0 beyond num_states), and the expected counts are added to `counts`, unless it
 /// is null. An impossible sequence gives -inf, gamma zero, and adds nothing.
 double forward_backward(const MarkovChain& chain, const Rows<double>& log_b, double* gamma,

@@ -128,11 +128,20 @@ GaussianMixtureHmm GaussianMixtureHmm::retrain(const std::vector<MatrixF>& seque
 }
 
 MatrixD GaussianMixtureHmm::posterior(ConstMatrixRefF frames) const {
-  MatrixD gamma(frames.rows(), num_states());
-  require(std::isfinite(detail::forward_backward(chain_, log_densities(bank_, frames), gamma.data(),
-                                                 num_states(), nullptr)),
+  MatrixD result;
+  require(std::isfinite(state_posteriors(frames, &result)),
           "frames are impossible under the model");
-  return gamma;
+  return result;
+}
+
+double GaussianMixtureHmm::state_posteriors(ConstMatrixRefF frames, MatrixD* posteriors) const {
+  const detail::Rows<double> log_b = log_densities(bank_, frames);
+  posteriors->resize(frames.rows(), num_states());
+  return detail::forward_backward(chain_, log_b, posteriors->data(), num_states(), nullptr);
+}
+
+ForwardBackward GaussianMixtureHmm::forward_backward(ConstMatrixRefF frames) const {
+  return detail::both_ways(chain_, log_densities(bank_, frames));
 }
 
 double GaussianMixtureHmm::log_likelihood(ConstMatrixRefF frames) const {

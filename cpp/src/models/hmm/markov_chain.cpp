@@ -212,6 +212,27 @@ void MarkovChain::propagate_max(const double* x, double* y) const {
   }
 }
 
+void MarkovChain::propagate_max_back(const double* x, double* y) const {
+  const int n = num_states();
+  if (dense()) {
+    detail::dense_kernels().propagate_max(x, n, log_back_.row(0), log_back_.stride(), n, y);
+    return;
+  }
+  if (jumps()) {
+    double landed = kMinusInf;
+    for (int j = 0; j < n; ++j) landed = std::max(landed, log_land_[j] + x[j]);
+    for (int i = 0; i < n; ++i) y[i] = log_leave_[i] + landed;
+  } else {
+    std::fill(y, y + n, kMinusInf);
+  }
+  for (int row = 0; row < static_cast<int>(log_steps_.num_rows()); ++row) {
+    const int step = row - lowest_step_;
+    const double* a = log_steps_.row(row);
+    const int end = std::min(n, n - step);
+    for (int i = std::max(0, -step); i < end; ++i) y[i] = std::max(y[i], a[i] + x[i + step]);
+  }
+}
+
 int MarkovChain::best_leaver(const double* x) const {
   return jumps() ? detail::dense_kernels().best_sum(x, log_leave_.data(), num_states()) : 0;
 }

@@ -11,6 +11,7 @@
 #include "models/possibility/possibilistic_path.hpp"
 #include "models/possibility/possibilistic_rule.hpp"
 #include "models/possibility/possibility_chains.hpp"
+#include "models/possibility/state_possibilities.hpp"
 
 namespace hri {
 namespace {
@@ -53,14 +54,12 @@ PossibilisticGaussianHmmSet::PossibilisticGaussianHmmSet(std::vector<GaussianMix
     : models_(std::move(models)), rule_(rule) {
   require(!models_.empty(), "a set needs at least one model");
   validate(rule_);
-  std::vector<const MarkovChain*> chains;
   for (const GaussianMixtureHmm& m : models_) {
     require(same_shape(m, models_.front()),
             "all models of a set need the same topology and dimension");
-    chains.push_back(&m.chain());
   }
   chains_ = std::make_shared<const detail::PossibilityChains<float>>(
-      detail::scaled_together(chains), detail::chain_rule<float>(rule_));
+      detail::scaled_together(detail::chains_of(models_)), detail::chain_rule<float>(rule_));
 }
 
 PossibilisticGaussianHmmSet PossibilisticGaussianHmmSet::train(
@@ -150,24 +149,40 @@ Possibilities PossibilisticGaussianHmmSet::classify(ConstMatrixRefF frames) cons
 
 double PossibilisticGaussianHmmSet::viterbi(int class_index, ConstMatrixRefF frames,
                                             std::vector<int>* path) const {
+  MatrixD log_b = log_emissions(class_index, frames);
+  return detail::most_possible_path(
+      detail::scaled_together(detail::chains_of(models_))[static_cast<std::size_t>(class_index)],
+      rule_, std::move(log_b), path);
+}
+
+StatePossibilities PossibilisticGaussianHmmSet::state_possibilities(int class_index,
+                                                                    ConstMatrixRefF frames) const {
+  MatrixD log_b = log_emissions(class_index, frames);
+  return detail::state_possibilities(models_[static_cast<std::size_t>(class_index)].chain(),
+                                     detail::ChainScale(detail::chains_of(models_)), rule_,
+                                     std::move(log_b));
+}
+
+// Of one class in double, scaled over all classes, after checking both arguments.
+MatrixD PossibilisticGaussianHmmSet::log_emissions(int class_index, ConstMatrixRefF frames) const {
   require(class_index >= 0 && class_index < num_classes(), "class_index out of range");
   require(frames.rows() > 0, "frames must have at least one row");
+  if (frames.cols() != dim()) {
+    fail(ErrorKind::invalid_argument, "frames have " + std::to_string(frames.cols()) +
+                                          " columns, the model has " + std::to_string(dim()));
+  }
   VectorD best = VectorD::Constant(frames.rows(), -std::numeric_limits<double>::infinity());
   MatrixD wanted;
-  std::vector<const MarkovChain*> chains;
   for (int c = 0; c < num_classes(); ++c) {
-    const GaussianMixtureHmm& model = models_[static_cast<std::size_t>(c)];
     MatrixD log_b;
-    model.bank().log_densities(frames, &log_b, nullptr);
+    models_[static_cast<std::size_t>(c)].bank().log_densities(frames, &log_b, nullptr);
     best = best.cwiseMax(log_b.rowwise().maxCoeff());
     if (c == class_index) wanted = std::move(log_b);
-    chains.push_back(&model.chain());
   }
   for (Eigen::Index t = 0; t < wanted.rows(); ++t) {
     if (best[t] > -std::numeric_limits<double>::infinity()) wanted.row(t).array() -= best[t];
   }
-  return detail::most_possible_path(
-      detail::scaled_together(chains)[static_cast<std::size_t>(class_index)], rule_, wanted, path);
+  return wanted;
 }
 
 void PossibilisticGaussianHmmSet::write(ModelFile& file, const std::string& prefix) const {

@@ -7,11 +7,13 @@
 #include <limits>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 #include "models/hmm/forward_backward.hpp"
 #include "models/possibility/possibilistic_path.hpp"
 #include "models/possibility/possibilistic_rule.hpp"
 #include "models/possibility/possibility_tables.hpp"
+#include "models/possibility/state_possibilities.hpp"
 
 namespace hri {
 namespace {
@@ -77,16 +79,36 @@ Possibilities PossibilisticHmmSet::classify(Span<const std::int32_t> symbols) co
 
 double PossibilisticHmmSet::viterbi(int class_index, Span<const std::int32_t> symbols,
                                     std::vector<int>* path) const {
+  MatrixD log_b = log_emissions(class_index, symbols);
+  return detail::most_possible_path(
+      detail::possibility_chains(models_)[static_cast<std::size_t>(class_index)], rule_,
+      std::move(log_b), path);
+}
+
+StatePossibilities PossibilisticHmmSet::state_possibilities(
+    int class_index, Span<const std::int32_t> symbols) const {
+  MatrixD log_b = log_emissions(class_index, symbols);
+  return detail::state_possibilities(models_[static_cast<std::size_t>(class_index)].chain(),
+                                     detail::ChainScale(detail::chains_of(models_)), rule_,
+                                     std::move(log_b));
+}
+
+// Of one class, a row a symbol, after checking both arguments.
+MatrixD PossibilisticHmmSet::log_emissions(int class_index,
+                                           Span<const std::int32_t> symbols) const {
   check_class(class_index);
   require(!symbols.empty(), "symbols must not be empty");
   detail::check_symbols(symbols, num_symbols());
-  const MatrixD log_b = detail::safe_log(emission(class_index));
-  MatrixD frames(static_cast<Eigen::Index>(symbols.size()), num_states());
-  for (std::size_t t = 0; t < symbols.size(); ++t)
-    frames.row(static_cast<Eigen::Index>(t)) = log_b.col(symbols[t]).transpose();
-  return detail::most_possible_path(
-      detail::possibility_chains(models_)[static_cast<std::size_t>(class_index)], rule_, frames,
-      path);
+  const MatrixD& b = models_[static_cast<std::size_t>(class_index)].emission();
+  MatrixD result(static_cast<Eigen::Index>(symbols.size()), num_states());
+  for (std::size_t t = 0; t < symbols.size(); ++t) {
+    const std::int32_t o = symbols[t];
+    for (int j = 0; j < num_states(); ++j) {
+      const double p = b(j, o) > 0 ? b(j, o) / largest_[o] : 0;
+      result(static_cast<Eigen::Index>(t), j) = p > 0 ? std::log(p) : detail::kMinusInf;
+    }
+  }
+  return result;
 }
 
 void PossibilisticHmmSet::check_class(int class_index) const {

@@ -33,6 +33,15 @@ struct PossibilityChain {
   [[nodiscard]] MatrixD transition(Join join) const;
 };
 
+/// The chains of models, in their order.
+template <class Model>
+std::vector<const MarkovChain*> chains_of(const std::vector<Model>& models) {
+  std::vector<const MarkovChain*> chains;
+  chains.reserve(models.size());
+  for (const Model& model : models) chains.push_back(&model.chain());
+  return chains;
+}
+
 /// The chains of all classes.
 std::vector<PossibilityChain> scaled_together(const std::vector<const MarkovChain*>& chains);
 

@@ -13,10 +13,7 @@
 namespace hri::detail {
 
 std::vector<PossibilityChain> possibility_chains(const std::vector<DiscreteHmm>& models) {
-  std::vector<const MarkovChain*> chains;
-  chains.reserve(models.size());
-  for (const DiscreteHmm& m : models) chains.push_back(&m.chain());
-  return scaled_together(chains);
+  return scaled_together(chains_of(models));
 }
 
 void check_symbols(Span<const std::int32_t> symbols, int num_symbols) {

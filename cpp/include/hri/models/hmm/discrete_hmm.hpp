@@ -14,6 +14,7 @@
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/hmm/forward_backward.hpp"
 #include "hri/models/hmm/markov_chain.hpp"
 #include "hri/models/hmm/training_report.hpp"
 
@@ -94,6 +95,12 @@ class HRI_API DiscreteHmm {
   /// P(state of frame t | all symbols), shape (num_frames, num_states). Throws InvalidArgument
   /// where the sequence is impossible.
   [[nodiscard]] MatrixD posterior(Span<const std::int32_t> symbols) const;
+  /// log P(symbols | model), and the posterior as above into `posteriors`, which is resized: all 0
+  /// where the sequence is impossible.
+  double state_posteriors(Span<const std::int32_t> symbols, MatrixD* posteriors) const;
+  /// Forward and backward log probabilities of the states, frame by frame. Throws InvalidArgument
+  /// for unknown symbols or none.
+  [[nodiscard]] ForwardBackward forward_backward(Span<const std::int32_t> symbols) const;
 
   [[nodiscard]] const MarkovChain& chain() const { return chain_; }
   [[nodiscard]] int num_states() const { return chain_.num_states(); }
@@ -112,8 +119,8 @@ class HRI_API DiscreteHmm {
 
   void validate_symbol(std::int32_t symbol, std::size_t position) const;
   void validate_all(Span<const std::int32_t> symbols) const;
-  double forward_backward(Span<const std::int32_t> symbols, detail::PaddedMatrix* gamma,
-                          detail::ChainCounts* counts) const;
+  double expect(Span<const std::int32_t> symbols, detail::PaddedMatrix* gamma,
+                detail::ChainCounts* counts) const;
 
   MarkovChain chain_;
   MatrixD emission_;

@@ -14,6 +14,7 @@
 #include "hri/core/stop_check.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/models/hmm/forward_backward.hpp"
 #include "hri/models/hmm/markov_chain.hpp"
 #include "hri/models/hmm/mixture_bank.hpp"
 #include "hri/models/hmm/training_report.hpp"
@@ -97,6 +98,12 @@ class HRI_API GaussianMixtureHmm {
   /// P(state of frame t | all frames), shape (num_frames, num_states), emissions in double. Throws
   /// InvalidArgument where the sequence is impossible.
   [[nodiscard]] MatrixD posterior(ConstMatrixRefF frames) const;
+  /// log P(frames | model), emissions in double, and the posterior as above into `posteriors`,
+  /// which is resized: all 0 where the sequence is impossible.
+  double state_posteriors(ConstMatrixRefF frames, MatrixD* posteriors) const;
+  /// Forward and backward log probabilities of the states, frame by frame, emissions in double.
+  /// Throws InvalidArgument for no frames, another dimension or values that are not finite.
+  [[nodiscard]] ForwardBackward forward_backward(ConstMatrixRefF frames) const;
 
   [[nodiscard]] int num_states() const { return bank_.num_states(); }
   [[nodiscard]] int dim() const { return bank_.dim(); }

@@ -69,6 +69,8 @@ class HRI_API MarkovChain {
   void propagate_back(const double* x, double* y) const;
   /// y[j] = max over i of x[i] + log a_ij.
   void propagate_max(const double* x, double* y) const;
+  /// y[i] = max over j of log a_ij + x[j].
+  void propagate_max_back(const double* x, double* y) const;
   /// The lowest i for which x[i] + log a_ij is largest. `best_leaver` is what best_leaver(x) gave.
   [[nodiscard]] int best_previous(const double* x, int j, int best_leaver) const;
   [[nodiscard]] int best_previous(const double* x, int j) const;

@@ -15,6 +15,7 @@
 #include "hri/models/hmm/gaussian_mixture_hmm.hpp"
 #include "hri/models/possibility/possibilistic_hmm.hpp"
 #include "hri/models/possibility/possibility.hpp"
+#include "hri/models/possibility/state_possibilities.hpp"
 
 namespace hri {
 
@@ -51,8 +52,13 @@ class HRI_API PossibilisticGaussianHmmSet {
   [[nodiscard]] Possibilities classify(ConstMatrixRefF frames) const;
 
   /// The most possible path of one class and its log possibility, computed in double; empty where
-  /// it is impossible.
+  /// it is impossible. Throws InvalidArgument for another class, and as log_possibilities() does.
   double viterbi(int class_index, ConstMatrixRefF frames, std::vector<int>* path = nullptr) const;
+
+  /// As PossibilisticHmmSet::state_possibilities; densities of all classes come on top. Throws
+  /// InvalidArgument as viterbi() does, and for a conditioned minimum unless concentration is 1.
+  [[nodiscard]] StatePossibilities state_possibilities(int class_index,
+                                                       ConstMatrixRefF frames) const;
 
   [[nodiscard]] int num_classes() const { return static_cast<int>(models_.size()); }
   [[nodiscard]] int dim() const { return models_.front().dim(); }
@@ -65,6 +71,8 @@ class HRI_API PossibilisticGaussianHmmSet {
   static PossibilisticGaussianHmmSet read(const ModelFile& file, const std::string& prefix);
 
  private:
+  [[nodiscard]] MatrixD log_emissions(int class_index, ConstMatrixRefF frames) const;
+
   std::vector<GaussianMixtureHmm> models_;
   PossibilisticRule rule_;
   std::shared_ptr<const detail::PossibilityChains<float>> chains_;  // immutable

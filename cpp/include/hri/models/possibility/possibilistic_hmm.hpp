@@ -21,6 +21,7 @@
 #include "hri/models/hmm/discrete_hmm.hpp"
 #include "hri/models/hmm/topology.hpp"
 #include "hri/models/possibility/possibility.hpp"
+#include "hri/models/possibility/state_possibilities.hpp"
 
 namespace hri {
 
@@ -131,8 +132,16 @@ class HRI_API PossibilisticHmmSet {
   [[nodiscard]] Possibilities classify(Span<const std::int32_t> symbols) const;
 
   /// The most possible path of one class and its log possibility; empty where it is impossible.
+  /// Throws InvalidArgument for another class, unknown symbols or none.
   double viterbi(int class_index, Span<const std::int32_t> symbols,
                  std::vector<int>* path = nullptr) const;
+
+  /// Possibility and necessity of every state of one class at every frame given all symbols
+  /// (eq. 4.23), with the forward and backward possibilities they come from (eq. 4.10-4.17), in
+  /// double. With product O(num_frames * num_states), but for ergodic topologies. Throws
+  /// InvalidArgument as viterbi() does, and for a conditioned minimum unless concentration is 1.
+  [[nodiscard]] StatePossibilities state_possibilities(int class_index,
+                                                       Span<const std::int32_t> symbols) const;
 
   [[nodiscard]] int num_classes() const { return static_cast<int>(models_.size()); }
   [[nodiscard]] int num_states() const { return models_.front().num_states(); }
@@ -154,6 +163,7 @@ class HRI_API PossibilisticHmmSet {
   friend class PossibilisticHmmStream;
   friend class FixedPointHmmSet;
   void check_class(int class_index) const;
+  [[nodiscard]] MatrixD log_emissions(int class_index, Span<const std::int32_t> symbols) const;
 
   std::vector<DiscreteHmm> models_;
   PossibilisticRule rule_;
