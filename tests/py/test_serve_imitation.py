@@ -23,7 +23,7 @@ from hri.fusion import FusionOptions
 from hri.robot import Robot
 from hri.robot.imitation import live
 from hri.serve import PageServer, Stage
-from hri.session import SessionOptions
+from hri.session import Session, SessionOptions
 from page_people import PICTURE, Page, connected, framed, jpeg
 from serving import LIMITS, Serving, answer, stop_by_button, stop_by_request
 from session_people import MOTIONS, signing, speech
@@ -186,6 +186,23 @@ def test_without_a_label_or_a_robot_there_is_no_imitation(serving: Serving, sign
             assert page.messages[0]["imitate"] == []
             page.say(type="imitate")
             page.await_event("say", text="tall." if parts[2] is None else "I cannot imitate you.")
+
+
+def test_who_asks_while_the_session_begins_is_heeded(
+    serving: Serving, signs: Any, robot: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = Session.run
+
+    def late(*given: Any, **options: Any) -> Any:
+        time.sleep(0.5)
+        return run(*given, **options)
+
+    monkeypatch.setattr(Session, "run", late)
+    server, cookie = serving(None, signs, robot, SessionOptions(), motions=OTHERS, limits=LIMITS)
+    with connected(server, cookie) as page:
+        page.say(type="imitate")
+        page.await_event("say", text="I cannot imitate you.", timeout_s=5.0)
+        assert sum(m.get("text") == "I cannot imitate you." for m in page.messages) == 1
 
 
 def test_the_command_line_takes_it_as_hri_session_does(hri: Any, words: Any, tmp_path: Any) -> None:

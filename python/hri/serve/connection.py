@@ -213,7 +213,7 @@ class Connection:
         if command["type"] == "resume":
             self._stage.resume()
         elif command["type"] == "imitate":
-            self._stage.session.imitate()
+            self._stage.imitate()
         elif command["type"] == "rest":
             self._stage.session.rest()
         elif command["type"] != "hello":

@@ -9,15 +9,12 @@ import time
 from collections import deque
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import closing
-from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
-from hri.core.display import short_list
 from hri.core.errors import Error, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.language import Grammar, KnowledgeBase
 from hri.live import MISSING_TEXTS, Event
-from hri.media import Audio
 from hri.page import figure
 from hri.recognition import (
     CommandRecognizer,
@@ -29,6 +26,7 @@ from hri.recognition import (
 from hri.robot import Robot
 from hri.serve.devices import PageCamera, PageMicrophone
 from hri.serve.limits import ServeLimits
+from hri.serve.recordings import Recording, Spoken, require_recordings_of
 from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
@@ -44,20 +42,6 @@ _LOGGED = frozenset(
 )
 
 Publish = Callable[[dict[str, Any]], None]
-
-
-Spoken = tuple[list[Audio], list[str], list[str]]
-
-
-class Recording(Protocol):
-    """A word by a person, in a file."""
-
-    @property
-    def path(self) -> Path: ...
-    @property
-    def label(self) -> str: ...
-    @property
-    def person(self) -> str: ...
 
 
 class Stage:
@@ -128,7 +112,7 @@ class Stage:
         self.recordings, self.say_again, self.speak = recordings, spoken, speak
         self._first_vocabulary = self.vocabulary
         if recordings is not None:
-            _require_recordings_of(words, recordings, spoken_labels)
+            require_recordings_of(words, recordings, spoken_labels)
         elif spoken is not None:
             raise InvalidArgument("spoken words go with recordings of the others")
         self.limits = limits or ServeLimits()
@@ -150,6 +134,9 @@ class Stage:
         self._figure: dict[str, Any] | None = None
         self._paused = self._held = False
         self._num_resumed = 0
+        self._asking = threading.Lock()
+        self._heard: Session | None = None
+        self._imitate_first = False
         self._closed = threading.Event()
         self._wanted = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True, name="hri-stage")
@@ -193,9 +180,17 @@ class Stage:
         self._only_stop_until_s = time.monotonic() + for_s
         self._session.only_stop(for_s)
 
+    def imitate(self) -> None:
+        """Begin to imitate unless stopped, also where the session is about to begin; by any thread."""
+        with self._asking:
+            if self._heard is self._session:
+                self._session.imitate()
+            else:
+                self._imitate_first = self._wanted.is_set() and not self._held
+
     def resume(self) -> None:
         """End STOP; by any thread."""
-        self._held = self._paused = False
+        self._held = self._paused = self._imitate_first = False
         self._num_resumed += 1
         if not self._wanted.is_set():  # no session runs that could
             self._free()
@@ -351,7 +346,7 @@ class Stage:
             self._wanted.wait()
             if self._closed.is_set():
                 return
-            session, num_resumed = self._session, self._num_resumed
+            session, num_resumed, self._heard = self._session, self._num_resumed, None
             try:
                 self._play(session)
             except Error as error:
@@ -376,6 +371,11 @@ class Stage:
         see: Any = self.camera.stream if self.signs is not None else None
         with closing(session.run(hear, see, live=True)) as events:  # type: ignore[type-var]
             self._begun_s = time.monotonic()
+            with self._asking:  # what a session was asked for before it runs is lost
+                self._heard = session
+                if self._imitate_first and not (self._held or self._paused):
+                    session.imitate()
+                self._imitate_first = False
             if self._only_stop_until_s > self._begun_s:
                 session.only_stop(self._only_stop_until_s - self._begun_s)
             self._show_state(IDLE)
@@ -414,20 +414,3 @@ class Stage:
         if event.event in _LOGGED:
             self._log.append(message)
         self.publish(message)
-
-
-def _require_recordings_of(
-    words: WordRecognizer | CommandRecognizer | None, recordings: Sequence[Recording], spoken: Collection[str]
-) -> None:
-    if not isinstance(words, CommandRecognizer):
-        raise InvalidArgument("recordings are needed only to add words to commands of several words")
-    labels = {str(label) for label in words.words.classes_}
-    recorded = {recording.label for recording in recordings} | set(spoken)
-    if left := short_list(sorted(labels - recorded)):
-        raise InvalidArgument(f"no recordings are there of words that the model knows: {left}")
-    if left := short_list(sorted(recorded - labels)):
-        raise InvalidArgument(f"recordings are there of words that the model does not know: {left}")
-    if not words.words.options.unknown_words:
-        raise InvalidArgument(
-            "a new word would count as a command while it is recorded: train the model with unknown_words=true"
-        )
