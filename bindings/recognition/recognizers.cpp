@@ -89,12 +89,17 @@ hri::WordRecognizer train_words(
     const hri::WordRecognizerOptions& options, const std::function<void(int, int)>& progress,
     const std::vector<FloatArray>& fillers, const std::vector<int>& filler_rates_hz,
     const std::vector<std::string>& filler_labels,
-    const std::shared_ptr<hri::SpeechEmbedding>& embedding) {
+    const std::shared_ptr<hri::SpeechEmbedding>& embedding,
+    const std::vector<FloatArray>& embedding_fillers,
+    const std::vector<int>& embedding_filler_rates_hz,
+    const std::vector<std::string>& embedding_filler_labels) {
   const auto words = as_word_samples(samples, sample_rates_hz, labels, groups, "X");
   const auto others = as_word_samples(fillers, filler_rates_hz, filler_labels, {}, "fillers");
+  const auto embedded = as_word_samples(embedding_fillers, embedding_filler_rates_hz,
+                                        embedding_filler_labels, {}, "embedding_fillers");
   const py::gil_scoped_release release;
   return hri::WordRecognizer::train(words, options, with_gil(progress), hri_bind::interrupted,
-                                    others, embedding);
+                                    others, embedding, embedded);
 }
 
 void bind_held_out_report(py::module_& m) {
@@ -131,7 +136,10 @@ void bind_words(py::module_& m) {
                   py::arg("progress") = nullptr, py::arg("fillers") = std::vector<FloatArray>{},
                   py::arg("filler_rates_hz") = std::vector<int>{},
                   py::arg("filler_labels") = std::vector<std::string>{},
-                  py::arg("embedding") = nullptr)
+                  py::arg("embedding") = nullptr,
+                  py::arg("embedding_fillers") = std::vector<FloatArray>{},
+                  py::arg("embedding_filler_rates_hz") = std::vector<int>{},
+                  py::arg("embedding_filler_labels") = std::vector<std::string>{})
       .def("with_word", &with_word, py::arg("label"), py::arg("clips"), py::arg("sample_rates_hz"))
       .def("without_word", &hri::WordRecognizer::without_word, py::arg("label"))
       .def_static(

@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from hri.io import write_wav_pcm16
-from hri.recognition.word import filler_words, recognizer
+from hri.recognition.word import embedding_filler_words, filler_words, recognizer
 from hri.synthetic.signer import make_gesture_corpus
 
 pytest.register_assert_rewrite("serving")  # a plugin of some test files, which import it, too
@@ -105,9 +105,10 @@ def robot_data(name: str) -> Path:
 
 @pytest.fixture(scope="module")
 def few_fillers() -> Iterator[None]:
-    """Training with three filler words only, whose models take most of its time where the vocabulary is small."""
+    """Training with three filler words, and three for an embedding: more take most of its time where words are few."""
     with pytest.MonkeyPatch.context() as patch:
         labels = sorted({word.label for word in filler_words()})[:3]
         few = tuple(word for word in filler_words() if word.label in labels)
         patch.setattr(recognizer, "filler_words", lambda: few)
+        patch.setattr(recognizer, "embedding_filler_words", lambda: embedding_filler_words()[:3])
         yield

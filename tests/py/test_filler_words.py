@@ -12,7 +12,7 @@ from hri import _native
 from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition import WordRecognizer
 from hri.recognition.word import fillers
-from hri.recognition.word.fillers import FillerWord, compress, expand, filler_words
+from hri.recognition.word.fillers import FillerWord, compress, embedding_filler_words, expand, filler_words
 
 
 def test_words_of_the_package_are_speech():
@@ -24,6 +24,24 @@ def test_words_of_the_package_are_speech():
         assert 0.2 < len(word.samples) / 16000 < 2 and 0.1 < np.abs(word.samples).max() <= 1
         first, last = _native.find_speech(word.samples, 16000)
         assert last - first > 16000 // 10, word.label
+
+
+def test_words_for_the_embedding_are_speech_of_other_words():
+    words = embedding_filler_words()
+    labels = {word.label for word in words}
+    assert len(labels) == len(words) > 250 and not labels & {word.label for word in filler_words()}
+    for word in words:
+        assert word.samples.dtype == np.float32 and word.sample_rate_hz == 8000
+        assert 0.2 < len(word.samples) / 8000 < 2 and 0.1 < np.abs(word.samples).max() <= 1
+        first, last = _native.find_speech(word.samples, 8000)
+        assert last - first > 8000 // 10, word.label
+
+
+def test_words_for_the_embedding_need_it():
+    clips = [tone_word(base, 800.0, take) for base in (500.0, 900.0) for take in range(2)]
+    words = [FillerWord(tone_word(700.0, 0.0, 0), 16000, "flat")]
+    with pytest.raises(InvalidArgument, match=r"front_end='cepstra' takes no fillers"):
+        WordRecognizer().fit(clips, list("aabb"), sample_rate_hz=16000, embedding_fillers=words)
 
 
 def test_compression_keeps_quiet_and_loud_samples_alike():

@@ -50,6 +50,7 @@ from hri.recognition.word import (
     SpeechEmbedding,
     Utterance,
     WordRecognizer,
+    embedding_filler_words,
     embedding_weights,
     filler_words,
 )
@@ -103,6 +104,7 @@ __all__ = [
     "UtteranceResult",
     "WordRecognizer",
     "WordRecognizerOptions",
+    "embedding_filler_words",
     "embedding_weights",
     "filler_words",
     "load",

@@ -46,8 +46,21 @@ class Digest {
   std::uint64_t second_ = 0;
 };
 
-std::string key_of(const std::vector<WordSample>& fillers, const WordRecognizerOptions& options,
-                   const SpeechEmbedding* embedding) {
+void add_words(const std::vector<WordSample>& words, const std::string& name, ModelFile* file) {
+  Digest digest;
+  std::vector<std::string> labels;
+  for (const WordSample& word : words) {
+    labels.push_back(word.label);
+    digest.add(static_cast<std::uint64_t>(word.sample_rate_hz));
+    digest.add(word.samples);
+  }
+  file->set_text_list(name + ".labels", labels);
+  file->set_text(name + ".audio", digest.text());
+}
+
+std::string key_of(const std::vector<WordSample>& fillers,
+                   const std::vector<WordSample>& embedding_fillers,
+                   const WordRecognizerOptions& options, const SpeechEmbedding* embedding) {
   ModelFile file;
   file.set_kind("fillers");
   write_options(options, file);
@@ -55,15 +68,8 @@ std::string key_of(const std::vector<WordSample>& fillers, const WordRecognizerO
     file.set_text("embedding.checksum", embedding->checksum());
     write_options(embedding->options(), file, "embedding.");
   }
-  Digest digest;
-  std::vector<std::string> labels;
-  for (const WordSample& word : fillers) {
-    labels.push_back(word.label);
-    digest.add(static_cast<std::uint64_t>(word.sample_rate_hz));
-    digest.add(word.samples);
-  }
-  file.set_text_list("labels", labels);
-  file.set_text("audio", digest.text());
+  add_words(fillers, "fillers", &file);
+  add_words(embedding_fillers, "embedding_fillers", &file);
   const std::vector<std::uint8_t> bytes = file.serialise();
   return {bytes.begin(), bytes.end()};
 }
@@ -98,17 +104,19 @@ class Memo {
 #endif
 
 std::shared_ptr<const TrainedFillers> remembered_fillers(
-    const std::vector<WordSample>& fillers, const WordRecognizerOptions& options,
-    const SpeechEmbedding* embedding, const std::function<TrainedFillers()>& train) {
+    const std::vector<WordSample>& fillers, const std::vector<WordSample>& embedding_fillers,
+    const WordRecognizerOptions& options, const SpeechEmbedding* embedding,
+    const std::function<TrainedFillers()>& train) {
 #if defined(__cpp_exceptions)
   static Memo memo;
-  std::string key = key_of(fillers, options, embedding);
+  std::string key = key_of(fillers, embedding_fillers, options, embedding);
   if (auto known = memo.find(key)) return known;
   auto trained = std::make_shared<const TrainedFillers>(train());
   memo.keep(std::move(key), trained);
   return trained;
 #else
   static_cast<void>(fillers);
+  static_cast<void>(embedding_fillers);
   static_cast<void>(options);
   static_cast<void>(embedding);
   return std::make_shared<const TrainedFillers>(train());

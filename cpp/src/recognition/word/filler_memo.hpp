@@ -22,7 +22,8 @@ struct TrainedFillers {
 /// What `train` gives, or gave for equal words, options and embedding a while ago: the last few
 /// results are kept. Safe from several threads, which may then train the same at once.
 std::shared_ptr<const TrainedFillers> remembered_fillers(
-    const std::vector<WordSample>& fillers, const WordRecognizerOptions& options,
-    const SpeechEmbedding* embedding, const std::function<TrainedFillers()>& train);
+    const std::vector<WordSample>& fillers, const std::vector<WordSample>& embedding_fillers,
+    const WordRecognizerOptions& options, const SpeechEmbedding* embedding,
+    const std::function<TrainedFillers()>& train);
 
 }  // namespace hri::detail

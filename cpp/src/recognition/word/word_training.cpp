@@ -77,21 +77,23 @@ class WordTrainer {
         should_stop_(std::move(should_stop)) {}
 
   WordRecognizer run(const std::vector<WordSample>& samples, const std::vector<WordSample>& fillers,
+                     const std::vector<WordSample>& embedding_fillers,
                      const TrainingProgress& progress) {
     // Fillers, features, every fold, and the models that are kept, and of each of these the epochs
     // of its network. Samples without speech may leave fewer folds than all would make.
     const int num_folds_of_all = num_folds_of(samples);
-    const int num_steps = (uses_fillers(fillers) ? 1 : 0) + num_folds_of_all + 2 +
+    const bool has_fillers = options_.model != SequenceModelKind::ptbhmm && !fillers.empty();
+    const int num_steps = (has_fillers ? 1 : 0) + num_folds_of_all + 2 +
                           num_folds_of_all * num_epochs(0) + num_epochs(kNoFold);
     int step = 0;
     step_done_ = [&] {
       if (progress) progress(++step, num_steps);
     };
     if (progress) progress(step, num_steps);
-    if (uses_fillers(fillers)) {
-      fillers_ =
-          detail::remembered_fillers(fillers, options_, augmentation_.front_end().embedding().get(),
-                                     [&] { return train_fillers(fillers); });
+    if (has_fillers) {
+      fillers_ = detail::remembered_fillers(
+          fillers, embedding_fillers, options_, augmentation_.front_end().embedding().get(),
+          [&] { return train_fillers(fillers, embedding_fillers); });
       step_done_();
     }
     prepare(samples);
@@ -112,19 +114,33 @@ class WordTrainer {
   }
 
  private:
-  [[nodiscard]] bool uses_fillers(const std::vector<WordSample>& fillers) const {
-    return !fillers.empty() && options_.model != SequenceModelKind::ptbhmm;
+  [[nodiscard]] detail::TrainedFillers train_fillers(
+      const std::vector<WordSample>& fillers,
+      const std::vector<WordSample>& embedding_fillers) const {
+    detail::TrainedFillers result;
+    const auto of_words = copies_of(fillers, "fillers");
+    ClassStreams sequences(of_words.size());
+    for (std::size_t w = 0; w < of_words.size(); ++w) {
+      for (const StreamFrames& copy : of_words[w]) sequences[w].push_back(&copy);
+    }
+    result.models = hri::train_fillers(sequences, augmentation_.front_end().num_streams(), options_,
+                                       should_stop_);
+    if (!has_vectors()) return result;
+    append_vectors(of_words, &result.vectors);
+    append_vectors(copies_of(embedding_fillers, "embedding_fillers"), &result.vectors);
+    return result;
   }
 
-  // Words without speech are left out.
-  [[nodiscard]] detail::TrainedFillers train_fillers(const std::vector<WordSample>& fillers) const {
+  // Of every word, in the order of their labels. Those without speech are left out.
+  [[nodiscard]] std::vector<std::vector<StreamFrames>> copies_of(
+      const std::vector<WordSample>& fillers, const char* list_name) const {
     std::vector<std::string> words = words_of(fillers);
     std::sort(words.begin(), words.end());
     words.erase(std::unique(words.begin(), words.end()), words.end());
     std::vector<std::vector<StreamFrames>> of_samples(fillers.size());
     detail::parallel_for(fillers.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
       const detail::TrainingWord word =
-          augmentation_.read(fillers[i], detail::sample_name(fillers[i], "fillers", i));
+          augmentation_.read(fillers[i], detail::sample_name(fillers[i], list_name, i));
       // Augmented as the vocabulary is, so that neither of the two fits noise or a voice better.
       if (word.has_speech()) of_samples[i] = augmentation_.copies(word, i);
     });
@@ -133,24 +149,21 @@ class WordTrainer {
       auto& list = copies[static_cast<std::size_t>(label_index(words, fillers[i].label))];
       for (StreamFrames& copy : of_samples[i]) list.push_back(std::move(copy));
     }
-    ClassStreams sequences;
-    for (const auto& list : copies) {
-      if (list.empty()) continue;
-      sequences.emplace_back();
-      for (const StreamFrames& copy : list) sequences.back().push_back(&copy);
-    }
-    detail::TrainedFillers result;
-    result.models = hri::train_fillers(sequences, augmentation_.front_end().num_streams(), options_,
-                                       should_stop_);
-    if (augmentation_.front_end().embedding() == nullptr) return result;
+    copies.erase(
+        std::remove_if(copies.begin(), copies.end(), [](const auto& list) { return list.empty(); }),
+        copies.end());
+    return copies;
+  }
+
+  void append_vectors(const std::vector<std::vector<StreamFrames>>& of_words,
+                      ClassSequences* vectors) const {
     const auto num_streams = static_cast<std::size_t>(augmentation_.front_end().num_streams());
-    for (const auto& list : sequences) {
-      result.vectors.emplace_back();
-      for (const StreamFrames* copy : list) {
-        if (copy->size() > num_streams) result.vectors.back().push_back((*copy)[num_streams]);
+    for (const auto& list : of_words) {
+      vectors->emplace_back();
+      for (const StreamFrames& copy : list) {
+        if (copy.size() > num_streams) vectors->back().push_back(copy[num_streams]);
       }
     }
-    return result;
   }
 
   // Samples without speech are left out; train_without() refuses a label that has no other.
@@ -415,12 +428,16 @@ WordRecognizer WordRecognizer::train(const std::vector<WordSample>& samples,
                                      const WordRecognizerOptions& options,
                                      const TrainingProgress& progress, const StopCheck& should_stop,
                                      const std::vector<WordSample>& fillers,
-                                     const std::shared_ptr<const SpeechEmbedding>& embedding) {
+                                     const std::shared_ptr<const SpeechEmbedding>& embedding,
+                                     const std::vector<WordSample>& embedding_fillers) {
   validate(options);
+  require(embedding_fillers.empty() || (embedding != nullptr && !fillers.empty()),
+          "embedding_fillers need a speech embedding and other fillers");
   WordRecognizerOptions used = options;
   used.cepstra.sample_rate_hz = training_rate_hz(samples, options.cepstra.sample_rate_hz);
   used.num_mixtures = training_mixtures(samples, options.num_mixtures);
-  return WordTrainer(samples, used, embedding, should_stop).run(samples, fillers, progress);
+  return WordTrainer(samples, used, embedding, should_stop)
+      .run(samples, fillers, embedding_fillers, progress);
 }
 
 }  // namespace hri

@@ -3,7 +3,7 @@
 """Isolated words: training, recognition, adaptation to a speaker."""
 
 from hri.recognition.word.embedding import SpeechEmbedding, embedding_weights
-from hri.recognition.word.fillers import FillerWord, filler_words
+from hri.recognition.word.fillers import FillerWord, embedding_filler_words, filler_words
 from hri.recognition.word.recognizer import Utterance, WordRecognizer
 from hri.recognition.word.speaker import SpeakerAdapter
 
@@ -13,6 +13,7 @@ __all__ = [
     "SpeechEmbedding",
     "Utterance",
     "WordRecognizer",
+    "embedding_filler_words",
     "embedding_weights",
     "filler_words",
 ]

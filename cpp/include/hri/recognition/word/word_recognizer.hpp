@@ -150,16 +150,19 @@ class HRI_API WordRecognizer {
                  HeldOutReport held_out = {});
 
   /// Trains one model a label. `fillers` are words outside the vocabulary, of any speakers: their
-  /// models serve rejection alone (kind hmm; ptbhmm leaves them aside). Throws InvalidArgument for
-  /// a recording that is not finite (with its index) or too short, naming it, and for a label
-  /// without a recording that holds speech; Interrupted when `should_stop` says so. Labels are kept
-  /// in sorted order.
+  /// models serve rejection alone (kind hmm; ptbhmm leaves them aside). `embedding_fillers` are
+  /// more of them without models, which the embedding alone compares with, so that hundreds cost
+  /// next to nothing. Throws InvalidArgument for a recording that is not finite (with its index) or
+  /// too short, naming it, for a label without a recording that holds speech, and for
+  /// `embedding_fillers` without an embedding or other fillers; Interrupted when `should_stop` says
+  /// so. Labels are kept in sorted order.
   static WordRecognizer train(const std::vector<WordSample>& samples,
                               const WordRecognizerOptions& options,
                               const TrainingProgress& progress = {},
                               const StopCheck& should_stop = {},
                               const std::vector<WordSample>& fillers = {},
-                              const std::shared_ptr<const SpeechEmbedding>& embedding = nullptr);
+                              const std::shared_ptr<const SpeechEmbedding>& embedding = nullptr,
+                              const std::vector<WordSample>& embedding_fillers = {});
 
   /// This recogniser with one word more, trained on few recordings (from one on, all of one label)
   /// and on the statistics of the words it has. Their models stay as they are, to the bit, and so
