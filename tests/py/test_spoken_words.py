@@ -34,6 +34,9 @@ def test_what_was_said_is_kept_beside_the_model(model: Path) -> None:
     assert SpokenWords.read_beside(model) is None
     with pytest.raises(IoError):
         WORDS.write_beside(model.with_name("gone.hri"))
+    path.mkdir()
+    with pytest.raises(IoError, match=r"words\.hri\.spoken\.json"):
+        SpokenWords.remove_beside(model)
 
 
 def test_it_belongs_to_one_model(model: Path) -> None:

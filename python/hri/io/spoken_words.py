@@ -14,7 +14,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from hri.core.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.core.files import MAX_MODEL_BYTES, parse_json, read_bytes, write_text
 from hri.core.text import is_printable
 
@@ -121,8 +121,18 @@ class SpokenWords:
 
     @staticmethod
     def remove_beside(model: str | PathLike[str]) -> None:
-        """Remove the file of a model, if there is one: the model has no such words any more."""
-        _beside(model).unlink(missing_ok=True)
+        """Remove the file of a model, if there is one: the model has no such words any more.
+
+        Raises
+        ------
+        IoError
+            When it cannot be removed.
+        """
+        path = _beside(model)
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise IoError(f"{path}: {error.strerror}") from error
 
 
 def _beside(model: str | PathLike[str]) -> Path:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.datasets import Dataset
-from hri.language import WordErrors, count_word_errors
 from hri.media import read_frames
 from hri.recognition import GestureRecognizer, RecognisedSentence, SentenceRecognizer
+from hri.studies.counted_words import CountedWords
 from hri.studies.registry import GESTURE_SOURCES, Layout, Progress, Study
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row
 from hri.studies.webcam import CONDITIONS, FOLDER, PATTERN, read_conditions
 from hri.vision.hands import find_silhouettes
 
@@ -163,31 +163,12 @@ def _near(sentence: GestureSentence, found: RecognisedSentence) -> list[bool]:
     return [any(abs(frame - at) <= TOLERANCE for at in places) for frame, places in wanted]
 
 
-@dataclass
-class _Counts:
-    errors: dict[str, float] = field(default_factory=dict)
-    total: WordErrors = field(default_factory=WordErrors)
-    near: list[bool] = field(default_factory=list)
-
-    def add(self, condition: str, labels: list[list[str]], found: list[list[str]], near: Sequence[bool] = ()) -> None:
-        errors = count_word_errors(labels, found)
-        self.errors[condition] = errors.rate
-        self.total += errors
-        self.near += near
-
-    def row(self, gap: int | str, model: str, names: str) -> Row:
-        right = 1 - (self.total.substitutions + self.total.deletions) / self.total.num_words
-        row = {"frames_between": gap, "model": model, "names": names, **statistics(self.errors, "word_error")}
-        over_all = {"word_error": self.total.rate, "words_right": right, **vars(self.total)}
-        return row | {"over_all": over_all | ({"boundaries_near": float(np.mean(self.near))} if self.near else {})}
-
-
 def _run(
     data_dir: Path, progress: Progress, *, model: Sequence[str] = MODELS, folds: int | None = None
 ) -> dict[str, Any]:
     clips = read_gesture_clips(data_dir, progress)
     conditions = list(dict.fromkeys(clip.condition for clip in clips))[:folds]
-    counts: dict[tuple[int | str, str, str], _Counts] = {}
+    counts: dict[tuple[int | str, str, str], CountedWords] = {}
     penalties: dict[str, dict[str, float]] = {name: {} for name in model}
     took_s, num_frames = dict.fromkeys(model, 0.0), dict.fromkeys(model, 0)
     for done, condition in enumerate(conditions):
@@ -198,12 +179,12 @@ def _run(
         gestures.fit_features([seen_rows(clip.rows) for clip in train], [clip.label for clip in train])
         labels = [[clip.label] for clip in test]
         alone = [[name_whole(gestures, clip.rows)] for clip in test]
-        counts.setdefault((ISOLATED, "", "whole gestures"), _Counts()).add(condition, labels, alone)
+        counts.setdefault((ISOLATED, "", "whole gestures"), CountedWords()).add(condition, labels, alone)
         for name in model:
             words = train_words(train, shapes, name)
             penalties[name][condition] = words.trained_options.decoder.insertion_penalty
             known = [list(words.recognise_spans(shapes(c.rows), [(0, len(c.rows))]).labels) for c in test]
-            counts.setdefault((ISOLATED, name, FRAMES), _Counts()).add(condition, labels, known)
+            counts.setdefault((ISOLATED, name, FRAMES), CountedWords()).add(condition, labels, known)
             for gap in GAPS:
                 sentences = sentences_of(test, gap, SEED)
                 inputs = [shapes(s.rows) for s in sentences]
@@ -217,12 +198,12 @@ def _run(
                     [name_whole(gestures, s.rows[w.first_frame : w.last_frame]) for w in f.words]
                     for s, f in zip(sentences, found, strict=True)
                 ]
-                counts.setdefault((gap, name, FRAMES), _Counts()).add(
+                counts.setdefault((gap, name, FRAMES), CountedWords()).add(
                     condition, truth, [list(f.labels) for f in found], near
                 )
-                counts.setdefault((gap, name, WHOLE), _Counts()).add(condition, truth, named, near)
+                counts.setdefault((gap, name, WHOLE), CountedWords()).add(condition, truth, named, near)
         progress("training", done + 1, len(conditions))
-    rows = [counted.row(*key) for key, counted in counts.items()]
+    rows = [counted.row(frames_between=gap, model=name, names=names) for (gap, name, names), counted in counts.items()]
     return {
         "seed": SEED,
         "options": SentenceRecognizer(input="rows", language_order=0).options.as_dict(),

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from hri.core.optional import import_opencv
-from hri.language import WordErrors, count_word_errors
 from hri.live import ClipSource, Event, GestureRows, Watcher
 from hri.live.frames import TimedFrame
 from hri.media import read_frames
 from hri.recognition import GestureRecognizer, SentenceRecognizer, SentenceStreamOptions
 from hri.session import Session
+from hri.studies.counted_words import CountedWords
 from hri.studies.gesture_sentences import (
     GestureClip,
     Shapes,
@@ -29,7 +29,6 @@ from hri.studies.gesture_sentences import (
     train_words,
 )
 from hri.studies.registry import GESTURE_SOURCES, Layout, Progress, Study
-from hri.studies.tables import Row, statistics
 from hri.studies.webcam import FOLDER
 
 SEED = 0
@@ -59,22 +58,6 @@ class _Filmed(ClipSource):
             for frame, time_s in zip(read.frames, times_s, strict=True):
                 yield (frame if frame.shape[1::-1] == size else cv2.resize(frame, size)), time_s
             begin_s = times_s[-1] + (times_s[-1] - times_s[0]) / max(1, len(times_s) - 1)
-
-
-@dataclass
-class _Counts:
-    errors: dict[str, float] = field(default_factory=dict)
-    total: WordErrors = field(default_factory=WordErrors)
-
-    def add(self, condition: str, truth: list[list[str]], found: list[list[str]]) -> None:
-        errors = count_word_errors(truth, found)
-        self.errors[condition] = errors.rate
-        self.total += errors
-
-    def row(self, way: str) -> Row:
-        right = 1 - (self.total.substitutions + self.total.deletions) / self.total.num_words
-        row = {"clips": way, **statistics(self.errors, "word_error")}
-        return row | {"over_all": {"word_error": self.total.rate, "words_right": right, **vars(self.total)}}
 
 
 @dataclass
@@ -122,8 +105,8 @@ def _one_by_one(gestures: GestureRecognizer, clips: Sequence[GestureClip]) -> li
 def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dict[str, Any]:
     clips = read_gesture_clips(data_dir, progress)
     conditions = list(dict.fromkeys(clip.condition for clip in clips))[:folds]
-    counts = {way: _Counts() for way in (FILE, STREAM, SINGLE)}
-    agree, partial, num_frames, duration_s = _Counts(), _Partial(), 0, 0.0
+    counts = {way: CountedWords() for way in (FILE, STREAM, SINGLE)}
+    agree, partial, num_frames, duration_s = CountedWords(), _Partial(), 0, 0.0
     for done, condition in enumerate(conditions):
         train = [clip for clip in clips if clip.condition != condition]
         test = [clip for clip in clips if clip.condition == condition]
@@ -153,7 +136,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
     return {
         "seed": SEED,
         "stream": OPTIONS,
-        "rows": [count.row(way) for way, count in counts.items()],
+        "rows": [count.row(clips=way) for way, count in counts.items()],
         "stream_against_file": vars(agree.total),
         "signed_sentences_a_stream": float(np.mean(partial.parts)),
         "pictures_a_second": fps,
@@ -165,8 +148,8 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
     }
 
 
-def _right(counts: _Counts) -> float:
-    return float(counts.row("")["over_all"]["words_right"])
+def _right(counts: CountedWords) -> float:
+    return counts.words_right
 
 
 def _median_frames(delays_s: Sequence[float], fps: float) -> float | None:

@@ -18,8 +18,9 @@ using testing_data::tone;
 struct Counted {
   int trainings = 0;
   std::shared_ptr<const TrainedFillers> operator()(const std::vector<WordSample>& words,
-                                                   const WordRecognizerOptions& options) {
-    return remembered_fillers(words, options, nullptr, [this] {
+                                                   const WordRecognizerOptions& options,
+                                                   const std::vector<WordSample>& more = {}) {
+    return remembered_fillers(words, more, options, nullptr, [this] {
       ++trainings;
       return TrainedFillers{};
     });
@@ -49,6 +50,9 @@ TEST(FillerMemo, TrainsEqualWordsWithEqualOptionsOnce) {
   EXPECT_EQ(train.trainings, 4);
   EXPECT_NE(train(words, options_of(12)), first);
   EXPECT_EQ(train.trainings, 5);
+  EXPECT_NE(train(words, options_of(11), words), first);  // more of them for the embedding
+  EXPECT_NE(train({}, options_of(11), words), first);
+  EXPECT_EQ(train.trainings, 7);
 }
 
 TEST(FillerMemo, KeepsTheLastFew) {
@@ -69,7 +73,7 @@ TEST(FillerMemo, KeepsNothingOfATrainingThatFailed) {
   const std::vector<float> audio = tone(500, 30, 3);
   const std::vector<WordSample> words{{audio, kRateHz, "a", ""}};
   const auto failing = []() -> TrainedFillers { throw Interrupted("stopped"); };
-  EXPECT_THROW(remembered_fillers(words, options_of(21), nullptr, failing), Interrupted);
+  EXPECT_THROW(remembered_fillers(words, {}, options_of(21), nullptr, failing), Interrupted);
   Counted train;
   EXPECT_NE(train(words, options_of(21)), nullptr);
   EXPECT_EQ(train.trainings, 1);
