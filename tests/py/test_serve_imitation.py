@@ -201,7 +201,7 @@ def test_who_asks_while_the_session_begins_is_heeded(
     server, cookie = serving(None, signs, robot, SessionOptions(), motions=OTHERS, limits=LIMITS)
     with connected(server, cookie) as page:
         page.say(type="imitate")
-        page.await_event("say", text="I cannot imitate you.", timeout_s=5.0)
+        page.await_event("say", text="I cannot imitate you.")
         assert sum(m.get("text") == "I cannot imitate you." for m in page.messages) == 1
 
 
