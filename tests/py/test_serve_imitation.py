@@ -138,7 +138,7 @@ def test_a_word_begins_imitation_and_a_sign_stops_it(serving: Serving, words: An
     with connected(server, cookie) as page:
         with before_the_camera(page, signing([], 1.0)):
             page.command("motion_start", speech([("flat", 0.8)], 3.0), label="flat")
-            assert page.messages[-2] == {"type": "imitation", "on": True}
+            assert {"type": "imitation", "on": True} in page.messages[:-1]  # and after it where the robot is
         with before_the_camera(page, signing([("tall", 0.6)], 3.4)):
             page.await_event("stop", label="tall")
             page.await_stopped()

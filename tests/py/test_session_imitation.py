@@ -18,6 +18,7 @@ from hri.robot import Robot, Trajectory, check_trajectory, open_robot
 from hri.robot.imitation import LiveImitation, SeenPerson
 from hri.robot.model.arm import MIRROR, arm_of, arm_points
 from hri.session import Imitator, Session, SessionOptions
+from hri.session.mover import Cause, Guided, Mover
 from hri.vision import PersonTracker
 from session_people import MOTIONS, speech, train_signs, train_words
 
@@ -180,6 +181,29 @@ def test_a_session_imitates_from_a_word_on_until_stop(words: Any, signs: Any, ro
         robot.resume()
         robot.reset(dict.fromkeys(robot.table.names, 0.0) | robot.table.rest_rad)
     assert found[0] == found[1]  # the same recording, the same motion to the bit
+
+
+def test_a_motion_waits_for_its_first_target(robot: Robot) -> None:
+    names = LiveImitation().joint_names
+
+    def late(time_s: float) -> np.ndarray | None:
+        return np.full(8, 0.2) if 1.0 <= time_s < 2.0 else None
+
+    mover = Mover(robot, {"late": Guided(names, late), "never": Guided(names, lambda _: None)})
+    try:
+        before = robot.joint_positions_rad()
+        mover.begin("late", Cause(0.0, 0.0, 0.0))
+        (start,) = mover.advance(0.9)
+        assert start.kind == "motion_start" and robot.joint_positions_rad() == before
+        (end,) = mover.advance(5.0)
+        assert end.completed and end.message == "" and 2.0 <= end.time_s < 2.5
+        assert robot.joint_positions_rad() != before
+        mover.begin("never", Cause(5.0, 5.0, 0.0))
+        _, end = mover.advance(9.0)
+        assert not end.completed and not end.fault and "see nothing" in end.message
+        assert end.time_s == pytest.approx(8.0, abs=0.1)
+    finally:
+        mover.close()
 
 
 def test_what_imitation_needs_is_said(words: Any, robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:

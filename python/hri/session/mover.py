@@ -18,6 +18,7 @@ from hri.core.errors import InvalidArgument
 from hri.robot import Robot, Trajectory, TrajectoryError
 
 _CLOSE_S = 5.0
+_FIRST_TARGET_S = 3.0
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,8 @@ class Guided:
     ----------
     joint_names : tuple of str
     target_at : callable of time_s
-        As of `hri.robot.Robot.follow`, whose time is the session's here.
+        As of `hri.robot.Robot.follow`, whose time is the session's here. None before the first target: the joints wait
+        for it for 3 s.
     """
 
     joint_names: tuple[str, ...]
@@ -227,9 +229,9 @@ class Mover:
     def _carry_out(self, job: _Job) -> Moved:
         message, fault, completed = "", False, False
         try:
-            completed = self._perform(job)
+            completed, message = self._perform(job)
             fell = [event for event in self._robot.events[job.num_events :] if event.kind == "fall"]
-            message = "I have fallen." if fell else ""
+            message = "I have fallen." if fell else message
         except (TrajectoryError, InvalidArgument) as error:
             message = f"I cannot do that: {error}"
         except Exception as error:  # a link of a caller's own may raise anything; the session goes on
@@ -237,11 +239,25 @@ class Mover:
         end_s = job.begin_s + max(0, job.steps - 1) * self._robot.step_s
         return Moved("motion_end", job.label, end_s, message, fault, completed)
 
-    def _perform(self, job: _Job) -> bool:
-        motion = job.motion
-        if isinstance(motion, Trajectory):
-            return self._robot.perform(motion)
-        return self._robot.follow(motion.joint_names, lambda _: motion.target_at(self._at_s(job)))
+    def _perform(self, job: _Job) -> tuple[bool, str]:
+        if isinstance(job.motion, Trajectory):
+            return self._robot.perform(job.motion), ""
+        return self._follow(job, job.motion)
+
+    def _follow(self, job: _Job, motion: Guided) -> tuple[bool, str]:
+        where = self._robot.joint_positions_rad()
+        still = np.array([where[self._robot.table[name].name] for name in motion.joint_names])
+        led = False
+
+        def target_at(_: float) -> NDArray[np.float64] | None:
+            nonlocal led
+            target = motion.target_at(self._at_s(job))
+            led = led or target is not None
+            waits = not led and job.steps * self._robot.step_s < _FIRST_TARGET_S
+            return still if waits else target
+
+        completed = self._robot.follow(motion.joint_names, target_at)
+        return completed and led, "I see nothing to go by." if completed and not led else ""
 
     def _at_s(self, job: _Job) -> float:
         """When the job's next command is due."""
