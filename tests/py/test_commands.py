@@ -14,12 +14,14 @@ from conftest import PERSONS, RATE_HZ, tone_word
 from hri import CommandRecognizer, Decision, Session
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
+from hri.fusion import FusionOptions
 from hri.io import write_wav_pcm16
 from hri.language import Grammar
-from hri.live import ArraySource
+from hri.live import ArraySource, Listener
 from hri.recognition import ConnectedWordRecognizer
 from hri.robot import open_robot
 from hri.session import SessionOptions
+from hri.signal import EndpointerOptions
 from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 
 ROOT = Path(__file__).parents[2]
@@ -79,6 +81,42 @@ def test_a_decision_carries_the_slots_of_its_command(commands: CommandRecognizer
     assert json.loads(json.dumps(found.to_dict()))["slots"]["side"] == "right"
     assert commands.recognise(np.zeros(RATE_HZ, np.float32), RATE_HZ).status == "no_input"
     assert len({found, Decision("speech", "a", "recognised", 1.0)}) == 2
+
+
+def test_stop_does_not_wait_for_the_pause_that_ends_a_command(commands: CommandRecognizer) -> None:
+    stop = commands.recognise_early(tones("1"), {"1"}, RATE_HZ)
+    assert stop is not None and (stop.label, stop.status) == ("1", "recognised") and 0.5 <= stop.confidence <= 1.0
+    assert commands.recognise_early(tones("1"), {"2 1"}, RATE_HZ) is None
+    for other in ("1 1", "2 1", "1 1 2", "2"):
+        assert commands.recognise_early(tones(other), {"1"}, RATE_HZ) is None
+    assert commands.recognise_early(np.zeros(RATE_HZ, np.float32), {"1"}, RATE_HZ) is None
+
+    quiet = tones("1")[: 3 * RATE_HZ // 4]
+    said = [tones("2 1 2")[: -RATE_HZ // 2], tones("1")[len(quiet) : -len(quiet) // 2], tones("2 1")]
+    stream = np.concatenate(said)
+    options = SessionOptions(confirm_below=0.0, fusion=FusionOptions(stop_labels=("1",)))
+    ends = []
+    for hangover_ms in (700, 300):  # with the other, commands end as early as words do, and nothing is early
+        with open_robot("kinematic") as robot:
+            endpointer = EndpointerOptions(activity=commands.endpointer.activity, hangover_ms=hangover_ms)
+            session = Session(commands, robot=robot, options=options, endpointer=endpointer)
+            events = list(session.run(ArraySource(stream, RATE_HZ)))
+            assert robot.stopped
+        decided = [(event.fields["final"], event.time) for event in events if event.event == "decision"]
+        assert [label for label, _ in decided] == ["2 1 2", "1", "2 1"]
+        (stopped,) = [event for event in events if event.event == "stop"]
+        assert stopped.time == decided[1][1]
+        ends.append([time_s for _, time_s in decided])
+        (begun,) = [event for event in events if event.event == "motion_start"]
+        (halted,) = [event for event in events if event.event == "halt"]
+        assert begun.fields["label"] == "2 1 2" and begun.time < stopped.time <= halted.time < stopped.time + 0.1
+    assert ends[0][1] == pytest.approx(ends[1][1], abs=0.02)
+    assert ends[0][0] - ends[1][0] == pytest.approx(0.4, abs=0.05)
+
+    stopped_in_mid_command = np.concatenate([tones("1")[: -5 * RATE_HZ // 4], tones("2 1")[5 * RATE_HZ // 4 :]])
+    heard = Listener(commands, urgent=("1", "stop")).listen(ArraySource(stopped_in_mid_command, RATE_HZ))
+    kinds = [(event.event, event.fields.get("final")) for event in heard if event.event != "level"]
+    assert kinds[1:-1] == [("speech_start", None), ("decision", "1"), ("speech_end", None)]
 
 
 def test_words_of_no_confidence_are_no_command(words: ConnectedWordRecognizer) -> None:

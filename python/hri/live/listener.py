@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import closing
 
 from hri.core.errors import InvalidArgument
@@ -36,6 +37,9 @@ class Listener:
         Language of the vocabulary, such as "hi" or "en"; passed on with decisions.
     model_id : str
         Which model decided; passed on with decisions.
+    urgent : collection of str
+        Commands of several words end with a long pause; labels of a `CommandRecognizer` given here are decided on at
+        one as short as behind a single word. What else is said before the long pause is then not decided on.
 
     Raises
     ------
@@ -52,13 +56,20 @@ class Listener:
         level_interval_s: float = 0.1,
         locale: str = "",
         model_id: str = "",
+        urgent: Collection[str] = (),
     ) -> None:
         self._attention = attention or Attention()
         wake, labels = self._attention.wake, [str(label) for label in recognizer.classes_]
         if wake and wake not in labels:
             raise InvalidArgument(f"wake word '{wake}' is not in the vocabulary: {', '.join(labels)}")
         self._recognizer = recognizer
-        self._finder = UtteranceFinder(options or _endpointer_of(recognizer), level_interval_s)
+        self._urgent = frozenset(urgent).intersection(labels)
+        endpointer = options or _endpointer_of(recognizer)
+        pauses = None
+        if self._urgent and isinstance(recognizer, CommandRecognizer):
+            short = EndpointerOptions(activity=recognizer.endpointer.activity)
+            pauses = short if short.hangover_ms < endpointer.hangover_ms else None
+        self._finder = UtteranceFinder(endpointer, level_interval_s, pauses)
         self._locale = locale
         self._model_id = model_id
 
@@ -71,11 +82,32 @@ class Listener:
             When the source gives no more samples, after an event that says so.
         """
         tracker = AttentionTracker(self._attention)
+        urgent_s = (math.inf, -math.inf)
         with closing(self._finder.process(source, model=self._model_id)) as results:
             for event, utterance in results:
+                if event.event == events.PAUSE and utterance is not None:
+                    decided = self._decide_early(event, utterance, source.sample_rate_hz)
+                    if decided is not None:
+                        urgent_s = (event.fields["first_s"], event.fields["last_s"])
+                        yield decided
+                    continue
                 yield event
-                if utterance is not None:
-                    yield self._decide(event, utterance, source.sample_rate_hz, tracker)
+                if utterance is None:
+                    continue
+                if event.fields["first_s"] < urgent_s[1] and urgent_s[0] < event.fields["last_s"]:
+                    continue  # decided on already
+                yield self._decide(event, utterance, source.sample_rate_hz, tracker)
+
+    def _decide_early(self, event: Event, said: Samples, rate: int) -> Event | None:
+        """The decision on what has been said of an utterance, where that is urgent."""
+        assert isinstance(self._recognizer, CommandRecognizer)
+        begun = time.perf_counter()
+        decision = self._recognizer.recognise_early(said, self._urgent, rate)
+        if decision is None:
+            return None
+        compute_ms = 1000 * (time.perf_counter() - begun)
+        fields = event.fields | decision_fields(decision, self._locale, self._model_id)
+        return Event(event.time, events.DECISION, fields | {"compute_ms": round(compute_ms, 3)}, decision)
 
     def _decide(self, event: Event, utterance: Samples, rate: int, tracker: AttentionTracker) -> Event:
         # With the noise around it: the recogniser finds the end points as it did in training.

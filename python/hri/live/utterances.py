@@ -35,11 +35,17 @@ class UtteranceFinder:
         When an utterance begins and ends.
     level_interval_s : float
         Interval between level events.
+    pauses : EndpointerOptions, optional
+        When what has been said of an utterance is worth a look before its end: gives events "pause" with the samples
+        since the one before.
     """
 
-    def __init__(self, options: EndpointerOptions, level_interval_s: float) -> None:
+    def __init__(
+        self, options: EndpointerOptions, level_interval_s: float, pauses: EndpointerOptions | None = None
+    ) -> None:
         require_positive("level_interval_s", level_interval_s)
         self._options = options
+        self._pauses = pauses
         self._level_interval_s = level_interval_s
 
     def process(self, source: AudioSource, **metadata: Any) -> Generator[StreamResult, None, None]:
@@ -58,6 +64,7 @@ class UtteranceFinder:
         """
         rate = source.sample_rate_hz
         endpointer = Endpointer(rate, self._options)
+        pauses = None if self._pauses is None else Endpointer(rate, self._pauses)
         kept_s = (self._options.max_utterance_ms + self._options.context_ms) / 1000
         history = _History(round(kept_s * rate) + 2 * rate)
         next_level_s, num_lost = 0.0, 0
@@ -67,8 +74,10 @@ class UtteranceFinder:
                 for begin in range(0, len(block), rate):  # longer blocks would outrun what is kept
                     part = block[begin : begin + rate]
                     history.append(part)
-                    for endpoint in endpointer.push(part):
-                        yield _result(endpoint, history, rate)
+                    ends = [] if pauses is None else pauses.push(part)
+                    found = [_pause(end, history, rate) for end in ends if end.kind == "speech_end"]
+                    found += [_result(endpoint, history, rate) for endpoint in endpointer.push(part)]
+                    yield from sorted(found, key=lambda result: result[0].time)  # a pause before an end
                 time_s = history.num_samples / rate
                 if source.num_lost > num_lost:
                     yield Event(time_s, events.OVERFLOW, {"lost_samples": source.num_lost - num_lost}), None
@@ -95,6 +104,12 @@ def _result(endpoint: Endpoint, history: _History, rate: int) -> StreamResult:
         return event, None
     fields["cut"] = endpoint.cut
     return event, history.between(endpoint.segment_first, endpoint.segment_last)
+
+
+def _pause(endpoint: Endpoint, history: _History, rate: int) -> StreamResult:
+    fields = {"first_s": round(endpoint.first / rate, 4), "last_s": round(endpoint.last / rate, 4)}
+    said = history.between(endpoint.segment_first, endpoint.segment_last)
+    return Event(endpoint.at / rate, events.PAUSE, fields), said
 
 
 def _level(endpointer: Endpointer, time_s: float) -> Event:

@@ -93,7 +93,8 @@ def replay(
         if words is None:
             raise InvalidArgument(f"{recording.path}: sound was recorded, and needs a recogniser of words")
         endpointer = None if recording.endpointer is None else EndpointerOptions(**recording.endpointer)
-        heard = Listener(words, endpointer, model_id=recording.models.get("speech", ""))
+        stops = recording.options.fusion.stop_labels
+        heard = Listener(words, endpointer, model_id=recording.models.get("speech", ""), urgent=stops)
         feeds["speech"] = Feed("speech", _Streams(recording, "speech"), heard.listen)
     if recording.pictures:
         if signs is None:

@@ -150,7 +150,10 @@ class Session:
             ids.setdefault("knowledge", f"{len(knowledge.sentences)} sentences")
         self._endpointer, self._segmenter = endpointer, segmenter
         self._slots = words.commands_ if isinstance(words, CommandRecognizer) else {}
-        self._listener = None if words is None else Listener(words, endpointer, model_id=ids.get("speech", ""))
+        self._listener: Listener | None = None
+        if words is not None:
+            stops = chosen.fusion.stop_labels
+            self._listener = Listener(words, endpointer, model_id=ids.get("speech", ""), urgent=stops)
         self._whole_sentences = isinstance(signs, SentenceRecognizer)
         self._watcher = None if signs is None else watcher_of(signs, segmenter, hands, faces, ids.get("gesture", ""))
         self._imitator: Imitator | None = None

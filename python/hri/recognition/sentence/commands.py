@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from hri.recognition.sentence.recognizer import Alternative, ConnectedWordRecogn
 MOST_SENTENCES = 10_000
 NUM_ALTERNATIVES = 20
 _MOST_NAMED = 5
+_SURE = 0.5
 
 
 class CommandRecognizer:
@@ -58,6 +59,7 @@ class CommandRecognizer:
         _require_known(grammar.words, [str(label) for label in words.classes_])
         self._grammar = grammar
         self._words = copy.copy(words).set_grammar(grammar)
+        self._any_words = copy.copy(words).set_grammar(_any_of([str(label) for label in words.classes_]))
         self.commands_: dict[str, dict[str, str]] = {}
         self._label_of: dict[tuple[str, ...], str] = {}
         by_slots: dict[tuple[tuple[str, str], ...], str] = {}
@@ -121,6 +123,41 @@ class CommandRecognizer:
             self.mode, label, RECOGNISED, confidence, found.log_score, nbest, found.notes, slots=dict(slots)
         )
 
+    def recognise_early(
+        self, audio: AudioInput, labels: Collection[str], sample_rate_hz: int | None = None
+    ) -> Decision | None:
+        """Decide before a command has ended, where what has been said of it is one of some labels.
+
+        The words are found in any order, not by the grammar, so that the beginning of another command is not taken for
+        one of these.
+
+        Parameters
+        ----------
+        audio : path, Audio, or array of shape (num_samples,)
+            What has been said so far.
+        labels : collection of str
+        sample_rate_hz : int, optional
+            Of an array.
+
+        Returns
+        -------
+        Decision or None
+            Its ``confidence`` is that of its least sure word, at least one half; None for anything else.
+
+        Raises
+        ------
+        InvalidArgument, FormatError, IoError
+            As of `recognise`.
+        """
+        found = self._any_words.recognise(audio, sample_rate_hz)
+        label = self._label_of.get(found.labels, UNKNOWN)
+        confidence = min((word.confidence or 0.0 for word in found.words), default=0.0)
+        if label not in labels or not found.complete or confidence < _SURE:
+            return None
+        nbest = (NBest(label, confidence, found.log_score),)
+        slots = dict(self.commands_[label])
+        return Decision(self.mode, label, RECOGNISED, confidence, found.log_score, nbest, found.notes, slots=slots)
+
     def _nbest(self, alternatives: tuple[Alternative, ...]) -> tuple[NBest, ...]:
         """Commands in falling order; sentences that are none have a share and no place."""
         log_scores = np.array([alternative.log_score for alternative in alternatives])
@@ -134,6 +171,13 @@ class CommandRecognizer:
                 best[label] = max(best.get(label, -np.inf), float(log_score))
         order = sorted(shares, key=lambda label: (-shares[label], label))
         return tuple(NBest(label, shares[label], best[label]) for label in order)
+
+
+def _any_of(labels: Sequence[str]) -> Grammar:
+    """Any number of these words in any order."""
+    quoted = (label.replace("\\", "\\\\").replace('"', '\\"') for label in labels if not any(map(str.isspace, label)))
+    words = " | ".join(f'"{label}"' for label in quoted)
+    return Grammar.parse(f"#JSGF V1.0;\ngrammar any;\npublic <any> = ( {words} )+;\n", "any")
 
 
 def _require_known(words: Sequence[str], labels: Sequence[str]) -> None:
