@@ -119,6 +119,31 @@ def test_stop_does_not_wait_for_the_pause_that_ends_a_command(commands: CommandR
     assert kinds[1:-1] == [("speech_start", None), ("decision", "1"), ("speech_end", None)]
 
 
+def test_a_command_that_is_unsure_is_unknown_unless_it_is_stop(words: ConnectedWordRecognizer) -> None:
+    def commands(min_confidence: float) -> CommandRecognizer:
+        return CommandRecognizer(words, Grammar.parse(GRAMMAR, "tones.jsgf"), min_confidence=min_confidence)
+
+    stream = tones("1")
+    between = np.concatenate([stream[: RATE_HZ * 3 // 2], tone_word(575, 60, 3)[RATE_HZ // 10 :], stream[-RATE_HZ:]])
+    taken = commands(0.0).recognise(between, RATE_HZ)
+    assert taken.status == "recognised" and 0.2 < taken.confidence < 0.999
+    assert commands(taken.confidence).recognise(between, RATE_HZ) == taken
+    rejected = commands(taken.confidence + 0.001).recognise(between, RATE_HZ)
+    assert (rejected.label, rejected.status, rejected.nbest) == ("unknown", "unknown", taken.nbest)
+    for bad in (-0.1, 1.1, np.nan):
+        with pytest.raises(InvalidArgument, match="min_confidence"):
+            commands(bad)
+
+    sure = commands(0.0).recognise(stream, RATE_HZ).confidence
+    strict = commands(min(1.0, sure + 1e-12))
+    assert strict.recognise(stream, RATE_HZ).status == ("recognised" if sure == 1.0 else "unknown")
+    ends_early = EndpointerOptions(activity=strict.endpointer.activity)
+    for urgent in ((), ("1",)):
+        events = Listener(strict, ends_early, urgent=urgent).listen(ArraySource(stream, RATE_HZ))
+        (decided,) = [event.fields["final"] for event in events if event.event == "decision"]
+        assert decided == ("1" if urgent or sure == 1.0 else "")
+
+
 def test_words_of_no_confidence_are_no_command(words: ConnectedWordRecognizer) -> None:
     # As many sentences come near the best as the beam lets, all of them as probable.
     unsure = {"min_confidence": 1.0, "confidence_scale": 1e-6, "lattice": {"beam": 1e4}}

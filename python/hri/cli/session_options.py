@@ -27,6 +27,7 @@ from hri.recognition import (
     SentenceRecognizer,
     WordRecognizer,
 )
+from hri.recognition.sentence.commands import MIN_CONFIDENCE
 from hri.robot import BACKENDS, ROBOTS, JointTable, Robot, open_robot
 from hri.session import SessionOptions
 
@@ -43,6 +44,14 @@ _OPTIONS = (
         type=model_file,
         metavar="JSGF",
         help="Commands of several words with slots; --speech-model is then from 'hri train-connected'.",
+    ),
+    click.option(
+        "--min-confidence",
+        type=click.FloatRange(0, 1),
+        default=MIN_CONFIDENCE,
+        show_default=True,
+        metavar="P",
+        help="With --grammar: less sure commands are unknown.",
     ),
     click.option(
         "--gesture-model",
@@ -118,6 +127,7 @@ class ChosenSession:
 
     speech_model: Path | None
     grammar_path: Path | None
+    min_confidence: float
     gesture_model: Path | None
     no_speech: bool
     no_gesture: bool
@@ -164,10 +174,10 @@ class ChosenSession:
         grammar = Grammar.load(self.grammar_path)
         words = self._load(ConnectedWordRecognizer, "speech", self.speech_model or connected_model())
         try:
-            commands = CommandRecognizer(words, grammar)
+            commands = CommandRecognizer(words, grammar, min_confidence=self.min_confidence)
         except InvalidArgument as error:
             raise InvalidArgument(f"{self.grammar_path}: {error}") from error
-        self.model_ids["speech"] += f" {_name_and_hash(self.grammar_path)}"
+        self.model_ids["speech"] += f" {_name_and_hash(self.grammar_path)} from {self.min_confidence:g}"
         return commands
 
     def load_signs(self) -> GestureRecognizer | SentenceRecognizer:

@@ -16,6 +16,7 @@ from hri.live.events import Event, decision_fields
 from hri.live.sources import AudioSource
 from hri.live.utterances import Samples, UtteranceFinder
 from hri.recognition import CommandRecognizer, WordRecognizer
+from hri.recognition.decision import UNKNOWN
 from hri.signal import EndpointerOptions
 
 
@@ -39,7 +40,8 @@ class Listener:
         Which model decided; passed on with decisions.
     urgent : collection of str
         Commands of several words end with a long pause; labels of a `CommandRecognizer` given here are decided on at
-        one as short as behind a single word. What else is said before the long pause is then not decided on.
+        one as short as behind a single word, and need no more than `CommandRecognizer.recognise_early` asks for. What
+        else is said before the long pause is then not decided on.
 
     Raises
     ------
@@ -113,6 +115,8 @@ class Listener:
         # With the noise around it: the recogniser finds the end points as it did in training.
         begun = time.perf_counter()
         decision = self._recognizer.recognise(utterance, rate)
+        if decision.status == UNKNOWN and self._urgent and isinstance(self._recognizer, CommandRecognizer):
+            decision = self._recognizer.recognise_early(utterance, self._urgent, rate) or decision
         compute_ms = 1000 * (time.perf_counter() - begun)
         fields = {name: event.fields[name] for name in ("first_s", "last_s")}
         meant, decision = tracker.judge(fields["first_s"], fields["last_s"], decision)

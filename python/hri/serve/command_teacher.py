@@ -79,8 +79,13 @@ class CommandWordTeacher(SpokenTeacher):
             )
             if step < NUM_SAMPLES:
                 self._try(more, {one: clips[step] for one, clips in added.items()}, label)
-        self._stage.words = CommandRecognizer(more, self._commands.grammar)  # which may be another one by now
+        self._stage.words = self._commands_of(more)
         self._before.append(words)
+
+    def _commands_of(self, words: ConnectedWordRecognizer) -> CommandRecognizer:
+        """By the grammar in use, which may be another one by now."""
+        now = self._commands
+        return CommandRecognizer(words, now.grammar, min_confidence=now.min_confidence)
 
     def _try(self, words: ConnectedWordRecognizer, left_out: Mapping[str, Audio], label: str) -> None:
         """Count what the new word is mistaken for, and which others are mistaken for it."""
@@ -127,7 +132,7 @@ class CommandWordTeacher(SpokenTeacher):
         return self._spoken[label]
 
     def _remove(self, label: str) -> None:
-        before = CommandRecognizer(self._before[-1], self._commands.grammar)  # refused while the grammar has the word
+        before = self._commands_of(self._before[-1])  # refused while the grammar has the word
         self._before.pop()
         self._stage.words = before
 

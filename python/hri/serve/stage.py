@@ -292,7 +292,7 @@ class Stage:
         before = self.words
         if not isinstance(before, CommandRecognizer):
             raise InvalidArgument("there are no commands of several words")
-        self.words = CommandRecognizer(before.words, grammar)
+        self.words = CommandRecognizer(before.words, grammar, min_confidence=before.min_confidence)
         try:
             self.renew()
         except Error:

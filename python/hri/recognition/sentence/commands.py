@@ -20,6 +20,7 @@ from hri.recognition.sentence.recognizer import Alternative, ConnectedWordRecogn
 
 MOST_SENTENCES = 10_000
 NUM_ALTERNATIVES = 20
+MIN_CONFIDENCE = 0.9
 _MOST_NAMED = 5
 _SURE = 0.5
 
@@ -37,6 +38,9 @@ class CommandRecognizer:
         nearest command is taken.
     grammar : Grammar
         Its words are labels of `words`; it repeats nothing, so that its sentences can be listed.
+    min_confidence : float
+        From 0 to 1. What is less sure is unknown: words outside the vocabulary fit several commands alike, those of a
+        command fit it alone.
 
     Attributes
     ----------
@@ -48,14 +52,20 @@ class CommandRecognizer:
     Raises
     ------
     InvalidArgument
-        For words that are no labels, for repetitions and for more than 10 000 sentences.
+        For words that are no labels, for repetitions, for more than 10 000 sentences, and a `min_confidence` outside
+        0..1.
     NotFittedError
         For words that are not trained.
     """
 
     mode = "speech"
 
-    def __init__(self, words: ConnectedWordRecognizer, grammar: Grammar) -> None:
+    def __init__(
+        self, words: ConnectedWordRecognizer, grammar: Grammar, *, min_confidence: float = MIN_CONFIDENCE
+    ) -> None:
+        if not 0.0 <= min_confidence <= 1.0:
+            raise InvalidArgument(f"min_confidence must lie in 0..1, got {min_confidence}")
+        self.min_confidence = min_confidence
         _require_known(grammar.words, [str(label) for label in words.classes_])
         self._grammar = grammar
         self._words = copy.copy(words).set_grammar(grammar)
@@ -101,8 +111,8 @@ class CommandRecognizer:
         Decision
             ``nbest`` are the commands among the `NUM_ALTERNATIVES` best sentences; their probabilities are shares of
             exp(``confidence_scale`` x log score) among these, added up over sentences of the same command, and
-            ``confidence`` is that of the best. "unknown" where a word was none of the vocabulary, or what was said is
-            too short for any sentence.
+            ``confidence`` is that of the best. "unknown" where that is below `min_confidence`, where a word was none of
+            the vocabulary, or what was said is too short for any sentence.
 
         Raises
         ------
@@ -115,9 +125,9 @@ class CommandRecognizer:
         nbest = self._nbest(found.alternatives or (Alternative(found.words, found.log_score),))
         # Words below `min_confidence` count as unknown, too.
         label = UNKNOWN if not found.complete else self._label_of.get(found.labels, UNKNOWN)
-        if label == UNKNOWN:
-            return Decision(self.mode, UNKNOWN, UNKNOWN, 0.0, found.log_score, nbest, found.notes)
         confidence = next((entry.probability for entry in nbest if entry.label == label), 0.0)
+        if label == UNKNOWN or confidence < self.min_confidence:
+            return Decision(self.mode, UNKNOWN, UNKNOWN, 0.0, found.log_score, nbest, found.notes)
         slots = self.commands_[label]
         return Decision(
             self.mode, label, RECOGNISED, confidence, found.log_score, nbest, found.notes, slots=dict(slots)
