@@ -118,6 +118,23 @@ def test_stop_does_not_wait_for_the_pause_that_ends_a_command(commands: CommandR
     kinds = [(event.event, event.fields.get("final")) for event in heard if event.event != "level"]
     assert kinds[1:-1] == [("speech_start", None), ("decision", "1"), ("speech_end", None)]
 
+    class Blocks(ArraySource):
+        size = 1
+
+        def read(self) -> np.ndarray | None:
+            block, self._at = self._samples[self._at : self._at + self.size], self._at + self.size
+            return block if len(block) else None
+
+    def decided_in(size: int) -> list[tuple[str, float, float, float]]:
+        source = Blocks(stream, RATE_HZ)
+        source.size = size
+        heard = Listener(commands, urgent=("1",)).listen(source)
+        decided = [event for event in heard if event.event == "decision"]
+        return [(e.fields["final"], e.time, e.fields["last_s"], e.fields["confidence"]) for e in decided]
+
+    assert [label for label, *_ in decided_in(160)] == ["2 1 2", "1", "2 1"]
+    assert decided_in(160) == decided_in(1000) == decided_in(len(stream))
+
 
 def test_a_command_that_is_unsure_is_unknown_unless_it_is_stop(words: ConnectedWordRecognizer) -> None:
     def commands(min_confidence: float) -> CommandRecognizer:
