@@ -281,6 +281,33 @@ def test_a_weak_stop_beside_a_sure_sign_asks() -> None:
         assert ("move", "5") in kinds(talk.decide(pair("5"), 4.0))
 
 
+def test_an_unsure_stop_is_asked_about_only_where_that_is_wanted_and_nothing_moves() -> None:
+    def talk() -> Dialogue:
+        return Dialogue(SessionOptions(stop_at_rest=0.99), MOTIONS)
+
+    unsure, sure = pair("stop", confidence=0.98), pair("stop", confidence=0.99)
+    assert kinds(Dialogue(SessionOptions(), MOTIONS).decide(unsure, 3.0))[0] == ("stop", "stop")
+    assert kinds(talk().decide(sure, 3.0))[0] == ("stop", "stop")
+    asked = talk()
+    assert kinds(asked.decide(unsure, 3.0)) == [("say", "Did you mean stop?"), ("state", "confirming")]
+    assert kinds(asked.decide(unsure, 4.0))[0] == ("stop", "stop"), "said again, it counts"
+    confirmed, denied, unanswered, moving, shown, taught = (talk() for _ in range(6))
+    for one in (confirmed, denied, unanswered):
+        one.decide(unsure, 3.0)
+    assert kinds(confirmed.decide(pair("yes"), 4.0))[0] == ("stop", "stop") and confirmed.state == "stopped"
+    assert kinds(denied.decide(pair("no"), 4.0))[0] == ("say", "I do nothing.") and denied.state == "idle"
+    assert unanswered.tick(99.0) and unanswered.state == "idle"
+    moving.decide(pair("7"), 2.0)
+    assert moving.state == "acting" and kinds(moving.decide(unsure, 3.0))[0] == ("stop", "stop")
+    (signed,) = pairer(("gesture",)).observe(sign("stop", 1.0, 1.5, confidence=0.6), 2.0)
+    assert kinds(shown.decide(signed, 3.0))[0] == ("stop", "stop")
+    taught.only_stop(9.0)
+    assert kinds(taught.decide(unsure, 3.0))[0] == ("stop", "stop"), "nothing can be asked now"
+    for bad in (-0.1, 1.1, float("nan")):
+        with pytest.raises(InvalidArgument, match="stop_at_rest"):
+            SessionOptions(stop_at_rest=bad)
+
+
 @pytest.mark.parametrize("state", ["idle", "attending", "listening", "confirming", "acting", "stopped"])
 def test_stop_counts_in_every_state(state: str) -> None:
     options = SessionOptions(wake_labels=("robot",), confirm_below=0.8)

@@ -66,6 +66,14 @@ _OPTIONS = (
         "--stop-threshold", type=float, metavar="P", help="Confidence from which STOP is sure; else the model's."
     ),
     click.option(
+        "--stop-at-rest",
+        type=click.FloatRange(0, 1),
+        default=SessionOptions.stop_at_rest,
+        show_default=True,
+        metavar="P",
+        help="While nothing moves, a spoken STOP less sure than this is asked about; 0.99 where people talk.",
+    ),
+    click.option(
         "--imitate",
         multiple=True,
         metavar="LABEL",
@@ -134,6 +142,7 @@ class ChosenSession:
     wake: tuple[str, ...]
     stops: tuple[str, ...]
     stop_threshold: float | None
+    stop_at_rest: float
     imitate: tuple[str, ...]
     resume: tuple[str, ...]
     sentence_begin: tuple[str, ...]
@@ -156,6 +165,7 @@ class ChosenSession:
             self.window_s,
             rule=self.rule,
             fusion=FusionOptions(stop_labels=self.stops, stop_threshold=self.stop_threshold),
+            stop_at_rest=self.stop_at_rest,
             wake_labels=self.wake,
             resume_labels=self.resume,
             imitate_labels=self.imitate,

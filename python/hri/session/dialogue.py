@@ -136,7 +136,7 @@ class Dialogue:
         """A decision on a word, a sign or both."""
         label, status = pair.fused.label, pair.fused.status
         if label in self._options.fusion.stop_labels and status not in (UNKNOWN, NO_INPUT, ASK):
-            return self.halt(pair.fused.rule, label)
+            return self._ask((label,), time_s) if self._asks_about_stop(pair) else self.halt(pair.fused.rule, label)
         if pair.first_s < self._only_stop_until_s:
             if status == ASK and any(entry.label in self._options.fusion.stop_labels for entry in pair.fused.nbest):
                 return self.halt(pair.fused.rule)  # nothing can be asked now
@@ -159,6 +159,11 @@ class Dialogue:
         if self.state == SENTENCE or label in self._options.sentence_begin_labels:
             return self._collect(label, time_s)
         return self._command(pair, time_s)
+
+    def _asks_about_stop(self, pair: Pair) -> bool:
+        """Whether STOP may be a word of somebody's talk: nothing moves that it could stop."""
+        rests = self.state in (IDLE, ATTENDING, LISTENING) and pair.first_s >= self._only_stop_until_s
+        return rests and pair.fused.gesture is None and pair.fused.confidence < self._options.stop_at_rest
 
     def signing(self, words: Sequence[str]) -> list[Action]:
         """Words of a signed sentence that goes on, which stand until its end: STOP among them does not wait for it."""
@@ -307,6 +312,8 @@ class Dialogue:
         if label in self._options.no_labels:
             return [Action(SAY, text="I do nothing."), *self._calm()]
         if label in self._options.yes_labels:
+            if len(self._asked) == 1 and self._asked[0] in self._options.fusion.stop_labels:
+                return self.halt("confirmed", self._asked[0])
             return self._move(self._asked[0]) if len(self._asked) == 1 else self._ask(self._asked, time_s)
         if label in self._asked and label in self._motions:
             return self._move(label)

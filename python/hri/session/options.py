@@ -34,6 +34,9 @@ class SessionOptions:
         As of `hri.fuse`.
     fusion : FusionOptions
         Thresholds and weights of the rule; which labels stop, and from which confidence.
+    stop_at_rest : float
+        While nothing moves, STOP by a word alone that is less sure than this is asked about, 0..1; 0 never asks. Where
+        the robot moves, or has asked something, every STOP stops. For rooms where people talk.
     wake_labels : tuple of str
         A word or sign that precedes every command; () makes each a command.
     attend_s : float
@@ -69,6 +72,7 @@ class SessionOptions:
     max_wait_s: float = 6.0
     rule: str = "table_6_9"
     fusion: FusionOptions = field(default_factory=FusionOptions)
+    stop_at_rest: float = 0.0
     wake_labels: tuple[str, ...] = ()
     attend_s: float = 3.0
     confirm_below: float = 0.5
@@ -90,8 +94,9 @@ class SessionOptions:
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0):
                 raise InvalidArgument(f"SessionOptions.{name} must be above 0 and finite, got {value}")
-        if not 0 <= self.confirm_below <= 1:
-            raise InvalidArgument(f"SessionOptions.confirm_below must lie in 0..1, got {self.confirm_below}")
+        for name in ("confirm_below", "stop_at_rest"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise InvalidArgument(f"SessionOptions.{name} must lie in 0..1, got {getattr(self, name)}")
         if self.rule not in RULES:
             raise InvalidArgument(f"SessionOptions.rule: no rule {self.rule!r}; {did_you_mean(self.rule, RULES)}")
         fusion: object = self.fusion
