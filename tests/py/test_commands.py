@@ -43,6 +43,12 @@ def tones(words: str) -> np.ndarray:
     return np.concatenate([quiet, *(clip[RATE_HZ // 10 : 4 * RATE_HZ // 5] for clip in clips), quiet])
 
 
+def between_words() -> np.ndarray:
+    """What is nearer to "1" than to "2", but not much."""
+    around = tones("1")
+    return np.concatenate([around[: RATE_HZ * 3 // 2], tone_word(575, 60, 3)[RATE_HZ // 10 :], around[-RATE_HZ:]])
+
+
 def tone_rows() -> tuple[list[np.ndarray], list[str]]:
     """Recordings of the words by three speakers, and their labels."""
     slopes = {"1": 800.0, "2": -350.0}
@@ -61,6 +67,13 @@ def words(spoken: Path) -> ConnectedWordRecognizer:
     return ConnectedWordRecognizer(**OPTIONS).fit(
         [s.path for s in samples], [s.label for s in samples], groups=[s.person for s in samples]
     )
+
+
+@pytest.fixture(scope="module")
+def unscaled_words() -> ConnectedWordRecognizer:
+    """Its `confidence_scale` is the default: chosen on so clear words, it would make everything sure."""
+    clips, labels = tone_rows()
+    return ConnectedWordRecognizer(**OPTIONS, choose_penalty=False).fit(clips, labels, sample_rate_hz=RATE_HZ)
 
 
 @pytest.fixture(scope="module")
@@ -136,12 +149,11 @@ def test_stop_does_not_wait_for_the_pause_that_ends_a_command(commands: CommandR
     assert decided_in(160) == decided_in(1000) == decided_in(len(stream))
 
 
-def test_a_command_that_is_unsure_is_unknown_unless_it_is_stop(words: ConnectedWordRecognizer) -> None:
+def test_a_command_that_is_unsure_is_unknown_unless_it_is_stop(unscaled_words: ConnectedWordRecognizer) -> None:
     def commands(min_confidence: float) -> CommandRecognizer:
-        return CommandRecognizer(words, Grammar.parse(GRAMMAR, "tones.jsgf"), min_confidence=min_confidence)
+        return CommandRecognizer(unscaled_words, Grammar.parse(GRAMMAR, "tones.jsgf"), min_confidence=min_confidence)
 
-    stream = tones("1")
-    between = np.concatenate([stream[: RATE_HZ * 3 // 2], tone_word(575, 60, 3)[RATE_HZ // 10 :], stream[-RATE_HZ:]])
+    stream, between = tones("1"), between_words()
     taken = commands(0.0).recognise(between, RATE_HZ)
     assert taken.status == "recognised" and 0.2 < taken.confidence < 0.999
     assert commands(taken.confidence).recognise(between, RATE_HZ) == taken
@@ -159,6 +171,18 @@ def test_a_command_that_is_unsure_is_unknown_unless_it_is_stop(words: ConnectedW
         events = Listener(strict, ends_early, urgent=urgent).listen(ArraySource(stream, RATE_HZ))
         (decided,) = [event.fields["final"] for event in events if event.event == "decision"]
         assert decided == ("1" if urgent or sure == 1.0 else "")
+
+
+def test_a_saved_model_is_as_sure_as_the_one_that_was_trained(words: ConnectedWordRecognizer, tmp_path: Path) -> None:
+    words.save(tmp_path / "words.hri")
+    loaded = ConnectedWordRecognizer.load(tmp_path / "words.hri")
+    assert loaded.options.confidence_scale != words.options.confidence_scale  # it was chosen in training
+    grammar = Grammar.parse(GRAMMAR, "tones.jsgf")
+    for said in (between_words(), tones("2 1 2")):
+        found = [
+            CommandRecognizer(one, grammar, min_confidence=0.0).recognise(said, RATE_HZ) for one in (words, loaded)
+        ]
+        assert found[0] == found[1]
 
 
 def test_words_of_no_confidence_are_no_command(words: ConnectedWordRecognizer) -> None:
@@ -197,6 +221,29 @@ def test_a_session_raises_the_right_arm_twice(commands: CommandRecognizer) -> No
     high = right < 0.5 * (down + up)
     assert np.count_nonzero(np.diff(high.astype(int)) == 1) == 2  # twice up
     assert np.nanmax(left) - np.nanmin(left) < 1e-6
+
+
+def test_the_command_line_sets_how_sure_a_command_and_stop_must_be(
+    hri, unscaled_words: ConnectedWordRecognizer, tmp_path: Path
+) -> None:
+    unscaled_words.save(tmp_path / "words.hri")
+    (tmp_path / "tones.jsgf").write_text(GRAMMAR)
+    write_wav_pcm16(str(tmp_path / "said.wav"), between_words(), RATE_HZ)
+    given = ("--speech-model", tmp_path / "words.hri", "--grammar", tmp_path / "tones.jsgf", "--backend", "none")
+
+    def events(*more: object) -> list[dict[str, object]]:
+        done = hri("session", *given, *more, tmp_path / "said.wav")
+        assert done.code == 0, done.err
+        return [json.loads(line) for line in done.out.splitlines()]
+
+    (fused,) = [row for row in events("--stop", "halt", "--min-confidence", 0) if row["event"] == "fused"]
+    assert fused["final"] == "1"
+    (fused,) = [row for row in events("--stop", "halt", "--min-confidence", 1) if row["event"] == "fused"]
+    assert (fused["final"], fused["status"]) == ("", "unknown")
+    assert any(row["event"] == "stop" for row in events("--stop", "1", "--min-confidence", 1))
+    asked = events("--stop", "1", "--stop-at-rest", 1)
+    assert [row["text"] for row in asked if row["event"] == "say"] == ["Did you mean 1?"]
+    assert hri("session", *given, "--min-confidence", 1.1, tmp_path / "said.wav").code == 2
 
 
 def test_a_session_walks_two_steps_from_the_command_line(hri, words: ConnectedWordRecognizer, tmp_path: Path) -> None:

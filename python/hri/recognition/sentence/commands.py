@@ -171,7 +171,8 @@ class CommandRecognizer:
     def _nbest(self, alternatives: tuple[Alternative, ...]) -> tuple[NBest, ...]:
         """Commands in falling order; sentences that are none have a share and no place."""
         log_scores = np.array([alternative.log_score for alternative in alternatives])
-        weights = np.exp(self._words.options.confidence_scale * (log_scores - log_scores.max()))
+        scale = self._words._trained.options.confidence_scale  # chosen in training, unlike that of the options given
+        weights = np.exp(scale * (log_scores - log_scores.max()))
         shares: dict[str, float] = {}
         best: dict[str, float] = {}
         for alternative, weight, log_score in zip(alternatives, weights / weights.sum(), log_scores, strict=True):
