@@ -291,7 +291,7 @@ def test_an_unsure_stop_is_asked_about_only_where_that_is_wanted_and_nothing_mov
     asked = talk()
     assert kinds(asked.decide(unsure, 3.0)) == [("say", "Did you mean stop?"), ("state", "confirming")]
     assert kinds(asked.decide(unsure, 4.0))[0] == ("stop", "stop"), "said again, it counts"
-    confirmed, denied, unanswered, moving, shown, taught = (talk() for _ in range(6))
+    confirmed, denied, unanswered, moving, shown, paused = (talk() for _ in range(6))
     for one in (confirmed, denied, unanswered):
         one.decide(unsure, 3.0)
     assert kinds(confirmed.decide(pair("yes"), 4.0))[0] == ("stop", "stop") and confirmed.state == "stopped"
@@ -301,8 +301,8 @@ def test_an_unsure_stop_is_asked_about_only_where_that_is_wanted_and_nothing_mov
     assert moving.state == "acting" and kinds(moving.decide(unsure, 3.0))[0] == ("stop", "stop")
     (signed,) = pairer(("gesture",)).observe(sign("stop", 1.0, 1.5, confidence=0.6), 2.0)
     assert kinds(shown.decide(signed, 3.0))[0] == ("stop", "stop")
-    taught.only_stop(9.0)
-    assert kinds(taught.decide(unsure, 3.0))[0] == ("stop", "stop"), "nothing can be asked now"
+    paused.only_stop(9.0)
+    assert kinds(paused.decide(unsure, 3.0))[0] == ("stop", "stop"), "nothing can be asked now"
     for bad in (-0.1, 1.1, float("nan")):
         with pytest.raises(InvalidArgument, match="stop_at_rest"):
             SessionOptions(stop_at_rest=bad)

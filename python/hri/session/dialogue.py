@@ -161,7 +161,7 @@ class Dialogue:
         return self._command(pair, time_s)
 
     def _asks_about_stop(self, pair: Pair) -> bool:
-        """Whether STOP may be a word of somebody's talk: nothing moves that it could stop."""
+        """Whether STOP may be a word of other people's talk: nothing moves that it could stop."""
         rests = self.state in (IDLE, ATTENDING, LISTENING) and pair.first_s >= self._only_stop_until_s
         return rests and pair.fused.gesture is None and pair.fused.confidence < self._options.stop_at_rest
 

@@ -55,7 +55,7 @@ def _sentences(clips: Sequence[Clip], commands: Sequence[str], rng: np.random.Ge
 
 @dataclass(frozen=True)
 class Heard:
-    """What a person said, what was taken for it, and how sure that was."""
+    """What a person said, what was recognised, and how sure that was."""
 
     person: str
     condition: str
@@ -64,11 +64,11 @@ class Heard:
     confidence: float
 
     def right(self, min_confidence: float) -> bool:
-        """Whether it was taken for what it is."""
+        """Whether it was recognised as what it is."""
         return self.found == self.said and self.confidence >= min_confidence
 
     def accepted(self, min_confidence: float) -> bool:
-        """Whether it was taken for any command."""
+        """Whether it was accepted as any command."""
         return self.found not in (UNKNOWN, NO_INPUT) and self.confidence >= min_confidence
 
 
@@ -143,7 +143,7 @@ STUDIES = (
         "robot-commands",
         "19 commands with slots, such as forward three or right up two, joined from Arabic words of 24 people with "
         "pauses of 200 ms, a third of the people held out in turn: whether all slots are right; and how many of their "
-        "other words, said by themselves, are taken for a command",
+        "other words, said by themselves, are accepted as a command",
         (FOLDER,),
         "all slots right in 90 % of the commands in quiet, by the default min_confidence",
         _run,

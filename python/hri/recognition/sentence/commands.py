@@ -138,8 +138,8 @@ class CommandRecognizer:
     ) -> Decision | None:
         """Decide before a command has ended, where what has been said of it is one of some labels.
 
-        The words are found in any order, not by the grammar, so that the beginning of another command is not taken for
-        one of these.
+        The words are found in any order, not by the grammar, so that the beginning of another command is not
+        misrecognised as one of these.
 
         Parameters
         ----------
