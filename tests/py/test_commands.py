@@ -290,7 +290,8 @@ def test_example_grammars_understand_synthetic_voices(name: str, tmp_path: Path)
     words = ConnectedWordRecognizer(words={"num_vtlp_factors": 1}).fit(
         [s.path for s in made.samples], [s.label for s in made.samples], groups=[s.person for s in made.samples]
     )
-    commands = CommandRecognizer(words, grammar)
+    # By four voices, "daayaan" (right) is not much more likely than "baayaan" (left).
+    commands = CommandRecognizer(words, grammar, min_confidence=0.5)
     for sentence, slots in zip(SAID[name], EXPECTED, strict=True):
         clips = [speak(texts[word], language, make_speaker(9)) for word in sentence.split()]
         pause = np.zeros(clips[0].sample_rate_hz // 10, np.float32)
