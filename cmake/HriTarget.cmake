@@ -46,6 +46,8 @@ function(hri_target_settings target optimisation)
     # No -ffast-math, and no fused multiply-adds, which round once where others round twice: NaN checks depend on IEEE
     # arithmetic, and every processor gives the same bits.
     target_compile_options(${target} PRIVATE -ffp-contract=off)
+    # Eigen's quick square root of floats starts from an estimate of the processor's, which every maker rounds its own way.
+    target_compile_definitions(${target} PRIVATE EIGEN_FAST_MATH=0)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimisation}>)
     if(optimisation STREQUAL "-O1" AND NOT HRI_OPTIMISE_CALLERS)
       target_compile_options(${target} PRIVATE -O0)
