@@ -8,14 +8,17 @@ import queue
 from copy import copy
 from typing import Any
 
+import numpy as np
 import pytest
 
 pytest.importorskip("serving")
 
 
 from conftest import RATE_HZ, tone_word
+from hri.live import Stalled
 from hri.robot import Robot
 from hri.serve import Stage
+from hri.serve.devices import PageMicrophone
 from hri.session import Session
 from serving import LIMITS
 from session_people import MOTIONS
@@ -51,6 +54,42 @@ def test_resume_ends_a_stop_that_came_while_a_session_began(
         assert not robot.stopped
     finally:
         stage.close()
+
+
+def test_stop_after_resume_is_held_when_the_page_comes_again(words: Any, robot: Robot) -> None:
+    stage = Stage(words, None, robot, motions=MOTIONS, limits=LIMITS)
+    published: queue.Queue[dict[str, Any]] = queue.Queue()
+    stage.publish = published.put
+    try:
+        stage.arrive()
+        while published.get(timeout=20).get("state") != "idle":
+            pass
+        stage.stop()
+        stage.resume()
+        stage.stop()  # before the session has heeded the others
+        heeded: list[str] = []
+        while heeded[-1:] != ["stop"] or len(heeded) < 2:
+            event = published.get(timeout=20).get("event")
+            heeded += [event] if event in ("stop", "resumed") else []
+        assert stage._held, "a page that comes again resumes only what was not held"
+        stage.leave()
+        stage.arrive()
+        assert robot.stopped
+    finally:
+        stage.close()
+
+
+def test_a_page_that_changes_its_rate_ends_the_stream_of_the_old_one() -> None:
+    microphone = PageMicrophone(stall_s=5.0)
+    microphone.put(np.zeros(160, np.float32))
+    source = microphone.stream()
+    microphone.start(48000)
+    microphone.put(np.zeros(480, np.float32))  # sound comes on, of the other rate
+    with pytest.raises(Stalled, match="another rate"):
+        source.read()
+    again = microphone.stream()
+    microphone.put(np.ones(480, np.float32))
+    assert again.sample_rate_hz == 48000 and len(again.read()) == 480
 
 
 def test_a_label_that_is_added_moves_the_robot_where_it_has_a_gesture_of_that_name(words: Any, robot: Robot) -> None:

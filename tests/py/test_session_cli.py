@@ -128,9 +128,32 @@ def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> 
         ((*models(scene), "--confirm-below", "2", said), 3, "confirm_below"),
         (("--replay", tmp_path / "no.mcap"), 3, "not a recorded session"),
         ((*models(scene), "--record", tmp_path / "kept.txt", said), 2, ".mcap"),
+        (("--replay", tmp_path / "no.mcap", said), 2, "--replay takes what was recorded"),
+        (("--replay", tmp_path / "no.mcap", "--record", tmp_path / "a.mcap"), 2, "--replay takes what was recorded"),
+        ((*models(scene), "--no-speech", said), 2, "leave out what FILE brings"),
+        ((*models(scene), "--no-gesture", said, shown), 2, "leave out what FILE brings"),
+        ((*models(scene), "--microphone", "1", said), 2, "FILE takes their place"),
+        ((*models(scene), "--min-confidence", "0.5", said), 2, "--min-confidence goes with --grammar"),
+        ((*models(scene), "--max-distance", "0.5", said), 2, "--max-distance goes with --knowledge"),
+        ((*models(scene), "--language", "hi", said), 2, "--language goes with --knowledge"),
+        (("--robot", "nao", "--url", "tcp://127.0.0.1:9"), 2, "--url is of a real one"),
     ):
         result = hri("session", "--backend", "none", *arguments)
         assert result.code == code and message in result.err, (arguments, result.err)
+
+
+def test_a_session_that_nothing_stops_warns(hri, scene: Path) -> None:
+    model, said = ("--speech-model", scene / "words.hri", "--backend", "none"), scene / "said.wav"
+    for stops, message in (
+        ((), ""),
+        (
+            ("--stop", "stpo"),
+            "WARNING: no word or sign stops the robot: none is stpo; choose by --stop, there are",
+        ),
+        (("--stop", "stop", "--stop", "stpo"), "WARNING: no word or sign is stpo, as --stop asks"),
+    ):
+        done = hri("session", *model, *stops, said)
+        assert done.code == 0 and message in done.err and ("WARNING" in done.err) == bool(message)
 
 
 def test_devices_that_are_missing_end_the_session_in_words(hri, scene: Path, monkeypatch: pytest.MonkeyPatch) -> None:

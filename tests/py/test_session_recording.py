@@ -206,6 +206,21 @@ SOUND = {"time_s": 0, "offset_s": 0, "data": "AAA=", "format": "pcm-s16", "sampl
         (GOOD | {"options": '{"window_s": -1, "fusion": {}}'}, [], "window_s"),
         (GOOD | {"options": "[]"}, [], "options"),
         (GOOD | {"labels": "{"}, [], "not a JSON file"),
+        (GOOD | {"endpointer": '{"hangover": 1}'}, [], "no field 'hangover'"),
+        (GOOD | {"endpointer": '{"hangover_ms": "1"}'}, [], "hangover_ms must be a number"),
+        (GOOD | {"endpointer": "[]"}, [], "its options"),
+        (GOOD | {"segmenter": "[]"}, [], "segmenter"),
+        (GOOD, [("/hri/events", b'{"time": 0, "event": "gesture_start", "mode": "gesture"}')], "KeyError: 'first_s'"),
+        (
+            GOOD,
+            [
+                (
+                    "/hri/events",
+                    b'{"time": 0, "event": "signed", "mode": "gesture", "first_s": 0, "last_s": 0, "words": 5}',
+                )
+            ],
+            "words: 5",
+        ),
         (GOOD, [("/hri/events", b"{}")], "KeyError: 'time'"),
         (GOOD, [("/hri/events", b"\xff")], "UnicodeDecodeError"),
         (GOOD, [("/hri/events", b'{"time": 1e999, "event": "a", "mode": "b"}')], "is no number"),

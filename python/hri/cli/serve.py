@@ -76,6 +76,7 @@ def serve(
     options = chosen.session_options(retry_s=0.2)
     words = None if chosen.no_speech else chosen.load_words()
     signs = None if chosen.no_gesture else chosen.load_signs()
+    chosen.warn_of_stop(words, signs)
     learned, stored = chosen.load_fusion(), chosen.load_knowledge()
     recordings, spoken = None, None
     if speech_data:

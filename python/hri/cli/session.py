@@ -15,7 +15,7 @@ from hri.cli.live_screen import camera, events_json_option, microphone, stall_op
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
 from hri.cli.robot import nao_url_option
-from hri.cli.session_options import ChosenSession, model_file, session_options
+from hri.cli.session_options import ChosenSession, is_given, model_file, session_options
 from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
@@ -74,21 +74,30 @@ def session(
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
     if replay_path is not None:
+        if files or record_path is not None or gui or url is not None:
+            raise click.UsageError("--replay takes what was recorded: no FILE, --record, --gui or --url goes with it")
         _replay(replay_path, chosen, as_json)
         return
     if url is not None and chosen.table is not NAO:
         raise click.UsageError("--url is of a real NAO: add --robot nao")
+    if url is not None and (gui or is_given("backend", "stand")):
+        raise click.UsageError("--backend, --stand and --gui are of a simulated robot, --url is of a real one")
     if url is None and _NAO in (camera_name, microphone_name):
         raise click.UsageError("--camera nao and --microphone nao are of a real NAO: name its --url")
     sound, video = _files(files)
     live = not files
-    with_speech = not chosen.no_speech if live else sound is not None
-    with_gesture = not chosen.no_gesture if live else video is not None
+    if files and is_given("microphone_name", "camera_name", "stall_s"):
+        raise click.UsageError("--microphone, --camera and --stall are of devices, and FILE takes their place")
+    if (chosen.no_speech and sound is not None) or (chosen.no_gesture and video is not None):
+        raise click.UsageError("--no-speech and --no-gesture leave out what FILE brings")
+    with_speech = not chosen.no_speech and (live or sound is not None)
+    with_gesture = not chosen.no_gesture and (live or video is not None)
     if not (with_speech or with_gesture):
         raise click.UsageError("--no-speech and --no-gesture leave nothing")
     options = chosen.session_options()
     words = chosen.load_words() if with_speech else None
     signs = chosen.load_signs() if with_gesture else None
+    chosen.warn_of_stop(words, signs)
     learned, stored = chosen.load_fusion(), chosen.load_knowledge()
     with ExitStack() as stack:
         robot: Robot | None = NaoqiRobot(url) if url is not None else chosen.open_robot(gui)

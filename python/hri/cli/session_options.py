@@ -12,8 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from hri.cli.connected import connected_model
+from hri.cli.messages import note
 from hri.cli.recognizers import kept_model, load_signs
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
@@ -33,6 +35,12 @@ from hri.session import SessionOptions
 
 model_file = click.Path(exists=True, dir_okay=False, path_type=Path)
 _NO_ROBOT = "none"
+_GO_WITH = {
+    "min_confidence": ("--min-confidence", "grammar_path", "--grammar"),
+    "max_distance": ("--max-distance", "knowledge_path", "--knowledge"),
+    "language": ("--language", "knowledge_path", "--knowledge"),
+}
+"""Options without effect unless another one is given."""
 
 _OPTIONS = (
     click.option(
@@ -176,6 +184,16 @@ class ChosenSession:
             **more,
         )
 
+    def warn_of_stop(self, *recognizers: Any) -> None:
+        """Warn of a --stop that nothing can say or show, and where nothing at all stops the robot."""
+        labels = {str(label) for one in recognizers if one is not None for label in one.classes_}
+        unknown = [label for label in self.stops if label not in labels]
+        named, there_are = " or ".join(unknown), f"there are {', '.join(sorted(labels))}"
+        if len(unknown) == len(self.stops):
+            note(f"WARNING: no word or sign stops the robot: none is {named}; choose by --stop, {there_are}")
+        elif unknown:
+            note(f"WARNING: no word or sign is {named}, as --stop asks; {there_are}")
+
     def load_words(self) -> WordRecognizer | CommandRecognizer:
         """What recognises words, or commands of several words by a grammar, whose name and hash are part of the id."""
         if self.grammar_path is None:
@@ -223,12 +241,21 @@ class ChosenSession:
         return chosen
 
 
+def is_given(*names: str) -> bool:
+    """Whether one of these parameters of the present command was given, and is not its default."""
+    context = click.get_current_context()
+    return any(context.get_parameter_source(name) is ParameterSource.COMMANDLINE for name in names)
+
+
 def session_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the common options to a command, which gets them as `chosen`."""
     names = [one.name for one in fields(ChosenSession) if one.init]
 
     @functools.wraps(command)
     def collected(**given: Any) -> None:
+        for name, (option, needed, needed_option) in _GO_WITH.items():
+            if is_given(name) and given[needed] is None:
+                raise click.UsageError(f"{option} goes with {needed_option}")
         command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
 
     for option in reversed(_OPTIONS):

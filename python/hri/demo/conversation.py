@@ -50,7 +50,8 @@ def conversation(scene: Scene) -> list[Event]:
         elif action.kind in (STOP, IGNORE):
             events.append(session_event(end_s, action.kind, label=action.label, reason=action.text))
         elif action.kind == MOVE:
-            moved = Moved(MOTION_END, action.label, end_s + gesture_trajectory(action.label).duration_s, completed=True)
+            done_s = end_s + gesture_trajectory(action.label).duration_s
+            moved = Moved(MOTION_END, action.label, done_s, number=1, completed=True)
             events.append(moved_event(moved))
     return events
 

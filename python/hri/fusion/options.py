@@ -64,7 +64,7 @@ class FusionOptions:
                 f"FusionOptions.stop_threshold must lie in 0..1 or be None, got {self.stop_threshold}"
             )
         labels: object = self.stop_labels
-        if isinstance(labels, str):
+        if not isinstance(labels, tuple | list) or not all(isinstance(label, str) and label for label in labels):
             raise InvalidArgument(f"FusionOptions.stop_labels must be a tuple of labels, got {labels!r}")
 
 

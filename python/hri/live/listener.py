@@ -64,6 +64,8 @@ class Listener:
         wake, labels = self._attention.wake, [str(label) for label in recognizer.classes_]
         if wake and wake not in labels:
             raise InvalidArgument(f"wake word '{wake}' is not in the vocabulary: {', '.join(labels)}")
+        if isinstance(urgent, str):
+            raise InvalidArgument(f"urgent must be a collection of labels, got {urgent!r}")
         self._recognizer = recognizer
         self._urgent = frozenset(urgent).intersection(labels)
         endpointer = options or _endpointer_of(recognizer)

@@ -95,8 +95,14 @@ class PageMicrophone(_Device):
     def stream(self) -> PageSound:
         """A source for a session. Raises IoError while nothing comes, except after `expect`."""
         self._open()
-        self._ring = SampleRing(round(_BUFFER_S * self.sample_rate_hz))
-        return PageSound(self, self._ring, self._require)
+        ring = self._ring = SampleRing(round(_BUFFER_S * self.sample_rate_hz))
+
+        def require(since_s: float) -> None:
+            if ring is not self._ring:  # else it would wait for ever, as sound of the new rate comes
+                raise Stalled(f"{self.name}: the page sends at another rate")
+            self._require(since_s)
+
+        return PageSound(self, ring, require)
 
 
 class PageSound:

@@ -134,6 +134,7 @@ class Stage:
         self._figure: dict[str, Any] | None = None
         self._paused = self._held = False
         self._num_resumed = 0
+        self._num_pressed = self._num_heeded = 0
         self._asking = threading.Lock()
         self._heard: Session | None = None
         self._imitate_first = False
@@ -172,6 +173,7 @@ class Stage:
     def stop(self) -> None:
         """STOP, at once, until a person ends it; by any thread."""
         self._held = True
+        self._num_pressed += 1
         self._session.stop()
         self.on_stop()
 
@@ -369,6 +371,7 @@ class Stage:
         self.camera.expect()
         hear: Any = self.microphone.stream if self.words is not None else None
         see: Any = self.camera.stream if self.signs is not None else None
+        self._num_heeded = self._num_pressed  # those of before are not the session's
         with closing(session.run(hear, see, live=True)) as events:  # type: ignore[type-var]
             self._begun_s = time.monotonic()
             with self._asking:  # what a session was asked for before it runs is lost
@@ -401,7 +404,9 @@ class Stage:
         elif event.event == "stop" and event.fields["reason"] != BY_BUTTON:  # said, shown, or a fault
             self._held = True
             self.on_stop()
-        elif event.event == "resumed":
+        elif event.event == "stop":
+            self._num_heeded = min(self._num_heeded + 1, self._num_pressed)
+        elif event.event == "resumed" and self._num_heeded == self._num_pressed:  # else STOP was pressed again since
             self._held = self._paused = False
         if event.event in (MOTION_START, MOTION_END, STOP, REST):  # at STOP it is over, though the arms still brake
             self._show_imitation(event.event == MOTION_START and event.fields["label"] in self._imitated)

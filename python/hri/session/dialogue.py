@@ -221,11 +221,16 @@ class Dialogue:
                 break
         return done if begun else [Action(IGNORE, " ".join(words), "no sentence was begun")]
 
-    def moved(self, message: str, fault: bool) -> list[Action]:
-        """The motion has ended: "" as it should, else why not; a fault of the robot's stops it."""
+    def moved(self, message: str, fault: bool, newest: bool = True) -> list[Action]:
+        """The motion has ended: "" as it should, else why not; a fault of the robot's stops it.
+
+        One that another was begun after, as it still came to rest, ends nothing else.
+        """
         said = [Action(SAY, text=message)] if message else []
         if fault:
             return [*said, *self.halt(message)]
+        if not newest:
+            return said
         if self.state == ACTING and self._answers and not message:
             return [Action(MOVE, self._answers.pop(0))]
         return [*said, *(self._calm() if self.state == ACTING else [])]

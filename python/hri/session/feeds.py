@@ -229,9 +229,11 @@ class Feed(Generic[Source]):
                     returned = True
         except Stalled:
             self.lost = self._open is not None
-        except Error as error:  # a stream that is broken ends this mode, and not the session
+        except Exception as error:  # a stream that is broken ends this mode, and not the session
+            if self._clock is None and not isinstance(error, Error):
+                raise
             self.lost = self._open is not None
-            yield Event(self.time_s, STALL, {"message": str(error)}, mode=self.mode)
+            yield Event(self.time_s, STALL, {"message": what_failed(error)}, mode=self.mode)
         finally:
             source.close()
 
@@ -275,23 +277,33 @@ class Arrival:
     at_s: float
 
 
+def what_failed(error: Exception) -> str:
+    """An error in words; of one that is not ours, its kind too."""
+    return str(error) if isinstance(error, Error | OSError | ImportError) else f"{type(error).__name__}: {error}"
+
+
 def merge(feeds: list[Feed[Any]], retry_s: float) -> Generator[Arrival, None, None]:
     """The events of recordings by their time; of the same time those of the first feed first.
 
-    Ends when every feed has ended. A source that vanished is opened again every `retry_s` of the others' time, and
-    given up when they have ended.
+    Ends when every feed has ended. A source that vanished is opened again every `retry_s` of the others' time; when
+    they have ended, for as long as every attempt brings something new.
     """
     streams = [feed.events() for feed in feeds]
     retry_at_s = [math.inf] * len(feeds)
+    alone_from_s = [-math.inf] * len(feeds)
     try:
         heads = [next(stream, None) for stream in streams]
         while True:
             times = [math.inf if head is None else head.time for head in heads]
             now_s = min(times)
             for i, feed in enumerate(feeds):
-                if heads[i] is None and feed.lost and (now_s >= retry_at_s[i] or not math.isfinite(now_s)):
-                    begin_s = now_s if math.isfinite(now_s) else feed.time_s + retry_s
+                alone = not math.isfinite(now_s)
+                if heads[i] is None and feed.lost and (now_s >= retry_at_s[i] or alone):
+                    if alone and feed.time_s <= alone_from_s[i]:
+                        continue
+                    begin_s = feed.time_s + retry_s if alone else now_s
                     retry_at_s[i] = begin_s + retry_s
+                    alone_from_s[i] = begin_s if alone else -math.inf
                     if feed.returns(begin_s):
                         streams[i] = feed.events()
                         heads[i] = next(streams[i], None)

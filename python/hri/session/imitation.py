@@ -33,6 +33,7 @@ class Imitator:
     """
 
     def __init__(self, table: JointTable = HOAP2, faces: Faces | None = None) -> None:
+        self._faces = faces
         self._person = PersonTracker(faces)
         self._arms = LiveImitation(table)
 
@@ -40,6 +41,11 @@ class Imitator:
     def joint_names(self) -> tuple[str, ...]:
         """The joints that move."""
         return self._arms.joint_names
+
+    def reset(self) -> None:
+        """Forget all pictures: another session begins."""
+        self._person = PersonTracker(self._faces)
+        self._arms.reset()
 
     def look(self, frame: Frame, time_s: float) -> None:
         """Take the next picture, of this time of the session."""

@@ -9,10 +9,10 @@ import time
 from collections import deque
 from typing import Any
 
-from hri.core.errors import Error, InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.live import Event
 from hri.live.events import HAND, LEVEL, PARTIAL, STALL
-from hri.session.feeds import Arrival, Feed
+from hri.session.feeds import Arrival, Feed, what_failed
 
 PASSING = frozenset((LEVEL, HAND, PARTIAL))
 """Events that the next of their kind replaces: what a slow reader misses first."""
@@ -23,7 +23,8 @@ class EventQueue:
     """Events between two threads; the writer never waits.
 
     A reader that falls behind by more than `capacity` misses events that pass (levels, places of hands); one that falls
-    behind by 16 times as much misses the oldest of the others, too. Both are counted.
+    behind by 16 times as much misses the oldest of the others, too. Both are counted. Decisions, and what the session
+    says or is asked for, STOP above all, go last: only where nothing else is left to drop.
 
     Parameters
     ----------
@@ -35,7 +36,7 @@ class EventQueue:
         if capacity < 1:
             raise InvalidArgument(f"capacity must be at least 1, got {capacity}")
         self._capacity = capacity
-        self._arrivals: deque[Arrival] = deque(maxlen=16 * capacity)
+        self._arrivals: deque[Arrival] = deque()
         self._closed = False
         self._ready = threading.Condition()
         self.num_lost = 0
@@ -48,11 +49,17 @@ class EventQueue:
             if waiting >= self._capacity and event.event in PASSING:
                 self.num_lost += 1
                 return
-            self.num_lost += waiting == self._arrivals.maxlen
+            if waiting >= 16 * self._capacity:
+                self._drop_one()
             self._arrivals.append(
                 Arrival(event, time.perf_counter() - 1e-3 * float(event.fields.get("compute_ms", 0.0)))
             )
             self._ready.notify()
+
+    def _drop_one(self) -> None:
+        lesser = (i for i, arrival in enumerate(self._arrivals) if not _matters(arrival.event))
+        del self._arrivals[next(lesser, 0)]
+        self.num_lost += 1
 
     def get(self, timeout_s: float) -> Arrival | None:
         """The oldest event; None when there is none for `timeout_s`, or the queue is closed and empty."""
@@ -73,6 +80,10 @@ class EventQueue:
             return self._closed and not self._arrivals
 
 
+def _matters(event: Event) -> bool:
+    return event.decision is not None or event.mode == "session"
+
+
 class LiveFeeds:
     """Runs each feed in a thread of its own, from `start` on; one that is lost is opened again until `close`.
 
@@ -80,7 +91,7 @@ class LiveFeeds:
     ----------
     feeds : list of Feed
     retry_s : float
-        Between two attempts to open a source again.
+        From one attempt to open a source to the next.
     """
 
     def __init__(self, feeds: list[Feed[Any]], retry_s: float) -> None:
@@ -109,17 +120,21 @@ class LiveFeeds:
     def _run(self, feed: Feed[Any]) -> None:
         try:
             while not self._closed.is_set():
+                opened_s = time.monotonic()
                 for event in feed.events():
                     self.queue.put(event)
                     if self._closed.is_set():
                         return
-                while feed.lost and not feed.returns(feed.time_s):
-                    if self._closed.wait(self._retry_s):
-                        return
                 if not feed.lost:
                     return
-        except (Error, OSError, ImportError) as error:
-            self.queue.put(Event(feed.time_s, STALL, {"message": str(error)}, mode=feed.mode))
+                # One that fails as soon as it is open must not be opened again and again without a rest.
+                left_s = opened_s + self._retry_s - time.monotonic()
+                while self._closed.wait(max(0.0, left_s)) or not feed.returns(feed.time_s):
+                    if self._closed.is_set():
+                        return
+                    left_s = self._retry_s
+        except Exception as error:  # a source of the caller's own may raise anything; the other mode goes on
+            self.queue.put(Event(feed.time_s, STALL, {"message": what_failed(error)}, mode=feed.mode))
         finally:
             with self._lock:
                 self._running -= 1

@@ -62,12 +62,14 @@ class NoRobot:
 
     def __init__(self, reports: bool = True) -> None:
         self._reports = reports
+        self._num_begun = 0
         self._done: list[Moved] = []
 
     def begin(self, label: str, cause: Cause) -> None:
         """Report the motion as done."""
+        self._num_begun += 1
         if self._reports:
-            self._done.append(Moved("motion_end", label, cause.time_s, completed=True))
+            self._done.append(Moved("motion_end", label, cause.time_s, self._num_begun, completed=True))
 
     def stop(self, cause: Cause) -> None:
         """Do nothing: nothing moves."""
@@ -117,6 +119,7 @@ class SessionLogic:
         self._on_say = on_say
         self.pairer = Pairer(options, fusion)
         self.dialogue = Dialogue(options, labels, knowledge)
+        self._num_begun = 0
         self._unsettled: set[str] = set()
         self._whole_sentences = whole_sentences
         self._signing = self._signs_stopped = False
@@ -196,7 +199,8 @@ class SessionLogic:
 
     def _moved(self, event: Event, cause: Cause, out: list[Event]) -> None:
         if event.event == MOTION_END:
-            self._do(self.dialogue.moved(event.fields["message"], event.fields["fault"]), cause, out)
+            newest = event.fields.get("number", self._num_begun) == self._num_begun
+            self._do(self.dialogue.moved(event.fields["message"], event.fields["fault"], newest), cause, out)
             self._time_passes(event.time, cause, out)
 
     def _asked(self, event: Event, cause: Cause, out: list[Event]) -> None:
@@ -221,6 +225,7 @@ class SessionLogic:
     def _do(self, actions: list[Action], cause: Cause, out: list[Event]) -> None:
         for action in actions:
             if action.kind == acts.MOVE:
+                self._num_begun += 1
                 self._body.begin(action.label, cause)
                 continue
             if action.kind == acts.STOP:
@@ -293,7 +298,7 @@ def _slots_of(pair: Pair) -> dict[str, str]:
 
 def moved_event(moved: Moved) -> Event:
     """The event of something that a robot did."""
-    fields: dict[str, Any] = {"label": moved.label}
+    fields: dict[str, Any] = {"label": moved.label, "number": moved.number}
     if moved.kind == MOTION_END:
         fields |= {"completed": moved.completed, "message": moved.message, "fault": moved.fault}
     else:

@@ -72,6 +72,8 @@ class Moved:
         Of the motion.
     time_s : float
         Of the first command, the last, or the first of stopping, in the session's time.
+    number : int
+        Which motion of the session it is, from 1; those that never began count.
     message : str
         Why a motion did not end as it should; "" when it did, or was stopped.
     fault : bool
@@ -86,6 +88,7 @@ class Moved:
     kind: str
     label: str
     time_s: float
+    number: int
     message: str = ""
     fault: bool = False
     completed: bool = False
@@ -99,6 +102,7 @@ class _Job:
     motion: Motion
     begin_s: float
     cause: Cause
+    number: int
     steps: int = 0
     num_events: int = 0
     rest: bool = False
@@ -144,6 +148,7 @@ class Mover:
         self._on_joints = on_joints
         self._jobs: deque[_Job] = deque()
         self._job: _Job | None = None
+        self._num_begun = 0
         self._results: deque[Moved] = deque()
         self._allowed_s = -math.inf
         self._next_s = -math.inf
@@ -163,12 +168,14 @@ class Mover:
     def begin(self, label: str, cause: Cause) -> None:
         """Carry out the motion of this label, after the one that is under way."""
         with self._turn:
-            self._jobs.append(_Job(label, self._motions[label], cause.time_s, cause))
+            self._num_begun += 1
+            self._jobs.append(_Job(label, self._motions[label], cause.time_s, cause, self._num_begun))
             self._turn.notify_all()
 
     def stop(self, cause: Cause) -> None:
-        """STOP: the motion under way ends within its limits, and none begins until `resume`."""
+        """STOP: the motion under way ends within its limits, what waits is dropped, and none begins until `resume`."""
         with self._turn:
+            self._jobs.clear()
             if self._job is not None and self._job.halted_by is None:
                 self._job.halted_by = cause
         self._robot.stop()
@@ -237,7 +244,7 @@ class Mover:
         except Exception as error:  # a link of a caller's own may raise anything; the session goes on
             message, fault = f"The robot does not obey: {error}", True
         end_s = job.begin_s + max(0, job.steps - 1) * self._robot.step_s
-        return Moved("motion_end", job.label, end_s, message, fault, completed)
+        return Moved("motion_end", job.label, end_s, job.number, message, fault, completed)
 
     def _perform(self, job: _Job) -> tuple[bool, str]:
         if isinstance(job.motion, Trajectory):
@@ -299,4 +306,4 @@ class Mover:
         # Where the session's time goes on by itself, that of the computer is part of it.
         wait_ms = 1000 * ((at_s if self._clock is None else cause.time_s) - cause.last_s)
         with self._turn:
-            self._results.append(Moved(kind, job.label, at_s, wait_ms=wait_ms, compute_ms=compute_ms))
+            self._results.append(Moved(kind, job.label, at_s, job.number, wait_ms=wait_ms, compute_ms=compute_ms))

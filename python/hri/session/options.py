@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from numbers import Real
 
 from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
@@ -36,7 +37,7 @@ class SessionOptions:
         Thresholds and weights of the rule; which labels stop, and from which confidence.
     stop_at_rest : float
         While nothing moves, STOP by a word alone that is less sure than this is asked about, 0..1; 0 never asks. Where
-        the robot moves, or has asked something, every STOP stops. For rooms where people talk.
+        the robot moves or has asked something, and within a sentence, every STOP stops. For rooms where people talk.
     wake_labels : tuple of str
         A word or sign that precedes every command; () makes each a command.
     attend_s : float
@@ -88,6 +89,10 @@ class SessionOptions:
     retry_s: float = 0.5
 
     def __post_init__(self) -> None:
+        for name in ("window_s", "confirm_below", "stop_at_rest", *_POSITIVE):
+            number: object = getattr(self, name)
+            if isinstance(number, bool) or not isinstance(number, Real):
+                raise InvalidArgument(f"SessionOptions.{name} must be a number, got {number!r}")
         if not (math.isfinite(self.window_s) and self.window_s >= 0):
             raise InvalidArgument(f"SessionOptions.window_s must be 0 or more and finite, got {self.window_s}")
         for name in _POSITIVE:
@@ -97,6 +102,10 @@ class SessionOptions:
         for name in ("confirm_below", "stop_at_rest"):
             if not 0 <= getattr(self, name) <= 1:
                 raise InvalidArgument(f"SessionOptions.{name} must lie in 0..1, got {getattr(self, name)}")
+        for name in ("rule", "language"):
+            text: object = getattr(self, name)
+            if not isinstance(text, str):
+                raise InvalidArgument(f"SessionOptions.{name} must be text, got {text!r}")
         if self.rule not in RULES:
             raise InvalidArgument(f"SessionOptions.rule: no rule {self.rule!r}; {did_you_mean(self.rule, RULES)}")
         fusion: object = self.fusion

@@ -16,12 +16,21 @@ from hri.core.files import parse_json, read_bytes
 from hri.core.mcap_records import mcap_records
 from hri.core.optional import import_optional
 from hri.fusion import FusionOptions
+from hri.live import events as kinds
 from hri.session.options import SessionOptions
 from hri.session.recording import EVENTS, FORMAT, PCM_16, PCM_FLOAT, PICTURES, SOUND, VERSION
+from hri.signal import EndpointerOptions
 
 MAX_BYTES = 1 << 31
 _MAX_RATE_HZ = 1_000_000
 _MAX_CHUNK_BYTES = 1 << 27
+_NUMBERS = {
+    kinds.SPEECH_START: ("first_s",),
+    kinds.GESTURE_START: ("first_s",),
+    kinds.SIGNED: ("first_s", "last_s"),
+    kinds.SIGNING: ("num_stable",),
+}
+"""Fields of events that a replay goes by."""
 
 
 @dataclass(frozen=True)
@@ -128,6 +137,10 @@ def _begun(path: Path, about: dict[str, str]) -> Recording:
         fusion = _with_tuples(options.pop("fusion"))
         labels, models = [str(label) for label in fields["labels"]], dict(fields["models"])
         chosen = SessionOptions(**_with_tuples(options), fusion=FusionOptions(**fusion))
+        if fields["endpointer"] is not None:
+            EndpointerOptions(**fields["endpointer"])  # refuses what is none
+        if not isinstance(fields["segmenter"], dict | None):
+            raise TypeError(f"segmenter: {fields['segmenter']!r} are no options")
         return Recording(path, chosen, labels, models, fields["endpointer"], fields["segmenter"])
     except (KeyError, TypeError, ValueError) as error:
         raise wrong(path, f"its options: {error}") from error
@@ -149,6 +162,12 @@ def _add(recording: Recording, topic: str, message: Any) -> None:
                 _ = message["fault"] if message["event"] == "motion_end" else message["command"]
             if message["event"] == "asked" and message["command"] == "only_stop":
                 _number(message["for_s"])
+            for name in _NUMBERS.get(message["event"], ()):
+                _number(message[name])
+            if message["event"] in (kinds.SIGNED, kinds.SIGNING):
+                words = message["words"]
+                if not isinstance(words, list) or not all(isinstance(word, str) for word in words):
+                    raise TypeError(f"words: {words!r} are no list of text")
             recording.events.append(message)
             return
         rate = message["sample_rate"] if topic == SOUND else 0

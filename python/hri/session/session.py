@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import asdict, replace
+from numbers import Real
 from typing import Any
 
 from hri.core.errors import Error, FormatError, InvalidArgument
@@ -164,7 +165,7 @@ class Session:
         self.refused: dict[str, str] = {}
         self._motions = self._prepared(motions)
         self._inbox: EventQueue | deque[Event] = deque(maxlen=64)
-        self._asking = threading.Lock()
+        self._asking = threading.RLock()  # a signal may ask while its thread does
         self._running = threading.Lock()
 
     @property
@@ -218,7 +219,16 @@ class Session:
         self._ask("resume")
 
     def only_stop(self, for_s: float) -> None:
-        """Ignore what begins within so long from now, except STOP; the last call counts; from any thread."""
+        """Ignore what begins within so long from now, except STOP; the last call counts; from any thread.
+
+        Raises
+        ------
+        InvalidArgument
+            For a time that is negative or not finite.
+        """
+        given: object = for_s
+        if not isinstance(given, Real) or not (math.isfinite(for_s) and for_s >= 0):
+            raise InvalidArgument(f"for_s must be 0 or more and finite, got {for_s!r}")
         self._ask(ONLY_STOP, for_s=for_s)
 
     def imitate(self) -> None:
@@ -326,6 +336,8 @@ class Session:
             raise InvalidArgument("the session is running already")
         with ExitStack() as stack:
             stack.callback(self._running.release)
+            if self._imitator is not None:
+                self._imitator.reset()
             if recorder is not None:
                 recorder.begin(self._about())
                 stack.callback(recorder.end)
@@ -388,6 +400,8 @@ class Session:
                 with self._asking:
                     self._inbox = deque(maxlen=64)
                 live.queue.close()
+                if not output.over and isinstance(body, Mover):  # the caller has left, and no one watches what moves
+                    body.close()
                 thread.join(_CLOSE_S)
 
             thread = threading.Thread(target=decide, daemon=True, name="hri-session")

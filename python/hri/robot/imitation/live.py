@@ -80,13 +80,19 @@ class LiveImitation:
             for arm, sign in zip(self._arms, (np.ones(4), MIRROR), strict=True)
         ]
         self._finders = [PoseFinder(arm, table, rest) for arm, rest in zip(self._arms, self._rest, strict=True)]
+        self._turn = threading.Lock()
+        self._poses: deque[tuple[float, Floats]] = deque(maxlen=_KEPT)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget all pictures; there is no target until the next one."""
         self._centre: Floats | None = None
         self._height_px = 0.0
         self._places: list[Floats | None] = [None, None]
         self._seen_s = [-np.inf, -np.inf]
         self._time_s = -np.inf
-        self._poses: deque[tuple[float, Floats]] = deque(maxlen=_KEPT)
-        self._turn = threading.Lock()
+        with self._turn:
+            self._poses.clear()
 
     def process(self, person: SeenPerson | None, time_s: float) -> None:
         """Take the next picture.
@@ -107,6 +113,8 @@ class LiveImitation:
         share = 1.0 if not 0.0 <= passed_s < 1.0 else 1.0 - np.exp(-passed_s / _SMOOTHING_S)
         if passed_s < 0.0:
             self._seen_s = [time_s if np.isfinite(seen) else seen for seen in self._seen_s]
+            with self._turn:
+                self._poses.clear()
         self._time_s = time_s
         places: list[Floats | None] = [None, None] if person is None else self._scaled(person, share)
         for i, place in enumerate(places):
