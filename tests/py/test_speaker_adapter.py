@@ -91,7 +91,7 @@ def test_command_adapts_a_model(hri, words: package.WordRecognizer, tmp_path: Pa
             _native.write_wav_pcm16(str(path), tone_word(560.0, slope, 100 + seed), RATE_HZ)
     files = sorted(tmp_path.glob("*.wav"))
     done = hri("adapt", "--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri", *files)
-    assert done.code == 0 and "of 6 words" in done.err, done.err
+    assert done.code == 0 and "of 6 recordings" in done.err, done.err
     clip = strange(800.0, 9)
     adapted = package.WordRecognizer.load(tmp_path / "mine.hri")
     assert not np.array_equal(adapted.scores(clip, RATE_HZ), words.scores(clip, RATE_HZ))
@@ -107,7 +107,7 @@ def test_command_learns_the_words_of_one_person_by_their_names(
     words.save(tmp_path / "words.hri")
     place = ("--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri")
     done = hri("adapt", *place, "--data", spoken, "--person", "low", "--json", "-")
-    assert done.code == 0 and "from 6 of 6 words" in done.err, done.err
+    assert done.code == 0 and "from 6 of 6 recordings" in done.err, done.err
     reported = json.loads(done.out)
     assert sorted(reported["learned"].values()) == ["1", "1", "1", "2", "2", "2"]
     assert all(f"{label}_low_" in file for file, label in reported["learned"].items())

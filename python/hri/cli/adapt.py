@@ -9,20 +9,22 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import kept_model, load_dataset, pattern_option
+from hri.core.errors import InvalidArgument
 from hri.media import read_audio
 from hri.recognition import SpeakerAdapter, WordRecognizer
 
 _file = click.Path(exists=True, dir_okay=False)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("files", type=_file, nargs=-1, metavar="[FILE]...")
 @click.option("--model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user.")
-@click.option("-o", "--output", required=True, type=OutputFile(), help="File of the adapted model.")
+@click.option("-o", "--output", required=True, type=OutputFile(replaces=("model",)), help="File of the adapted model.")
 @click.option(
     "--label",
     help="The word in every FILE (supervised); without it, it is unsupervised, by what FILES are recognised as.",
@@ -69,12 +71,18 @@ def adapt(
             learned.append((path, word))
             progress("recognising", done + 1, len(words))
     adapter.update()
+    if adapter.num_learned == 0:
+        raise InvalidArgument(
+            "no recording has a word to learn from"
+            if len(words) > 1
+            else f"{words[0][0]}: there is no word to learn from"
+        )
     Path(output).parent.mkdir(parents=True, exist_ok=True)
     adapter.recognizer.save(output)
     for path, word in learned:
         say(f"{word}\t{path}", json_path)
     counts = {"num_words": adapter.num_words, "num_learned": adapter.num_learned}
-    note(f"learned from {adapter.num_learned} of {adapter.num_words} words: {output}")
+    note(f"learned from {adapter.num_learned} of {len(words)} recordings: {output}")
     write_json(json_path, {"model": output, **counts, "learned": {str(path): word for path, word in learned}})
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import click
 
+from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import device_option, microphone, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
@@ -30,7 +31,7 @@ from hri.htk import WordLattice
 from hri.io import SpokenWords
 from hri.language import Grammar, NGramModel
 from hri.live import AudioSource, FileSource
-from hri.media import read_audio
+from hri.media import VIDEO_SUFFIXES, read_audio
 from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream, Transcript, UtteranceResult
 from hri.recognition.sentence.recognizer import UNKNOWN
 from hri.synthetic.speech import speak_words
@@ -41,7 +42,7 @@ SILENCE = "<sil>"
 """The word of silence in lattices."""
 
 
-@click.command("train-connected")
+@click.command("train-connected", cls=CheckedCommand)
 @click.option(
     "--data",
     required=True,
@@ -50,7 +51,7 @@ SILENCE = "<sil>"
 )
 @pattern_option
 @click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
-@options_option
+@options_option("connected", "words.num_states=8")
 @click.option(
     "--language",
     type=click.Path(exists=True, dir_okay=False),
@@ -152,7 +153,7 @@ def _spellings(added: Sequence[str], recorded: Sequence[str]) -> dict[str, str]:
     return found
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False), metavar="FILE...")
 @click.option(
     "--model",
@@ -176,7 +177,7 @@ def _spellings(added: Sequence[str], recorded: Sequence[str]) -> dict[str, str]:
 @click.option(
     "--robot",
     "film",
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=OutputFile(VIDEO_SUFFIXES, path_type=Path),
     metavar="FILE",
     help="Film HOAP-2 as it performs the command: slots 'gesture', 'side', 'times', or 'walk' and 'steps'.",
 )
@@ -218,6 +219,10 @@ def transcribe(
     """
     if not files and not stream:
         raise click.UsageError("name a recording, or add --stream for the microphone")
+    if not stream:
+        refuse_given(("wake", "device", "stall_s"), "goes with --stream")
+    if times and alternatives:
+        raise click.UsageError("--times and --alternatives exclude each other")
     if film is not None and (grammar is None or len(files) != 1 or stream):
         raise click.UsageError("--robot goes with --grammar and one recording")
     recognizer = ConnectedWordRecognizer.load(connected_model() if model is None else model)

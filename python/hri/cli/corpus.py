@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hri.cli.groups import SuggestingGroup
+from hri.cli.groups import FiniteRange, SuggestingGroup
 from hri.cli.progress import progress_bars
 from hri.synthetic.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
 from hri.synthetic.signer import SIGNS, make_gesture_corpus
@@ -61,7 +61,7 @@ def _number(name: str, text: str) -> Callable[[Any], Any]:
     low, high = RANGES[name]
     default = getattr(SignerOptions, name)
     option = "--" + name.replace("_", "-")
-    return click.option(option, name, type=click.FloatRange(low, high), default=default, show_default=True, help=text)
+    return click.option(option, name, type=FiniteRange(low, high), default=default, show_default=True, help=text)
 
 
 def _three(option: str, text: str) -> Callable[[Any], Any]:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import write_json
 from hri.cli.progress import progress_bars
@@ -26,7 +27,7 @@ MADE = ("index.html", "result.json", "signer_and_robot.webm", "corpus", "models"
 """What the demo writes there besides; nothing else is ever removed."""
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.option(
     "--out",
     type=click.Path(file_okay=False, path_type=Path),
@@ -110,7 +111,7 @@ def demo(out: Path, seed: int, backend: str, keep_corpus: bool, quick: bool) -> 
 
 def _say(what: str) -> None:
     """One plain line a step where no bars are drawn."""
-    if not sys.stderr.isatty():
+    if sys.stderr is None or not sys.stderr.isatty():
         note(what)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import click
 import numpy as np
 
+from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
 from hri.cli.output import OutputFile
 from hri.core.errors import InvalidArgument
 from hri.io import write_wav_pcm16
@@ -15,7 +16,7 @@ from hri.signal.noise_reduction import NOISES, RULES, SHAPES, approximation
 from hri.signal.noise_reduction import denoise as denoised
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("source", metavar="IN", type=click.Path(exists=True, dir_okay=False))
 @click.argument("target", metavar="OUT.wav", type=OutputFile((".wav",)))
 @click.option("--wavelet", default="sym8", show_default=True, help="One of PyWavelets' names.")
@@ -29,7 +30,7 @@ from hri.signal.noise_reduction import denoise as denoised
     help="Where noise is measured: the quietest tenth, each level's median, or the finest level's.",
 )
 @click.option("--levels", type=click.IntRange(0, 62), default=0, show_default=True, help="0: as many as are usual.")
-@click.option("--strength", type=click.FloatRange(0.0), default=1.0, show_default=True, help="Factor of thresholds.")
+@click.option("--strength", type=FiniteRange(0.0), default=1.0, show_default=True, help="Factor of thresholds.")
 @click.option(
     "--approximation",
     "level",
@@ -55,6 +56,9 @@ def denoise(
       hri denoise noisy.wav clean.wav --wavelet db6 --threshold sure --shape hard
       hri denoise noisy.wav low.wav --approximation 1
     """
+    if level is not None:
+        shrinkage = ("threshold", "shape", "noise", "levels", "strength")
+        refuse_given(shrinkage, "is of shrinkage, which --approximation does without")
     audio = read_audio(source)
     rate_hz = audio.sample_rate_hz
     if level is None:

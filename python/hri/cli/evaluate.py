@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say_table, write_json
 from hri.cli.progress import progress_bars
@@ -20,7 +21,7 @@ from hri.evaluation import EvaluationResult, cross_validate, evaluate_split
 _folder = click.Path(exists=True, file_okay=False)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @mode_argument
 @click.option("--data", type=_folder, help="Folder of recordings, split into folds by person.")
 @click.option("--train", "train_dir", type=_folder, help="Train on this folder ...")
@@ -30,10 +31,10 @@ _folder = click.Path(exists=True, file_okay=False)
 @click.option("--train-persons", type=click.IntRange(1), help="Train on so many persons only, drawn at random.")
 @click.option("--leave-out", metavar="CONDITION", help="Hold out a condition's values, such as background.")
 @click.option("--noise", help="Added to the test clips: white, pink, or a recording.")
-@click.option("--snr", type=click.FloatRange(-30, 60), metavar="DB", help="Signal-to-noise ratio of --noise.")
+@click.option("--snr", type=FiniteRange(-30, 60), metavar="DB", help="Signal-to-noise ratio of --noise.")
 @click.option("--train-noise", is_flag=True, help="Train on a noisy copy of every clip too.")
-@click.option("--exposure", type=click.FloatRange(0.05, 20), help="Factor on the brightness of the test pictures.")
-@options_option
+@click.option("--exposure", type=FiniteRange(0.05, 20), help="Factor on the brightness of the test pictures.")
+@options_option("MODE", "num_states=8")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of folds, training and noise.")
 @click.option(
     "--confusion",

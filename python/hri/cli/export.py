@@ -9,14 +9,25 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_text
 from hri.io import ModelFile, model_as_cpp, model_as_json
 
 _SUFFIXES = (".hpp", ".h", ".json")
+_CPP_WORDS = frozenset(
+    (  # noqa: SIM905
+        "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class "
+        "compl const const_cast constexpr continue decltype default delete do double dynamic_cast else enum "
+        "explicit export extern false float for friend goto if inline int long mutable namespace new noexcept "
+        "not not_eq nullptr operator or or_eq private protected public register reinterpret_cast return short "
+        "signed sizeof static static_assert static_cast struct switch template this thread_local throw true "
+        "try typedef typeid typename union unsigned using virtual void volatile wchar_t while xor xor_eq"
+    ).split()
+)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("model", type=click.Path(exists=True, dir_okay=False))
 @click.option("--out", "-o", required=True, type=OutputFile(_SUFFIXES), metavar="FILE", help="FILE.hpp or FILE.json.")
 @click.option("--name", metavar="NAME", help="Of the C++ function that gives the bytes; the default is made of FILE's.")
@@ -36,5 +47,9 @@ def export(model: str, out: str, name: str | None) -> None:
         write_text(target, model_as_json(file))
         return
     function = name or re.sub(r"[^A-Za-z0-9_]", "_", target.stem)
+    if function in _CPP_WORDS:
+        if name is not None:
+            raise click.UsageError(f"--name {name}: it is a word of C++")
+        function += "_model"
     write_text(target, model_as_cpp(file, function))
     note(f'load it with hri::ModelFile::parse({function}(), "{function}")')

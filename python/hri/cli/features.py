@@ -12,6 +12,7 @@ from typing import Any
 import click
 import numpy as np
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_bytes, write_text
 from hri.cli.recognizers import naming_options, parse_options
@@ -23,7 +24,7 @@ from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, Audio, frame_rate, naming_
 from hri.vision.hands import find_silhouettes
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("recording", type=click.Path(exists=True, dir_okay=False))
 @click.option(
     "--kind",

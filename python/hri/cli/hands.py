@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_json, write_text
 from hri.cli.progress import progress_bars
@@ -22,7 +23,7 @@ from hri.vision.report import SOURCES, HandReport, inspect_hands
 METHODS = ("chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu")
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("clip", type=click.Path(exists=True))
 @click.option(
     "--source",
@@ -71,7 +72,7 @@ METHODS = ("chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu")
 @click.option("--as-found", is_flag=True, help="Leave masks that jump for a frame or two as they are.")
 @click.option(
     "--fps",
-    type=click.FloatRange(min=0, min_open=True),
+    type=FiniteRange(min=0, min_open=True),
     help=f"At which the pictures of a folder were taken.  [default: {DEFAULT_FPS:g}]",
 )
 @click.option(

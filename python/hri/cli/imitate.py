@@ -9,30 +9,35 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
+from hri.cli.output import OutputFile
 from hri.core.errors import InvalidArgument
 from hri.core.files import write_text
+from hri.media import VIDEO_SUFFIXES
 from hri.robot.imitation.imitate import FORMS, Imitation, ImitationOptions
 from hri.robot.imitation.imitate import imitate as make_imitation
 from hri.robot.imitation.tracks import HandTrack, read_hand_tracks
 from hri.robot.imitation.video import film_imitation
 from hri.robot.motion.pulse_csv import write_pulse_csv
 
-_file = click.Path(dir_okay=False, path_type=Path)
 
-
-@click.command(short_help="Turn a person's hand track into a motion of the arms.")
+@click.command(cls=CheckedCommand, short_help="Turn a person's hand track into a motion of the arms.")
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
-@click.option("--out", type=_file, required=True, help="The motion as a pulse CSV file.")
+@click.option(
+    "--out", type=OutputFile((".csv",), path_type=Path), required=True, help="The motion as a pulse CSV file."
+)
 @click.option("--track", "name", help="Which track, in a file with several (column video).")
-@click.option("--fps", type=click.FloatRange(0, 1000, min_open=True), default=30.0, show_default=True)
+@click.option("--fps", type=FiniteRange(0, 1000, min_open=True), default=30.0, show_default=True)
 @click.option("--height-px", type=float, help="The person's height in pixels; guessed if not given.")
 @click.option(
     "--form", type=click.Choice(FORMS), default="search", show_default=True, help="Best poses, or plain angles."
 )
 @click.option("--mirrored", is_flag=True, help="The picture was mirrored, as programs show webcams.")
-@click.option("--video", type=_file, help="Film the track and the robot side by side.")
-@click.option("--json", "json_path", type=_file, help="Write the report as JSON.")
+@click.option(
+    "--video", type=OutputFile(VIDEO_SUFFIXES, path_type=Path), help="Film the track and the robot side by side."
+)
+@click.option("--json", "json_path", type=OutputFile(path_type=Path), help="Write the report as JSON.")
 def imitate(
     file: Path,
     out: Path,

@@ -12,11 +12,16 @@ from typing import Any
 import click
 
 from hri import __version__, vision
+from hri.cli.groups import CheckedCommand
+from hri.cli.options import KINDS
 from hri.cli.output import json_option, say, write_json
-from hri.cli.recognizers import CLASSES, default_model
+from hri.cli.recognizers import default_model
+from hri.core.errors import Error
+from hri.io import ModelFile
 from hri.media import natural_key
-from hri.recognition import WordRecognizer, load
+from hri.recognition import SentenceRecognizer, WordRecognizer, load
 
+_OF_SEVERAL = {"connected_word_recognizer": "connected", "sentence_recognizer": "sentences"}
 EXTRAS = {
     "audio": ("soundfile",),
     "cli": ("click", "rich", "platformdirs"),
@@ -26,7 +31,7 @@ EXTRAS = {
 }
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("model", required=False, type=click.Path(exists=True, dir_okay=False))
 @json_option
 def info(model: str | None, json_path: str | None) -> None:
@@ -49,7 +54,7 @@ def _installation() -> dict[str, Any]:
         "python": python_version(),
         "native": {"core": True, "vision": _has_vision()},
         "extras": {name: all(map(find_spec, modules)) for name, modules in EXTRAS.items()},
-        "models": {mode: str(default_model(mode)) for mode in CLASSES if default_model(mode).is_file()},
+        "models": {mode: str(default_model(mode)) for mode in KINDS if default_model(mode).is_file()},
     }
 
 
@@ -61,12 +66,22 @@ def _has_vision() -> bool:
 
 
 def _model(path: str) -> dict[str, Any]:
-    recognizer = load(path)
+    kind = _kind(path)
+    recognizer = load(path) if kind is None else KINDS[kind].load(path)
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
-    found: dict[str, Any] = {"mode": recognizer.mode, "labels": labels}
+    found: dict[str, Any] = {"mode": kind or recognizer.mode, "labels": labels}
     if isinstance(recognizer, WordRecognizer) and recognizer.held_out is not None:
         found["held_out"] = recognizer.held_out.to_dict()
-    return {**found, "options": recognizer.options.as_dict()}
+    trained = recognizer.trained_options if isinstance(recognizer, SentenceRecognizer) else recognizer.options
+    return {**found, "options": trained.as_dict()}
+
+
+def _kind(path: str) -> str | None:
+    """Of a model of several words or signs; of all others `load` finds out, which says what is wrong, too."""
+    try:
+        return _OF_SEVERAL.get(ModelFile.read(path).kind)
+    except Error:
+        return None
 
 
 def _lines(found: dict[str, Any]) -> list[str]:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, report, stall_option
 from hri.cli.recognizers import kept_model
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
@@ -20,7 +21,7 @@ from hri.live import Attention, AudioSource, Event, FileSource, Listener, list_m
 from hri.recognition import WordRecognizer
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False))
 @click.option(
     "--model",
@@ -80,6 +81,12 @@ def listen(
     if list_devices:
         _list_devices(as_json)
         return
+    if not wake:
+        refuse_given(("within_s", "always"), "goes with --wake")
+    if files:
+        refuse_given(("device", "stall_s"), "is of a microphone, and FILES take its place")
+    else:
+        refuse_given(("paced",), "is of recordings: name FILES")
     path = Path(model_path) if model_path else kept_model("speech")
     words = WordRecognizer.load(path)
     model_id = f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"

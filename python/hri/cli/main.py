@@ -95,7 +95,7 @@ class LazyGroup(SuggestingGroup):
 @click.option("-q", "--quiet", is_flag=True, help="Results and errors only.")
 @click.option(
     "--threads",
-    type=click.IntRange(0),
+    type=click.IntRange(0, 4096),
     metavar="N",
     help="Train on at most N threads; 0, the default: one for each processor. The result is the same to the bit.",
 )

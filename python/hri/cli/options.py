@@ -9,26 +9,45 @@ from typing import Any
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.output import json_option, say, write_json
-from hri.cli.recognizers import CLASSES, mode_argument
+from hri.recognition import (
+    ConnectedWordRecognizer,
+    GestureRecognizer,
+    SentenceRecognizer,
+    SubwordRecognizer,
+    WordRecognizer,
+)
+
+KINDS: dict[str, type[Any]] = {
+    "speech": WordRecognizer,
+    "gesture": GestureRecognizer,
+    "connected": ConnectedWordRecognizer,
+    "units": SubwordRecognizer,
+    "sentences": SentenceRecognizer,
+}
+"""What trains a recogniser: ``hri train`` the first two, ``hri train-connected`` and so on the others."""
 
 
-@click.command()
-@mode_argument
+@click.command(cls=CheckedCommand)
+@click.argument("kind", type=click.Choice(list(KINDS)))
 @json_option
-def options(mode: str, json_path: str | None) -> None:
-    """Print what --option takes for MODE: every name with its default, the values it may have, and what it does.
+def options(kind: str, json_path: str | None) -> None:
+    """Print what --option takes: every name with its default, the values it may have, and what it does.
+
+    KIND is speech or gesture for 'hri train', and connected, units or sentences for 'hri train-' of this name.
 
     \b
     Examples:
       hri options speech
+      hri options connected
       hri options gesture --json -
     """
-    fields = list(option_table(type(CLASSES[mode]().options)))
+    fields = list(option_table(type(KINDS[kind]().options)))
     for field in fields:
         values = f"{field['values']}\t" if field["values"] else "\t"
         say(f"{field['name']}={field['default']}\t{values}{field['description']}", json_path)
-    write_json(json_path, {"mode": mode, "options": fields})
+    write_json(json_path, {"kind": kind, "options": fields})
 
 
 def option_table(options_class: Any, prefix: str = "") -> Iterator[dict[str, str]]:

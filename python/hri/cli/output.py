@@ -27,11 +27,22 @@ class OutputFile(click.Path):
         Those allowed, such as (".png",); any if empty.
     allow_dash : bool
         Whether "-" means standard output.
+    replaces : sequence of str
+        Parameters whose file it may be, as of a model that is written anew; no other file that is read.
+    path_type : str or Path
     """
 
-    def __init__(self, suffixes: Sequence[str] = (), allow_dash: bool = False) -> None:
+    def __init__(
+        self,
+        suffixes: Sequence[str] = (),
+        allow_dash: bool = False,
+        replaces: Sequence[str] = (),
+        path_type: type[str] | type[Path] = str,
+    ) -> None:
         super().__init__(dir_okay=False, allow_dash=allow_dash)
         self._suffixes = tuple(suffixes)
+        self._kind = path_type
+        self.replaces = tuple(replaces)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         text = os.fsdecode(super().convert(value, param, ctx))
@@ -47,7 +58,7 @@ class OutputFile(click.Path):
             self.fail(f"'{path}' cannot be written: '{folder}' is not a folder where you may write", param, ctx)
         if path.exists() and not path.is_file():
             self.fail(f"'{path}' cannot be written: it is not a regular file", param, ctx)
-        return text
+        return self._kind(text)
 
 
 json_option = click.option(

@@ -15,7 +15,7 @@ Progress = Callable[[str, int, int], None]
 @contextmanager
 def progress_bars() -> Iterator[Progress]:
     """Gives a callback that draws a bar for what is being done now; silent without a terminal."""
-    if not sys.stderr.isatty():
+    if sys.stderr is None or not sys.stderr.isatty():
         yield lambda what, done, total: None
         return
     from rich.console import Console

@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
@@ -24,7 +25,7 @@ from hri.recognition.decision import RECOGNISED
 _file = click.Path(exists=True, dir_okay=False)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("files", nargs=-1, type=click.Path(exists=True), metavar="[FILE]...")
 @click.option("--speech", type=_file, help="A recording of one spoken word.")
 @click.option("--gesture", type=click.Path(exists=True), help="A picture, video or folder of pictures of one sign.")

@@ -31,13 +31,17 @@ pattern_option = click.option(
     "folder's dataset.toml is read, or common patterns are tried.",
 )
 
-options_option = click.option(
-    "--option",
-    "options",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="An option of the recogniser, such as num_states=8; may be given several times. 'hri options' lists them all.",
-)
+
+def options_option(kind: str, example: str) -> Callable[[Any], Any]:
+    """The option ``--option`` of a command that trains what ``hri options KIND`` lists the options of."""
+    return click.option(
+        "--option",
+        "options",
+        multiple=True,
+        metavar="NAME=VALUE",
+        help=f"An option of the recogniser, such as {example}; may be given several times. 'hri options {kind}' lists "
+        "them all.",
+    )
 
 
 def default_model(mode: str) -> Path:

@@ -11,11 +11,13 @@ from pathlib import Path
 import click
 import numpy as np
 
-from hri.cli.groups import SuggestingGroup
+from hri.cli.groups import FiniteRange, SuggestingGroup, refuse_given
 from hri.cli.imitate import imitate
 from hri.cli.messages import note
+from hri.cli.output import OutputFile
 from hri.core.errors import InvalidArgument
 from hri.core.files import write_text
+from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, kind_of_file
 from hri.robot.control.state import MotionLog
 from hri.robot.control.stopping import stopped_by_signals
 from hri.robot.model.joints import HOAP2, NAO, ROBOTS, JointTable
@@ -82,7 +84,7 @@ robot.add_command(imitate)
 @robot.command(short_help="Look over a motion; exit code 3 for errors.")
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option(
-    "--repair", "repaired", type=click.Path(dir_okay=False, path_type=Path), help="Write a repaired pulse CSV file."
+    "--repair", "repaired", type=OutputFile((".csv",), path_type=Path), help="Write a repaired pulse CSV file."
 )
 @_robot
 def check(file: Path, repaired: Path | None, table: JointTable) -> None:
@@ -118,7 +120,7 @@ def check(file: Path, repaired: Path | None, table: JointTable) -> None:
 
 @robot.command(short_help="Draw every joint of a motion against its limits.")
 @click.argument("motion")
-@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+@click.argument("out", type=OutputFile((".png", ".svg", ".pdf"), path_type=Path))
 def plot(motion: str, out: Path) -> None:
     """Draw every joint of MOTION over time, its limits dashed, as OUT (.png, .svg, .pdf).
 
@@ -136,7 +138,7 @@ def plot(motion: str, out: Path) -> None:
 @click.option("--gui", is_flag=True, help="Show a window and move in real time (pybullet).")
 @click.option("--stand", is_flag=True, help="Stand on the feet instead of holding the torso.")
 @click.option("--posture", type=click.Choice(POSTURES), default="standing", show_default=True, help="To begin in.")
-@click.option("--log", "log_path", type=click.Path(dir_okay=False, path_type=Path), help="Write states as JSON.")
+@click.option("--log", "log_path", type=OutputFile((".json",), path_type=Path), help="Write states as JSON.")
 @_robot
 @nao_url_option
 @click.option("--wake-up", is_flag=True, help="Let the real NAO stand up first.")
@@ -213,11 +215,11 @@ def play(
 
 @robot.command(short_help="Film a motion.")
 @click.argument("motion")
-@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+@click.argument("out", type=OutputFile((*VIDEO_SUFFIXES, *IMAGE_SUFFIXES), path_type=Path))
 @_backend
-@click.option("--fps", type=click.FloatRange(1, 120), default=12.0, show_default=True)
+@click.option("--fps", type=FiniteRange(1, 120), default=12.0, show_default=True)
 @click.option("--size", type=(int, int), default=(480, 360), show_default=True, help="Pixels.")
-@click.option("--still", type=click.FloatRange(0), metavar="SECONDS", help="One picture (.png, .jpg) of this moment.")
+@click.option("--still", type=FiniteRange(0), metavar="SECONDS", help="One picture (.png, .jpg) of this moment.")
 @_robot
 def render(
     motion: str, out: Path, backend: str, fps: float, size: tuple[int, int], still: float | None, table: JointTable
@@ -230,11 +232,13 @@ def render(
       hri robot render motion.csv motion.webm --backend kinematic --size 640 480
       hri robot render namaste namaste.png --still 1.5
     """
+    if still is None and out.suffix.lower() in IMAGE_SUFFIXES:
+        raise click.UsageError(f"{out} is a picture: say of which moment by --still")
     trajectory = _motion(motion, table)
     _require_safe(trajectory, table, motion)
     if still is not None:
         render_still(trajectory, out, still, backend, size, table)
-    elif sys.stderr.isatty():
+    elif sys.stderr is not None and sys.stderr.isatty():
         with click.progressbar(length=1000, label="Filming", file=sys.stderr) as bar:
 
             def show(made: int, total: int) -> None:
@@ -248,7 +252,7 @@ def render(
 
 @robot.command(short_help="Write a motion as pulses, degrees or a message of ROS 2.")
 @click.argument("motion")
-@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+@click.argument("out", type=OutputFile((".csv", ".tsv", *MESSAGE_SUFFIXES), path_type=Path))
 @click.option("--short", is_flag=True, help="A .csv in degrees with named columns instead of pulses.")
 @click.option("--slow", is_flag=True, help="Slow the whole motion down to the limits of speed and acceleration.")
 @_robot
@@ -265,6 +269,8 @@ def convert(motion: str, out: Path, short: bool, slow: bool, table: JointTable) 
       hri robot convert wave wave.csv --short
       hri robot convert wave wave.mcap --robot nao
     """
+    if out.suffix.lower() != ".csv":
+        refuse_given(("short",), "is a form of .csv")
     trajectory = _motion(motion, table)
     if slow:
         slower = slow_to_limits(trajectory, table)
@@ -281,16 +287,14 @@ def convert(motion: str, out: Path, short: bool, slow: bool, table: JointTable) 
             note(f"left out, as the format has no count: {', '.join(left_out)}")
     elif out.suffix.lower() == ".tsv":
         trajectory.write_tsv(out)
-    elif _is_message(out):
+    else:
         (require_safe if slow else _require_safe)(trajectory, table, motion)
         write_joint_trajectory(out, trajectory)
-    else:
-        raise InvalidArgument(f"{out}: suffix must be .csv, .tsv, .json or .mcap")
     click.echo(str(out))
 
 
 @robot.command(short_help="Write the robot as URDF.")
-@click.argument("out", type=click.Path(dir_okay=False, path_type=Path))
+@click.argument("out", type=OutputFile(path_type=Path))
 @_robot
 def urdf(out: Path, table: JointTable) -> None:
     """Write the robot as OUT, a URDF file that ROS reads: joints with axes and limits, masses, simple shapes.
@@ -388,6 +392,9 @@ def _require_pulses(file: str | Path, table: JointTable) -> None:
 
 
 def _motion(motion: str, table: JointTable) -> Trajectory:
+    kind = kind_of_file(Path(motion)) if motion not in load_gestures() else ""
+    if kind:
+        raise InvalidArgument(f"{motion} is {kind}, and no motion: a gesture's name, or a file .csv, .json or .mcap")
     if _is_file(motion):
         if _is_message(motion):
             return read_joint_trajectory(motion)

@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 import numpy as np
 
+from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
@@ -26,7 +27,7 @@ MODE = "sentences"
 """Under which name the model is kept per user."""
 
 
-@click.command("train-sentences")
+@click.command("train-sentences", cls=CheckedCommand)
 @click.option(
     "--data",
     required=True,
@@ -34,7 +35,7 @@ MODE = "sentences"
     help="Folder of the files hands.csv, words.csv, signers.csv: tracks and their words.",
 )
 @click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
-@options_option
+@options_option("sentences", "frames_per_state=4")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: int, json_path: str | None) -> None:
@@ -64,7 +65,7 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
     write_json(json_path, {"model": str(path), "labels": labels, "options": recognizer.trained_options.as_dict()})
 
 
-@click.command("read-sentences")
+@click.command("read-sentences", cls=CheckedCommand)
 @click.argument("files", nargs=-1, required=True, type=click.Path(exists=True, dir_okay=False), metavar="TRACKS...")
 @click.option(
     "--model",
@@ -84,7 +85,7 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
 )
 @click.option(
     "--max-distance",
-    type=click.FloatRange(0, 1),
+    type=FiniteRange(0, 1),
     default=MAX_DISTANCE,
     show_default=True,
     help="Words farther from every stored sentence are none of them.",
@@ -118,6 +119,8 @@ def read_sentences(
       hri read-sentences monday.csv tuesday.csv --frames --json -
       hri read-sentences hands.csv --knowledge sentences.csv --language hi --speak voice/
     """
+    if knowledge is None:
+        refuse_given(("max_distance",), "goes with --knowledge")
     path = Path(model) if model is not None else default_model(MODE)
     if not path.is_file():
         raise InvalidArgument("there is no model of signed sentences yet: run 'hri train-sentences --data DIR'")

@@ -11,6 +11,7 @@ from functools import partial
 import click
 
 from hri.cli.connected import connected_model
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.recognizers import load_dataset
 from hri.cli.session_options import ChosenSession, session_options
@@ -22,7 +23,7 @@ from hri.synthetic.speech import speak_words
 PORT = 8019
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @session_options
 @click.option(
     "--port", type=click.IntRange(0, 65535), default=PORT, show_default=True, help="0 takes any that is free."

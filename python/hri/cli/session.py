@@ -11,11 +11,12 @@ from typing import Any
 
 import click
 
+from hri.cli.groups import CheckedCommand, is_given
 from hri.cli.live_screen import camera, events_json_option, microphone, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
 from hri.cli.robot import nao_url_option
-from hri.cli.session_options import ChosenSession, is_given, model_file, session_options
+from hri.cli.session_options import ChosenSession, model_file, session_options
 from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
@@ -28,7 +29,7 @@ EXIT_SIGNAL = 128
 _NAO = "nao"
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @session_options
 @click.option("--microphone", "microphone_name", metavar="NAME", help="Number or part of the name of the microphone.")

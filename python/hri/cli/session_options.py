@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import click
-from click.core import ParameterSource
 
 from hri.cli.connected import connected_model
+from hri.cli.groups import FiniteRange, is_given
 from hri.cli.messages import note
 from hri.cli.recognizers import kept_model, load_signs
 from hri.core.errors import InvalidArgument
@@ -55,7 +55,7 @@ _OPTIONS = (
     ),
     click.option(
         "--min-confidence",
-        type=click.FloatRange(0, 1),
+        type=FiniteRange(0, 1),
         default=MIN_CONFIDENCE,
         show_default=True,
         metavar="P",
@@ -75,7 +75,7 @@ _OPTIONS = (
     ),
     click.option(
         "--stop-at-rest",
-        type=click.FloatRange(0, 1),
+        type=FiniteRange(0, 1),
         default=SessionOptions.stop_at_rest,
         show_default=True,
         metavar="P",
@@ -102,7 +102,7 @@ _OPTIONS = (
     ),
     click.option(
         "--max-distance",
-        type=click.FloatRange(0, 1),
+        type=FiniteRange(0, 1),
         default=MAX_DISTANCE,
         show_default=True,
         help="Words farther from every stored sentence are none of them.",
@@ -239,12 +239,6 @@ class ChosenSession:
         chosen = path or kept_model(mode)
         self.model_ids[mode] = _name_and_hash(chosen)
         return chosen
-
-
-def is_given(*names: str) -> bool:
-    """Whether one of these parameters of the present command was given, and is not its default."""
-    context = click.get_current_context()
-    return any(context.get_parameter_source(name) is ParameterSource.COMMANDLINE for name in names)
 
 
 def session_options(command: Callable[..., None]) -> Callable[..., None]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import json_option, say, write_json, write_text
 from hri.cli.progress import progress_bars
@@ -17,7 +18,7 @@ from hri.studies.kept import measure, read_kept, verify
 from hri.studies.tables import csv_text, markdown, table
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("name", metavar="list|NAME")
 @click.option(
     "--data",

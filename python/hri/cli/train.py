@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand, is_given
 from hri.cli.hand_source import choose_source
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
@@ -28,12 +29,12 @@ MANY_PERSONS = 10
 """From which on a network is trained unless asked otherwise: it was measured with twenty, and fewer are untested."""
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @mode_argument
 @click.option("--data", required=True, type=click.Path(exists=True, file_okay=False), help="Folder of recordings.")
 @pattern_option
 @click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
-@options_option
+@options_option("MODE", "num_states=8")
 @click.option(
     "--fillers",
     type=click.Path(exists=True, file_okay=False),
@@ -97,6 +98,12 @@ def train(
         raise click.UsageError("--fillers and --no-fillers are for speech")
     if fillers and no_fillers:
         raise click.UsageError("--fillers and --no-fillers exclude each other")
+    flags = {"--front-end": "front_end", "--network": "use_network", "--hands": "num_hands", "--source": "source"}
+    for flag, given in zip(flags, (front_end, network, hands, source), strict=True):
+        if given is not None and any(o.startswith(f"{flags[flag]}=") for o in options):
+            raise click.UsageError(f"{flag} and --option {flags[flag]}=... exclude each other")
+    if is_given("seed") and any(o.startswith("seed=") for o in options):
+        raise click.UsageError("--seed and --option seed=... exclude each other")
     if front_end is not None:
         if mode != "speech":
             raise click.UsageError("--front-end is for speech")
@@ -144,6 +151,8 @@ def train(
     report = recognizer.held_out if isinstance(recognizer, WordRecognizer) else None
     for line in report.lines() if report is not None else []:
         note(line)
+    if report is not None and not dataset.persons:
+        note("persons are not known: those held out may have been in training, too, and strangers will fare worse")
     if len(dataset.persons) < 2:
         note("confidences are calibrated best with two persons or more")
     write_json(

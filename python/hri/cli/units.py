@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
@@ -28,7 +29,7 @@ MODE = "units"
 """Under which name the model is kept per user."""
 
 
-@click.command("train-units")
+@click.command("train-units", cls=CheckedCommand)
 @click.option(
     "--data",
     required=True,
@@ -53,7 +54,7 @@ MODE = "units"
     metavar="FILE",
     help="Pronunciations, a line a word, as HTK's dictionaries; words that it has not are pronounced by espeak-ng.",
 )
-@options_option
+@options_option("units", "words.num_states=3")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train_units(

@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import unicodedata
 from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.recognizers import kept_model
@@ -23,13 +25,23 @@ _model_option = click.option(
     help="A model from 'hri train speech' or 'hri train-units'; the default is the one kept per user by the first.",
 )
 _out_option = click.option(
-    "--out", "-o", type=OutputFile(), metavar="MODEL", help="The new model file; the default replaces the old one."
+    "--out",
+    "-o",
+    type=OutputFile(replaces=("model_path",)),
+    metavar="MODEL",
+    help="The new model file; the default replaces the old one.",
 )
 
 
-@click.command("add-word")
+def _printable(context: click.Context, param: click.Parameter, label: str) -> str:
+    if any(unicodedata.category(character) in ("Cc", "Zl", "Zp") for character in label):
+        raise click.BadParameter(f"{label!r} has characters that break lines and columns", context, param)
+    return label
+
+
+@click.command("add-word", cls=CheckedCommand)
 @_model_option
-@click.option("--label", required=True, help="The new word.")
+@click.option("--label", required=True, callback=_printable, help="The new word.")
 @click.option(
     "--spelling", metavar="TEXT", help="How the word is written; for models from 'hri train-units', without recordings."
 )
@@ -59,6 +71,8 @@ def add_word(
       hri add-word --model digits.hri --label dance dance*.wav -o more.hri
       hri add-word --model units.hri --label dance --spelling dance
     """
+    if spelling is not None and not spelling.strip():
+        raise click.UsageError("--spelling is empty")
     if not files and spelling is None:
         raise click.UsageError("give recordings of the word, or --spelling")
     words, target = _open(model_path, out)
@@ -73,7 +87,7 @@ def add_word(
     _keep(words, target, json_path)
 
 
-@click.command("remove-word")
+@click.command("remove-word", cls=CheckedCommand)
 @_model_option
 @click.option("--label", required=True, help="The word to remove.")
 @_out_option
@@ -91,7 +105,7 @@ def remove_word(model_path: str | None, label: str, out: str | None, json_path: 
     _keep(words, target, json_path)
 
 
-@click.command("add-gesture")
+@click.command("add-gesture", cls=CheckedCommand)
 @click.option(
     "--model",
     "model_path",
@@ -99,7 +113,7 @@ def remove_word(model_path: str | None, label: str, out: str | None, json_path: 
     metavar="MODEL",
     help="A model from 'hri train gesture'; the default is the one kept per user.",
 )
-@click.option("--label", required=True, help="The new gesture.")
+@click.option("--label", required=True, callback=_printable, help="The new gesture.")
 @click.argument("clips", nargs=-1, required=True, type=click.Path(exists=True), metavar="CLIP...")
 @_out_option
 @json_option

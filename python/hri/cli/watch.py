@@ -11,6 +11,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, report, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
@@ -24,7 +25,7 @@ from hri.recognition import SentenceRecognizer
 from hri.vision.faces import face_finder
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False))
 @click.option(
     "--model",
@@ -87,6 +88,10 @@ def watch(
     """
     if video_path is not None and len(files) > 1:
         raise InvalidArgument("--video films one stream: give one file, or a camera")
+    if files:
+        refuse_given(("device", "stall_s", "reconnect_s"), "is of a camera, and FILES take its place")
+    else:
+        refuse_given(("paced",), "is of videos: name FILES")
     path = Path(model_path) if model_path else kept_model("gesture")
     signs = load_signs(path)
     if isinstance(signs, SentenceRecognizer) and faces == "never":

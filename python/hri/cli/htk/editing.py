@@ -8,13 +8,14 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.htk.embedded import models_of
 from hri.cli.htk.options import INPUT, models_option, trace_option
 from hri.core.files import make_folder
 from hri.htk import EditScript, read_list
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @models_option
 @trace_option
 @click.option("-d", "model_folder", metavar="DIR", help="Folder of models that no -H defines, a file for each.")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.htk.options import (
     INPUT,
     ModelFiles,
@@ -44,7 +45,7 @@ WHY = {
 }
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @config_option
 @models_option
 @labels_option
@@ -55,8 +56,8 @@ WHY = {
 @label_option
 @click.option("-M", "folder", default=".", show_default=True, metavar="DIR", help="Where the models go.")
 @click.option("-m", "means", is_flag=True, help="Set the means, too.")
-@click.option("-f", "share", type=click.FloatRange(0, min_open=True), help="Write vFloors: this share of the variance.")
-@click.option("-v", "min_variance", type=click.FloatRange(0), default=0.0, help="Least variance.")
+@click.option("-f", "share", type=FiniteRange(0, min_open=True), help="Write vFloors: this share of the variance.")
+@click.option("-v", "min_variance", type=FiniteRange(0), default=0.0, help="Least variance.")
 @click.option("-o", "name", metavar="NAME", help="Name of the model; that of the prototype else.")
 @click.argument("prototype", type=INPUT)
 @click.argument("files", nargs=-1)
@@ -155,8 +156,8 @@ def _updates(ctx: click.Context, param: click.Parameter, value: str) -> dict[str
     "-t", "beams", default="0", callback=_beams, metavar="F [I L]", help="Beam; added in steps of I up to L; 0: none."
 )
 @click.option("-u", "updates", default="tmvw", callback=_updates, metavar="FLAGS", help="What to estimate: tmvw.")
-@click.option("-v", "min_variance", type=click.FloatRange(0), default=0.0, help="Least variance.")
-@click.option("-w", "weight_floor", type=click.FloatRange(0), default=0.0, help="Least mixture weight, times 1e-5.")
+@click.option("-v", "min_variance", type=FiniteRange(0), default=0.0, help="Least variance.")
+@click.option("-w", "weight_floor", type=FiniteRange(0), default=0.0, help="Least mixture weight, times 1e-5.")
 @click.argument("model_list", type=INPUT)
 @click.argument("files", nargs=-1)
 def erest(

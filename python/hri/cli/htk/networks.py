@@ -7,13 +7,14 @@ from __future__ import annotations
 import click
 import numpy as np
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.htk.options import INPUT
 from hri.cli.output import OutputFile
 from hri.core.errors import FormatError
 from hri.htk import Dictionary, WordLattice, random_sentence
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("grammar", type=INPUT)
 @click.argument("lattice", type=OutputFile())
 def parse(grammar: str, lattice: str) -> None:
@@ -26,7 +27,7 @@ def parse(grammar: str, lattice: str) -> None:
     WordLattice.read_grammar(grammar).write(lattice)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.option("-n", "count", type=click.IntRange(1), default=100, show_default=True, help="How many sentences.")
 @click.option("-l", "numbered", is_flag=True, help="Number them.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of what is drawn.")

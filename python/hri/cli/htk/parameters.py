@@ -8,12 +8,13 @@ from pathlib import Path
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.htk.options import all_arguments, config_option, load_configuration, script_option, trace_option
 from hri.core.files import make_folder
 from hri.htk import ParameterFile, code_file, list_parameters
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @config_option
 @script_option
 @trace_option
@@ -37,7 +38,7 @@ def copy(configs: tuple[str, ...], scripts: tuple[str, ...], trace: int, files: 
             click.echo(f"{source} -> {target}")
 
 
-@click.command("list", context_settings={"help_option_names": ["--help"]})
+@click.command("list", cls=CheckedCommand, context_settings={"help_option_names": ["--help"]})
 @script_option
 @click.option("-h", "header", is_flag=True, help="Also what the header says.")
 @click.option("-r", "raw", is_flag=True, help="Values alone, a frame a line.")

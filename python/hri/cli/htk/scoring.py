@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import click
 
+from hri.cli.groups import CheckedCommand
 from hri.cli.htk.options import (
     INPUT,
     References,
@@ -28,7 +29,7 @@ MASTER = "#!MLF!#"
 NULL_CLASS = "???"
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @labels_option
 @label_folder_option
 @label_suffix_option

@@ -11,6 +11,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.htk.options import (
     INPUT,
     References,
@@ -37,13 +38,13 @@ _iterations = click.option("-i", "iterations", type=click.IntRange(1), default=2
 _floor = click.option(
     "-v",
     "floor",
-    type=click.FloatRange(0, min_open=True),
+    type=FiniteRange(0, min_open=True),
     default=0.01,
     help="Least variance, as a share of the global one.",
 )
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @config_option
 @labels_option
 @label_folder_option
@@ -96,7 +97,7 @@ def init(
     _write(made, name or model, folder, len(sequences), trace)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @config_option
 @labels_option
 @label_folder_option
