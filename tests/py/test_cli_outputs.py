@@ -154,3 +154,29 @@ def test_a_plot_takes_names_in_hindi_and_names_that_are_no_text(
     assert axes.get_xlabel() == "bad\ufffd name"
     families = axes.title.get_fontfamily()
     assert len(families) > 1 or "no font for Devanagari" in caplog.text
+
+
+@pytest.mark.parametrize("there_before", [False, True])
+def test_an_interrupted_data_set_leaves_nothing_of_itself(hri, tmp_path: Path, there_before: bool) -> None:
+    from hri.cli.output import whole_folder
+
+    folder = tmp_path / "set"
+    if there_before:
+        (folder / "go").mkdir(parents=True)
+        (folder / "go" / "old.wav").write_bytes(b"old")
+
+    @whole_folder(folder)
+    def interrupted() -> None:
+        (folder / "go").mkdir(parents=True, exist_ok=True)
+        (folder / "stop").mkdir()
+        for name in ("go", "stop"):
+            (folder / name / "new.wav").write_bytes(b"new")
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    left = [str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()]
+    assert left == (["set/go/old.wav"] if there_before else [])
+    assert (folder / "stop").exists() is False
+    failed = hri("corpus", "speech", "go", "--language", "zz", "--out", tmp_path / "none")
+    assert failed.code == 3 and not (tmp_path / "none").exists()

@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from hri.cli.groups import FiniteRange, SuggestingGroup
+from hri.cli.output import whole_folder
 from hri.cli.progress import progress_bars
 from hri.synthetic.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
 from hri.synthetic.signer import SIGNS, make_gesture_corpus
@@ -50,7 +51,7 @@ def speech(words: tuple[str, ...], language: str, out: str, speakers: int, takes
     table = dict(_split(word) for word in words) or DIGIT_WORDS[language]
     if words and len(table) < len(words):
         raise click.UsageError("two words have the same label")
-    with progress_bars() as progress:
+    with progress_bars() as progress, whole_folder(out):
         dataset = make_speech_corpus(
             out, {language: table}, speakers, takes, seed, lambda done, total: progress("speaking", done, total)
         )
@@ -122,7 +123,7 @@ def gesture(
       hri corpus gesture --skin dark --sleeve short --light left --cast 1.3 1 0.7 --noise 12 --out hard/
     """
     options = SignerOptions(**asked)
-    with progress_bars() as progress:
+    with progress_bars() as progress, whole_folder(out):
         dataset = make_gesture_corpus(
             out,
             labels or SIGNS,

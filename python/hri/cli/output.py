@@ -8,8 +8,10 @@ import codecs
 import io
 import json
 import os
+import shutil
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -91,6 +93,23 @@ def write_bytes(target: Path, content: bytes) -> None:
     """Write `content` to `target`, in a folder that is made if need be; an old file stays whole if this fails."""
     files.make_folder(target.parent)
     files.write_bytes(target, content)
+
+
+@contextmanager
+def whole_folder(path: str | Path) -> Iterator[None]:
+    """Take back what was written into a folder if it is not finished: half a data set looks like a whole one."""
+    root = Path(path)
+    before = set(root.rglob("*")) if root.exists() else None
+    try:
+        yield
+    except BaseException:
+        if before is None:
+            shutil.rmtree(root, ignore_errors=True)
+        else:
+            for new in sorted(set(root.rglob("*")) - before, reverse=True):
+                with suppress(OSError):
+                    new.rmdir() if new.is_dir() else new.unlink()
+        raise
 
 
 def print_any_name() -> None:
