@@ -16,10 +16,9 @@ from hri.live import ArraySource, Event
 from hri.media import read_audio
 from hri.recognition import WordRecognizer
 from hri.recognition.decision import RECOGNISED
-from hri.recognition.keywords import WordRecognizerKeywords
 from hri.session import Session
 from hri.signal import resample
-from hri.studies.commands import FRONT_ENDS, WITH_NETWORK
+from hri.studies.commands import FRONT_ENDS
 from hri.studies.false_alarms import Samples, compose_words
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.session_stop import NUM_FOLDS, WORDS
@@ -32,8 +31,6 @@ STREAM_S = 300
 NUM_STREAMS = 12
 """Of talk, for every group of speakers: an hour."""
 MAX_STOPS_PER_HOUR = 1.0
-KINDS: dict[str, WordRecognizerKeywords] = FRONT_ENDS | {"both-network": WITH_NETWORK["both-network"]}
-"""The last one is what ``hri train speech`` makes of so many speakers."""
 
 
 def _clips(samples: Sequence[Sample], rate: int) -> list[Samples]:
@@ -56,7 +53,7 @@ def alarms(events: Iterator[Event]) -> Counter[str]:
 
 
 def _run(
-    data_dir: Path, progress: Progress, *, front_end: Sequence[str] = tuple(KINDS), folds: int | None = None
+    data_dir: Path, progress: Progress, *, front_end: Sequence[str] = tuple(FRONT_ENDS), folds: int | None = None
 ) -> dict[str, Any]:
     dataset = Dataset.load(data_dir / "commands", "speech")
     strangers = Dataset.load(data_dir / OTHERS, "speech").samples
@@ -70,7 +67,7 @@ def _run(
         for part, group in enumerate(groups):
             place = f"part {part + 1} of {NUM_FOLDS}"
             train = [s for s in dataset.samples if s.label in WORDS and s.person not in group]
-            words = WordRecognizer(**KINDS[name]).fit(
+            words = WordRecognizer(**FRONT_ENDS[name]).fit(
                 [s.path for s in train], [s.label for s in train], groups=[s.person for s in train]
             )
             rng = np.random.default_rng(SEED + part)
@@ -109,7 +106,7 @@ STUDIES = (
         f"fewer than {MAX_STOPS_PER_HOUR:g} false STOP an hour",
         _run,
         Layout(measure="stops", percent=False),
-        axes={"front_end": tuple(KINDS)},
+        axes={"front_end": tuple(FRONT_ENDS)},
         sources=(*dict.fromkeys((*WORD_SOURCES, "python/live", "python/fusion", "python/session")),),
         folds=True,
         quick={"front_end": ("cepstra",)},
