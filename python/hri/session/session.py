@@ -221,10 +221,7 @@ class Session:
     def only_stop(self, for_s: float) -> None:
         """Ignore what begins within so long from now, except STOP; the last call counts; from any thread.
 
-        Raises
-        ------
-        InvalidArgument
-            For a time that is negative or not finite.
+        Raises InvalidArgument for a time that is negative or not finite.
         """
         given: object = for_s
         if not isinstance(given, Real) or not (math.isfinite(for_s) and for_s >= 0):
