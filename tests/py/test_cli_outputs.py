@@ -73,6 +73,13 @@ def test_a_model_may_be_written_anew(hri, model: Path, said: Path) -> None:
     assert kept.read_bytes() != model.read_bytes()
 
 
+def test_a_text_that_no_file_could_have_as_its_name_is_none(hri, model: Path, said: Path) -> None:
+    kept = said.parent / "kept.hri"
+    kept.write_bytes(model.read_bytes())
+    done = hri("add-word", "--model", kept, "-o", kept, "--label", "long" * 200, said)
+    assert done.code == 0, done.err
+
+
 def test_where_nothing_is_learned_no_model_is_written(hri, model: Path, tmp_path: Path) -> None:
     silence = tmp_path / "silence.wav"
     _native.write_wav_pcm16(str(silence), np.zeros(RATE_HZ, np.float32), RATE_HZ)
