@@ -35,6 +35,11 @@ ACCURACY = (
         "commands",
         {"front_end": "both", "test": "quiet"},
     ),
+    Line(
+        "The same with a network of the same words beside them, as `hri train speech` makes of so many",
+        "commands-network",
+        {"front_end": "both-network", "test": "quiet"},
+    ),
     Line("Still hand signs 0-9, 130 persons, 5 folds by person", "sign-digits", {"light": "as recorded"}),
     Line(
         "8 dynamic gestures before webcams, each of ten conditions of light and background held out",
