@@ -11,7 +11,7 @@ import os
 import shutil
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -97,18 +97,17 @@ def write_bytes(target: Path, content: bytes) -> None:
 
 @contextmanager
 def whole_folder(path: str | Path) -> Iterator[None]:
-    """Take back what was written into a folder if it is not finished: half a data set looks like a whole one."""
+    """Remove a folder that is not finished, as half a data set looks like a whole one.
+
+    One that held something before stays as it is: who wrote what is in it is not known.
+    """
     root = Path(path)
-    before = set(root.rglob("*")) if root.exists() else None
+    mine = not root.exists() or not any(root.iterdir())
     try:
         yield
     except BaseException:
-        if before is None:
+        if mine:
             shutil.rmtree(root, ignore_errors=True)
-        else:
-            for new in sorted(set(root.rglob("*")) - before, reverse=True):
-                with suppress(OSError):
-                    new.rmdir() if new.is_dir() else new.unlink()
         raise
 
 
