@@ -9215,7 +9215,15 @@ class SentenceRecognizerOptions:
     max_states : int, default 8
         left-right states of a word, at most; 1..64
     max_iterations : int, default 8
-        iterations of Baum-Welch at most; 1..100000
+        iterations of Viterbi training at most; 1..100000
+    margin_frames : int, default 1
+        frames before and behind its span that count as a word's; 0..100
+    max_variants : int, default 200
+        recordings of a word, at most, that have a model of their own, of a state a frame; 0: one model a word; 0..10000
+    variant_weight : float, default 0.6
+        where the mean of such a state lies: 0 at that of the word's state, 1 at the frame; 0..1
+    variant_variance : float, default 0.7
+        factor on the variances of the word's states in its variants; 0.001..1000
     between_states : int, default 2
         ergodic states of what lies between words: rest and movement; 1..16
     between_mixtures : int, default 2
@@ -9250,6 +9258,10 @@ class SentenceRecognizerOptions:
         frames_per_state: int = 3,
         max_states: int = 8,
         max_iterations: int = 8,
+        margin_frames: int = 1,
+        max_variants: int = 200,
+        variant_weight: float = 0.6,
+        variant_variance: float = 0.7,
         between_states: int = 2,
         between_mixtures: int = 2,
         language_order: int = 2,
@@ -9328,9 +9340,16 @@ class SentenceRecognizerOptions:
     @language_order.setter
     def language_order(self, arg1: typing.Any) -> None: ...
     @property
+    def margin_frames(self) -> int:
+        """
+        frames before and behind its span that count as a word's
+        """
+    @margin_frames.setter
+    def margin_frames(self, arg1: typing.Any) -> None: ...
+    @property
     def max_iterations(self) -> int:
         """
-        iterations of Baum-Welch at most
+        iterations of Viterbi training at most
         """
     @max_iterations.setter
     def max_iterations(self, arg1: typing.Any) -> None: ...
@@ -9341,6 +9360,13 @@ class SentenceRecognizerOptions:
         """
     @max_states.setter
     def max_states(self, arg1: typing.Any) -> None: ...
+    @property
+    def max_variants(self) -> int:
+        """
+        recordings of a word, at most, that have a model of their own, of a state a frame; 0: one model a word
+        """
+    @max_variants.setter
+    def max_variants(self, arg1: typing.Any) -> None: ...
     @property
     def model(self) -> typing.Literal["hmm", "ptbhmm"]:
         """
@@ -9362,6 +9388,20 @@ class SentenceRecognizerOptions:
         """
     @seed.setter
     def seed(self, arg1: typing.Any) -> None: ...
+    @property
+    def variant_variance(self) -> float:
+        """
+        factor on the variances of the word's states in its variants
+        """
+    @variant_variance.setter
+    def variant_variance(self, arg1: typing.Any) -> None: ...
+    @property
+    def variant_weight(self) -> float:
+        """
+        where the mean of such a state lies: 0 at that of the word's state, 1 at the frame
+        """
+    @variant_weight.setter
+    def variant_weight(self, arg1: typing.Any) -> None: ...
 
 class RecognisedSign:
     """

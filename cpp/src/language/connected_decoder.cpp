@@ -22,9 +22,13 @@ using detail::Token;
 
 constexpr std::int64_t kDecideEvery = 16;  // frames
 
-// A word of the network, and whether a token is in it.
+// A word of the network, and which of its states have tokens: first_active up to, not with,
+// end_active; none where these are equal.
 struct ActiveWord : detail::SearchWord {
-  bool is_active = false;
+  int first_active = 0;
+  int end_active = 0;
+
+  [[nodiscard]] bool is_active() const { return first_active < end_active; }
 };
 
 // What arrives at a node, and the word whose end it is; -1: it has a record already.
@@ -68,7 +72,7 @@ struct ConnectedDecoder::State {
       : options(validated(of_decoder)),
         search(chains, network, options),
         records(std::max(256, 2 * network.num_nodes())) {
-    for (const detail::SearchWord& word : search.words) words.push_back({word, false});
+    for (const detail::SearchWord& word : search.words) words.push_back({word, 0, 0});
     const auto num_states = static_cast<std::size_t>(search.num_states);
     tokens.resize(num_states);
     next_tokens.resize(num_states);
@@ -89,7 +93,7 @@ struct ConnectedDecoder::State {
     records.reset();
     num_frames = 0;
     std::fill(tokens.begin(), tokens.end(), Token{});
-    for (ActiveWord& word : words) word.is_active = false;
+    for (ActiveWord& word : words) word.first_active = word.end_active = 0;
     std::fill(exits.begin(), exits.end(), Token{});
     pass_on(true);
   }
@@ -101,21 +105,34 @@ struct ConnectedDecoder::State {
       const Arrival& arrival = arrivals[static_cast<std::size_t>(word.node)];
       Token* const next = next_tokens.data() + word.first_state;
       const SearchChain& model = search.chain_of(word);
-      if (!word.is_active && !arrival.token.alive()) {
-        std::fill(next, next + model.num_states, Token{});
-        continue;
-      }
-      best = std::max(best, advance_word(model, arrival.token, tokens.data() + word.first_state,
-                                         emissions.data() + model.first_emission, next));
+      reach(model, arrival.token.alive(), &word);
+      std::fill(next, next + word.first_active, Token{});
+      std::fill(next + word.end_active, next + model.num_states, Token{});
+      if (!word.is_active()) continue;
+      best =
+          std::max(best, advance_word(model, word, arrival.token, tokens.data() + word.first_state,
+                                      emissions.data() + model.first_emission, next));
     }
     tokens.swap(next_tokens);
     prune(best - options.beam);
   }
 
-  static double advance_word(const SearchChain& model, const Token& arrival, const Token* before,
-                             const float* emissions, Token* after) {
+  // To the states that tokens come to in the next frame: of those that are in the word, and of one
+  // that arrives.
+  static void reach(const SearchChain& model, bool arrives, ActiveWord* word) {
+    if (word->is_active()) {
+      word->first_active = std::max(0, word->first_active - model.most_back);
+      word->end_active = std::min(model.num_states, word->end_active + model.most_on);
+    }
+    if (!arrives) return;
+    word->first_active = 0;
+    word->end_active = std::max(word->end_active, model.end_of_start);
+  }
+
+  static double advance_word(const SearchChain& model, const ActiveWord& word, const Token& arrival,
+                             const Token* before, const float* emissions, Token* after) {
     double best = kImpossible;
-    for (int j = 0; j < model.num_states; ++j) {
+    for (int j = word.first_active; j < word.end_active; ++j) {
       Token token = arrival;
       token.score += model.log_start[j];
       const ChainStep* const end = model.end_of_steps_into(j);
@@ -135,13 +152,16 @@ struct ConnectedDecoder::State {
     for (std::size_t w = 0; w < words.size(); ++w) {
       ActiveWord& word = words[w];
       const SearchChain& model = search.chain_of(word);
-      word.is_active = false;
+      const int first = word.first_active;
+      const int end = word.end_active;
+      word.first_active = word.end_active = 0;
       exits[w] = {};
-      for (int j = 0; j < model.num_states; ++j) {
+      for (int j = first; j < end; ++j) {
         Token& token = token_at(word, j);
         if (token.score < lowest) token = {};
         if (!token.alive()) continue;
-        word.is_active = true;
+        if (!word.is_active()) word.first_active = j;
+        word.end_active = j + 1;
         const double score = token.score + model.log_exit[j];
         if (score > exits[w].score) exits[w] = {score, token.record};
       }

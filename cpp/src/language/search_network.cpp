@@ -33,6 +33,7 @@ SearchChain search_chain_of(const WordChain& chain, int first_emission, const st
   SearchChain model{first_emission,  size,          chain.is_silence, {}, {},
                     chain.log_start, chain.log_exit};
   for (int to = 0; to < size; ++to) {
+    if (model.log_start[to] > kImpossible) model.end_of_start = to + 1;
     model.first_step.push_back(static_cast<int>(model.steps.size()));
     for (int from = 0; from < size; ++from) {
       const double log_weight = chain.log_transition(from, to);

@@ -32,6 +32,7 @@ struct SearchChain {
   VectorD log_exit;
   int most_back = 0;  // how far a step leads back at most, and on
   int most_on = 0;
+  int end_of_start = 0;  // one past the last state that a word may begin in
 
   [[nodiscard]] const ChainStep* steps_into(int state) const {
     return steps.data() + first_step[static_cast<std::size_t>(state)];

@@ -203,4 +203,42 @@ WordNetwork WordNetwork::bigram(const NGramModel& language, const std::vector<st
   return {std::move(draft.models), std::move(draft.arcs), histories.front(), final};
 }
 
+// A node that several models may take becomes two null nodes with these between.
+WordNetwork WordNetwork::with_variants(const std::vector<std::vector<int>>& variants) const {
+  std::vector<int> models;
+  std::vector<Arc> arcs;
+  std::vector<int> entry(models_.size());
+  std::vector<int> exit(models_.size());
+  const auto add = [&models](int model) {
+    models.push_back(model);
+    return static_cast<int>(models.size()) - 1;
+  };
+  for (std::size_t n = 0; n < models_.size(); ++n) {
+    if (models_[n] == kNull) {
+      entry[n] = exit[n] = add(kNull);
+      continue;
+    }
+    const auto m = static_cast<std::size_t>(models_[n]);
+    require(m < variants.size() && !variants[m].empty(), "a model of the network has no variant");
+    for (const int variant : variants[m]) require(variant >= 0, "variants: a number is below 0");
+    if (variants[m].size() == 1) {
+      entry[n] = exit[n] = add(variants[m].front());
+      continue;
+    }
+    entry[n] = add(kNull);
+    exit[n] = add(kNull);
+    for (const int variant : variants[m]) {
+      const int node = add(variant);
+      arcs.push_back({entry[n], node, 0});
+      arcs.push_back({node, exit[n], 0});
+    }
+  }
+  for (const Arc& arc : arcs_) {
+    arcs.push_back({exit[static_cast<std::size_t>(arc.from)],
+                    entry[static_cast<std::size_t>(arc.to)], arc.log_weight});
+  }
+  return {std::move(models), std::move(arcs), entry[static_cast<std::size_t>(initial_)],
+          entry[static_cast<std::size_t>(final_)]};
+}
+
 }  // namespace hri

@@ -327,6 +327,10 @@ class SentenceRecognizerKeywords(TypedDict, total=False):
     frames_per_state: int
     max_states: int
     max_iterations: int
+    margin_frames: int
+    max_variants: int
+    variant_weight: float
+    variant_variance: float
     between_states: int
     between_mixtures: int
     language_order: int

@@ -44,5 +44,20 @@ TEST(WordNetwork, RefusesCyclesOfNullNodes) {
   EXPECT_THROW(WordNetwork(std::vector<int>(5, WordNetwork::kNull), arcs, 4, 0), InvalidArgument);
 }
 
+TEST(WordNetwork, TakesVariantsInPlaceOfAModel) {
+  const WordNetwork network = WordNetwork::loop(2, 2).with_variants({{0, 1, 2}, {3}, {4}});
+  // The middle; two null nodes and three variants; one node each.
+  EXPECT_EQ(network.models(), (std::vector<int>{-1, -1, -1, 0, 1, 2, 3, 4}));
+  // Every variant lies between the null nodes of its word; the weight of the word counts once.
+  const WordNetwork weighted({-1, 0, -1}, {{0, 1, -3}, {1, 2, -2}}, 0, 2);
+  double sum = 0;
+  const WordNetwork two = weighted.with_variants({{5, 6}});
+  for (const WordNetwork::Arc& arc : two.arcs()) sum += arc.log_weight;
+  EXPECT_EQ(sum, -5);
+  EXPECT_THROW(network.with_variants({{0}}), InvalidArgument);
+  EXPECT_THROW(weighted.with_variants({{}}), InvalidArgument);
+  EXPECT_THROW(weighted.with_variants({{1, -1}}), InvalidArgument);
+}
+
 }  // namespace
 }  // namespace hri

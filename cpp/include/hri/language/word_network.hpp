@@ -45,6 +45,11 @@ class HRI_API WordNetwork {
   static WordNetwork bigram(const NGramModel& language, const std::vector<std::string>& labels,
                             int silence = kNoSilence);
 
+  /// The same network with other models: in place of model i any one of variants[i], as with
+  /// several pronunciations of a word. Throws InvalidArgument where a model has no variant, and for
+  /// numbers below 0.
+  [[nodiscard]] WordNetwork with_variants(const std::vector<std::vector<int>>& variants) const;
+
   [[nodiscard]] const std::vector<int>& models() const { return models_; }
   /// In the order in which scores pass on: those from words first, then those from null nodes, a
   /// null node after all that lead to it.

@@ -9,6 +9,7 @@
 
 #include "hri/core/error.hpp"
 #include "recognition/sentence/sentence_training.hpp"
+#include "recognition/sentence/sign_models.hpp"
 
 namespace hri {
 namespace {
@@ -57,11 +58,13 @@ SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
                                        std::vector<GaussianMixtureHmm> models,
                                        const VectorD& final_stays,
                                        std::shared_ptr<const NGramModel> language,
-                                       std::optional<MultiStreamCodebook> codebook)
+                                       std::optional<MultiStreamCodebook> codebook,
+                                       std::vector<SignVariant> variants)
     : options_(validated(options)),
       labels_(std::move(labels)),
       final_stays_(final_stays),
-      emissions_(std::make_shared<const GaussianEmissions>(std::move(models))),
+      models_(std::make_shared<const std::vector<GaussianMixtureHmm>>(std::move(models))),
+      variants_(std::make_shared<const std::vector<SignVariant>>(std::move(variants))),
       language_(std::move(language)) {
   require(labels_ == sorted_labels(labels_), "labels are not sorted");
   const std::size_t num_models = this->models().size();
@@ -69,6 +72,8 @@ SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
           "models must be one a label, and one of what lies between");
   require(static_cast<std::size_t>(final_stays_.size()) == num_models,
           "final_stays must have a value for each model");
+  check_variants();
+  emissions_ = std::make_shared<const GaussianEmissions>(make_chains());
   const bool are_tracks = options_.input == SentenceInput::tracks;
   require(are_tracks ? emissions_->dim() == TwoHandFeatureComputer(options_.features).num_features()
                      : emissions_->dim() % (1 + options_.features.delta_orders) == 0,
@@ -81,16 +86,56 @@ SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
   }
   require((language_ == nullptr) == (options_.language_order == 0),
           "there must be a language model exactly where language_order is not 0");
-  for (std::size_t m = 0; m < num_models; ++m) {
-    const MarkovChain& chain = this->models()[m].chain();
-    const double stay = final_stays_[static_cast<Eigen::Index>(m)];
-    WordChain states = m + 1 < num_models ? WordChain::of(chain, stay) : between_chain(chain, stay);
-    chains_.push_back(is_possibilistic ? states.possibilities() : std::move(states));
+  if (is_possibilistic) {
+    for (WordChain& chain : chains_) chain = chain.possibilities();
   }
   const auto between = static_cast<int>(labels_.size());
-  network_ = std::make_shared<const WordNetwork>(
-      language_ != nullptr ? WordNetwork::bigram(*language_, labels_, between)
-                           : WordNetwork::loop(between, between));
+  std::vector<std::vector<int>> of_words(num_models);
+  for (std::size_t m = 0; m < words_.size(); ++m)
+    of_words[static_cast<std::size_t>(words_[m])].push_back(static_cast<int>(m));
+  const WordNetwork words = language_ != nullptr ? WordNetwork::bigram(*language_, labels_, between)
+                                                 : WordNetwork::loop(between, between);
+  network_ = std::make_shared<const WordNetwork>(words.with_variants(of_words));
+}
+
+void SentenceRecognizer::check_variants() const {
+  int before = 0;
+  for (const SignVariant& variant : *variants_) {
+    require(variant.word >= before && static_cast<std::size_t>(variant.word) < labels_.size(),
+            "variants are not in the order of the labels");
+    before = variant.word;
+    const GaussianMixtureHmm& word = models()[static_cast<std::size_t>(variant.word)];
+    require(variant.frames.rows() > 0 && variant.frames.cols() == word.dim() &&
+                variant.states.size() == static_cast<std::size_t>(variant.frames.rows()),
+            "variants have frames that do not fit the models");
+    require(variant.frames.allFinite(), "variants have frames that are not finite");
+    require(std::all_of(variant.states.begin(), variant.states.end(),
+                        [&word](int state) { return state >= 0 && state < word.num_states(); }),
+            "variants have states that the models do not");
+  }
+}
+
+// Fills chains_ and words_, and returns the models whose states are scored.
+std::vector<GaussianMixtureHmm> SentenceRecognizer::make_chains() {
+  std::vector<GaussianMixtureHmm> scored;
+  const auto num_labels = static_cast<int>(labels_.size());
+  auto variant = variants_->begin();
+  for (int word = 0; word <= num_labels; ++word) {
+    const GaussianMixtureHmm& model = models()[static_cast<std::size_t>(word)];
+    if (variant == variants_->end() || variant->word != word) {
+      const double stay = final_stays_[word];
+      chains_.push_back(word < num_labels ? WordChain::of(model.chain(), stay)
+                                          : between_chain(model.chain(), stay));
+      scored.push_back(model);
+      words_.push_back(word);
+    }
+    for (; variant != variants_->end() && variant->word == word; ++variant) {
+      scored.push_back(detail::variant_model(*variant, model, options_));
+      chains_.push_back(detail::variant_chain(scored.back().num_states()));
+      words_.push_back(word);
+    }
+  }
+  return scored;
 }
 
 SentenceRecognizer SentenceRecognizer::with_decoder(const ConnectedDecoderOptions& decoder) const {
@@ -140,14 +185,25 @@ RecognisedSentence SentenceRecognizer::recognise_begun(ConstMatrixRefF tracks,
   return sentence_of(decoder_behind(tracks, scale_px).partial());
 }
 
-// Without what lies between the words.
+// Without what lies between the words, and without the margins that reach into it.
 RecognisedSentence SentenceRecognizer::sentence_of(const DecodedSentence& decoded) const {
   RecognisedSentence sentence;
   sentence.log_score = decoded.log_score;
-  for (const DecodedWord& word : decoded.words) {
-    if (word.model == static_cast<int>(labels_.size())) continue;
-    sentence.words.push_back({labels_[static_cast<std::size_t>(word.model)], word.first_frame,
-                              word.last_frame, word.log_score});
+  const auto label_of = [&](std::size_t i) {
+    return static_cast<std::size_t>(words_[static_cast<std::size_t>(decoded.words[i].model)]);
+  };
+  const auto is_word = [&](std::size_t i) {
+    return i < decoded.words.size() && label_of(i) < labels_.size();
+  };
+  for (std::size_t i = 0; i < decoded.words.size(); ++i) {
+    if (!is_word(i)) continue;
+    const DecodedWord& word = decoded.words[i];
+    RecognisedSign sign{labels_[label_of(i)], word.first_frame, word.last_frame, word.log_score};
+    const std::int64_t spare = std::min<std::int64_t>(options_.margin_frames,
+                                                      (sign.last_frame - sign.first_frame - 1) / 2);
+    if (!is_word(i - 1)) sign.first_frame += spare;
+    if (!is_word(i + 1)) sign.last_frame -= spare;
+    sentence.words.push_back(std::move(sign));
   }
   return sentence;
 }
@@ -155,11 +211,11 @@ RecognisedSentence SentenceRecognizer::sentence_of(const DecodedSentence& decode
 // Of every label.
 VectorD SentenceRecognizer::scores_of(ConstMatrixRefF frames) const {
   const MatrixF of_states = log_emissions(frames);
-  VectorD scores(static_cast<Eigen::Index>(labels_.size()));
+  VectorD scores = VectorD::Constant(static_cast<Eigen::Index>(labels_.size()), kImpossible);
   Eigen::Index column = 0;
-  for (Eigen::Index m = 0; m < scores.size(); ++m) {
-    const WordChain& chain = chains_[static_cast<std::size_t>(m)];
-    scores[m] = best_path(chain, of_states, column);
+  for (std::size_t m = 0; m < chains_.size() && words_[m] < scores.size(); ++m) {
+    const WordChain& chain = chains_[m];
+    scores[words_[m]] = std::max(scores[words_[m]], best_path(chain, of_states, column));
     column += chain.log_start.size();
   }
   return scores;
@@ -195,9 +251,8 @@ RecognisedSentence SentenceRecognizer::recognise_spans(ConstMatrixRefF tracks,
   MatrixD scores(static_cast<Eigen::Index>(spans.size()), n);
   VectorD best = VectorD::Zero(n);
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    const SignedWordSpan& span = spans[i];
-    const VectorD own =
-        scores_of(frames.middleRows(span.first_frame, span.last_frame - span.first_frame));
+    const auto [first, last] = detail::with_margin(spans[i], options_.margin_frames, frames.rows());
+    const VectorD own = scores_of(frames.middleRows(first, last - first));
     scores.row(static_cast<Eigen::Index>(i)) = own;
     VectorD next(n);
     previous[i].resize(static_cast<std::size_t>(n));

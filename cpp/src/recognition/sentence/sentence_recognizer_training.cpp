@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Training of SentenceRecognizer: the frames of every word, and those between words, one HMM each;
+// Training of SentenceRecognizer: models of the frames of every word, and of those between words;
 // lengths of words, weights of the language and the insertion penalty on sentences held out.
 #include <algorithm>
 #include <array>
@@ -12,16 +12,15 @@
 
 #include "core/parallel_for.hpp"
 #include "hri/core/error.hpp"
-#include "hri/models/hmm/few_samples.hpp"
 #include "hri/models/sequence_scorer.hpp"
 #include "recognition/sentence/sentence_training.hpp"
+#include "recognition/sentence/sign_models.hpp"
 
 namespace hri {
 namespace {
 
 constexpr int kMaxFolds = 4;
 constexpr int kNoFold = -1;
-constexpr int kNumPasses = 2;
 constexpr std::array kFramesPerState{2, 3, 4};
 constexpr std::array kPenalties{-40.0, 0.0, 20.0, 40.0};
 // Of rows: these have any number of columns, and gestures last longer than words of a sentence.
@@ -69,53 +68,6 @@ void naming(const std::string& name, Read&& read) {
   (void)name;
   std::forward<Read>(read)();
 #endif
-}
-
-std::vector<int> equal_parts(Eigen::Index num_frames, int num_states) {
-  std::vector<int> states;
-  states.reserve(static_cast<std::size_t>(num_frames));
-  for (Eigen::Index t = 0; t < num_frames; ++t)
-    states.push_back(static_cast<int>(t * num_states / num_frames));
-  return states;
-}
-
-// The variance inside states, over all words.
-class PooledVariance {
- public:
-  explicit PooledVariance(Eigen::Index dim) : squares_(VectorD::Zero(dim)) {}
-
-  void add(const std::vector<MatrixF>& sequences, const std::vector<std::vector<int>>& states,
-           int num_states) {
-    MatrixD sums = MatrixD::Zero(num_states, squares_.size());
-    VectorD counts = VectorD::Zero(num_states);
-    for (std::size_t i = 0; i < sequences.size(); ++i) {
-      for (std::size_t t = 0; t < states[i].size(); ++t) {
-        const VectorD row = sequences[i].row(static_cast<Eigen::Index>(t)).cast<double>();
-        sums.row(states[i][t]) += row.transpose();
-        squares_ += row.cwiseAbs2();
-        counts[states[i][t]] += 1;
-      }
-    }
-    for (Eigen::Index j = 0; j < num_states; ++j) {
-      if (counts[j] == 0) continue;
-      squares_ -= (sums.row(j).cwiseAbs2() / counts[j]).transpose();
-      free_ += counts[j] - 1;
-    }
-  }
-  [[nodiscard]] VectorD value() const { return (squares_ / std::max(free_, 1.0)).cwiseMax(1e-8); }
-
- private:
-  VectorD squares_;
-  double free_ = 0;
-};
-
-// A model whose states have this variance: the prior of words that were seen a few times.
-GaussianMixtureHmm prior_model(int num_states, const VectorD& variance) {
-  Topology topology;
-  topology.num_states = num_states;
-  return {MarkovChain::initial(topology),
-          MixtureBank(MatrixD::Ones(num_states, 1), MatrixD::Zero(num_states, variance.size()),
-                      variance.transpose().replicate(num_states, 1))};
 }
 
 class SentenceTrainer {
@@ -202,10 +154,12 @@ class SentenceTrainer {
       };
       for (std::size_t i = 0; i < one.words.size(); ++i) {
         const SignedWordSpan& word = one.sample->words[i];
-        between_until(word.first_frame);
+        const auto [first, last] =
+            detail::with_margin(word, options_.margin_frames, one.frames.rows());
+        between_until(first);
         sequences[static_cast<std::size_t>(one.words[i])].push_back(
-            one.frames.middleRows(word.first_frame, word.last_frame - word.first_frame));
-        end = std::max<Eigen::Index>(end, word.last_frame);
+            one.frames.middleRows(first, last - first));
+        end = std::max(end, last);
       }
       between_until(one.frames.rows());
     }
@@ -233,17 +187,21 @@ class SentenceTrainer {
       labels.push_back(labels_[c]);
       known.push_back(std::move(sequences[c]));
     }
-    std::vector<GaussianMixtureHmm> models = train_words(known);
-    VectorD stays(static_cast<Eigen::Index>(models.size()) + 1);
-    for (std::size_t c = 0; c < models.size(); ++c)
-      stays[static_cast<Eigen::Index>(c)] = detail::final_stay(models[c], known[c]);
-    models.push_back(train_between(between));
+    detail::SignModels words = detail::train_sign_models(known, options_, should_stop_);
+    VectorD stays(words.final_stays.size() + 1);
+    stays.head(words.final_stays.size()) = words.final_stays;
+    words.hmms.push_back(train_between(between));
     double num_frames = 0;
     for (const MatrixF& frames : between) num_frames += static_cast<double>(frames.rows());
     const auto num_pieces = static_cast<double>(between.size());
     stays[stays.size() - 1] = 1 - num_pieces / (num_frames + 1);
-    return {options_, std::move(labels),      std::move(models),
-            stays,    language_without(fold), codebook_without(fold)};
+    return {options_,
+            std::move(labels),
+            std::move(words.hmms),
+            stays,
+            language_without(fold),
+            codebook_without(fold),
+            std::move(words.variants)};
   }
 
   // One codebook a column.
@@ -270,49 +228,6 @@ class SentenceTrainer {
     NGramOptions options;
     options.order = options_.language_order;
     return std::make_shared<const NGramModel>(NGramModel::train(texts, options));
-  }
-
-  [[nodiscard]] int num_states(const std::vector<MatrixF>& sequences) const {
-    double frames = 0;
-    for (const MatrixF& s : sequences) frames += static_cast<double>(s.rows());
-    const double mean = frames / static_cast<double>(sequences.size());
-    return std::clamp(static_cast<int>(std::lround(mean / options_.frames_per_state)),
-                      std::min(2, options_.max_states), options_.max_states);
-  }
-
-  // The variances of all words are the prior of those of each. They are measured inside states of
-  // equal length, then inside those that the models find.
-  [[nodiscard]] std::vector<GaussianMixtureHmm> train_words(const ClassSequences& words) const {
-    std::vector<std::optional<GaussianMixtureHmm>> models(words.size());
-    for (int pass = 0; pass < kNumPasses; ++pass) {
-      PooledVariance pooled(sentences_.front().frames.cols());
-      for (std::size_t c = 0; c < words.size(); ++c)
-        pooled.add(words[c], states_of(words[c], models[c]), num_states(words[c]));
-      const VectorD variance = pooled.value();
-      detail::parallel_for(words.size(), should_stop_, [&](std::size_t c, const StopCheck& stop) {
-        FewSampleOptions options;
-        options.num_recordings = static_cast<int>(words[c].size());
-        options.max_iterations = options_.max_iterations;
-        options.should_stop = stop;
-        models[c] = train_few({prior_model(num_states(words[c]), variance)}, words[c], options);
-      });
-    }
-    std::vector<GaussianMixtureHmm> result;
-    result.reserve(models.size());
-    for (auto& model : models) result.push_back(std::move(*model));
-    return result;
-  }
-
-  [[nodiscard]] std::vector<std::vector<int>> states_of(
-      const std::vector<MatrixF>& sequences, const std::optional<GaussianMixtureHmm>& model) const {
-    std::vector<std::vector<int>> states;
-    for (const MatrixF& frames : sequences) {
-      std::vector<int> path;
-      if (!model || model->viterbi(frames, &path) == -std::numeric_limits<double>::infinity())
-        path = equal_parts(frames.rows(), num_states(sequences));
-      states.push_back(std::move(path));
-    }
-    return states;
   }
 
   [[nodiscard]] GaussianMixtureHmm train_between(const std::vector<MatrixF>& sequences) const {

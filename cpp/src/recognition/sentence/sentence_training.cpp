@@ -113,4 +113,10 @@ void check_spans(const std::vector<SignedWordSpan>& spans, Eigen::Index num_fram
   }
 }
 
+std::pair<Eigen::Index, Eigen::Index> with_margin(const SignedWordSpan& span, int margin_frames,
+                                                  Eigen::Index num_frames) {
+  return {std::max<Eigen::Index>(0, span.first_frame - margin_frames),
+          std::min<Eigen::Index>(num_frames, span.last_frame + margin_frames)};
+}
+
 }  // namespace hri::detail

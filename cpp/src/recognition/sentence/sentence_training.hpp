@@ -5,6 +5,7 @@
 // shares with recognition.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "hri/recognition/sentence/sentence_recognizer.hpp"
@@ -29,5 +30,9 @@ MatrixF sentence_frames(const SentenceRecognizerOptions& options, ConstMatrixRef
 
 /// Throws InvalidArgument for words that are empty, beyond the frames or not in the order of time.
 void check_spans(const std::vector<SignedWordSpan>& spans, Eigen::Index num_frames);
+
+/// The first frame of a word and one past the last, widened by so many frames within the sentence.
+std::pair<Eigen::Index, Eigen::Index> with_margin(const SignedWordSpan& span, int margin_frames,
+                                                  Eigen::Index num_frames);
 
 }  // namespace hri::detail

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "hri/core/error.hpp"
 #include "recognition/sentence/signing.hpp"
@@ -71,7 +72,7 @@ TEST(SentenceRecognizer, ChoosesWhatIsToBeChosen) {
   const SentenceRecognizer as_given = SentenceRecognizer::train(samples(), quick_options());
   EXPECT_EQ(as_given.options().decoder.insertion_penalty, 0);
   EXPECT_EQ(as_given.options().frames_per_state, 4);
-  EXPECT_EQ(as_given.models().front().num_states(), 3);
+  EXPECT_EQ(as_given.models().front().num_states(), 4);
 }
 
 TEST(SentenceRecognizer, WordsWithKnownFramesNeedNoSearch) {
@@ -244,6 +245,115 @@ TEST(SentenceRecognizer, NeedsPartsThatFit) {
   options.features.use_left = false;
   EXPECT_THROW(SentenceRecognizer(options, r.labels(), r.models(), r.final_stays(), r.language()),
                InvalidArgument);
+}
+
+// A word that is signed in two ways, before one that lies between both.
+std::vector<SignedSample> two_ways() {
+  std::vector<SignedSample> sentences;
+  for (int n = 0; n < 12; ++n) {
+    SignedSample sample;
+    sample.name = "sentence " + std::to_string(n);
+    sample.group = std::to_string(n);
+    sample.tracks.resize(40, 1);
+    const float wave = 0.05F * static_cast<float>(n % 3);
+    for (int t = 0; t < 40; ++t) {
+      const bool first = t >= 5 && t < 15;
+      const bool second = t >= 25 && t < 35;
+      const float way = n % 2 == 0 ? 1.0F : -1.0F;
+      sample.tracks(t, 0) = first ? way : second ? 0.0F : 3.0F;
+      sample.tracks(t, 0) += wave + 0.02F * static_cast<float>((t * 7 + n) % 5);
+    }
+    sample.words = {{"both", 5, 15}, {"middle", 25, 35}};
+    sentences.push_back(std::move(sample));
+  }
+  return sentences;
+}
+
+SentenceRecognizerOptions options_of_ways(int max_variants) {
+  SentenceRecognizerOptions options = quick_options();
+  options.input = SentenceInput::rows;
+  options.features.delta_orders = 0;
+  options.max_variants = max_variants;
+  return options;
+}
+
+TEST(SentenceRecognizer, VariantsFitAWordThatIsSignedInTwoWays) {
+  const std::vector<SignedSample> sentences = two_ways();
+  const SentenceRecognizer one = SentenceRecognizer::train(sentences, options_of_ways(0));
+  SentenceRecognizerOptions options = options_of_ways(100);
+  options.variant_weight = 1;
+  options.variant_variance = 0.1;
+  const SentenceRecognizer many = SentenceRecognizer::train(sentences, options);
+  EXPECT_TRUE(one.variants().empty());
+  EXPECT_EQ(many.variants().size(), 24U);
+  const auto score = [](const SentenceRecognizer& r, const SignedSample& sample) {
+    return r.recognise_spans(sample.tracks, sample.words, 0, false).words[0].log_score;
+  };
+  for (const SignedSample& sample : sentences) {
+    EXPECT_EQ(many.recognise(sample.tracks).text(), "both middle");
+    EXPECT_GT(score(many, sample), score(one, sample) + 1);
+  }
+}
+
+TEST(SentenceRecognizer, KeepsAsManyVariantsAsItMay) {
+  const SentenceRecognizer some = SentenceRecognizer::train(two_ways(), options_of_ways(5));
+  ASSERT_EQ(some.variants().size(), 10U);
+  EXPECT_EQ(some.variants()[4].word, 0);
+  EXPECT_EQ(some.variants()[5].word, 1);
+  EXPECT_EQ(some.variants()[0].frames.rows(), 12);  // with a margin of one frame
+}
+
+TEST(SentenceRecognizer, MarginsReachBeyondWordsAndAreNotPartOfThem) {
+  SentenceRecognizerOptions options = options_of_ways(100);
+  for (const int margin : {0, 3}) {
+    options.margin_frames = margin;
+    const SentenceRecognizer recognizer = SentenceRecognizer::train(two_ways(), options);
+    EXPECT_EQ(recognizer.variants()[0].frames.rows(), 10 + 2 * margin);
+    const RecognisedSentence found = recognizer.recognise(two_ways()[1].tracks);
+    ASSERT_EQ(found.text(), "both middle");
+    EXPECT_NEAR(found.words[0].first_frame, 5, 1);
+    EXPECT_NEAR(found.words[0].last_frame, 15, 1);
+  }
+}
+
+TEST(SentenceRecognizer, RefusesVariantsThatDoNotFit) {
+  const SentenceRecognizer& r = trained_by_signs();
+  const auto refused = [&r](const std::vector<SignVariant>& variants) {
+    EXPECT_THROW(SentenceRecognizer(r.options(), r.labels(), r.models(), r.final_stays(),
+                                    r.language(), std::nullopt, variants),
+                 InvalidArgument);
+  };
+  ASSERT_FALSE(r.variants().empty());
+  const auto changed = [&r](auto&& change) {
+    std::vector<SignVariant> variants = r.variants();
+    change(variants);
+    return variants;
+  };
+  refused(changed([](auto& v) { std::swap(v.front(), v.back()); }));
+  refused(changed([](auto& v) { v.back().word = 3; }));
+  refused(changed([](auto& v) { v.front().word = -1; }));
+  refused(changed([](auto& v) { v.front().states[0] = 1000; }));
+  refused(changed([](auto& v) { v.front().states.pop_back(); }));
+  refused(changed([](auto& v) { v.front().frames.conservativeResize(Eigen::NoChange, 2); }));
+  refused(changed([](auto& v) { v.front().frames(0, 0) = std::nanf(""); }));
+}
+
+TEST(SentenceRecognizer, RefusesFilesWhoseVariantsContradictThemselves) {
+  const ModelFile good = trained_by_signs().to_model_file();
+  const auto refused = [&good](const std::string& key, const VectorF& values) {
+    ModelFile file = good;
+    file.set_vector(key, values);
+    EXPECT_THROW(SentenceRecognizer::from_model_file(file), FormatError) << key;
+  };
+  for (const char* key : {"variants.words", "variants.lengths", "variants.states"}) {
+    const VectorF values = good.vector_f(key);
+    for (const float wrong : {-1.0F, 0.5F, 1e9F}) {
+      VectorF changed = values;
+      changed[values.size() - 1] = wrong;
+      refused(key, changed);
+    }
+    refused(key, values.head(values.size() - 1));
+  }
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sentences of signs, from tracks of both hands or from features of one: an HMM or a
-// possibility-theory HMM a word, one of what lies between words (rest, and the movement from one
+// Sentences of signs, from tracks of both hands or from features of one: HMMs or
+// possibility-theory HMMs of words, one of what lies between words (rest, and the movement from one
 // sign to the next), a bigram of the sentences trained on, decoded in one pass (ConnectedDecoder).
+// A word has variants, one for each of its recordings, as it may have several pronunciations in
+// speech: few recordings of a sign differ too much for one model.
 #pragma once
 
 #include <array>
@@ -42,6 +44,10 @@ struct HRI_API SentenceRecognizerOptions {
   int frames_per_state = 3;
   int max_states = 8;
   int max_iterations = 8;
+  int margin_frames = 1;
+  int max_variants = 200;
+  double variant_weight = 0.6;
+  double variant_variance = 0.7;
   int between_states = 2;
   int between_mixtures = 2;
   int language_order = 2;
@@ -64,7 +70,17 @@ struct HRI_API SentenceRecognizerOptions {
       "a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences "
       "held out");
     v("max_states", o.max_states, within(1, 64), "left-right states of a word, at most");
-    v("max_iterations", o.max_iterations, within(1, 100000), "iterations of Baum-Welch at most");
+    v("max_iterations", o.max_iterations, within(1, 100000),
+      "iterations of Viterbi training at most");
+    v("margin_frames", o.margin_frames, within(0, 100),
+      "frames before and behind its span that count as a word's");
+    v("max_variants", o.max_variants, within(0, 10000),
+      "recordings of a word, at most, that have a model of their own, of a state a frame; 0: one "
+      "model a word");
+    v("variant_weight", o.variant_weight, within(0, 1),
+      "where the mean of such a state lies: 0 at that of the word's state, 1 at the frame");
+    v("variant_variance", o.variant_variance, within(1e-3, 1e3),
+      "factor on the variances of the word's states in its variants");
     v("between_states", o.between_states, within(1, 16),
       "ergodic states of what lies between words: rest and movement");
     v("between_mixtures", o.between_mixtures, within(1, 64), "Gaussians of each of them");
@@ -85,6 +101,13 @@ struct SignedWordSpan {
   std::string label;
   std::int64_t first_frame = 0;
   std::int64_t last_frame = 0;
+};
+
+/// A recording of a word that has a model of its own.
+struct SignVariant {
+  int word = 0;             ///< number of its label
+  MatrixF frames;           ///< (num_frames, num_features)
+  std::vector<int> states;  ///< of the word's HMM, one a frame
 };
 
 /// A sentence to train on. Words are in the order of time; they may overlap by some frames.
@@ -120,12 +143,14 @@ class HRI_API SentenceRecognizer {
   /// From trained parts: `models` are left-right ones of the sorted `labels` and behind them the
   /// one of what lies between; `final_stays` the probability of each word to stay in its last
   /// state, and of what lies between to go on; `language` may be null; `codebook` is that of the
-  /// kind ptbhmm. Throws InvalidArgument for parts that do not fit each other, and options out of
+  /// kind ptbhmm; `variants`, in the order of their words, take the place of the models of these.
+  /// Throws InvalidArgument for parts that do not fit each other, and options out of
   /// range.
   SentenceRecognizer(const SentenceRecognizerOptions& options, std::vector<std::string> labels,
                      std::vector<GaussianMixtureHmm> models, const VectorD& final_stays,
                      std::shared_ptr<const NGramModel> language,
-                     std::optional<MultiStreamCodebook> codebook = std::nullopt);
+                     std::optional<MultiStreamCodebook> codebook = std::nullopt,
+                     std::vector<SignVariant> variants = {});
 
   /// Throws InvalidArgument (naming the sentence) for tracks that TwoHandFeatureComputer refuses,
   /// rows that are none, differ in their columns, show no hand, or are NaN in part or infinite,
@@ -164,13 +189,15 @@ class HRI_API SentenceRecognizer {
   [[nodiscard]] const SentenceRecognizerOptions& options() const { return options_; }
   /// nullptr: there is none.
   [[nodiscard]] const std::shared_ptr<const NGramModel>& language() const { return language_; }
-  [[nodiscard]] const std::vector<GaussianMixtureHmm>& models() const {
-    return emissions_->models();
-  }
+  /// Of the labels, and of what lies between.
+  [[nodiscard]] const std::vector<GaussianMixtureHmm>& models() const { return *models_; }
   [[nodiscard]] const VectorD& final_stays() const { return final_stays_; }
+  [[nodiscard]] const std::vector<SignVariant>& variants() const { return *variants_; }
 
  private:
   static SentenceRecognizer read(const ModelFile& file);
+  void check_variants() const;
+  [[nodiscard]] std::vector<GaussianMixtureHmm> make_chains();
   [[nodiscard]] MatrixF frames_of(ConstMatrixRefF tracks, double scale_px) const;
   [[nodiscard]] MatrixF log_emissions(ConstMatrixRefF frames) const;
   [[nodiscard]] VectorD scores_of(ConstMatrixRefF frames) const;
@@ -181,9 +208,13 @@ class HRI_API SentenceRecognizer {
   SentenceRecognizerOptions options_;
   std::vector<std::string> labels_;
   VectorD final_stays_;
+  std::shared_ptr<const std::vector<GaussianMixtureHmm>> models_;
+  std::shared_ptr<const std::vector<SignVariant>> variants_;
+  // Of what is searched: the variants of a word, or the model of one without; what lies between.
   std::shared_ptr<const GaussianEmissions> emissions_;
   std::shared_ptr<const CodedPossibilities> possibilities_;  // of the kind ptbhmm
   std::vector<WordChain> chains_;
+  std::vector<int> words_;  // number of the label of each, of what lies between one more
   std::shared_ptr<const NGramModel> language_;
   std::shared_ptr<const WordNetwork> network_;
 };
