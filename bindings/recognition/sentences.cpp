@@ -142,6 +142,15 @@ void bind_sentences(py::module_& m) {
           },
           py::arg("tracks"), py::arg("scale_px") = 0.0)
       .def(
+          "recognise_n_best",
+          [](const hri::SentenceRecognizer& self, const FloatArray& tracks, int count,
+             double scale_px) {
+            const auto view = as_matrix(tracks, "tracks");
+            const py::gil_scoped_release release;
+            return self.recognise_n_best(view, count, scale_px);
+          },
+          py::arg("tracks"), py::arg("count"), py::arg("scale_px") = 0.0)
+      .def(
           "recognise_spans",
           [](const hri::SentenceRecognizer& self, const FloatArray& tracks,
              const std::vector<std::pair<std::int64_t, std::int64_t>>& frames, double scale_px,

@@ -9469,6 +9469,12 @@ class SentenceRecognizer:
         tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
         scale_px: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> RecognisedSentence: ...
+    def recognise_n_best(
+        self,
+        tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        count: typing.SupportsInt | typing.SupportsIndex,
+        scale_px: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> list[RecognisedSentence]: ...
     def recognise_spans(
         self,
         tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],

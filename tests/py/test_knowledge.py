@@ -35,6 +35,18 @@ def test_the_distance_is_that_of_the_edits() -> None:
     assert base.nearest(["A", "B", "C"]).distance == 1
 
 
+def test_alternatives_may_be_nearer_than_what_was_recognised() -> None:
+    base = KnowledgeBase([HOME, SAD, AGREE], max_distance=0.3)
+    found, others = ["YOU", "GLAD", "HOW"], [["I", "AGREE", "TOO"], ["YOU", "SAD", "WHY"], ["I", "AGREE"]]
+    assert base.match(found) is None
+    assert base.nearest(found, others).sentence is SAD  # as near as the last, and before it
+    match = base.match(found, others)
+    assert match is not None and match.distance == 0
+    assert base.nearest(found, others[:1]).sentence is AGREE
+    with pytest.raises(InvalidArgument, match="split it"):
+        base.nearest(found, ["I AGREE"])  # type: ignore[list-item]
+
+
 def test_far_words_and_unknown_words_are_none_of_them() -> None:
     base = KnowledgeBase([HOME, SAD, AGREE], max_distance=0.4)
     near = base.match(["YOUR", "HOME", "BIG"])

@@ -284,3 +284,14 @@ def test_groups_hold_out_every_recording_of_a_text() -> None:
     assert all(len({texts[i] for i in range(first, 30, 3)}) == 1 for first in range(3))
     recordings = sentence_studies.groups_of(sentences, "recordings")
     assert sorted(np.bincount(recordings)) == [6] * 5
+
+
+def test_other_sentences_may_have_been_meant(signs: SentenceRecognizer) -> None:
+    tracks, _ = signed(["CAT", "BALL"], 5)
+    best, *others = signs.recognise_n_best(tracks, 4)
+    assert best.text == signs.recognise(tracks).text == "CAT BALL"
+    assert others
+    assert len({best.text, *(one.text for one in others)}) == 1 + len(others)
+    assert all(one.log_score <= best.log_score for one in others)
+    with pytest.raises(InvalidArgument, match="count must lie in"):
+        signs.recognise_n_best(tracks, 0)

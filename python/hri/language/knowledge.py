@@ -123,16 +123,32 @@ class KnowledgeBase:
             raise FormatError(f"{name}: no rows")
         return cls(sentences, max_distance)
 
-    def nearest(self, words: Sequence[str]) -> StoredMatch:
-        """The nearest stored sentence by weighted edit distance, however far; of several the first."""
-        if isinstance(words, str):
+    def nearest(self, words: Sequence[str], alternatives: Sequence[Sequence[str]] = ()) -> StoredMatch:
+        """The nearest stored sentence by weighted edit distance, however far; of several the first.
+
+        Parameters
+        ----------
+        words : sequence of str
+            As recognised.
+        alternatives : sequence of sequences of str
+            Other sentences that were recognised, the best first, as from `SentenceRecognizer.recognise_n_best`: a
+            stored sentence is as far as it is from the nearest of all. Where several stored ones are as near, that of
+            the better alternative counts.
+
+        Raises
+        ------
+        InvalidArgument
+            For a text in place of words.
+        """
+        tried = [words, *alternatives]
+        if any(isinstance(one, str) for one in tried):
             raise InvalidArgument("a sentence is a sequence of words: split it")
-        matches = [StoredMatch(stored, self._distance(stored.words, words)) for stored in self.sentences]
+        matches = [StoredMatch(stored, self._distance(stored.words, one)) for one in tried for stored in self.sentences]
         return min(matches, key=lambda match: match.distance)
 
-    def match(self, words: Sequence[str]) -> StoredMatch | None:
+    def match(self, words: Sequence[str], alternatives: Sequence[Sequence[str]] = ()) -> StoredMatch | None:
         """The nearest stored sentence within ``max_distance``; None: it is none of them."""
-        found = self.nearest(words)
+        found = self.nearest(words, alternatives)
         return found if found.distance <= self.max_distance else None
 
     def _distance(self, stored: Sequence[str], words: Sequence[str]) -> float:

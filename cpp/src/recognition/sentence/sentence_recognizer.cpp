@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "hri/language/lattice.hpp"
 #include "recognition/sentence/sentence_training.hpp"
 #include "recognition/sentence/sign_models.hpp"
 
@@ -177,28 +178,50 @@ ConnectedDecoder SentenceRecognizer::decoder_behind(ConstMatrixRefF tracks, doub
 }
 
 RecognisedSentence SentenceRecognizer::recognise(ConstMatrixRefF tracks, double scale_px) const {
-  return sentence_of(decoder_behind(tracks, scale_px).finish());
+  const DecodedSentence found = decoder_behind(tracks, scale_px).finish();
+  return sentence_of(found.log_score, named(found.words));
 }
 
 RecognisedSentence SentenceRecognizer::recognise_begun(ConstMatrixRefF tracks,
                                                        double scale_px) const {
-  return sentence_of(decoder_behind(tracks, scale_px).partial());
+  const DecodedSentence found = decoder_behind(tracks, scale_px).partial();
+  return sentence_of(found.log_score, named(found.words));
+}
+
+std::vector<RecognisedSentence> SentenceRecognizer::recognise_n_best(ConstMatrixRefF tracks,
+                                                                     int count,
+                                                                     double scale_px) const {
+  const MatrixF scores = log_emissions(frames_of(tracks, scale_px));
+  const Lattice of_variants = Lattice::decode(chains_, *network_, scores, options_.decoder);
+  // Sentences differ in their words, not in the variants of these.
+  std::vector<Lattice::Node> nodes = of_variants.nodes();
+  for (Lattice::Node& node : nodes) {
+    if (node.model != WordNetwork::kNull) node.model = words_[static_cast<std::size_t>(node.model)];
+  }
+  std::vector<RecognisedSentence> result;
+  for (const DecodedSentence& found : Lattice(std::move(nodes), of_variants.arcs()).n_best(count))
+    result.push_back(sentence_of(found.log_score, found.words));
+  return result;
+}
+
+// Numbers of labels in place of those of variants.
+std::vector<DecodedWord> SentenceRecognizer::named(std::vector<DecodedWord> words) const {
+  for (DecodedWord& word : words) word.model = words_[static_cast<std::size_t>(word.model)];
+  return words;
 }
 
 // Without what lies between the words, and without the margins that reach into it.
-RecognisedSentence SentenceRecognizer::sentence_of(const DecodedSentence& decoded) const {
+RecognisedSentence SentenceRecognizer::sentence_of(double log_score,
+                                                   const std::vector<DecodedWord>& words) const {
   RecognisedSentence sentence;
-  sentence.log_score = decoded.log_score;
-  const auto label_of = [&](std::size_t i) {
-    return static_cast<std::size_t>(words_[static_cast<std::size_t>(decoded.words[i].model)]);
-  };
+  sentence.log_score = log_score;
   const auto is_word = [&](std::size_t i) {
-    return i < decoded.words.size() && label_of(i) < labels_.size();
+    return i < words.size() && words[i].model < static_cast<int>(labels_.size());
   };
-  for (std::size_t i = 0; i < decoded.words.size(); ++i) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
     if (!is_word(i)) continue;
-    const DecodedWord& word = decoded.words[i];
-    RecognisedSign sign{labels_[label_of(i)], word.first_frame, word.last_frame, word.log_score};
+    RecognisedSign sign{labels_[static_cast<std::size_t>(words[i].model)], words[i].first_frame,
+                        words[i].last_frame, words[i].log_score};
     const std::int64_t spare = std::min<std::int64_t>(options_.margin_frames,
                                                       (sign.last_frame - sign.first_frame - 1) / 2);
     if (!is_word(i - 1)) sign.first_frame += spare;

@@ -76,9 +76,9 @@ class RecognisedSentence:
 class SentenceRecognizer(Recognizer):
     """Recognise the words of a signed sentence from tracks of both hands and of the head, or from rows of features.
 
-    One HMM, or possibility-theory HMM (``model="ptbhmm"``), a word, one of what lies between words (rest, and the
-    movement from one sign to the next), and a language model of the sentences trained on. The weight of the language
-    model and the insertion penalty are chosen on sentences held out in training.
+    HMMs, or possibility-theory HMMs (``model="ptbhmm"``), of words, a variant for each recording of a word, one of
+    what lies between words (rest, and the movement from one sign to the next), and a language model of the sentences
+    trained on. The weight of the language model and the insertion penalty are chosen on sentences held out in training.
 
     Parameters
     ----------
@@ -172,6 +172,26 @@ class SentenceRecognizer(Recognizer):
             As in training.
         """
         return _as_sentence(self._trained.recognise(self._frames(tracks, "tracks"), scale_px))
+
+    def recognise_n_best(self, tracks: ArrayLike, count: int, *, scale_px: float = 0.0) -> list[RecognisedSentence]:
+        """The sentences that come nearest, which differ in their words, the best first.
+
+        Parameters
+        ----------
+        tracks : array_like, shape (num_frames, 3, 2) or (num_frames, 6)
+            Or what `fit` was given in their place.
+        count : int
+            How many at most, 1 to 1000.
+        scale_px : float
+            As in training; 0: that of the recording.
+
+        Raises
+        ------
+        InvalidArgument
+            For another `count`, more than 64 million states times frames, and as in training.
+        """
+        found = self._trained.recognise_n_best(self._frames(tracks, "tracks"), int(count), scale_px)
+        return [_as_sentence(sentence) for sentence in found]
 
     def recognise_spans(
         self,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "hri/core/error.hpp"
 #include "recognition/sentence/signing.hpp"
@@ -354,6 +355,24 @@ TEST(SentenceRecognizer, RefusesFilesWhoseVariantsContradictThemselves) {
     }
     refused(key, values.head(values.size() - 1));
   }
+}
+
+TEST(SentenceRecognizer, NBestSentencesDifferInTheirWords) {
+  const SignedSample sample = signed_sentence({"dog", "cat", "ball"}, 92);
+  const std::vector<RecognisedSentence> found =
+      trained_by_signs().recognise_n_best(sample.tracks, 5);
+  const RecognisedSentence best = trained_by_signs().recognise(sample.tracks);
+  ASSERT_GE(found.size(), 2U);
+  EXPECT_EQ(found[0].text(), best.text());
+  EXPECT_NEAR(found[0].log_score, best.log_score, 1e-6 * std::abs(best.log_score));
+  EXPECT_EQ(found[0].words[1].first_frame, best.words[1].first_frame);
+  std::set<std::string> texts;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    texts.insert(found[i].text());
+    if (i > 0) EXPECT_LE(found[i].log_score, found[i - 1].log_score);
+  }
+  EXPECT_EQ(texts.size(), found.size());
+  EXPECT_THROW(trained_by_signs().recognise_n_best(sample.tracks, 0), InvalidArgument);
 }
 
 }  // namespace

@@ -174,6 +174,11 @@ class HRI_API SentenceRecognizer {
   /// The sentence that tracks (num_frames, kNumTwoHandTrackColumns) or rows show; `scale_px` as in
   /// training (0: of the tracks). Throws InvalidArgument as train() does.
   [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF tracks, double scale_px = 0) const;
+  /// At most `count` (1..1000) sentences that differ in their words, the best first; none where no
+  /// sentence covers all frames. Throws InvalidArgument as train() does, for other counts, and for
+  /// more than 64 million states times frames.
+  [[nodiscard]] std::vector<RecognisedSentence> recognise_n_best(ConstMatrixRefF tracks, int count,
+                                                                 double scale_px = 0) const;
   /// What is best so far of a sentence that goes on: its last word may be one that has not ended.
   /// Throws InvalidArgument as train() does.
   [[nodiscard]] RecognisedSentence recognise_begun(ConstMatrixRefF tracks,
@@ -203,7 +208,9 @@ class HRI_API SentenceRecognizer {
   [[nodiscard]] VectorD scores_of(ConstMatrixRefF frames) const;
   [[nodiscard]] MatrixD language_table() const;
   [[nodiscard]] ConnectedDecoder decoder_behind(ConstMatrixRefF tracks, double scale_px) const;
-  [[nodiscard]] RecognisedSentence sentence_of(const DecodedSentence& decoded) const;
+  [[nodiscard]] std::vector<DecodedWord> named(std::vector<DecodedWord> words) const;
+  [[nodiscard]] RecognisedSentence sentence_of(double log_score,
+                                               const std::vector<DecodedWord>& words) const;
 
   SentenceRecognizerOptions options_;
   std::vector<std::string> labels_;
