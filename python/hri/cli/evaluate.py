@@ -13,7 +13,16 @@ from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say_table, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import load_dataset, mode_argument, options_option, pattern_option, recognizer_factory
+from hri.cli.recognizers import (
+    embedding_for,
+    embedding_option,
+    load_dataset,
+    mode_argument,
+    options_option,
+    pattern_option,
+    recognizer_factory,
+    with_embedding,
+)
 from hri.core.optional import import_optional
 from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, FoldResult, cross_validate, evaluate_split
@@ -35,6 +44,7 @@ _folder = click.Path(exists=True, file_okay=False)
 @click.option("--train-noise", is_flag=True, help="Train on a noisy copy of every clip too.")
 @click.option("--exposure", type=FiniteRange(0.05, 20), help="Factor on the brightness of the test pictures.")
 @options_option("MODE", "num_states=8")
+@embedding_option
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of folds, training and noise.")
 @click.option(
     "--confusion",
@@ -63,6 +73,7 @@ def evaluate(
     train_noise: bool,
     exposure: float | None,
     options: tuple[str, ...],
+    embedding_path: str | None,
     seed: int,
     confusion: str | None,
     reliability: str | None,
@@ -95,6 +106,7 @@ def evaluate(
         raise click.UsageError("--leave-out goes without --folds and --train-persons")
     if confusion is not None or reliability is not None:
         import_optional("matplotlib", "plots", "to draw the confusion matrix or the reliability diagram")
+    options = with_embedding(options, embedding_path) if mode == "speech" else options
     make = recognizer_factory(mode, options, seed)
     conditions: dict[str, Any] = {
         "seed": seed,
@@ -102,6 +114,7 @@ def evaluate(
         "snr_db": snr,
         "train_noise": train_noise,
         "exposure": exposure,
+        "embedding": embedding_for(make(), embedding_path),
     }
     with progress_bars() as progress:
         conditions["progress"] = progress
