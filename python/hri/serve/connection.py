@@ -16,8 +16,9 @@ from typing import Any
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from hri.core.errors import FormatError
+from hri.core.phrases import phrase, phrase_of
 from hri.serve.limits import RateLimit
-from hri.serve.messages import SOUND, read_command, read_media
+from hri.serve.messages import SOUND, read_command, read_media, with_phrases
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
 
@@ -196,7 +197,7 @@ class Connection:
                 command = read_command(text, self._stage.limits) if text is not None else None
             except FormatError as error:
                 command = None
-                self.complain(str(error))
+                self.complain(phrase_of(error))
             if command is not None and command["type"] == "stop":  # before any limit
                 self._stage.stop()
                 continue
@@ -223,7 +224,7 @@ class Connection:
         try:
             media = read_media(data, self._stage.limits)
         except FormatError as error:
-            self.complain(str(error))
+            self.complain(phrase_of(error))
             return
         if media.kind == SOUND:
             samples = media.samples()
@@ -233,17 +234,17 @@ class Connection:
                 self._stage.microphone.put(samples)
                 self._teaching.words.hear(samples, self._rate_hz)
             else:
-                self.complain("more sound than a microphone gives was ignored")
+                self.complain(phrase("too_much_sound"))
         elif self._stage.signs is not None:
             if not self._pictures.take():
-                self.complain(f"more than {self._stage.limits.pictures_per_s:g} pictures a second: some were left out")
+                self.complain(phrase("too_many_pictures", most=f"{self._stage.limits.pictures_per_s:g}"))
             else:
                 self._stage.camera.put(media)
                 self._teaching.gestures.see(media)
 
     async def _send(self) -> None:
         while True:
-            await self._socket.send_text(json.dumps(await self.outbox.get(), ensure_ascii=False))
+            await self._socket.send_text(json.dumps(with_phrases(await self.outbox.get()), ensure_ascii=False))
 
     async def _draw(self) -> None:
         """Where the robot is, as often as that changes."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import Any, Protocol
 
+from hri.core.phrases import phrase
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
 from hri.live import Event
@@ -31,7 +32,7 @@ ASKED = "asked"
 ONLY_STOP = "only_stop"
 IMITATE = "imitate"
 TICK = "tick"
-BY_BUTTON = "asked for"
+BY_BUTTON = phrase("by_button")
 MOTION_START = "motion_start"
 MOTION_END = "motion_end"
 HALT = "halt"

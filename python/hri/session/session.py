@@ -15,6 +15,7 @@ from numbers import Real
 from typing import Any
 
 from hri.core.errors import Error, FormatError, InvalidArgument
+from hri.core.phrases import phrase, phrase_of
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
 from hri.live import AudioSource, Event, FrameSource, HandFrames, Listener
@@ -283,19 +284,19 @@ class Session:
         led = {*self.options.control_labels, *self.options.fusion.stop_labels, *found}
         for label in sorted((self._command_labels - led) | self._answers()):
             if motions is None and not self._slots.get(label) and label not in load_gestures():
-                self.refused[label] = "no gesture has this name"
+                self.refused[label] = phrase("no_gesture_of_name")
             elif motions is not None and label not in motions:
-                self.refused[label] = "it is in no motion"
+                self.refused[label] = phrase("in_no_motion")
             else:
                 try:
                     motion = motions[label] if motions is not None else self._own_motion(label, self._robot)
                     if isinstance(motion, Trajectory):
                         if needs_feet(motion) and not self._robot.on_feet:
-                            raise InvalidArgument("the robot's torso is held, and it cannot walk")
+                            raise InvalidArgument(phrase("torso_held"))
                         self._robot.prepare(motion)
                     found[label] = motion
                 except (FormatError, InvalidArgument) as error:
-                    self.refused[label] = str(error)
+                    self.refused[label] = phrase_of(error)
         return found
 
     def _answers(self) -> set[str]:

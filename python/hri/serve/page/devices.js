@@ -1,24 +1,27 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 // The browser's camera and microphone, each by itself: one that is missing leaves the other.
+import { phrase } from "./phrases.js";
+
 const RATE_HZ = 16000;
 const FPS = 15;
 const WIDTH_PX = 480;
 const QUALITY = 0.85;
 
-const WORDS = {
-  NotAllowedError: (what) => `The browser may not use the ${what}. Click the sign beside the address, allow it, and press Start again.`,
-  NotFoundError: (what) => `No ${what} was found. Plug one in and press Start again.`,
-  NotReadableError: (what) => `Another program uses the ${what}. Close that program and press Start again.`,
-  OverconstrainedError: (what) => `The ${what} does not give what is needed. Try another one.`,
+const CODES = {
+  NotAllowedError: "not_allowed",
+  NotFoundError: "not_found",
+  NotReadableError: "in_use",
+  OverconstrainedError: "not_suitable",
 };
 
-export function inWords(error, what) {
-  return (WORDS[error.name] ?? (() => `The ${what} does not work: ${error.message}`))(what);
+// What is wrong with the microphone or the camera, as a phrase.
+export function whatIsWrong(error, what) {
+  return phrase(CODES[error.name] ?? "broken", { device: phrase(what), detail: error.phrase ?? error.message });
 }
 
 async function media(constraints) {
-  if (!navigator.mediaDevices) throw new Error("this browser gives no page a camera or a microphone");
+  if (!navigator.mediaDevices) throw Object.assign(new Error(), { phrase: phrase("no_devices") });
   return navigator.mediaDevices.getUserMedia(constraints);
 }
 

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What the page says, shows and takes, in a real browser: its languages, its voice, hands, possibilities, files."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+
+pytest.importorskip("browsing")
+
+from browsing import MARKS, NARROW, expect, serious_faults
+from session_people import speech
+
+pytest_plugins = ("serving", "browsing")
+pytestmark = MARKS
+
+
+def test_the_page_speaks_hindi_and_english_and_remembers_which(visit: Any) -> None:
+    page = visit(speech([("tall", 1.6)], 12.0), locale="hi-IN", **NARROW)
+    expect(page, "html").to_have_attribute("lang", "hi")
+    expect(page, "#state").to_have_text("ख़ाली")
+    expect(page, "#start").to_have_text("कैमरा और माइक्रोफ़ोन चालू करें")
+    page.click("#start")
+    expect(page, "#log").to_contain_text("रोबोट चला: tall")
+    expect(page, "#said").to_have_text("tall।")
+    page.click("#stop")
+    expect(page, "#log").to_contain_text("STOP: बटन दबाया गया।")
+    page.fill("#word", "tall")
+    page.press("#word", "Enter")
+    expect(page, "#word-line").to_have_text("“tall” नाम का शब्द पहले से है")
+    shown = page.inner_text("body")
+    for text in ("हिन्दी", "English", "STOP", "JSON", "HOAP-2", "tall", "flat", "stop", "hri", "JSGF", "C++"):
+        shown = shown.replace(text, "")
+    assert [word for word in re.findall("[A-Za-z]{2,}", shown) if "joint" not in word] == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert serious_faults(page) == []
+    page.select_option("#language", "en")
+    expect(page, "html").to_have_attribute("lang", "en")
+    expect(page, "#log").to_contain_text("The robot moves: tall")
+    expect(page, "#word-line").to_have_text("“tall” is a word already")
+    assert page.title() == "hri: command a robot"
+    assert not re.search("[\u0900-\u097f]", page.inner_text("body").replace("हिन्दी", ""))
+    page.reload()
+    expect(page, "#state").to_have_text("stopped")
+    assert page.get_attribute("html", "lang") == "en" and page.input_value("#language") == "en"
+    assert page.failures == []
