@@ -80,6 +80,7 @@ def visit(playwright: Any, server: PageServer, tmp_path: Path) -> Iterator[Calla
         shown: list[Frame] | None = None,
         fake_permission: bool = True,
         at: PageServer | None = None,
+        script: str = "",
         **context: Any,
     ) -> Any:
         arguments = ["--no-sandbox", "--use-fake-device-for-media-stream"]
@@ -97,6 +98,7 @@ def visit(playwright: Any, server: PageServer, tmp_path: Path) -> Iterator[Calla
         page.set_default_timeout(WAIT_MS)
         page.failures = []
         page.on("pageerror", lambda error: page.failures.append(str(error)))
+        page.add_init_script(script)
         page.goto((at or server).address)
         api.expect(page.locator("#state")).not_to_have_text("not connected")
         return page

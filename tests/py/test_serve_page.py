@@ -47,3 +47,42 @@ def test_the_page_speaks_hindi_and_english_and_remembers_which(visit: Any) -> No
     expect(page, "#state").to_have_text("stopped")
     assert page.get_attribute("html", "lang") == "en" and page.input_value("#language") == "en"
     assert page.failures == []
+
+
+VOICES = """
+  const page = document.documentElement.dataset;
+  const said = (line) => (page.said = `${page.said ?? ""}${line};`);
+  const voices = ["en-GB", "hi-IN"].map((lang) => ({ lang, name: lang }));
+  window.SpeechSynthesisUtterance = class { constructor(text) { this.text = text; } };
+  const synthesis = Object.assign(new EventTarget(), {
+    getVoices: () => voices,
+    speak: (words) => { said(`${words.lang} ${words.text}`); setTimeout(() => words.onend(), 1500); },
+    cancel: () => said("cancel"),
+  });
+  Object.defineProperty(window, "speechSynthesis", { value: synthesis });
+"""
+
+
+def test_the_robot_speaks_in_the_language_of_the_page(visit: Any, stage: Any, robot: Any) -> None:
+    page = visit(speech([("tall", 1.6)], 14.0), script=VOICES, locale="hi-IN")
+    expect(page, "#voice").to_be_checked()
+    page.click("#start")
+    expect(page, "#state").to_have_attribute("data-state", "acting")
+    expect(page, "html").to_have_attribute("data-said", re.compile("^hi-IN tall।;"))
+    page.keyboard.press("Escape")
+    expect(page, "#state").to_have_attribute("data-state", "stopped")
+    assert robot.stopped
+    page.select_option("#language", "en")
+    page.click("#resume")
+    expect(page, "html").to_have_attribute("data-said", re.compile(r"en-GB Ready\.;"))
+    page.uncheck("#voice")
+    page.reload()
+    expect(page, "#voice").not_to_be_checked()
+    assert page.failures == []
+
+
+def test_a_browser_without_a_voice_has_the_switch_off(visit: Any) -> None:
+    page = visit(script="Object.defineProperty(window, 'speechSynthesis', { value: undefined });")
+    expect(page, "#voice").to_be_disabled()
+    expect(page, "#voice").not_to_be_checked()
+    assert page.failures == []

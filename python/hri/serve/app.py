@@ -45,6 +45,7 @@ _PAGE = (
     "missing.js",
     "language.js",
     "vocabulary.js",
+    "voice.js",
 )
 HOSTS = ("127.0.0.1", "localhost")
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}

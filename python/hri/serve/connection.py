@@ -21,6 +21,7 @@ from hri.serve.limits import RateLimit
 from hri.serve.messages import SOUND, read_command, read_media, with_phrases
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
+from hri.serve.voice import RobotVoice
 
 TOO_LARGE = 1009
 REFUSED = 1008
@@ -148,6 +149,7 @@ class Connection:
         self._messages = RateLimit(limits.messages_per_s, burst_s=2.0)
         self._rate_hz = int(hello.get("rate", 16000))
         self._sound = RateLimit(2.0 * self._rate_hz, burst_s=2.0)
+        self._voice = RobotVoice(stage)
         self._complained: dict[str, float] = {}
         self._tasks: list[asyncio.Task[None]] = []
 
@@ -164,6 +166,7 @@ class Connection:
 
     async def end(self) -> None:
         """Send and heed nothing more."""
+        self._voice.ends()
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
@@ -217,6 +220,8 @@ class Connection:
             self._stage.imitate()
         elif command["type"] == "rest":
             self._stage.session.rest()
+        elif command["type"] == "voice":
+            self._voice.speaks(command["text"]) if command["text"] else self._voice.ends()
         elif command["type"] != "hello":
             self._teaching.obey(command)
 
@@ -231,6 +236,7 @@ class Connection:
             if self._stage.words is None:
                 return
             if self._sound.take(len(samples)):
+                samples = self._voice.filtered(samples)
                 self._stage.microphone.put(samples)
                 self._teaching.words.hear(samples, self._rate_hz)
             else:

@@ -25,7 +25,7 @@ from hri.serve.limits import ServeLimits
 
 SOUND = 1
 PICTURE = 2
-COMMANDS = ("hello", "stop", "resume", "imitate", "rest", "teach", "sample", "undo")
+COMMANDS = ("hello", "stop", "resume", "imitate", "rest", "teach", "sample", "undo", "voice")
 _TEACHING = ("teach", "sample", "undo")
 _HEADER = struct.Struct("<Bd")
 _MAX_SOUND_BYTES = 2 * 48000
@@ -109,6 +109,8 @@ def read_command(text: str, limits: ServeLimits) -> dict[str, Any]:
             raise FormatError(phrase("rate_unusable", rate=rate))
         if not isinstance(value.get("page", ""), str):
             raise FormatError(phrase("page_name"))
+    if value["type"] == "voice" and not isinstance(value.get("text"), str):
+        raise FormatError(phrase("text_no_command"))
     if value["type"] in _TEACHING and value.get("mode") not in ("speech", "gesture"):
         raise FormatError(phrase("mode_unknown"))
     if value["type"] == "teach":

@@ -13,6 +13,7 @@ import { phrase, phraseOf, put } from "./phrases.js";
 import { drawPlace } from "./place.js";
 import { drawRobot } from "./robot.js";
 import { TeachPanel } from "./teach.js";
+import { RobotVoice } from "./voice.js";
 import { showVocabulary } from "./vocabulary.js";
 import { decided, reason } from "./words.js";
 
@@ -24,6 +25,8 @@ const conversation = new Conversation(at("log"));
 const commands = new CommandsPanel(at("commands"));
 const missing = new MissingPanel(at("missing"));
 const imitation = new ImitationPanel(at("imitation"), link);
+offerLanguages(at("language"), () => voice.offer());
+const voice = new RobotVoice(at("voice"), link);
 const panels = new Map([...document.querySelectorAll("[data-teach]")].map((s) => [s.dataset.teach, new TeachPanel(s, link)]));
 const knows = { speech: false, gesture: false };
 let measured = [];
@@ -82,7 +85,10 @@ function heedEvent(event) {
     missing.show(event.missing);
   }
   if (event.mode === "gesture" && ["stall", "ended"].includes(event.event)) missing.show();
-  if (event.event === "say") put(at("said"), phraseOf(event, "text"));
+  if (event.event === "say") {
+    put(at("said"), phraseOf(event, "text"));
+    voice.say(phraseOf(event, "text"));
+  }
   if (event.nbest && event.event !== "fused") {
     showBars(at(`bars-${event.mode}`), event.nbest);
     if (event.sent_ms !== undefined) measure(event.sent_ms);
@@ -169,6 +175,7 @@ function lost(what) {
 }
 
 async function stop() {
+  voice.hush();
   showState("stopped");
   const heard = await link.stop();
   problem(heard ? "" : phrase("stop_lost"), "stop");
@@ -180,5 +187,4 @@ at("resume").addEventListener("click", () => link.say({ type: "resume" }));
 document.addEventListener("keydown", (pressed) => {
   if (pressed.key === "Escape") stop();
 });
-offerLanguages(at("language"), () => {});
 link.open();
