@@ -86,3 +86,18 @@ def test_a_browser_without_a_voice_has_the_switch_off(visit: Any) -> None:
     expect(page, "#voice").to_be_disabled()
     expect(page, "#voice").not_to_be_checked()
     assert page.failures == []
+
+
+def test_bars_show_and_say_possibility_and_necessity(visit: Any) -> None:
+    page = visit(speech([("tall", 1.6)], 12.0), **NARROW)
+    page.click("#start")
+    best, second = (page.locator(f"#bars-speech li:nth-child({number})") for number in (1, 2))
+    expect(page, "#bars-speech li:first-child small").to_have_text(re.compile(r"^possibility 100 %, necessity \d+ %$"))
+    (shown,) = re.findall(r"necessity (\d+) %", best.inner_text())
+    assert abs(100 * float(best.evaluate("row => row.style.getPropertyValue('--necessity')")) - int(shown)) <= 0.5
+    assert float(best.evaluate("row => row.style.getPropertyValue('--possibility')")) == 1.0
+    assert "necessity 0 %" in second.inner_text()
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360 and serious_faults(page) == []
+    page.select_option("#language", "hi")
+    expect(page, "#bars-speech li:first-child small").to_have_text(re.compile("^संभावना 100 %"))
+    assert page.failures == []

@@ -13,6 +13,7 @@ from hri.language import KnowledgeBase
 from hri.live import Event
 from hri.live import events as kinds
 from hri.recognition.decision import RECOGNISED, plain
+from hri.recognition.possibility import nbest_fields
 from hri.session import dialogue as acts
 from hri.session.dialogue import ACTING, Action, Dialogue
 from hri.session.feeds import Arrival, is_over
@@ -285,7 +286,7 @@ def fused_event(pair: Pair, time_s: float) -> Event:
             mode: None if d is None else {"label": d.label, "status": d.status, "confidence": d.confidence}
             for mode, d in modes.items()
         },
-        "nbest": [{"label": entry.label, "probability": entry.probability} for entry in fused.nbest],
+        "nbest": nbest_fields(fused.nbest),
     }
     return session_event(time_s, FUSED, **plain(fields))
 
