@@ -45,7 +45,7 @@ PYTHON = {
     "session": {"core", "media", "signal", "features", "vision", "recognition", "live", "fusion", "robot", "language"},
     "page": {"core", "robot"},
     "serve": {
-        *("core", "io", "media", "signal", "vision", "recognition", "language", "live", "fusion", "robot"),
+        *("core", "io", "media", "signal", "features", "vision", "recognition", "language", "live", "fusion", "robot"),
         *("session", "page"),
     },
 }

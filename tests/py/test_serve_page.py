@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("browsing")
 
 from browsing import MARKS, NARROW, expect, serious_faults
-from session_people import speech
+from session_people import signing, speech
 
 pytest_plugins = ("serving", "browsing")
 pytestmark = MARKS
@@ -100,4 +100,19 @@ def test_bars_show_and_say_possibility_and_necessity(visit: Any) -> None:
     assert page.evaluate("document.documentElement.scrollWidth") <= 360 and serious_faults(page) == []
     page.select_option("#language", "hi")
     expect(page, "#bars-speech li:first-child small").to_have_text(re.compile("^संभावना 100 %"))
+    assert page.failures == []
+
+
+def test_the_hand_is_drawn_into_the_picture(visit: Any) -> None:
+    page = visit(shown=signing([("tall", 0.8)], 4.0))
+    page.click("#start")
+    expect(page, "#bars-gesture").to_contain_text("tall")
+    drawn = """() => { const canvas = document.getElementById("place");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        return data.filter((value, i) => i % 4 === 3 && value > 0).length; }"""
+    most = 0
+    for _ in range(60):
+        most = max(most, page.evaluate(drawn))
+        page.wait_for_timeout(50)
+    assert most > 500, "an area, not only a line"
     assert page.failures == []

@@ -29,6 +29,7 @@ from hri.serve.devices import PageCamera, PageMicrophone
 from hri.serve.limits import ServeLimits
 from hri.serve.messages import with_phrases
 from hri.serve.recordings import Recording, Spoken, require_recordings_of
+from hri.serve.seen import SeenHands
 from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
@@ -326,6 +327,7 @@ class Stage:
             fusion=self._fusion,
             knowledge=self._knowledge,
             faces=self._faces,
+            on_result=SeenHands(lambda message: self.publish(message)).heed,
         )
 
     def _refused(self, text: str) -> None:

@@ -10,7 +10,7 @@ import { offerLanguages } from "./language.js";
 import { Link } from "./link.js";
 import { MissingPanel } from "./missing.js";
 import { phrase, phraseOf, put } from "./phrases.js";
-import { drawPlace } from "./place.js";
+import { HandDrawing } from "./place.js";
 import { drawRobot } from "./robot.js";
 import { TeachPanel } from "./teach.js";
 import { RobotVoice } from "./voice.js";
@@ -23,6 +23,7 @@ const at = (id) => document.getElementById(id);
 const link = new Link(heed, connection);
 const conversation = new Conversation(at("log"));
 const commands = new CommandsPanel(at("commands"));
+const drawing = new HandDrawing(at("place"), at("camera"));
 const missing = new MissingPanel(at("missing"));
 const imitation = new ImitationPanel(at("imitation"), link);
 offerLanguages(at("language"), () => voice.offer());
@@ -35,6 +36,7 @@ function showState(name) {
   if (name === "disconnected") {
     imitation.show(false);
     missing.show();
+    drawing.clear();
   }
   put(at("state"), phrase(`state_${name}`));
   at("state").dataset.state = name;
@@ -81,10 +83,13 @@ function heedEvent(event) {
     put(at("level-label"), phrase(event.in_speech ? "microphone_word" : "microphone_on"));
   }
   if (event.event === "hand") {
-    drawPlace(at("place"), at("camera"), event);
+    drawing.heed(event);
     missing.show(event.missing);
   }
-  if (event.mode === "gesture" && ["stall", "ended"].includes(event.event)) missing.show();
+  if (event.mode === "gesture" && ["stall", "ended"].includes(event.event)) {
+    missing.show();
+    drawing.clear();
+  }
   if (event.event === "say") {
     put(at("said"), phraseOf(event, "text"));
     voice.say(phraseOf(event, "text"));
@@ -126,6 +131,7 @@ function heedWelcome(message) {
 function heed(message) {
   if (message.type === "welcome") heedWelcome(message);
   else if (message.type === "event") heedEvent(message);
+  else if (message.type === "seen") drawing.see(message);
   else if (message.type === "robot") drawRobot(at("robot"), at("joints"), message);
   else if (message.type === "imitation") imitation.show(message.on);
   else if (message.type === "teach") panels.get(message.mode)?.heed(message);
