@@ -46,6 +46,7 @@ _PAGE = (
     "language.js",
     "vocabulary.js",
     "voice.js",
+    "files.js",
 )
 HOSTS = ("127.0.0.1", "localhost")
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
@@ -61,7 +62,7 @@ _USED = "This address has been used, or is not the one that hri serve printed. S
 _HEADERS = {
     "Cache-Control": "no-store",
     "Content-Security-Policy": "default-src 'self'; connect-src 'self' ws://127.0.0.1:* "
-    "ws://localhost:*; img-src 'self' data:; frame-ancestors 'none'; form-action 'none'; "
+    "ws://localhost:*; img-src 'self' data:; media-src 'self' blob:; frame-ancestors 'none'; form-action 'none'; "
     "base-uri 'none'",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(self), microphone=(self)",

@@ -5,6 +5,7 @@ import { showBars } from "./bars.js";
 import { CommandsPanel } from "./commands.js";
 import { Conversation } from "./conversation.js";
 import { openCamera, openMicrophone, whatIsWrong } from "./devices.js";
+import { FilePlayer } from "./files.js";
 import { ImitationPanel } from "./imitation.js";
 import { offerLanguages } from "./language.js";
 import { Link } from "./link.js";
@@ -13,21 +14,22 @@ import { phrase, phraseOf, put } from "./phrases.js";
 import { HandDrawing } from "./place.js";
 import { drawRobot } from "./robot.js";
 import { TeachPanel } from "./teach.js";
-import { RobotVoice } from "./voice.js";
 import { showVocabulary } from "./vocabulary.js";
+import { RobotVoice } from "./voice.js";
 import { decided, reason } from "./words.js";
 
 const SHOWN_MS = 6000;
 const MEASURE = "picture-to-bars";
 const at = (id) => document.getElementById(id);
 const link = new Link(heed, connection);
+const player = new FilePlayer(at("files"), link, at("stage"));
+const drawing = new HandDrawing(at("place"), () => (player.shows ? player.clip : at("camera")));
 const conversation = new Conversation(at("log"));
 const commands = new CommandsPanel(at("commands"));
-const drawing = new HandDrawing(at("place"), at("camera"));
 const missing = new MissingPanel(at("missing"));
 const imitation = new ImitationPanel(at("imitation"), link);
 offerLanguages(at("language"), () => voice.offer());
-const voice = new RobotVoice(at("voice"), link);
+const voice = new RobotVoice(at("voice"), link, () => !player.sounds);
 const panels = new Map([...document.querySelectorAll("[data-teach]")].map((s) => [s.dataset.teach, new TeachPanel(s, link)]));
 const knows = { speech: false, gesture: false };
 let measured = [];
@@ -116,6 +118,7 @@ function heedEvent(event) {
 
 function heedWelcome(message) {
   Object.assign(knows, { speech: message.speech, gesture: message.gesture });
+  player.knows = knows;
   problem("", "line");
   missing.show();
   showState(message.state);
@@ -146,7 +149,7 @@ async function start() {
   const failed = [];
   if (knows.speech) {
     try {
-      const microphone = await openMicrophone((samples) => link.sound(samples), () => lost("microphone"));
+      const microphone = await openMicrophone((samples) => !player.sounds && link.sound(samples), () => lost("microphone"));
       problem("", "microphone");
       put(at("level-label"), phrase("microphone_on"));
       if (microphone.rate !== link.rate) {
@@ -159,7 +162,7 @@ async function start() {
   }
   if (knows.gesture) {
     try {
-      await openCamera(at("camera"), (blob, takenMs) => link.picture(blob, takenMs), () => lost("camera"));
+      await openCamera(at("camera"), (blob, takenMs) => !player.shows && link.picture(blob, takenMs), () => lost("camera"));
       problem("", "camera");
       put(at("camera-line"), phrase("camera_on"));
       imitation.see(true);
@@ -182,6 +185,7 @@ function lost(what) {
 
 async function stop() {
   voice.hush();
+  player.halt();
   showState("stopped");
   const heard = await link.stop();
   problem(heard ? "" : phrase("stop_lost"), "stop");

@@ -5,9 +5,10 @@ const GESTURE = "#39d353";
 const REST = "#f2cc60";
 
 export class HandDrawing {
-  constructor(canvas, video) {
+  // `shown` gives the element that shows the pictures.
+  constructor(canvas, shown) {
     this.canvas = canvas;
-    this.video = video;
+    this.shown = shown;
     this.clear();
   }
 
@@ -30,7 +31,8 @@ export class HandDrawing {
   }
 
   draw() {
-    const { canvas, video, hand } = this;
+    const { canvas, hand } = this;
+    const video = this.shown();
     [canvas.width, canvas.height] = [canvas.clientWidth, canvas.clientHeight];
     if (!video.videoWidth) return;
     const { outline, track, in_gesture: inGesture } = this.seen;

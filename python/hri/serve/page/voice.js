@@ -7,9 +7,11 @@ const ECHO_MS = 400;
 const LONGEST_MS = 15000; // some browsers never report the end
 
 export class RobotVoice {
-  constructor(box, link) {
+  // `isHeard` says whether a microphone may hear it; a file does not.
+  constructor(box, link, isHeard) {
     this.box = box;
     this.link = link;
+    this.isHeard = isHeard;
     this.speaking = null;
     this.offer();
     window.speechSynthesis?.addEventListener?.("voiceschanged", () => this.offer());
@@ -39,7 +41,7 @@ export class RobotVoice {
     this.speaking = words;
     words.onend = words.onerror = () => this.ended(words);
     this.timer = setTimeout(() => this.hush(), LONGEST_MS);
-    this.link.say({ type: "voice", text: text.slice(0, 1000) });
+    if (this.isHeard()) this.link.say({ type: "voice", text: text.slice(0, 1000) });
     window.speechSynthesis.speak(words);
   }
 
