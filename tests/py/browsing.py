@@ -123,6 +123,17 @@ def expect(page: Any, selector: str) -> Any:
     return api.expect(page.locator(selector))
 
 
+def await_motion(page: Any, label: str) -> None:
+    """Until the robot moves for a word: where the microphone's loop began with STOP, Resume is pressed."""
+    for _ in range(2 * WAIT_MS // 500):
+        if f"The robot moves: {label}" in page.inner_text("#log"):
+            return
+        if page.is_enabled("#resume"):
+            page.click("#resume")
+        page.wait_for_timeout(500)
+    raise AssertionError(page.inner_text("#log"))
+
+
 def serious_faults(page: Any) -> list[tuple[str, str]]:
     """What axe-core finds that keeps people out."""
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()

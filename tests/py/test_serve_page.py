@@ -5,13 +5,16 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 pytest.importorskip("browsing")
 
-from browsing import MARKS, NARROW, expect, serious_faults
+from browsing import MARKS, NARROW, await_motion, expect, serious_faults
+from hri.io import model_as_cpp, model_as_json
+from hri.serve import Stage
 from session_people import signing, speech
 
 pytest_plugins = ("serving", "browsing")
@@ -115,4 +118,32 @@ def test_the_hand_is_drawn_into_the_picture(visit: Any) -> None:
         most = max(most, page.evaluate(drawn))
         page.wait_for_timeout(50)
     assert most > 500, "an area, not only a line"
+    assert page.failures == []
+
+
+def test_stop_that_is_said_stops_the_robot_in_mid_motion(visit: Any, robot: Any) -> None:
+    page = visit(speech([("tall", 5.0), ("stop", 8.0)], 14.0))
+    page.click("#start")
+    await_motion(page, "tall")
+    expect(page, "#log").to_contain_text("STOP stop: stop: recognised in speech.")
+    expect(page, "#log").to_contain_text("The robot begins to stop")
+    expect(page, "#log").to_contain_text("The robot has stopped: tall")
+    expect(page, "#state").to_have_text("stopped")
+    expect(page, "#resume").to_be_enabled()
+    assert robot.stopped and page.failures == []
+
+
+def test_models_are_downloaded_as_files_json_and_cpp(visit: Any, stage: Stage) -> None:
+    page = visit()
+    for name, recognizer in (("words", stage.words), ("signs", stage.signs)):
+        assert recognizer is not None
+        got = {}
+        for form in ("hri", "json", "hpp"):
+            with page.expect_download() as download:
+                page.click(f'a[href="{name}.{form}"]')
+            assert download.value.suggested_filename == f"{name}.{form}"
+            got[form] = Path(download.value.path()).read_bytes()
+        file = recognizer.to_model_file()
+        assert got["hri"] == file.to_bytes() and got["json"].decode() == model_as_json(file)
+        assert got["hpp"].decode() == model_as_cpp(file, name) and b"#pragma once" in got["hpp"]
     assert page.failures == []
