@@ -53,8 +53,10 @@ def test_the_page_speaks_hindi_and_english_and_remembers_which(visit: Any) -> No
 
 
 VOICES = """
-  const page = document.documentElement.dataset;
-  const said = (line) => (page.said = `${page.said ?? ""}${line};`);
+  const said = (line) => {
+    const page = document.documentElement.dataset;
+    page.said = `${page.said ?? ""}${line};`;
+  };
   const voices = ["en-GB", "hi-IN"].map((lang) => ({ lang, name: lang }));
   window.SpeechSynthesisUtterance = class { constructor(text) { this.text = text; } };
   const synthesis = Object.assign(new EventTarget(), {
