@@ -12,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.errors import Error
 from hri.media import Audio
 from hri.recognition import CommandRecognizer, WordRecognizer
 from hri.recognition.decision import RECOGNISED
@@ -101,7 +102,10 @@ class _StopEar:
     def _recognise(self) -> None:
         options = self._stage.session.options.fusion
         while (clip := self._clips.get()) is not None:
-            decision = self._words.recognise(Audio(clip, self._rate_hz))
+            try:
+                decision = self._words.recognise(Audio(clip, self._rate_hz))
+            except Error:  # a sound too short for a word
+                continue
             least = decision.class_threshold if options.stop_threshold is None else options.stop_threshold
             sure = decision.status == RECOGNISED and decision.confidence >= least
             if sure and decision.label in options.stop_labels:
