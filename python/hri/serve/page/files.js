@@ -41,7 +41,9 @@ export class FilePlayer {
     this.busy = true;
     this.halted = false;
     const of = (isSound) => files.filter((file) => file.type.startsWith("audio/") === isSound);
-    const failed = await Promise.all([this.inTurn(of(true)), this.inTurn(of(false))]);
+    const rows = [of(true), of(false)].filter((row) => row.length);
+    this.together = meeting(rows.length);
+    const failed = await Promise.all(rows.map((row) => this.inTurn(row)));
     this.busy = false;
     put(this.line, failed.find(Boolean) ?? phrase(this.halted ? "files_halted" : "files_played"));
   }
@@ -74,6 +76,7 @@ export class FilePlayer {
       } catch {
         return phrase("file_unreadable", { name: file.name });
       } finally {
+        this.together.arrive(); // one that failed keeps no other waiting
         if (file.type.startsWith("audio/")) this.sounds = false;
         else this.endPictures();
       }
@@ -92,6 +95,7 @@ export class FilePlayer {
       const mean = channels.reduce((sum, channel) => sum + channel[i], 0) / channels.length;
       samples[first + i] = Math.max(-32768, Math.min(32767, Math.round(32768 * mean)));
     }
+    await this.together.arrive();
     this.sounds = true;
     const block = Math.round(BLOCK_S * rate);
     const begun = performance.now();
@@ -112,6 +116,7 @@ export class FilePlayer {
       this.clip.src = address;
       await ready(this.clip);
       if (this.clip.duration > LONGEST_S) return phrase("file_long", { name: file.name, most: LONGEST_S });
+      await this.together.arrive();
       this.beginPictures(this.clip, sizeOf(this.clip));
       await pause(BEFORE_S);
       await this.clip.play();
@@ -138,6 +143,7 @@ export class FilePlayer {
     clear();
     this.clip.srcObject = canvas.captureStream(15);
     await this.clip.play();
+    await this.together.arrive();
     this.beginPictures(canvas, () => [canvas.width, canvas.height]);
     await pause(BEFORE_S);
     context.drawImage(picture, 0, 0);
@@ -160,6 +166,20 @@ export class FilePlayer {
     this.stage.classList.remove("file");
     this.clip.srcObject = null;
   }
+}
+
+// Lets so many begin at the same time: each has to be read first, which takes its time.
+function meeting(number) {
+  let here = 0;
+  let begin;
+  const all = new Promise((done) => (begin = done));
+  return {
+    arrive() {
+      here += 1;
+      if (here >= number) begin();
+      return all;
+    },
+  };
 }
 
 const pause = (seconds) => new Promise((done) => setTimeout(done, 1000 * seconds));
