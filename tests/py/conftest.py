@@ -17,7 +17,7 @@ from hri.io import write_wav_pcm16
 from hri.recognition.word import embedding_filler_words, filler_words, recognizer
 from hri.synthetic.signer import make_gesture_corpus
 
-pytest.register_assert_rewrite("serving")  # a plugin of some test files, which import it, too
+pytest.register_assert_rewrite("serving", "browsing")  # plugins of some test files, which import them, too
 
 RATE_HZ = 16000
 PERSONS = {"low": 500.0, "middle": 550.0, "high": 600.0}

@@ -58,6 +58,11 @@ def sound_messages(samples: np.ndarray) -> Iterator[bytes]:
         yield framed(SOUND, numbers[begin : begin + RATE_HZ // 25].tobytes())
 
 
+def text_of(body: bytes) -> str:
+    """Of an answer to a request: what the page shows in English, or the body where that is no JSON."""
+    return str(json.loads(body)["text"]) if body.startswith(b"{") else body.decode()
+
+
 class Page:
     """A connection of a page."""
 

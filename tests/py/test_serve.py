@@ -92,8 +92,6 @@ def test_a_sign_is_shown_with_the_time_of_its_picture(server: PageServer, cookie
 
 def test_a_page_is_sent_what_the_camera_does_not_see(server: PageServer, cookie: str) -> None:
     with connected(server, cookie) as page:
-        assert page.messages[0]["missing_texts"]["hand"]["en"].startswith("No hand seen: ")
-        assert set(page.messages[0]["missing_texts"]["face"]) == {"en", "hi"}
         page.perform(frames=signing([("tall", 5.4)], 7.6))
         page.await_event("hand", missing="hand", x=None)
         page.await_event("hand", missing="")

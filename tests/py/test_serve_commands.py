@@ -21,7 +21,7 @@ from hri.recognition import ConnectedWordRecognizer
 from hri.robot import Robot
 from hri.serve import PageServer, ServeLimits, Stage
 from hri.session import SessionOptions
-from page_people import connected, request
+from page_people import connected, request, text_of
 from serving import Serving, own_origin
 from session_people import MOTIONS, speech
 from test_commands import GRAMMAR, OPTIONS, tone_rows, tones
@@ -51,7 +51,7 @@ def commands(connected_words: ConnectedWordRecognizer) -> hri.CommandRecognizer:
 def send(server: PageServer, cookie: str, grammar: bytes, origin: str = "") -> tuple[int, str]:
     """Status and text of what the page is answered."""
     status, _, body = request(server, "/grammar", cookie, "POST", grammar, Origin=origin or own_origin(server))
-    return status, body.decode()
+    return status, text_of(body)
 
 
 def test_a_command_is_shown_with_its_slots_and_moves_the_robot(serving: Serving, commands: Any, robot: Robot) -> None:

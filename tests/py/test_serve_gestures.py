@@ -25,7 +25,7 @@ from hri.media import write_image, write_video
 from hri.serve import PageServer, ServeLimits, Stage
 from hri.serve.messages import read_command
 from hri.session import SessionOptions
-from page_people import PICTURE, Page, connected, enter, framed, jpeg, request, sound_messages
+from page_people import PICTURE, Page, connected, enter, framed, jpeg, request, sound_messages, text_of
 from serving import answer, own_origin
 from session_people import signing
 
@@ -52,7 +52,7 @@ def cross(seed: int) -> Frame:
 
 def upload(server: PageServer, cookie: str, body: bytes, name: str = "clip.jpg") -> tuple[int, str]:
     status, _, text = request(server, f"/sample?name={name}", cookie, "POST", body, Origin=own_origin(server))
-    return status, text.decode()
+    return status, text_of(text)
 
 
 def teach(page: Page, label: str) -> None:

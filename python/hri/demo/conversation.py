@@ -13,6 +13,7 @@ from hri.demo.scenes import Scene
 from hri.live import Event
 from hri.page import figure
 from hri.recognition import Decision
+from hri.recognition.possibility import nbest_fields
 from hri.robot import HOAP2, gesture_trajectory, load_gestures
 from hri.session import Dialogue, Pair, SessionOptions
 from hri.session.dialogue import IGNORE, MOVE, SAY, STOP
@@ -57,8 +58,7 @@ def conversation(scene: Scene) -> list[Event]:
 
 
 def _best(decision: Decision | None) -> list[dict[str, Any]]:
-    entries = () if decision is None else decision.nbest
-    return [{"label": entry.label, "probability": entry.probability} for entry in entries]
+    return [] if decision is None else nbest_fields(decision.nbest)
 
 
 def _figures(scene: Scene) -> list[dict[str, Any]]:

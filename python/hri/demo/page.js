@@ -3,6 +3,7 @@
 // The scenes of the demo, shown by the parts that make the page of hri serve.
 import { showBars } from "./bars.js";
 import { Conversation } from "./conversation.js";
+import { put } from "./phrases.js";
 import { drawRobot } from "./robot.js";
 import { reason } from "./words.js";
 
@@ -14,7 +15,7 @@ function showScene(section, scene) {
   showBars(part("speech"), scene.speech);
   showBars(part("gesture"), scene.gesture);
   showBars(part("fused"), fused.nbest);
-  part("rule").textContent = reason(fused);
+  put(part("rule"), reason(fused));
   scene.events.forEach((event) => conversation.heed(event));
   drawRobot(canvas, joints, scene.figures[0]);
   play.hidden = scene.figures.length === 1;

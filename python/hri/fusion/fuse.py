@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from hri.core.errors import InvalidArgument
+from hri.core.phrases import phrase
 from hri.core.suggest import did_you_mean
 from hri.fusion import vectors
 from hri.fusion.options import RULES, FusedDecision, FusionOptions
@@ -79,13 +80,13 @@ def fuse(
     heard = speech if _has_input(speech) else None
     seen = gesture if _has_input(gesture) else None
     if heard is None and seen is None:
-        return FusedDecision(NO_INPUT, NO_INPUT, 0.0, "no input in either mode", (), speech, gesture)
+        return FusedDecision(NO_INPUT, NO_INPUT, 0.0, phrase("rule_no_input"), (), speech, gesture)
     if heard is None or seen is None:
         only = heard or seen
         assert only is not None
-        return _as_decided(only, f"{only.mode} alone: no input in the other mode", speech, gesture)
+        return _as_decided(only, phrase("rule_alone", mode=phrase(only.mode)), speech, gesture)
     if heard.status == UNKNOWN and seen.status == UNKNOWN:
-        return FusedDecision(UNKNOWN, UNKNOWN, 0.0, "both modes rejected", (), speech, gesture)
+        return FusedDecision(UNKNOWN, UNKNOWN, 0.0, phrase("rule_both_rejected"), (), speech, gesture)
     if rule == "table_6_9":
         return _table_6_9(heard, seen, options)
     return _by_vectors(heard, seen, rule, options)
@@ -119,7 +120,7 @@ def _winner(decision: Decision, rule: str, speech: Decision, gesture: Decision) 
     """The class that `decision` puts first wins."""
     best = decision.nbest[0]
     return FusedDecision(
-        best.label, RECOGNISED, best.probability, f"table 6.9: {rule}", decision.nbest, speech, gesture
+        best.label, RECOGNISED, best.probability, phrase("rule_table", case=rule), decision.nbest, speech, gesture
     )
 
 
@@ -131,19 +132,19 @@ def _table_6_9(speech: Decision, gesture: Decision, options: FusionOptions) -> F
     above_2 = alpha_2 >= options.threshold_speech and speech.status == RECOGNISED
     if above_1 and above_2:
         if alpha_2 <= alpha_1:
-            return _winner(gesture, "both above, gesture at least as sure", speech, gesture)
-        return _winner(speech, "both above, speech surer", speech, gesture)
+            return _winner(gesture, phrase("case_both_gesture"), speech, gesture)
+        return _winner(speech, phrase("case_both_speech"), speech, gesture)
     if above_1:
-        return _winner(gesture, "only gesture above its threshold", speech, gesture)
+        return _winner(gesture, phrase("case_one_above", mode=phrase("gesture")), speech, gesture)
     if above_2:
-        return _winner(speech, "only speech above its threshold", speech, gesture)
+        return _winner(speech, phrase("case_one_above", mode=phrase("speech")), speech, gesture)
     # Nor does it win over one that recognised: the robot must not act on what was rejected.
     if gesture.status != speech.status:
         recognised = gesture if gesture.status == RECOGNISED else speech
-        return _winner(recognised, f"both below, only {recognised.mode} recognised", speech, gesture)
+        return _winner(recognised, phrase("case_one_recognised", mode=phrase(recognised.mode)), speech, gesture)
     if options.weight_speech * alpha_2 <= options.weight_gesture * alpha_1:
-        return _winner(gesture, "both below, weighted gesture at least as sure", speech, gesture)
-    return _winner(speech, "both below, weighted speech surer", speech, gesture)
+        return _winner(gesture, phrase("case_weighted_gesture"), speech, gesture)
+    return _winner(speech, phrase("case_weighted_speech"), speech, gesture)
 
 
 def _by_vectors(
@@ -156,5 +157,5 @@ def _by_vectors(
     else:
         fused, name = rule.combine(speech, gesture, options), rule.rule
     nbest = vectors.ranked(fused)
-    name += " of both score vectors"
-    return FusedDecision(nbest[0].label, RECOGNISED, nbest[0].probability, name, nbest, speech, gesture)
+    why = phrase("rule_vectors", rule=name)
+    return FusedDecision(nbest[0].label, RECOGNISED, nbest[0].probability, why, nbest, speech, gesture)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from hri.core.phrases import phrase
 from hri.fusion.options import ASK, FusedDecision, FusionOptions
 from hri.recognition.decision import RECOGNISED, Decision
 
@@ -17,15 +18,15 @@ def decide_stop(speech: Decision | None, gesture: Decision | None, options: Fusi
     stops = [d for d in (speech, gesture) if d is not None and _is_stop(d, options)]
     for decision in stops:
         if decision.confidence >= _threshold(decision, options):
-            return _stopped(decision, f"stop: recognised in {decision.mode}", speech, gesture)
+            return _stopped(decision, phrase("rule_stop", mode=phrase(decision.mode)), speech, gesture)
     if not stops:
         return None
     unsure = max(stops, key=lambda decision: decision.confidence)
     other = gesture if unsure is speech else speech
     if other is not None and len(stops) == 1 and _is_sure_of_another(other, options):
-        rule = f"ask: stop unsure in {unsure.mode}, {other.mode} sure of another class"
+        rule = phrase("rule_ask", mode=phrase(unsure.mode), other=phrase(other.mode))
         return FusedDecision(ASK, ASK, 0.0, rule, (unsure.nbest[0], other.nbest[0]), speech, gesture)
-    return _stopped(unsure, f"stop: unsure in {unsure.mode}, nothing sure against it", speech, gesture)
+    return _stopped(unsure, phrase("rule_stop_unsure", mode=phrase(unsure.mode)), speech, gesture)
 
 
 def _is_stop(decision: Decision, options: FusionOptions) -> bool:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from hri.recognition.decision import Decision, plain
+from hri.recognition.possibility import nbest_fields
 
 LISTENING = "listening"
 LEVEL = "level"
@@ -87,8 +88,8 @@ def decision_fields(decision: Decision, locale: str, model: str) -> dict[str, An
         "rejected": not recognised,
         "score": decision.score,
         "nbest": [
-            {"label": entry.label, "probability": entry.probability, "log_score": entry.log_score}
-            for entry in decision.nbest
+            fields | {"log_score": entry.log_score}
+            for fields, entry in zip(nbest_fields(decision.nbest), decision.nbest, strict=True)
         ],
         "slots": dict(decision.slots),
         "notes": list(decision.notes),

@@ -8,6 +8,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from hri.core.phrases import phrase
 from hri.live.events import Event
 from hri.live.frame_results import segment_event
 from hri.live.frames import Frame, TimedFrame
@@ -126,13 +127,13 @@ class SpottingStream:
 def fault_of(gesture: SpottedGesture, cut: bool, num_lost: int) -> str:
     """What is wrong with a recording; "" if nothing."""
     if cut:
-        return "too long for a gesture"
+        return phrase("fault_long")
     if num_lost:
-        return f"{num_lost} pictures were lost: this computer is too busy"
+        return phrase("fault_lost", count=num_lost)
     if len(gesture.frames) < FEWEST_FRAMES:
-        return f"only {len(gesture.frames)} pictures: move more slowly, or use a faster camera"
+        return phrase("fault_few", count=len(gesture.frames))
     if gesture.seen < MIN_SEEN:
-        return f"the hand is seen in {100 * gesture.seen:.0f} % of the pictures: stay in view"
+        return phrase("fault_unseen", percent=f"{100 * gesture.seen:.0f}")
     if gesture.quality < MIN_QUALITY:
-        return "the hand hardly stands out: more light, or another background"
+        return phrase("fault_faint")
     return ""

@@ -10,22 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from hri.core.phrases import LANGUAGES, in_language
 from hri.live.frames import Frame
 
 LIGHT, FACE, HAND = "light", "face", "hand"
 MISSING_TEXTS: dict[str, dict[str, str]] = {
-    LIGHT: {
-        "en": "Picture too dark: turn on a light, or uncover the camera.",
-        "hi": "तस्वीर में बहुत अँधेरा है: बत्ती जलाइए, या कैमरे के सामने से रुकावट हटाइए।",
-    },
-    FACE: {
-        "en": "No face seen: the hand is found by the face. Stand where the camera sees your face.",
-        "hi": "चेहरा नहीं दिख रहा है: हाथ चेहरे की मदद से मिलता है। वहाँ खड़े हों जहाँ कैमरा आपका चेहरा देख सके।",
-    },
-    HAND: {
-        "en": "No hand seen: hold your hand where the camera sees it.",
-        "hi": "हाथ नहीं दिख रहा है: हाथ वहाँ रखिए जहाँ कैमरा उसे देख सके।",
-    },
+    missing: {language: in_language(f"missing_{missing}", language) for language in LANGUAGES}
+    for missing in (LIGHT, FACE, HAND)
 }
 """For people, by what is missing and the language."""
 

@@ -5,16 +5,23 @@
 from __future__ import annotations
 
 import base64
+import json
 import re
 from importlib.resources import files
 
-COMPONENTS = ("page.css", "bars.js", "conversation.js", "robot.js", "words.js")
-"""Names of the files beside this one."""
+from hri.core.phrases import phrases
+
+_TABLE = "table.js"
+COMPONENTS = ("page.css", "bars.js", "conversation.js", "phrases.js", "robot.js", _TABLE, "words.js")
+"""Names of the files beside this one, and of the table of texts as a script."""
 _IMPORT = re.compile(r'from "\./([\w.]+)"')
 
 
 def component(name: str) -> bytes:
     """One of `COMPONENTS`."""
+    if name == _TABLE:
+        table = json.dumps(phrases(), ensure_ascii=False, separators=(",", ":"))
+        return f"export const PHRASES = {table};\n".encode()
     return files("hri.page").joinpath(name).read_bytes()
 
 

@@ -1,36 +1,41 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-// Events of a session in words, for people.
-const percent = (share) => `${Math.round(100 * share)} %`;
+// Events of a session as phrases, for people.
+import { phrase, phraseOf } from "./phrases.js";
+
+const labelOf = ({ label, status }) => (status === "recognised" ? label : phrase(`status_${status}`));
+const decidedLabel = (event) => event.final || phrase(`status_${event.status}`);
+const sinceAsked = (event) => Math.round(event.wait_ms + event.compute_ms);
 
 function understood(event) {
-  const modes = [["speech", "word"], ["gesture", "sign"]]
+  const modes = [["speech", "said_word"], ["gesture", "shown_sign"]]
     .filter(([mode]) => event[mode])
-    .map(([mode, name]) => `${name} ${event[mode].label} ${percent(event[mode].confidence)}`);
-  return `You: ${event.final || event.status} (${modes.join(" and ")}). ${event.rule}.`;
+    .map(([mode, code]) => phrase(code, { label: labelOf(event[mode]), percent: Math.round(100 * event[mode].confidence) }));
+  return phrase("you_meant", { label: decidedLabel(event), modes, rule: phraseOf(event, "rule") });
 }
 
 function nearness(event) {
-  if (event.words.length === 0) return "Nothing was said or shown between its beginning and its end.";
-  if (event.nearest.length === 0) return "There are no stored sentences: I say its words.";
-  const nearest = `The nearest stored sentence is “${event.nearest.join(" ")}”, at distance ${event.distance.toFixed(2)}`;
-  const most = event.max_distance.toFixed(2);
-  return event.distance > event.max_distance ? `${nearest}: too far, at most ${most} counts.` : `${nearest} (at most ${most} counts).`;
+  if (event.words.length === 0) return phrase("nothing_between");
+  if (event.nearest.length === 0) return phrase("none_stored");
+  return phrase(event.distance > event.max_distance ? "nearest_far" : "nearest_near", {
+    sentence: event.nearest.join(" "),
+    distance: event.distance.toFixed(2),
+    most: event.max_distance.toFixed(2),
+  });
 }
 
 const LINES = {
   fused: understood,
-  sentence: (event) => `You: “${event.words.join(" ")}”. ${nearness(event)}`,
-  say: (event) => `Robot: ${event.text}`,
-  ignored: (event) => `Ignored ${event.label}: ${event.reason}.`,
-  stop: (event) => `STOP${event.label && ` ${event.label}`}: ${event.reason}.`,
-  rest: (event) => `Rest: ${event.reason}.`,
-  resumed: () => "Motions may begin again.",
-  motion_start: (event) =>
-    `The robot moves: ${event.label}, ${Math.round(event.wait_ms + event.compute_ms)} ms after it was asked for.`,
-  halt: (event) => `The robot begins to stop, ${Math.round(event.wait_ms + event.compute_ms)} ms after STOP.`,
-  motion_end: (event) => `The robot has ${event.completed ? "finished" : "stopped"}: ${event.label}.`,
-  stall: (event) => `${event.mode === "speech" ? "Microphone" : "Camera"}: ${event.message}.`,
+  sentence: (event) => phrase("you_said_sentence", { words: event.words.join(" "), nearness: nearness(event) }),
+  say: (event) => phrase("robot_said", { text: phraseOf(event, "text") }),
+  ignored: (event) => phrase("was_ignored", { label: event.label, reason: phraseOf(event, "reason") }),
+  stop: (event) => phrase(event.label ? "stop_label_line" : "stop_line", { label: event.label, reason: phraseOf(event, "reason") }),
+  rest: (event) => phrase("rest_line", { reason: phraseOf(event, "reason") }),
+  resumed: () => phrase("resumed_line"),
+  motion_start: (event) => phrase("begins_to_move", { label: event.label, ms: sinceAsked(event) }),
+  halt: (event) => phrase("begins_to_stop", { ms: sinceAsked(event) }),
+  motion_end: (event) => phrase(event.completed ? "has_finished" : "has_stopped", { label: event.label }),
+  stall: (event) => phrase(event.mode === "speech" ? "microphone_stall" : "camera_stall", { message: phraseOf(event, "message") }),
 };
 
 // One line of the conversation; "" for what needs none.
@@ -48,5 +53,6 @@ export function decided(event) {
 // Why: the rule that fired, or the stored sentence that is nearest; "" for other events.
 export function reason(event) {
   if (event.event === "sentence") return nearness(event);
-  return event.event === "fused" ? `${event.final || event.status}: ${event.rule}; ${event.why}` : "";
+  if (event.event !== "fused") return "";
+  return phrase("because", { label: decidedLabel(event), rule: phraseOf(event, "rule"), why: phraseOf(event, "why") });
 }

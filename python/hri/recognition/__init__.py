@@ -28,6 +28,7 @@ from hri.recognition.decision import Decision, NBest
 from hri.recognition.files import load
 from hri.recognition.gesture import GestureRecognizer
 from hri.recognition.held_out_report import ConfusedPair, HeldOutReport
+from hri.recognition.possibility import possibility_and_necessity
 from hri.recognition.sentence import (
     Alternative,
     CommandRecognizer,
@@ -108,4 +109,5 @@ __all__ = [
     "embedding_weights",
     "filler_words",
     "load",
+    "possibility_and_necessity",
 ]

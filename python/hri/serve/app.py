@@ -15,17 +15,19 @@ from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.middleware.trustedhost import TrustedHostMiddleware
 from starlette.requests import HTTPConnection, Request
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
 from hri.core.errors import InvalidArgument
 from hri.core.files import write_bytes
+from hri.core.phrases import phrase
 from hri.io import ModelFile, model_as_cpp, model_as_json
 from hri.page import COMPONENTS, component
 from hri.serve.command_teacher import CommandWordTeacher
 from hri.serve.commands import change_commands
 from hri.serve.connection import Reception, log
+from hri.serve.messages import with_phrases
 from hri.serve.samples import samples_zip
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
@@ -41,6 +43,10 @@ _PAGE = (
     "commands.js",
     "imitation.js",
     "missing.js",
+    "language.js",
+    "vocabulary.js",
+    "voice.js",
+    "files.js",
 )
 HOSTS = ("127.0.0.1", "localhost")
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
@@ -56,7 +62,7 @@ _USED = "This address has been used, or is not the one that hri serve printed. S
 _HEADERS = {
     "Cache-Control": "no-store",
     "Content-Security-Policy": "default-src 'self'; connect-src 'self' ws://127.0.0.1:* "
-    "ws://localhost:*; img-src 'self' data:; frame-ancestors 'none'; form-action 'none'; "
+    "ws://localhost:*; img-src 'self' data:; media-src 'self' blob:; frame-ancestors 'none'; form-action 'none'; "
     "base-uri 'none'",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(self), microphone=(self)",
@@ -136,6 +142,10 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         log.warning("a visitor was refused: %s", why)
         return PlainTextResponse(_USED, 403, _HEADERS)
 
+    def said(text: str, status: int) -> Response:
+        """What the page shows of an answer, in the person's language."""
+        return JSONResponse(with_phrases({"text": text}), status, _HEADERS)
+
     async def index(request: Request) -> Response:
         token = request.query_params.get("token")
         if token is not None and not door.knows(request):
@@ -193,17 +203,17 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         if not door.knows(request) or not door.is_own_page(request):
             return refused("without the token, or from another page")
         if reception.current is None:
-            return PlainTextResponse("The page is not connected.", 409, _HEADERS)
+            return said(phrase("not_connected_yet"), 409)
         name = Path(request.query_params.get("name", "")).name[-_MOST_LETTERS:] or "file"
         with TemporaryDirectory(prefix="hri-serve-") as folder:
             path = Path(folder) / f"clip{Path(name).suffix if name.isprintable() else ''}"
             body = await _body_of(request, stage.limits.max_clip_bytes)
             if body is None:
                 most = stage.limits.max_clip_bytes >> 20
-                return PlainTextResponse(f"{name}: a file of more than {most} MB is too large", 413, _HEADERS)
+                return said(phrase("file_large", name=name, most=most), 413)
             write_bytes(path, body)
             why = await asyncio.to_thread(teaching.gestures.take_file, path, name)
-        return PlainTextResponse(why, 422 if why else 200, _HEADERS)
+        return said(why, 422 if why else 200)
 
     async def grammar(request: Request) -> Response:
         """Other commands of several words."""
@@ -212,13 +222,13 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         body = await _body_of(request, stage.limits.max_grammar_bytes)
         if body is None:
             most = stage.limits.max_grammar_bytes >> 10
-            return PlainTextResponse(f"A grammar of more than {most} KB is too large.", 413, _HEADERS)
+            return said(phrase("grammar_large", most=most), 413)
         async with changing:
             why, num_commands = await asyncio.to_thread(change_commands, stage, body)
         if why:
             log.warning("the commands stay as they are: %s", why)
-            return PlainTextResponse(f"The commands stay as they are: {why}", 422, _HEADERS)
-        return PlainTextResponse(f"Commands in use now: {num_commands}.", 200, _HEADERS)
+            return said(phrase("commands_stay", why=why), 422)
+        return said(phrase("commands_changed", count=num_commands), 200)
 
     async def talk(socket: WebSocket) -> None:
         if not door.knows(socket) or not door.is_own_page(socket):

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from hri.core.errors import FormatError, IoError
 from hri.core.optional import import_opencv
+from hri.core.phrases import Phrase, phrase, phrase_of
 from hri.live.frames import Frame
 from hri.media import iterate_frames, read_image
 from hri.media.suffixes import IMAGE_SUFFIXES, kind_of_file
@@ -39,12 +40,13 @@ def read_clip(path: Path, name: str, limits: ServeLimits) -> list[Frame]:
         for frame in _frames(path):
             height, width = frame.shape[:2]
             if height * width > limits.max_picture_px:
-                raise FormatError(f"{name}: pictures of {width} x {height} pixels are too large")
+                raise FormatError(phrase("clip_large", name=name, width=width, height=height))
             if len(frames) == limits.max_clip_pictures:
-                raise FormatError(f"{name}: more than {limits.max_clip_pictures} pictures: cut out the gesture alone")
+                raise FormatError(phrase("clip_long", name=name, most=limits.max_clip_pictures))
             frames.append(_narrowed(frame))
     except (FormatError, IoError) as error:
-        raise FormatError(str(error).replace(str(path), name)) from error
+        said = phrase_of(error)
+        raise FormatError(said if isinstance(said, Phrase) else said.replace(str(path), name)) from error
     return frames
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from hri.core.phrases import Phrase, phrase
 from hri.media import Audio
 from hri.recognition import CommandRecognizer, ConnectedWordRecognizer, Decision
 from hri.serve.stage import Stage
@@ -59,8 +60,8 @@ class CommandWordTeacher(SpokenTeacher):
         # Of the decision only STOP counts: by a grammar a word alone is like whatever sentence is the nearest.
         self._keep_sample(clip)
 
-    def _advice(self) -> str:
-        return " Write it into the commands to use it."
+    def _advice(self) -> list[Phrase]:
+        return [phrase("write_into_commands")]
 
     def _mistaken(self, label: str, samples: list[Any]) -> Counter[str]:
         return self._counted  # by the trainings of `_add`
@@ -72,7 +73,8 @@ class CommandWordTeacher(SpokenTeacher):
         self._counted = Counter()
         for step in range(NUM_SAMPLES + 1):
             self._answer(
-                f"Learning “{label}”: step {step + 1} of {NUM_SAMPLES + 1} …", progress=step / (NUM_SAMPLES + 1)
+                phrase("learning_step", label=label, step=step + 1, steps=NUM_SAMPLES + 1),
+                progress=step / (NUM_SAMPLES + 1),
             )
             more = self._trained(
                 words, {one: [clip for i, clip in enumerate(clips) if i != step] for one, clips in added.items()}

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from hri.core.errors import Error
+from hri.core.phrases import phrase, phrase_of
 from hri.language import Grammar
 from hri.serve.stage import Stage
 
@@ -30,7 +31,7 @@ def change_commands(stage: Stage, text: bytes) -> tuple[str, int]:
         grammar.sentences(stage.limits.max_sentences)  # refuses more
         stage.command_by(grammar)
     except UnicodeDecodeError:
-        return "the grammar is no text in UTF-8", 0
+        return phrase("grammar_no_text"), 0
     except Error as error:
-        return str(error), 0
+        return phrase_of(error), 0
     return "", 0 if stage.words is None else len(stage.words.classes_)

@@ -16,10 +16,12 @@ from typing import Any
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from hri.core.errors import FormatError
+from hri.core.phrases import phrase, phrase_of
 from hri.serve.limits import RateLimit
-from hri.serve.messages import SOUND, read_command, read_media
+from hri.serve.messages import SOUND, read_command, read_media, with_phrases
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
+from hri.serve.voice import RobotVoice
 
 TOO_LARGE = 1009
 REFUSED = 1008
@@ -147,6 +149,7 @@ class Connection:
         self._messages = RateLimit(limits.messages_per_s, burst_s=2.0)
         self._rate_hz = int(hello.get("rate", 16000))
         self._sound = RateLimit(2.0 * self._rate_hz, burst_s=2.0)
+        self._voice = RobotVoice(stage)
         self._complained: dict[str, float] = {}
         self._tasks: list[asyncio.Task[None]] = []
 
@@ -163,6 +166,7 @@ class Connection:
 
     async def end(self) -> None:
         """Send and heed nothing more."""
+        self._voice.ends()
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
@@ -196,7 +200,7 @@ class Connection:
                 command = read_command(text, self._stage.limits) if text is not None else None
             except FormatError as error:
                 command = None
-                self.complain(str(error))
+                self.complain(phrase_of(error))
             if command is not None and command["type"] == "stop":  # before any limit
                 self._stage.stop()
                 continue
@@ -216,6 +220,8 @@ class Connection:
             self._stage.imitate()
         elif command["type"] == "rest":
             self._stage.session.rest()
+        elif command["type"] == "voice":
+            self._voice.speaks(command["text"]) if command["text"] else self._voice.ends()
         elif command["type"] != "hello":
             self._teaching.obey(command)
 
@@ -223,27 +229,28 @@ class Connection:
         try:
             media = read_media(data, self._stage.limits)
         except FormatError as error:
-            self.complain(str(error))
+            self.complain(phrase_of(error))
             return
         if media.kind == SOUND:
             samples = media.samples()
             if self._stage.words is None:
                 return
             if self._sound.take(len(samples)):
+                samples = self._voice.filtered(samples)
                 self._stage.microphone.put(samples)
                 self._teaching.words.hear(samples, self._rate_hz)
             else:
-                self.complain("more sound than a microphone gives was ignored")
+                self.complain(phrase("too_much_sound"))
         elif self._stage.signs is not None:
             if not self._pictures.take():
-                self.complain(f"more than {self._stage.limits.pictures_per_s:g} pictures a second: some were left out")
+                self.complain(phrase("too_many_pictures", most=f"{self._stage.limits.pictures_per_s:g}"))
             else:
                 self._stage.camera.put(media)
                 self._teaching.gestures.see(media)
 
     async def _send(self) -> None:
         while True:
-            await self._socket.send_text(json.dumps(await self.outbox.get(), ensure_ascii=False))
+            await self._socket.send_text(json.dumps(with_phrases(await self.outbox.get()), ensure_ascii=False))
 
     async def _draw(self) -> None:
         """Where the robot is, as often as that changes."""

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import FormatError, IoError
+from hri.core.phrases import phrase
 from hri.live import SampleRing, Stalled
 from hri.live.frames import TimedFrame
 from hri.media import decode_image
@@ -58,9 +59,9 @@ class _Device:
     def _require(self, since_s: float) -> None:
         """Raise Stalled for a device that has given nothing for too long."""
         if self._gone:
-            raise Stalled(f"{self.name}: the page is gone")
+            raise Stalled(phrase("page_gone", device=self.name))
         if time.monotonic() - max(self._came_s, since_s) > self._stall_s:
-            raise Stalled(f"{self.name}: no {self._what} for {self._stall_s:g} s")
+            raise Stalled(phrase(f"no_{self._what}", seconds=f"{self._stall_s:g}"))
 
 
 class PageMicrophone(_Device):
@@ -99,7 +100,7 @@ class PageMicrophone(_Device):
 
         def require(since_s: float) -> None:
             if ring is not self._ring:  # else it would wait for ever, as sound of the new rate comes
-                raise Stalled(f"{self.name}: the page sends at another rate")
+                raise Stalled(phrase("other_rate", device=self.name))
             self._require(since_s)
 
         return PageSound(self, ring, require)
@@ -184,7 +185,7 @@ class PageCamera(_Device):
             frame = decode_image(picture.data, "picture.jpg")
         except FormatError:
             if self._on_refused is not None:
-                self._on_refused("a picture that is damaged was ignored")
+                self._on_refused(phrase("picture_damaged"))
             return None
         self._known.append((came_s, picture.sent_ms))
         return frame, came_s

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import Error, FormatError
+from hri.core.phrases import phrase, phrase_of
 from hri.live import FrameSource, Stalled, events, frame_results
 from hri.live.frames import Frame, TimedFrame
 from hri.live.spotting import FEWEST_FRAMES, SpottingStream, fault_of
@@ -29,12 +30,11 @@ from hri.serve.teacher import NUM_SAMPLES, STOPPED, Teacher
 LONGEST_S = 10.0
 PAUSE_S = 2.5
 """After a sample, for the hand to go back, which is no command."""
-_NO_PICTURES = "No pictures come. Press Start camera and microphone, then Record."
-_NO_HAND = "I saw no hand: more light, or another background."
-_CHANGED = "The pictures changed their size: leave the camera as it is, and then press Record once more."
-_HELD = "Show it now: bring your hand into view and hold it still."
-_DYNAMIC = "Show it now: hold your hand still in view, make the gesture, and hold it still again."
-_AGAIN = "Press Record once more."
+_NO_PICTURES = phrase("no_pictures_come")
+_NO_HAND = phrase("saw_no_hand")
+_CHANGED = phrase("pictures_changed")
+_HELD = phrase("show_held")
+_DYNAMIC = phrase("show_moving")
 
 
 class GestureTeacher(Teacher):
@@ -49,7 +49,8 @@ class GestureTeacher(Teacher):
     """
 
     mode = "gesture"
-    noun = "gesture"
+    noun = phrase("gesture_noun")
+    alike_code = "sample_looks_like"
 
     def __init__(self, stage: Stage) -> None:
         super().__init__(stage)
@@ -84,9 +85,10 @@ class GestureTeacher(Teacher):
             try:
                 refused = self._keep(read_clip(path, name, self._stage.limits))
             except Error as error:
-                refused = str(error)
+                refused = phrase_of(error)
         if refused:
-            refused = f"{name}: {refused.removeprefix(f'{name}: ')}"
+            if not refused.startswith(f"{name}: "):
+                refused = phrase("of_file", name=name, why=refused)
             self._answer(refused)
         return refused
 
@@ -99,7 +101,7 @@ class GestureTeacher(Teacher):
         return self._stage.gestures
 
     def _prompt(self, label: str) -> str:
-        return f"Press Record and show “{label}”, {NUM_SAMPLES} times; or choose {NUM_SAMPLES} files that show it."
+        return phrase("show_or_choose", label=label, most=NUM_SAMPLES)
 
     def _sample(self) -> None:
         self._recording = True
@@ -117,7 +119,7 @@ class GestureTeacher(Teacher):
         except Stalled:
             frames, refused = [], _NO_PICTURES
         except FormatError as error:
-            frames, refused = [], str(error)
+            frames, refused = [], phrase_of(error)
         finally:
             self._stage.only_stop(PAUSE_S)
             ended = not self._end_sample()
@@ -140,10 +142,12 @@ class GestureTeacher(Teacher):
                 for event in result.events:
                     if event.event == events.GESTURE_END:
                         refused = fault_of(stream.gesture, bool(event.fields["cut"]), source.num_lost)
-                        return [frame for frame, _ in stream.gesture.frames], refused and f"{refused}. {_AGAIN}"
+                        return [frame for frame, _ in stream.gesture.frames], refused and phrase(
+                            "once_more", why=refused
+                        )
                 if time.monotonic() > until_s or not self._recording:
                     break
-        return [], f"I saw no gesture. {_AGAIN}"
+        return [], phrase("saw_no_gesture")
 
     def _keep(self, frames: list[Frame], shown: bool = False) -> str:
         """Keep a sample, from a file or shown; why it is refused, or ""."""
@@ -151,12 +155,12 @@ class GestureTeacher(Teacher):
         if len(rows) == 0:
             return _NO_HAND
         if self._signs.is_dynamic and len(rows) < FEWEST_FRAMES:
-            return f"the hand is seen in {len(rows)} pictures, a gesture needs {FEWEST_FRAMES}"
+            return phrase("too_few_pictures", count=len(rows), least=FEWEST_FRAMES)
         decision = self._signs.recognise_features(rows)
         if shown and self._is_stop(decision):
             return ""
         if decision.status == RECOGNISED:
-            self._keep_sample(rows, decision.label, f" It looks like “{decision.label}”: another gesture may be safer.")
+            self._keep_sample(rows, decision.label)
         else:
             self._keep_sample(rows)
         return ""
@@ -173,7 +177,9 @@ class GestureTeacher(Teacher):
     def _add(self, label: str, samples: list[Any]) -> None:
         num_steps = len(samples) + 1
         for step in range(num_steps):
-            self._answer(f"Learning “{label}”: step {step + 1} of {num_steps} …", progress=step / num_steps)
+            self._answer(
+                phrase("learning_step", label=label, step=step + 1, steps=num_steps), progress=step / num_steps
+            )
             kept = [rows for number, rows in enumerate(samples) if number != step]
             more = copy.copy(self._signs).add_gesture_features(label, kept)
             if step == len(samples):  # none was left out

@@ -32,6 +32,8 @@ class ServeLimits:
         Of one message of text.
     pictures_per_s, messages_per_s : float
         For longer than a second; twice as many messages end the connection.
+    voice_s : float
+        Longest time for which the page may say that the robot speaks: commands by voice do not count meanwhile.
     stall_s : float
         Without sound or pictures for so long, a device counts as vanished.
     hello_s : float
@@ -53,6 +55,7 @@ class ServeLimits:
     max_text_bytes: int = 4096
     pictures_per_s: float = 30.0
     messages_per_s: float = 200.0
+    voice_s: float = 20.0
     stall_s: float = 2.0
     hello_s: float = 5.0
 

@@ -18,18 +18,34 @@ from numpy.typing import NDArray
 
 from hri.core.errors import FormatError
 from hri.core.files import parse_json
+from hri.core.phrases import Phrase, phrase
 from hri.core.text import is_printable
 from hri.media import picture_size
 from hri.serve.limits import ServeLimits
 
 SOUND = 1
 PICTURE = 2
-COMMANDS = ("hello", "stop", "resume", "imitate", "rest", "teach", "sample", "undo")
+COMMANDS = ("hello", "stop", "resume", "imitate", "rest", "teach", "sample", "undo", "voice")
 _TEACHING = ("teach", "sample", "undo")
 _HEADER = struct.Struct("<Bd")
 _MAX_SOUND_BYTES = 2 * 48000
 _RATES_HZ = (8000, 48000)
 _MAX_LABEL = 40
+
+
+def with_phrases(message: dict[str, Any]) -> dict[str, Any]:
+    """A message for the page whose "phrases" say, by field, how its texts are said in another language."""
+    found = {name: _encoded(value) for name, value in message.items()}
+    found = {name: value for name, value in found.items() if value}
+    return message | {"phrases": found} if found else message
+
+
+def _encoded(value: Any) -> dict[str, Any] | None:
+    if isinstance(value, Phrase):
+        return value.to_dict() if value.code else None
+    if isinstance(value, dict):
+        return {name: one.to_dict() for name, one in value.items() if isinstance(one, Phrase)}
+    return None
 
 
 @dataclass(frozen=True)
@@ -57,47 +73,49 @@ class Media:
 def read_media(message: bytes, limits: ServeLimits) -> Media:
     """Raises FormatError, in words for the page, for what is neither sound nor a picture, or too large."""
     if len(message) <= _HEADER.size:
-        raise FormatError("a message without sound or a picture in it was ignored")
+        raise FormatError(phrase("message_empty"))
     kind, sent_ms = _HEADER.unpack_from(message)
     data = message[_HEADER.size :]
     if kind not in (SOUND, PICTURE):
-        raise FormatError("a message that is neither sound nor a picture was ignored")
+        raise FormatError(phrase("message_unknown"))
     if not math.isfinite(sent_ms):
-        raise FormatError("a message whose time is no number was ignored")
+        raise FormatError(phrase("message_time"))
     if kind == SOUND:
         if len(data) % 2:
-            raise FormatError("sound that is no row of 16-bit samples was ignored")
+            raise FormatError(phrase("sound_odd"))
         if len(data) > _MAX_SOUND_BYTES:
-            raise FormatError("sound longer than a second was ignored")
+            raise FormatError(phrase("sound_long"))
         return Media(kind, sent_ms, data)
     if len(data) > limits.max_picture_bytes:
-        raise FormatError(f"a picture of {len(data) // 1024} KB is too large and was ignored")
+        raise FormatError(phrase("picture_heavy", kb=len(data) // 1024))
     size = picture_size(data) if data.startswith(b"\xff\xd8") else None
     if size is None or 0 in size:
-        raise FormatError("a picture that is no JPEG was ignored")
+        raise FormatError(phrase("picture_no_jpeg"))
     if size[0] * size[1] > limits.max_picture_px:
-        raise FormatError(f"a picture of {size[0]} x {size[1]} pixels is too large and was ignored")
+        raise FormatError(phrase("picture_large", width=size[0], height=size[1]))
     return Media(kind, sent_ms, data)
 
 
 def read_command(text: str, limits: ServeLimits) -> dict[str, Any]:
     """A command as a JSON object with its "type"; raises FormatError, in words for the page, for anything else."""
     if len(text) > limits.max_text_bytes:
-        raise FormatError("a text that is too long was ignored")
+        raise FormatError(phrase("text_long"))
     value = parse_json(text, "text from the page")
     if not isinstance(value, dict) or value.get("type") not in COMMANDS:
-        raise FormatError("a text that is no command was ignored")
+        raise FormatError(phrase("text_no_command"))
     if value["type"] == "hello":
         rate = value.get("rate", _RATES_HZ[0])
         if not isinstance(rate, int) or isinstance(rate, bool) or not _RATES_HZ[0] <= rate <= _RATES_HZ[1]:
-            raise FormatError(f"sound of {rate} samples a second cannot be used")
+            raise FormatError(phrase("rate_unusable", rate=rate))
         if not isinstance(value.get("page", ""), str):
-            raise FormatError("a page is named by text")
+            raise FormatError(phrase("page_name"))
+    if value["type"] == "voice" and not isinstance(value.get("text"), str):
+        raise FormatError(phrase("text_no_command"))
     if value["type"] in _TEACHING and value.get("mode") not in ("speech", "gesture"):
-        raise FormatError("what is added is a word (speech) or a gesture")
+        raise FormatError(phrase("mode_unknown"))
     if value["type"] == "teach":
         label = value.get("label")
         if not isinstance(label, str) or not label.strip() or len(label) > _MAX_LABEL or not is_printable(label):
-            raise FormatError(f"a name has 1 to {_MAX_LABEL} letters")
+            raise FormatError(phrase("name_length", most=_MAX_LABEL))
         value["label"] = label.strip()
     return value

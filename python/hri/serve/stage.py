@@ -12,9 +12,10 @@ from contextlib import closing
 from typing import Any
 
 from hri.core.errors import Error, InvalidArgument
+from hri.core.phrases import phrase, phrase_of
 from hri.fusion import LearnedFusion
 from hri.language import Grammar, KnowledgeBase
-from hri.live import MISSING_TEXTS, Event
+from hri.live import Event
 from hri.page import figure
 from hri.recognition import (
     CommandRecognizer,
@@ -26,7 +27,9 @@ from hri.recognition import (
 from hri.robot import Robot
 from hri.serve.devices import PageCamera, PageMicrophone
 from hri.serve.limits import ServeLimits
+from hri.serve.messages import with_phrases
 from hri.serve.recordings import Recording, Spoken, require_recordings_of
+from hri.serve.seen import SeenHands
 from hri.session import Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
@@ -165,7 +168,7 @@ class Stage:
         self.camera.lose()
         if self.moving:
             self.stop()
-            self._report("The page was gone in mid-motion, so the robot stopped. Press Resume to go on.")
+            self._report(phrase("gone_in_motion"))
         else:
             self._paused = True
             self._session.stop()
@@ -235,7 +238,6 @@ class Stage:
         return {
             "type": "welcome",
             "state": self._state,
-            "missing_texts": MISSING_TEXTS,
             "has_samples": self.recordings is not None and self.vocabulary is not self._first_vocabulary,
             "speech": self.words is not None,
             "gesture": self.signs is not None,
@@ -254,7 +256,7 @@ class Stage:
             "signs": [] if self.signs is None else [str(label) for label in self.signs.classes_],
             "motions": sorted(self._session.motions),
             "refused": self._session.refused,
-            "log": list(self._log),
+            "log": [with_phrases(message) for message in self._log],
         }
 
     @property
@@ -325,6 +327,7 @@ class Stage:
             fusion=self._fusion,
             knowledge=self._knowledge,
             faces=self._faces,
+            on_result=SeenHands(lambda message: self.publish(message)).heed,
         )
 
     def _refused(self, text: str) -> None:
@@ -363,7 +366,7 @@ class Stage:
                     continue
                 if not refused:
                     self.stop()
-                    self._report(f"The session has ended: {error}. Press Resume to begin another.")
+                    self._report(phrase("session_ended", detail=phrase_of(error)))
                 self._show_state(STOPPED)
 
     def _play(self, session: Session) -> None:

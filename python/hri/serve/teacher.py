@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from typing import Any, ClassVar
 
 from hri.core.errors import Error
+from hri.core.phrases import Phrase, phrase, phrase_of
 from hri.recognition import Decision
 from hri.recognition.decision import RECOGNISED
 from hri.robot import load_gestures
@@ -21,8 +22,8 @@ from hri.serve.stage import Stage
 NUM_SAMPLES = 3
 BestOf = Callable[[Any, dict[str, list[Any]]], str]
 _WAIT_S = 0.1
-_MOVES = "That counts as soon as the robot rests …"
-STOPPED = "STOP: this sample is not kept. Press Resume, then Record once more."
+_MOVES = phrase("counts_at_rest")
+STOPPED = phrase("sample_stopped")
 
 
 class Teacher(ABC):
@@ -34,7 +35,8 @@ class Teacher(ABC):
     """
 
     mode: ClassVar[str]
-    noun: ClassVar[str]
+    alike_code: ClassVar[str]
+    noun: ClassVar[Phrase]
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
@@ -108,17 +110,17 @@ class Teacher(ABC):
     def _refusal(self) -> str:
         """Why nothing can be done now; "" where it can."""
         if self._labels() is None:
-            return f"there is no recogniser of {self.noun}s"
+            return phrase("no_recogniser", noun=self.noun)
         if not self._busy.locked():
             return ""
-        full = len(self._samples) == NUM_SAMPLES
-        enough = f"{NUM_SAMPLES} samples are enough: " if full else ""
-        return f"{enough}wait until the last {self.noun if full else 'sample'} is added"
+        if len(self._samples) == NUM_SAMPLES:
+            return phrase("enough_samples", most=NUM_SAMPLES, noun=self.noun)
+        return phrase("wait_until_added", noun=phrase("sample"))
 
     def _begin(self, label: str) -> None:
         self.forget()
         if label in (self._labels() or ()):
-            self._answer(f"“{label}” is a {self.noun} already")
+            self._answer(phrase("already_known", label=label, noun=self.noun))
             return
         self._label = label
         self._answer(self._prompt(label))
@@ -128,8 +130,8 @@ class Teacher(ABC):
         if self._label:
             return ""
         if self._full:
-            return f"“{self._full}” has its {NUM_SAMPLES} samples: give the next {self.noun} a name"
-        return f"first give the {self.noun} a name"
+            return phrase("has_its_samples", label=self._full, most=NUM_SAMPLES, noun=self.noun)
+        return phrase("first_a_name", noun=self.noun)
 
     def _is_stop(self, decision: Decision) -> bool:
         """Whether what was just recorded is STOP: it counts then, and is no sample."""
@@ -140,7 +142,7 @@ class Teacher(ABC):
         self._answer(STOPPED)
         return True
 
-    def _keep_sample(self, sample: Any, alike: str = "", warning: str = "") -> None:
+    def _keep_sample(self, sample: Any, alike: str = "") -> None:
         """Keep a sample, which is like one of the label `alike`, if any; the last one is followed by adding."""
         if not self._label:  # the page is gone
             return
@@ -148,7 +150,8 @@ class Teacher(ABC):
         if alike:
             self._alike[alike] += 1
         if len(self._samples) < NUM_SAMPLES:
-            self._answer(f"Sample {len(self._samples)} of {NUM_SAMPLES}.{warning}")
+            values = {"number": len(self._samples), "most": NUM_SAMPLES}
+            self._answer(phrase(self.alike_code, label=alike, **values) if alike else phrase("sample_of", **values))
             return
         label, samples = self._label, self._samples
         try:
@@ -161,43 +164,44 @@ class Teacher(ABC):
         self._added[label] = samples
         self._renew()
         moves = label in self._stage.session.motions
-        does = "" if moves or label not in load_gestures() else " The robot cannot make its motion."
+        more = [] if moves or label not in load_gestures() else [phrase("cannot_move_so")]
         labels = [other for other, _ in (likened + mistaken).most_common()]
         confused = [{"label": one, "samples": likened[one], "samples_of_other": mistaken[one]} for one in labels]
-        does += self._advice()
-        self._answer(f"“{label}” is added.{self._warning(labels)}{does}", added=list(self._added), confused=confused)
+        more = [*self._warning(labels), *more, *self._advice()]
+        text = phrase("added_with", first=phrase("added", label=label), more=more)
+        self._answer(text, added=list(self._added), confused=confused)
 
-    def _advice(self) -> str:
+    def _advice(self) -> list[Phrase]:
         """What is to be done after adding."""
-        return ""
+        return []
 
     def _mistaken_by(self, best_of: BestOf, label: str, samples: list[Any]) -> Counter[str]:
         """As `_mistaken`, by what gives the most probable label of a sample, were these labels added, and no others."""
         counts: Counter[str] = Counter()
         for other, theirs in self._added.items():
-            self._answer(f"Trying “{other}” beside “{label}” …", progress=1.0)
+            self._answer(phrase("trying_beside", other=other, label=label), progress=1.0)
             for number, sample in enumerate(theirs):
                 kept = theirs[:number] + theirs[number + 1 :]
                 counts[other] += best_of(sample, {other: kept, label: samples}) == label
         return +counts
 
-    def _warning(self, confused: list[str]) -> str:
+    def _warning(self, confused: list[str]) -> list[Phrase]:
         """Which of the others it may be confused with."""
         if not confused:
-            return ""
-        others = " and ".join(f"“{other}”" for other in confused)
-        return f" It may be confused with {others}: press Undo and choose another {self.noun} to be safe."
+            return []
+        others = [phrase("quoted", label=other) for other in confused]
+        return [phrase("may_be_confused", others=others, noun=self.noun)]
 
     def _undo(self) -> None:
         if not self._added:
-            self._answer("there is nothing to undo")
+            self._answer(phrase("nothing_to_undo"))
             return
         self.forget()
         label = next(reversed(self._added))
         self._remove(label)
         del self._added[label]
         self._renew()
-        self._answer(f"“{label}” is removed.", added=list(self._added), confused=[])
+        self._answer(phrase("removed", label=label), added=list(self._added), confused=[])
 
     def _renew(self) -> None:
         """Begin a new session as soon as the robot rests: commands count while something is learned."""
@@ -215,7 +219,7 @@ class Teacher(ABC):
                 try:
                     work()
                 except Error as error:
-                    self._answer(f"That did not work: {error}")
+                    self._answer(phrase("did_not_work", detail=phrase_of(error)))
 
         threading.Thread(target=run, daemon=True, name=f"hri-teach-{self.mode}").start()
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.phrases import phrase
 from hri.media import Audio
 from hri.recognition import Decision, WordRecognizer
 from hri.recognition.decision import NO_INPUT, RECOGNISED
@@ -22,7 +23,7 @@ from hri.signal import ActivityOptions, Endpointer, EndpointerOptions
 LONGEST_S = 5.0
 PAUSE_S = 1.0
 """By which the last sound of a sample may come late."""
-_NOTHING = "I heard nothing: press Record once more."
+_NOTHING = phrase("heard_nothing")
 
 
 class SpokenTeacher(Teacher):
@@ -34,7 +35,8 @@ class SpokenTeacher(Teacher):
     """
 
     mode = "speech"
-    noun = "word"
+    noun = phrase("word")
+    alike_code = "sample_sounds_like"
 
     def __init__(self, stage: Stage) -> None:
         super().__init__(stage)
@@ -67,7 +69,7 @@ class SpokenTeacher(Teacher):
             self._answer(_NOTHING)
 
     def _prompt(self, label: str) -> str:
-        return f"Say “{label}” after you press Record, {NUM_SAMPLES} times."
+        return phrase("say_after_record", label=label, most=NUM_SAMPLES)
 
     def _sample(self) -> None:
         if self._parts is None:
@@ -75,7 +77,7 @@ class SpokenTeacher(Teacher):
             self._endpointer = Endpointer(self._stage.microphone.sample_rate_hz, options)
             self._stage.only_stop(LONGEST_S + PAUSE_S)
             self._parts, self._num_heard = [], 0
-            self._answer("Speak now.", recording=True)
+            self._answer(phrase("speak_now"), recording=True)
 
     def _end_sample(self) -> bool:
         parts, self._parts = self._parts, None
@@ -127,7 +129,7 @@ class WordTeacher(SpokenTeacher):
 
     def _keep_clip(self, clip: Audio, decision: Decision) -> None:
         if decision.status == RECOGNISED:
-            self._keep_sample(clip, decision.label, f" It sounds like “{decision.label}”: another word may be safer.")
+            self._keep_sample(clip, decision.label)
         else:
             self._keep_sample(clip)
 

@@ -8,8 +8,9 @@ import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
+from hri.core.phrases import Phrase, phrase
 from hri.fusion import ASK
-from hri.language import KnowledgeBase, StoredMatch
+from hri.language import KnowledgeBase, StoredMatch, StoredSentence
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN
 from hri.recognition.sentence.recognizer import UNKNOWN as UNKNOWN_WORD
 from hri.session.options import SessionOptions
@@ -24,10 +25,10 @@ STOPPED = "stopped"
 SENTENCE = "sentence"
 STATES = (IDLE, ATTENDING, LISTENING, CONFIRMING, ACTING, STOPPED, SENTENCE)
 MAX_SENTENCE_WORDS = 64
-_NOT_UNDERSTOOD = "I did not understand that."
-_ONLY_STOP = "only STOP counts while a sample is recorded"
-_STOPPED = "stopped until resume"
-_MOVES = "the robot moves"
+_NOT_UNDERSTOOD = phrase("not_understood")
+_ONLY_STOP = phrase("only_stop")
+_STOPPED = phrase("stopped_until_resume")
+_MOVES = phrase("robot_moves")
 
 SAY = "say"
 MOVE = "move"
@@ -127,9 +128,9 @@ class Dialogue:
         if self.state == ATTENDING and time_s > self._attend_until_s:
             return self._go(IDLE)
         if self.state == CONFIRMING and time_s > self._answer_until_s and not self._active:
-            return [Action(SAY, text="No answer: I do nothing."), *self._calm()]
+            return [Action(SAY, text=phrase("no_answer")), *self._calm()]
         if self.state == SENTENCE and time_s > self._sentence_until_s and not self._active:
-            return [Action(SAY, text="The sentence has no end: I do nothing."), *self._calm()]
+            return [Action(SAY, text=phrase("no_end")), *self._calm()]
         return []
 
     def decide(self, pair: Pair, time_s: float) -> list[Action]:
@@ -146,13 +147,13 @@ class Dialogue:
                 return self.resume()
             return [Action(IGNORE, label, _STOPPED)]
         if status == NO_INPUT:
-            return [Action(IGNORE, label, "no input")]
+            return [Action(IGNORE, label, phrase("no_input"))]
         if status == ASK:
             rest = [Action(REST, text=pair.fused.rule)] if self.state == ACTING else []
             return [*rest, *self._ask(tuple(entry.label for entry in pair.fused.nbest), time_s)]
         if self.state == ACTING:
             if label in self._options.no_labels:
-                return [Action(REST, label, "taken back"), *self._calm()]
+                return [Action(REST, label, phrase("taken_back")), *self._calm()]
             return [Action(IGNORE, label, _MOVES)]
         if self.state == CONFIRMING:
             return self._answer(label, status, time_s)
@@ -168,7 +169,7 @@ class Dialogue:
     def signing(self, words: Sequence[str]) -> list[Action]:
         """Words of a signed sentence that goes on, which stand until its end: STOP among them does not wait for it."""
         stop = self._stop_among(words)
-        return self.halt("STOP among the signs", stop) if stop and self.state != STOPPED else []
+        return self.halt(phrase("stop_among_signs"), stop) if stop and self.state != STOPPED else []
 
     def signed(self, words: Sequence[str], first_s: float, time_s: float) -> list[Action]:
         """A sentence of signs that was recognised as one, and when it began.
@@ -187,11 +188,11 @@ class Dialogue:
             return self.resume() if alone in self._options.resume_labels else [Action(IGNORE, text, _STOPPED)]
         if self.state == ACTING:
             if alone in self._options.no_labels:
-                return [Action(REST, alone, "taken back"), *self._calm()]
+                return [Action(REST, alone, phrase("taken_back")), *self._calm()]
             return [Action(IGNORE, text, _MOVES)]
         if self.state == CONFIRMING:
             status = UNKNOWN if alone == UNKNOWN else RECOGNISED
-            return self._answer(alone, status, time_s) if alone else [Action(IGNORE, text, "it is no answer")]
+            return self._answer(alone, status, time_s) if alone else [Action(IGNORE, text, phrase("not_an_answer"))]
         if self._options.sentence_begin_labels:
             return self._collected(words, time_s)
         if self._options.wake_labels:
@@ -202,7 +203,7 @@ class Dialogue:
             if not words:
                 return self._go(ATTENDING) if self.state != LISTENING else []
             if not attended:
-                return [Action(IGNORE, text, "not preceded by the wake word"), *self._calm()]
+                return [Action(IGNORE, text, phrase("no_wake_word")), *self._calm()]
         self._words = list(words)
         return self._read()
 
@@ -219,7 +220,7 @@ class Dialogue:
                 done += self._collect(word, time_s)
             elif self.state == ACTING:  # it has ended, and is answered
                 break
-        return done if begun else [Action(IGNORE, " ".join(words), "no sentence was begun")]
+        return done if begun else [Action(IGNORE, " ".join(words), phrase("no_sentence_begun"))]
 
     def moved(self, message: str, fault: bool, newest: bool = True) -> list[Action]:
         """The motion has ended: "" as it should, else why not; a fault of the robot's stops it.
@@ -245,13 +246,13 @@ class Dialogue:
         """A person ends STOP."""
         if self.state != STOPPED:
             return []
-        return [Action(RESUME), Action(SAY, text="Ready."), *self._calm()]
+        return [Action(RESUME), Action(SAY, text=phrase("ready")), *self._calm()]
 
     def imitate(self, time_s: float) -> list[Action]:
         """A person asks by a button to be imitated: as by the first of `imitate_labels`, without a question."""
         label = next(iter(self._options.imitate_labels), "")
         if label not in self._motions:
-            return [Action(SAY, text="I cannot imitate you.")]
+            return [Action(SAY, text=phrase("cannot_imitate"))]
         if time_s < self._only_stop_until_s:
             return [Action(IGNORE, label, _ONLY_STOP)]
         if self.state in (STOPPED, ACTING):
@@ -271,13 +272,13 @@ class Dialogue:
                 self._attend_until_s = pair.last_s + self._options.attend_s
                 return self._go(ATTENDING) if self.state != LISTENING else []
             if not attended:
-                return [Action(IGNORE, fused.label, "not preceded by the wake word"), *self._calm()]
+                return [Action(IGNORE, fused.label, phrase("no_wake_word")), *self._calm()]
         if fused.status == UNKNOWN:
             return [Action(SAY, text=_NOT_UNDERSTOOD), *self._calm()]
         if fused.label in self._options.control_labels:
-            return [Action(IGNORE, fused.label, "nothing was asked"), *self._calm()]
+            return [Action(IGNORE, fused.label, phrase("nothing_asked")), *self._calm()]
         if fused.label not in self._motions:
-            return [Action(SAY, text=f"I have no motion for {fused.label}."), *self._calm()]
+            return [Action(SAY, text=phrase("no_motion", label=fused.label)), *self._calm()]
         if self._options.confirm_below == 1 or fused.confidence < self._options.confirm_below:
             return self._ask((fused.label,), time_s)
         return self._move(fused.label)
@@ -292,7 +293,7 @@ class Dialogue:
         elif len(self._words) < MAX_SENTENCE_WORDS:
             self._words.append(label)
         else:
-            return [Action(SAY, text="The sentence is too long: I do nothing."), *self._calm()]
+            return [Action(SAY, text=phrase("too_long")), *self._calm()]
         return self._go(SENTENCE)
 
     def _read(self) -> list[Action]:
@@ -303,7 +304,7 @@ class Dialogue:
         text, answers = " ".join(words) if understood else _NOT_UNDERSTOOD, []
         if self._knowledge is not None and nearest is not None:
             known = nearest.distance <= self._knowledge.max_distance
-            text = nearest.sentence.text(self._options.language) if known else _NOT_UNDERSTOOD
+            text = _stored(nearest.sentence, self._options.language) if known else _NOT_UNDERSTOOD
             answers = [label for label in nearest.sentence.answer if known and label in self._motions]
         said = [Action(SENTENCE, words=words, nearest=nearest), Action(SAY, text=text)]
         if not answers:
@@ -315,25 +316,25 @@ class Dialogue:
         if status == UNKNOWN:
             return self._ask(self._asked, time_s)
         if label in self._options.no_labels:
-            return [Action(SAY, text="I do nothing."), *self._calm()]
+            return [Action(SAY, text=phrase("nothing_done")), *self._calm()]
         if label in self._options.yes_labels:
             if len(self._asked) == 1 and self._asked[0] in self._options.fusion.stop_labels:
-                return self.halt("confirmed", self._asked[0])
+                return self.halt(phrase("confirmed"), self._asked[0])
             return self._move(self._asked[0]) if len(self._asked) == 1 else self._ask(self._asked, time_s)
         if label in self._asked and label in self._motions:
             return self._move(label)
         if label in self._motions:
             return self._ask((label,), time_s)
-        return [Action(IGNORE, label, "it is no answer")]
+        return [Action(IGNORE, label, phrase("not_an_answer"))]
 
     def _ask(self, labels: tuple[str, ...], time_s: float) -> list[Action]:
         self._asked = labels
         self._answer_until_s = time_s + self._options.confirm_s
-        return [Action(SAY, text=f"Did you mean {' or '.join(labels)}?"), *self._go(CONFIRMING)]
+        return [Action(SAY, text=phrase("did_you_mean", labels=labels)), *self._go(CONFIRMING)]
 
     def _move(self, label: str) -> list[Action]:
         self._asked = ()
-        return [Action(SAY, text=f"{label}."), *self._go(ACTING), Action(MOVE, label)]
+        return [Action(SAY, text=phrase("repeated", label=label)), *self._go(ACTING), Action(MOVE, label)]
 
     def _calm(self) -> list[Action]:
         """Back to where the next command is waited for."""
@@ -346,3 +347,9 @@ class Dialogue:
             return []
         self.state = state
         return [Action(STATE, text=state)]
+
+
+def _stored(sentence: StoredSentence, language: str) -> str:
+    """What a stored sentence says in one language, with those in others."""
+    text = sentence.text(language)
+    return Phrase(text, "stored", {"texts": dict(sentence.texts)}) if sentence.texts else text

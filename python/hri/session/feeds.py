@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, TypeVar
 
 from hri.core.errors import Error, IoError
+from hri.core.phrases import phrase, phrase_of
 from hri.live import AudioSource, Event, FrameSource
 from hri.live.events import ENDED, RECONNECTED, STALL
 from hri.live.frames import TimedFrame
@@ -152,7 +153,7 @@ class TappedPictures:
         if before is not None and before != frame.shape:
             self._first = timed
             sizes = [f"{shape[1]} x {shape[0]}" for shape in (before, frame.shape)]
-            raise _SizeChanged(f"{self.name}: pictures of {sizes[0]} are now {sizes[1]}")
+            raise _SizeChanged(phrase("size_changed", device=self.name, before=sizes[0], after=sizes[1]))
         return timed
 
     def reconnect(self) -> bool:
@@ -279,7 +280,7 @@ class Arrival:
 
 def what_failed(error: Exception) -> str:
     """An error in words; of one that is not ours, its kind too."""
-    return str(error) if isinstance(error, Error | OSError | ImportError) else f"{type(error).__name__}: {error}"
+    return phrase_of(error) if isinstance(error, Error | OSError | ImportError) else f"{type(error).__name__}: {error}"
 
 
 def merge(feeds: list[Feed[Any]], retry_s: float) -> Generator[Arrival, None, None]:

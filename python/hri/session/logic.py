@@ -7,11 +7,13 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import Any, Protocol
 
+from hri.core.phrases import phrase
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
 from hri.live import Event
 from hri.live import events as kinds
 from hri.recognition.decision import RECOGNISED, plain
+from hri.recognition.possibility import nbest_fields
 from hri.session import dialogue as acts
 from hri.session.dialogue import ACTING, Action, Dialogue
 from hri.session.feeds import Arrival, is_over
@@ -31,7 +33,7 @@ ASKED = "asked"
 ONLY_STOP = "only_stop"
 IMITATE = "imitate"
 TICK = "tick"
-BY_BUTTON = "asked for"
+BY_BUTTON = phrase("by_button")
 MOTION_START = "motion_start"
 MOTION_END = "motion_end"
 HALT = "halt"
@@ -284,7 +286,7 @@ def fused_event(pair: Pair, time_s: float) -> Event:
             mode: None if d is None else {"label": d.label, "status": d.status, "confidence": d.confidence}
             for mode, d in modes.items()
         },
-        "nbest": [{"label": entry.label, "probability": entry.probability} for entry in fused.nbest],
+        "nbest": nbest_fields(fused.nbest),
     }
     return session_event(time_s, FUSED, **plain(fields))
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import InvalidArgument
+from hri.core.phrases import phrase, phrase_of
 from hri.robot import Robot, Trajectory, TrajectoryError
 
 _CLOSE_S = 5.0
@@ -238,11 +239,11 @@ class Mover:
         try:
             completed, message = self._perform(job)
             fell = [event for event in self._robot.events[job.num_events :] if event.kind == "fall"]
-            message = "I have fallen." if fell else message
+            message = phrase("fallen") if fell else message
         except (TrajectoryError, InvalidArgument) as error:
-            message = f"I cannot do that: {error}"
+            message = phrase("cannot_do", detail=phrase_of(error))
         except Exception as error:  # a link of a caller's own may raise anything; the session goes on
-            message, fault = f"The robot does not obey: {error}", True
+            message, fault = phrase("does_not_obey", detail=phrase_of(error)), True
         end_s = job.begin_s + max(0, job.steps - 1) * self._robot.step_s
         return Moved("motion_end", job.label, end_s, job.number, message, fault, completed)
 
@@ -264,7 +265,7 @@ class Mover:
             return still if waits else target
 
         completed = self._robot.follow(motion.joint_names, target_at)
-        return completed and led, "I see nothing to go by." if completed and not led else ""
+        return completed and led, phrase("nothing_to_follow") if completed and not led else ""
 
     def _at_s(self, job: _Job) -> float:
         """When the job's next command is due."""

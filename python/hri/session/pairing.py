@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from hri.core.errors import InvalidArgument
+from hri.core.phrases import phrase
 from hri.fusion import FusedDecision, LearnedFusion, fuse
 from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
 from hri.session.options import SessionOptions
@@ -233,15 +234,15 @@ class Pairer:
             other = self._streams[_OTHER[observation.mode]]
             until_s = observation.last_s + self._options.window_s
             if not other.present:
-                return observation, f"no source of {_OTHER[observation.mode]}"
+                return observation, phrase("why_no_source", mode=phrase(_OTHER[observation.mode]))
             if self._too_late(observation):
-                return observation, f"the other mode took more than {self._options.max_wait_s:g} s"
+                return observation, phrase("why_too_late", seconds=f"{self._options.max_wait_s:g}")
             if other.begun_s is not None and other.begun_s <= until_s:
                 continue
             if other.now_s >= until_s + self._options.onset_s:
-                return observation, f"nothing else within {self._options.window_s:g} s"
+                return observation, phrase("why_nothing_else", seconds=f"{self._options.window_s:g}")
             if self.hurried and self._is_stop(observation.decision) and not other.waiting:
-                return observation, "an unsure STOP while the robot moves, and nothing beside it"
+                return observation, phrase("why_hurried")
         return None
 
     def _too_late(self, observation: Observation) -> bool:
@@ -252,12 +253,12 @@ class Pairer:
 
     def _alone(self, observation: Observation, why: str) -> Pair:
         fused = self._fused(*(observation.decision if mode == observation.mode else None for mode in MODES))
-        return Pair(fused, observation.first_s, observation.last_s, 0.0, f"alone: {why}")
+        return Pair(fused, observation.first_s, observation.last_s, 0.0, phrase("why_alone", why=why))
 
     def _together(self, word: Observation, sign: Observation) -> Pair:
         fused = self._fused(word.decision, sign.decision)
         apart = _apart(word, sign)
-        why = f"a word and a sign {apart:.2f} s apart" if apart else "a word and a sign at once"
+        why = phrase("why_apart", seconds=f"{apart:.2f}") if apart else phrase("why_at_once")
         return Pair(fused, min(word.first_s, sign.first_s), max(word.last_s, sign.last_s), apart, why)
 
 

@@ -15,6 +15,7 @@ from numbers import Real
 from typing import Any
 
 from hri.core.errors import Error, FormatError, InvalidArgument
+from hri.core.phrases import phrase, phrase_of
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
 from hri.live import AudioSource, Event, FrameSource, HandFrames, Listener
@@ -42,7 +43,7 @@ from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
 from hri.session.mover import Guided, Motion, Mover
 from hri.session.options import SessionOptions
-from hri.session.watching import watcher_of
+from hri.session.watching import OnResult, watcher_of
 from hri.signal import EndpointerOptions
 from hri.vision.persons import Faces
 
@@ -62,21 +63,21 @@ class Session:
     words : WordRecognizer or CommandRecognizer, optional
         Trained or loaded; needed for sound.
     signs : GestureRecognizer or SentenceRecognizer, optional
-        Trained or loaded; needed for pictures. With a `SentenceRecognizer` signs follow on one another, and each signed
-        sentence is decided on as one.
+        Trained or loaded; needed for pictures. Of a `SentenceRecognizer` each signed sentence is decided on as one.
     robot : Robot, optional
         Moved by `run`, and left open. Without one nothing moves, and every command counts as carried out.
     options : SessionOptions, optional
     motions : mapping of str to Trajectory or Guided, optional
         What the robot does for a label; by default what the slots of a command say (`hri.robot.command_trajectory`), or
-        the gesture of the same name. Trajectories are checked here, from where the joints are: those that the robot
-        cannot make are left out, and `refused` says why.
+        the gesture of the same name. Those that the robot cannot make are left out, and `refused` says why.
     endpointer : EndpointerOptions, optional
         When a word begins and ends; see `hri.live.Listener`.
     segmenter : GestureSegmenterOptions or SentenceStreamOptions, optional
-        When a gesture, or a signed sentence, begins and ends; see `hri.live.Watcher` and `SignWatcher`.
     hands : HandFrames, optional
-        What a `SentenceRecognizer` gets of the pictures; see `hri.live.SignWatcher`.
+        When a gesture, or a signed sentence, begins and ends, and what a `SentenceRecognizer` gets of the pictures; see
+        `hri.live.Watcher` and `SignWatcher`.
+    on_result : callable, optional
+        Gets every `FrameResult` in the thread that watches, as that of `hri.live.Watcher` does; it must not wait.
     on_say : callable of str, optional
         Gets what the robot says, in the thread that decides; it must not wait.
     model_ids : mapping of mode to str, optional
@@ -85,11 +86,9 @@ class Session:
     fusion : LearnedFusion, optional
         Fuses words and signs in place of ``options.rule``.
     faces : FaceFinder, optional
-        Finds the person who is imitated (``options.imitate_labels``), or whose hands make tracks for a
-        `SentenceRecognizer`; by default by OpenCV's cascade.
+        Finds who is imitated, or whose hands make tracks for a `SentenceRecognizer`; by default OpenCV's cascade.
     knowledge : KnowledgeBase, optional
-        Stored sentences: what the robot says at the end of one (a signed one, or by ``options.sentence_end_labels``)
-        and answers with.
+        What the robot says at the end of a sentence (signed, or by ``options.sentence_end_labels``) and answers with.
 
     Attributes
     ----------
@@ -117,6 +116,7 @@ class Session:
         segmenter: GestureSegmenterOptions | SentenceStreamOptions | None = None,
         hands: HandFrames | None = None,
         on_say: Callable[[str], None] | None = None,
+        on_result: OnResult | None = None,
         model_ids: Mapping[str, str] | None = None,
         fusion: LearnedFusion | None = None,
         faces: Faces | None = None,
@@ -156,7 +156,8 @@ class Session:
             stops = chosen.fusion.stop_labels
             self._listener = Listener(words, endpointer, model_id=ids.get("speech", ""), urgent=stops)
         self._whole_sentences = isinstance(signs, SentenceRecognizer)
-        self._watcher = None if signs is None else watcher_of(signs, segmenter, hands, faces, ids.get("gesture", ""))
+        parts = (segmenter, hands, faces, ids.get("gesture", ""), on_result)
+        self._watcher = None if signs is None else watcher_of(signs, *parts)
         self._imitator: Imitator | None = None
         if self.options.imitate_labels and robot is not None:
             if signs is None:
@@ -283,19 +284,19 @@ class Session:
         led = {*self.options.control_labels, *self.options.fusion.stop_labels, *found}
         for label in sorted((self._command_labels - led) | self._answers()):
             if motions is None and not self._slots.get(label) and label not in load_gestures():
-                self.refused[label] = "no gesture has this name"
+                self.refused[label] = phrase("no_gesture_of_name")
             elif motions is not None and label not in motions:
-                self.refused[label] = "it is in no motion"
+                self.refused[label] = phrase("in_no_motion")
             else:
                 try:
                     motion = motions[label] if motions is not None else self._own_motion(label, self._robot)
                     if isinstance(motion, Trajectory):
                         if needs_feet(motion) and not self._robot.on_feet:
-                            raise InvalidArgument("the robot's torso is held, and it cannot walk")
+                            raise InvalidArgument(phrase("torso_held"))
                         self._robot.prepare(motion)
                     found[label] = motion
                 except (FormatError, InvalidArgument) as error:
-                    self.refused[label] = str(error)
+                    self.refused[label] = phrase_of(error)
         return found
 
     def _answers(self) -> set[str]:

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 // The section that shows the grammar of commands of several words, and tries another one.
+import { phrase, phraseOf, put } from "./phrases.js";
+
 export class CommandsPanel {
   constructor(section) {
     this.section = section;
@@ -22,13 +24,13 @@ export class CommandsPanel {
 
   async send() {
     this.button.disabled = true;
-    this.line.textContent = "Trying …";
+    put(this.line, phrase("trying"));
     try {
       const answer = await fetch("grammar", { method: "POST", body: this.field.value });
-      this.line.textContent = await answer.text();
+      put(this.line, phraseOf(await answer.json(), "text"));
       if (answer.ok) this.known = this.field.value;
     } catch {
-      this.line.textContent = "The grammar did not reach hri serve. Try again.";
+      put(this.line, phrase("grammar_lost"));
     }
     this.button.disabled = false;
   }

@@ -1,24 +1,27 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 // The browser's camera and microphone, each by itself: one that is missing leaves the other.
+import { phrase } from "./phrases.js";
+
 const RATE_HZ = 16000;
 const FPS = 15;
 const WIDTH_PX = 480;
 const QUALITY = 0.85;
 
-const WORDS = {
-  NotAllowedError: (what) => `The browser may not use the ${what}. Click the sign beside the address, allow it, and press Start again.`,
-  NotFoundError: (what) => `No ${what} was found. Plug one in and press Start again.`,
-  NotReadableError: (what) => `Another program uses the ${what}. Close that program and press Start again.`,
-  OverconstrainedError: (what) => `The ${what} does not give what is needed. Try another one.`,
+const CODES = {
+  NotAllowedError: "not_allowed",
+  NotFoundError: "not_found",
+  NotReadableError: "in_use",
+  OverconstrainedError: "not_suitable",
 };
 
-export function inWords(error, what) {
-  return (WORDS[error.name] ?? (() => `The ${what} does not work: ${error.message}`))(what);
+// What is wrong with the microphone or the camera, as a phrase.
+export function whatIsWrong(error, what) {
+  return phrase(CODES[error.name] ?? "broken", { device: phrase(what), detail: error.phrase ?? error.message });
 }
 
 async function media(constraints) {
-  if (!navigator.mediaDevices) throw new Error("this browser gives no page a camera or a microphone");
+  if (!navigator.mediaDevices) throw Object.assign(new Error(), { phrase: phrase("no_devices") });
   return navigator.mediaDevices.getUserMedia(constraints);
 }
 
@@ -45,26 +48,35 @@ export async function openMicrophone(onSamples, onEnd) {
   return { rate: context.sampleRate, name: stream.getAudioTracks()[0].label, keep: [stream, source, sender] };
 }
 
-// onPicture gets a JPEG and when it was taken; a picture that is still being made makes the next one wait.
-export async function openCamera(video, onPicture, onEnd) {
-  const stream = await media({ video: { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 30 } } });
-  video.srcObject = stream;
-  await video.play();
+// What is shown, as a JPEG and when it was taken, some times a second until the answer is called; a picture that is still
+// being made makes the next one wait. `size` gives width and height, or nothing where there is no picture yet.
+export function takePictures(source, size, onPicture) {
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("2d", { willReadFrequently: true });
   let busy = false;
   let next = 0;
   const timer = setInterval(() => {
     const now = performance.now();
-    if (busy || now < next || video.readyState < 2 || !video.videoWidth) return;
+    const [full, high] = size() ?? [0, 0];
+    if (busy || now < next || !full) return;
     next = Math.max(next + 1000 / FPS, now - 500 / FPS);
-    const scale = Math.min(1, WIDTH_PX / video.videoWidth);
-    const [width, height] = [Math.round(scale * video.videoWidth), Math.round(scale * video.videoHeight)];
+    const scale = Math.min(1, WIDTH_PX / full);
+    const [width, height] = [Math.round(scale * full), Math.round(scale * high)];
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-    context.drawImage(video, 0, 0, width, height);
+    context.drawImage(source, 0, 0, width, height);
     busy = true;
     canvas.toBlob((blob) => { busy = false; if (blob) onPicture(blob, now); }, "image/jpeg", QUALITY);
   }, 10);
-  stream.getVideoTracks()[0].onended = () => { clearInterval(timer); onEnd(); };
+  return () => clearInterval(timer);
+}
+
+export const sizeOf = (video) => () => (video.readyState < 2 ? null : [video.videoWidth, video.videoHeight]);
+
+export async function openCamera(video, onPicture, onEnd) {
+  const stream = await media({ video: { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 30 } } });
+  video.srcObject = stream;
+  await video.play();
+  const end = takePictures(video, sizeOf(video), onPicture);
+  stream.getVideoTracks()[0].onended = () => { end(); onEnd(); };
   return { name: stream.getVideoTracks()[0].label };
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 // The button that makes the robot move its arms as the person before the camera does, and what is said meanwhile.
-const ON = "The robot imitates you. Face the camera with both hands in view; STOP or this button ends it.";
+import { phrase, put } from "./phrases.js";
 
 export class ImitationPanel {
   constructor(part, link) {
@@ -25,8 +25,8 @@ export class ImitationPanel {
   show(on) {
     this.on = on;
     this.button.disabled = !this.sees && !on;
-    this.button.textContent = on ? "Stop imitating" : "Imitate me";
-    this.line.textContent = on ? ON : "";
+    put(this.button, phrase(on ? "stop_imitating" : "imitate_me"));
+    put(this.line, on ? phrase("imitates") : "");
     this.part.classList.toggle("on", on);
   }
 }

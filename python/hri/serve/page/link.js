@@ -4,7 +4,8 @@
 const SOUND = 1;
 const PICTURE = 2;
 const MOST_WAITING_BYTES = 200000;
-const SENT_AWAY = new Set([1008, 4409]);
+const TAKEN = 4409;
+const SENT_AWAY = new Set([1008, TAKEN]);
 const LONGEST_PAUSE_MS = 5000;
 
 export class Link {
@@ -29,8 +30,8 @@ export class Link {
     };
     socket.onclose = (closed) => {
       if (socket !== this.socket) return;
-      if (SENT_AWAY.has(closed.code)) return this.onState("refused", closed.reason);
-      this.onState("lost", closed.code === 1009 ? "A message was too large." : "");
+      if (SENT_AWAY.has(closed.code)) return this.onState("refused", closed.code === TAKEN ? "elsewhere" : "sent_away");
+      this.onState("lost", closed.code === 1009 ? "line_lost_large" : "line_lost");
       this.timer = setTimeout(() => this.open(), this.pause);
       this.pause = Math.min(2 * this.pause, LONGEST_PAUSE_MS);
     };

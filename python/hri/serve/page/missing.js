@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-// What the camera's pictures lack for a sign to be seen, in every language there is.
+// What the camera's pictures lack for a sign to be seen.
+import { phrase, put } from "./phrases.js";
+
 export class MissingPanel {
   constructor(part) {
     this.part = part;
-    this.texts = {};
     this.shown = "";
   }
 
@@ -12,12 +13,8 @@ export class MissingPanel {
   show(missing = "") {
     if (missing === this.shown) return;
     this.shown = missing;
-    const lines = Object.entries(this.texts[missing] ?? {}).map(([language, text]) => {
-      const line = document.createElement("p");
-      line.lang = language;
-      line.textContent = text;
-      return line;
-    });
-    this.part.replaceChildren(...lines);
+    const line = document.createElement("p");
+    if (missing) put(line, phrase(`missing_${missing}`));
+    this.part.replaceChildren(...(missing ? [line] : []));
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 // A section that adds words or gestures: a name, samples by the devices or by files, progress, undo.
+import { phrase, phraseOf, put } from "./phrases.js";
+
 export class TeachPanel {
   constructor(section, link) {
     this.mode = section.dataset.teach;
@@ -25,9 +27,10 @@ export class TeachPanel {
 
   heed(message) {
     const busy = message.recording || message.progress !== undefined;
-    this.line.textContent = message.text;
+    put(this.line, phraseOf(message, "text"));
     this.sample.disabled = !message.label || busy;
-    this.sample.textContent = message.label ? `Record “${message.label}” (${message.samples} of ${message.wanted})` : "Record";
+    const { label, samples, wanted } = message;
+    put(this.sample, label ? phrase("record_label", { label, samples, wanted }) : phrase("record"));
     if (message.added) this.undo.disabled = message.added.length === 0;
     this.progress.hidden = message.progress === undefined;
     this.progress.value = message.progress ?? 0;
@@ -49,16 +52,16 @@ export class TeachPanel {
 
   // One after the other; the answers come as messages of the line, the others are shown here.
   async send(files) {
-    const show = (text) => (this.line.textContent = text);
-    if (this.wanted === 0) return show("First give the gesture a name.");
-    if (files.length > this.wanted) return show(`Choose ${this.wanted} at most: more samples are not needed.`);
+    const show = (said) => put(this.line, said);
+    if (this.wanted === 0) return show(phrase("name_first"));
+    if (files.length > this.wanted) return show(phrase("choose_fewer", { most: this.wanted }));
     for (const file of files) {
       try {
         const answer = await fetch(`sample?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
         if (answer.ok) continue;
-        return show(await answer.text());
+        return show(phraseOf(await answer.json(), "text"));
       } catch {
-        return show(`${file.name} did not reach hri serve. Try again.`);
+        return show(phrase("file_lost", { name: file.name }));
       }
     }
   }
