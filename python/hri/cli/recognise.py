@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
@@ -35,6 +36,7 @@ _file = click.Path(exists=True, dir_okay=False)
     help="A model from 'hri train speech' or 'hri train-units'; the default is the one kept per user by the first.",
 )
 @click.option("--gesture-model", type=_file, help="The same for gestures.")
+@faces_option("as the model was trained")
 @click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
 @click.option("--fusion", "fusion_path", type=_file, metavar="FILE", help="A learned fusion, in place of --rule.")
 @click.option(
@@ -60,6 +62,7 @@ def recognise(
     gesture: str | None,
     speech_model: str | None,
     gesture_model: str | None,
+    faces: str | None,
     rule: str,
     fusion_path: str | None,
     robot_path: str | None,
@@ -89,6 +92,8 @@ def recognise(
             gesture = _only_one(gesture, file, "signs")
     if speech is None and gesture is None:
         raise click.UsageError("give a recording: --speech FILE, --gesture FILE, or both")
+    if faces is not None and gesture is None:
+        raise click.UsageError("--faces is for signs: --gesture FILE")
     if gui and backend != "pybullet":
         raise click.UsageError("--gui needs --backend pybullet")
     learned = None if fusion_path is None else LearnedFusion.load(fusion_path)
@@ -99,6 +104,7 @@ def recognise(
         _describe(heard, speech, top)
     if gesture is not None:
         signs = GestureRecognizer.load(gesture_model or kept_model("gesture"))
+        look_for_faces(signs, faces)
         seen = signs.recognise(gesture)
         _describe(seen, gesture, top)
     decision = fuse(heard, seen, rule=learned or rule)
