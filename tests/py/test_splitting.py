@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from hri.core.errors import InvalidArgument
-from hri.features.splitting import SIZE, direction_changes, key_frames, split_at_pauses, subsample
+from hri.vision.splitting import SIZE, direction_changes, key_frames, split_at_pauses, subsample
 
 
 def filmed(moves: list[int]) -> NDArray[np.float32]:

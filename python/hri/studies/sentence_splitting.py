@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.datasets import Dataset
-from hri.features.splitting import Span, direction_changes, key_frames, split_at_pauses, subsample
 from hri.media import read_frames
 from hri.recognition import GestureRecognizer
 from hri.studies.counted_words import CountedWords
@@ -31,6 +30,7 @@ from hri.studies.gesture_sentences import (
 from hri.studies.registry import GESTURE_SOURCES, Layout, Progress, Study
 from hri.studies.webcam import CONDITIONS, FOLDER, PATTERN, read_conditions
 from hri.vision.hands import find_silhouettes
+from hri.vision.splitting import Span, direction_changes, key_frames, split_at_pauses, subsample
 
 CHANGES = ("mean direction", "direction of every pixel")
 """The change between pictures: as the thesis writes it, and pixel by pixel."""
@@ -167,7 +167,7 @@ STUDIES = (
         "none: a baseline beside the decoder of gesture-sentences",
         _run,
         Layout(columns="named", measure="word_error"),
-        sources=(*GESTURE_SOURCES, "python/features", "python/language", "python/studies/gesture_sentences.py"),
+        sources=(*GESTURE_SOURCES, "python/language", "python/studies/gesture_sentences.py"),
         folds=True,
     ),
 )
