@@ -41,6 +41,9 @@ SHARES, MIN_PAUSES = (0.02, 0.05, 0.1, 0.2, 0.35, 0.5), (2, 4, 8, 12)
 Pictures = NDArray[np.float32]
 
 
+_TO_AND_FRO = 4
+
+
 @dataclass(frozen=True)
 class _Split:
     share: float
@@ -72,15 +75,27 @@ def _hand_alone(frame: NDArray[np.uint8], hand: Any) -> Pictures:
     return np.where(subsample(np.asarray(hand.mask) > 0) > 0.5, grey, np.float32(0))
 
 
-def _changes(sentence: GestureSentence, paths: Sequence[Path], shown: dict[Path, Pictures], way: str) -> Any:
-    """Between two clips the last picture stays: the pause that the thesis's signers make."""
-    parts: list[Pictures] = []
-    for path, (_, first, _) in zip(paths, sentence.spans, strict=True):
-        missing = first - sum(map(len, parts))
-        if missing:
-            parts.append(np.repeat(parts[-1][-1:], missing, axis=0))
-        parts.append(shown[path])
-    return direction_changes(np.concatenate(parts), per_pixel=way == CHANGES[1])
+class _Changes:
+    """Changes from picture to picture of joined clips, those within a clip worked out once.
+
+    Between two clips the last pictures are played to and fro: the pause that the thesis's signers make, with the noise
+    that a camera has.
+    """
+
+    def __init__(self, shown: dict[Path, Pictures], way: str) -> None:
+        self._shown, self._per_pixel = shown, way == CHANGES[1]
+        self._within = {path: direction_changes(pictures, self._per_pixel) for path, pictures in shown.items()}
+
+    def of(self, sentence: GestureSentence, paths: Sequence[Path]) -> NDArray[np.float64]:
+        parts = [self._within[paths[0]]]
+        for before, path, (_, _, end), (_, first, _) in zip(
+            paths, paths[1:], sentence.spans, sentence.spans[1:], strict=False
+        ):
+            last = self._shown[before][-_TO_AND_FRO:]
+            order = np.concatenate([np.arange(len(last))[::-1], np.arange(len(last))[1:-1]])
+            pause = last[np.resize(order, first - end + 1)]
+            parts += [direction_changes([*pause, self._shown[path][0]], self._per_pixel), self._within[path]]
+        return np.concatenate(parts)
 
 
 def _near(sentence: GestureSentence, parts: Sequence[Span]) -> list[bool]:
@@ -113,6 +128,7 @@ def _made(clips: Sequence[GestureClip], gap: int, seed: int) -> list[tuple[Gestu
 def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dict[str, Any]:
     clips, shown = _read(data_dir, progress)
     conditions = list(dict.fromkeys(clip.condition for clip in clips))
+    changes = {way: _Changes(shown, way) for way in CHANGES}
     counts: dict[tuple[int, str, str], CountedWords] = {}
     chosen: dict[str, dict[str, list[float]]] = {way: {} for way in CHANGES}
     for done, condition in enumerate(conditions[:folds]):
@@ -134,13 +150,11 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
             for made in _made([clip for clip in train if clip.condition == name], gap, SEED + 1 + number)
         ]
         for way in CHANGES:
-            split = _choose([s for s, _ in known], [_changes(s, paths, shown, way) for s, paths in known])
+            split = _choose([s for s, _ in known], [changes[way].of(*made) for made in known])
             chosen[way][condition] = [split.share, split.min_pause]
             for gap in GAPS:
                 made = _made(test, gap, SEED)
-                parts = [
-                    split_at_pauses(_changes(s, paths, shown, way), split.share, split.min_pause) for s, paths in made
-                ]
+                parts = [split_at_pauses(changes[way].of(*one), split.share, split.min_pause) for one in made]
                 near = [close for (s, _), found in zip(made, parts, strict=True) for close in _near(s, found)]
                 for what, gestures in models.items():
                     spans = parts if what == WHOLE else [[key_frames(p) for p in found] for found in parts]
