@@ -5,12 +5,15 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from hri.core.errors import InvalidArgument
+from hri.studies import sentence_splitting
+from hri.studies.gesture_sentences import GestureClip, join
 from hri.vision.splitting import SIZE, direction_changes, key_frames, split_at_pauses, subsample
 
 
@@ -50,6 +53,21 @@ def test_a_sentence_is_split_where_the_picture_stands_still() -> None:
     assert split_at_pauses(direction_changes(pictures[:1])) == []
     mean = direction_changes(pictures)
     assert (mean[:5] == 0).all() and mean.shape == changes.shape
+
+
+def test_joined_clips_never_stand_quite_still() -> None:
+    rng = np.random.default_rng(0)
+    clips = [GestureClip(str(i), "c", rng.normal(size=(20 + i, 5)).astype(np.float32), Path(str(i))) for i in range(3)]
+    shown = {clip.path: rng.uniform(0, 255, (len(clip.rows), *SIZE)).astype(np.float32) for clip in clips}
+    paths = [clip.path for clip in clips]
+    for gaps in ([0, 0], [5, 15]):
+        sentence = join(clips, gaps)
+        for way in sentence_splitting.CHANGES:
+            changes = sentence_splitting._Changes(shown, way).of(sentence, paths)
+            assert len(changes) == len(sentence.rows) - 1 and changes.min() > 0
+    together = direction_changes(np.concatenate([shown[path] for path in paths]))
+    way = sentence_splitting.CHANGES[0]
+    np.testing.assert_allclose(sentence_splitting._Changes(shown, way).of(join(clips, [0, 0]), paths), together)
 
 
 def test_key_frames_are_those_in_the_middle() -> None:
