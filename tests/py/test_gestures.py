@@ -76,7 +76,7 @@ WORDS = {
     "walk",
     "watch",
 }
-# Of its sentences, figure 4.6, and of figure 3.23.
+# Of its sentences, figure 4.6 and table 5.1, and of figure 3.23.
 SENTENCE_WORDS = {
     "i",
     "you",
@@ -98,6 +98,15 @@ SENTENCE_WORDS = {
     "why",
     "how",
     "arise",
+    "child",
+    "miss",
+    "finished",
+    "minute",
+    "weak",
+    "bless",
+    "please",
+    "switch",
+    "light",
 }
 HEAD = """period_s = 0.01
 speed_rad_s = 3.0
@@ -167,6 +176,14 @@ def test_hands_are_where_the_words_say():
     for name in ("house", "meet", "thin", "namaste"):
         assert abs(moments(name, "left")[-1][1] - moments(name, "right")[-1][1]) < 1e-9, name
         assert 0.0 < moments(name, "left")[-1][1] < 0.04, name
+    assert (moments("child", "right")[:, 2] < -0.08).all() and moments("light", "right")[0][2] > 0.15
+    assert moments("switch", "right")[1][2] < moments("switch", "right")[0][2] - 0.04
+    assert moments("finished", "left")[-1][1] > moments("finished", "left")[0][1] + 0.1
+    for name in ("miss", "please"):  # the hand at the chin, and on the breast
+        assert moments(name, "right")[-1][0] < 0.11, name
+    for name in ("minute", "weak"):  # the left hand stays, the right one moves before it or upon it
+        assert np.ptp(moments(name, "left"), axis=0).max() < 1e-9, name
+        assert np.ptp(moments(name, "right"), axis=0).max() > 0.025, name
     assert moments("thick", "left")[0][1] > 2 * moments("thin", "left")[-1][1]
 
 

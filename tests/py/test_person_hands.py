@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -89,7 +90,16 @@ def test_a_cascade_is_named_by_the_environment(tmp_path: Path, monkeypatch: pyte
     monkeypatch.delenv(faces.VARIABLE)
     monkeypatch.setattr(faces, "_FOLDERS", (str(tmp_path),))
     monkeypatch.setattr(faces, "find_spec", lambda _: SimpleNamespace(origin=str(tmp_path / "__init__.py")))
-    assert find_cascade() is None and faces.face_finder() is None
+    assert find_cascade() is None
+    with pytest.warns(UserWarning, match="most hands are missed: install Debian's package opencv-data"):
+        assert find_silhouettes([frame])[0].mask.any()
+    with pytest.raises(InvalidArgument, match="nothing here finds faces: install Debian's package opencv-data"):
+        faces.face_finder(required=True)
+    with pytest.raises(InvalidArgument, match="never"):
+        faces.face_finder("never", required=True)
+    with warnings.catch_warnings():  # who wants none misses none
+        warnings.simplefilter("error")
+        assert faces.face_finder("never") is None
     (tmp_path / faces.CASCADE).write_text("")
     assert find_cascade() == str(tmp_path / faces.CASCADE)
 
@@ -152,7 +162,7 @@ def test_the_study_compares_masks_with_joints(tmp_path: Path, monkeypatch: pytes
         return {"hand": [PersonHands().extract(frames[0], FACE)]}
 
     monkeypatch.setattr(hands_in_rooms, "LandmarkTracker", Tracker)
-    monkeypatch.setattr(hands_in_rooms, "face_finder", Faces)
+    monkeypatch.setattr(hands_in_rooms, "face_finder", lambda required: Faces())
     monkeypatch.setattr(hands_in_rooms, "find_hands", find_hands)
     study = studies.get_study("hands-in-rooms")
     result = studies.run_study(study, tmp_path, lambda *_: None, {"signs": ("hand",)})
@@ -160,6 +170,7 @@ def test_the_study_compares_masks_with_joints(tmp_path: Path, monkeypatch: pytes
     assert rows["chosen on", "with-face"]["counts"] == {"pictures": 2, "hands": 2}
     assert rows["others", "with-face"]["found_mean"] == 1 and rows["others", "with-face"]["shared_mean"] > 0.4
     assert rows["others", "without-face"]["found_mean"] == 0 and rows["others", "with-face"]["face_mean"] == 1
-    monkeypatch.setattr(hands_in_rooms, "face_finder", lambda: None)
+    monkeypatch.undo()
+    monkeypatch.setattr(faces, "find_cascade", lambda: None)
     with pytest.raises(InvalidArgument, match="opencv-data"):
         studies.run_study(study, tmp_path, lambda *_: None)

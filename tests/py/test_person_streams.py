@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 
 import hri
 from hri.cli import hand_source
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 from hri.live import ClipSource, Watcher
 from hri.recognition.gesture import recognizer as module
 from hri.vision import FaceFinder, FaceFinderOptions, HandFinder, PersonHands
@@ -78,25 +79,37 @@ def test_a_stream_looks_where_the_face_is_and_as_before_where_there_is_none(tmp_
 def test_recognisers_look_for_faces_where_they_are_told_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     finder = finder_of(tmp_path, 0.25)
     clips = [[room(60 + step * t + d) for t in range(9)] for step in (2, 0) for d in (0, 3)]
-    monkeypatch.setattr(module, "face_finder", lambda faces: None if faces == "never" else finder)
+    monkeypatch.setattr(
+        module, "face_finder", lambda faces="auto", required=False: None if faces == "never" else finder
+    )
     signs = hri.GestureRecognizer(use_faces=True, min_quality=0.0, model="trajectory")
     hands = HandFinder(faces=finder).find(clips[0])
     np.testing.assert_array_equal(signs.features(clips[0]), signs.observation_features(hands))
     alone = hri.GestureRecognizer(min_quality=0.0).features(clips[0])
     assert not np.array_equal(alone, signs.features(clips[0]))
     signs.fit(clips, ["right", "right", "still", "still"])
-    assert signs.recognise(clips[0]).nbest[0].label == "right"
+    by_face = signs.recognise(clips[0]).nbest
+    assert by_face[0].label == "right"
     seen: list[Any] = []
     for faces in (None, "never"):
-        stream = signs.stream(faces=faces)
+        signs.faces = faces
+        assert copy(signs).faces == faces
+        stream = signs.stream()
         stream.push(clips[0][0], 0.0)
         seen.append(np.asarray(stream.hand.mask).shape)
     assert seen[0] != seen[1]
     shapes: list[Any] = []
-    watcher = Watcher(signs, faces="never", on_result=lambda result, _: shapes.append(result.mask))
+    watcher = Watcher(signs, on_result=lambda result, _: shapes.append(result.mask))
     list(watcher.watch(ClipSource(clips[0], 15.0)))
     assert {mask.shape for mask in shapes if mask is not None} >= {seen[1]}
-    monkeypatch.setattr(module, "face_finder", lambda _: None)
+    assert signs.recognise(clips[0]).nbest != by_face
+    signs.save(tmp_path / "m.hri")
+    assert hri.GestureRecognizer.load(tmp_path / "m.hri").faces is None
+    with pytest.raises(FormatError, match="faces"):
+        signs.__setstate__({**signs.__getstate__(), "faces": 1})
+    monkeypatch.undo()
+    monkeypatch.setattr("hri.vision.faces.find_cascade", lambda: None)
+    signs.faces = None
     with pytest.raises(InvalidArgument, match="opencv-data"):
         signs.features(clips[0])
 

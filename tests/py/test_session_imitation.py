@@ -211,7 +211,7 @@ def test_what_imitation_needs_is_said(words: Any, robot: Robot, monkeypatch: pyt
         Session(words, None, robot, SessionOptions(imitate_labels=("tall",)))
     with pytest.raises(InvalidArgument, match="no vocabulary"):
         Session(words, None, robot, SessionOptions(imitate_labels=("nowhere",)))
-    monkeypatch.setattr("hri.vision.persons.face_finder", lambda: None)
+    monkeypatch.setattr("hri.vision.faces.find_cascade", lambda: None)
     with pytest.raises(InvalidArgument, match="opencv-data"):
         Imitator()
 

@@ -216,8 +216,8 @@ def test_what_does_not_fit_is_refused(sentences: hri.SentenceRecognizer, monkeyp
         GestureRows(hri.GestureRecognizer(num_hands=2))
     with pytest.raises(NotFittedError):
         GestureRows(hri.GestureRecognizer(), names=True)
-    monkeypatch.setattr("hri.vision.persons.face_finder", lambda: None)
-    with pytest.raises(InvalidArgument, match="cascade"):
+    monkeypatch.setattr("hri.vision.faces.find_cascade", lambda: None)
+    with pytest.raises(InvalidArgument, match="opencv-data"):
         Session(None, sentences)
 
 
@@ -276,8 +276,8 @@ def test_motions_are_for_words_and_answers_alone(sentences: hri.SentenceRecogniz
 def test_the_command_line_takes_a_model_of_sentences(
     hri: Any, sentences: SentenceRecognizer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hri.vision.persons.face_finder", DrawnFace)
-    monkeypatch.setattr("hri.cli.watch.face_finder", lambda faces: DrawnFace())
+    monkeypatch.setattr("hri.vision.persons.face_finder", lambda required: DrawnFace())
+    monkeypatch.setattr("hri.cli.watch.face_finder", lambda faces, required: DrawnFace())
     model, video, stored = tmp_path / "signs.hri", tmp_path / "signs.avi", tmp_path / "stored.csv"
     sentences.save(model)
     write_video(video, film(shown(["cat", "ball"])), FPS)

@@ -13,6 +13,7 @@ from hri.cli.groups import FiniteRange, SuggestingGroup
 from hri.cli.output import whole_folder
 from hri.cli.progress import progress_bars
 from hri.synthetic.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
+from hri.synthetic.sentences import SENTENCES, make_sentence_corpus
 from hri.synthetic.signer import SIGNS, make_gesture_corpus
 from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
 
@@ -25,6 +26,7 @@ def corpus() -> None:
     Example:
       hri corpus speech go stop left right --out commands/
       hri corpus gesture 1 2 3 --out signs/
+      hri corpus sentences --out signed/
     """
 
 
@@ -137,6 +139,37 @@ def gesture(
         )
     what = "pictures" if kind == "still" else "clips"
     click.echo(f"{len(dataset)} synthetic {what} of {len(dataset.labels)} signs by {persons} drawn people: {out}")
+
+
+@corpus.command("sentences")
+@click.option("--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to write.")
+@click.option(
+    "--table",
+    type=click.Choice(list(SENTENCES)),
+    default=next(iter(SENTENCES)),
+    show_default=True,
+    help="Of the thesis: 10 or 20 sentences.",
+)
+@click.option("--signers", default=10, show_default=True, type=click.IntRange(1, 1000), help="Made-up people.")
+@click.option("--first-signer", default=0, show_default=True, type=click.IntRange(0), help="Number of the first one.")
+@click.option("--takes", default=3, show_default=True, type=click.IntRange(1, 100), help="Repetitions by each of them.")
+@click.option("--seed", default=0, show_default=True, help="Equal seeds give equal tracks.")
+def signed_sentences(out: str, table: str, signers: int, first_signer: int, takes: int, seed: int) -> None:
+    """Drawn people who sign sentences: tracks of both hands and the head, and the frames of the words.
+
+    For 'hri train-sentences' and 'hri read-sentences'. A file synthetic.toml says that no one was filmed.
+
+    \b
+    Examples:
+      hri corpus sentences --out signed/
+      hri corpus sentences --table 'table 5.1' --signers 4 --first-signer 10 --out others/
+    """
+    with progress_bars() as progress, whole_folder(out):
+        written = make_sentence_corpus(
+            out, table, signers, takes, seed, first_signer, lambda done, total: progress("signing", done, total)
+        )
+    num_words = len({word.label for sentence in written for word in sentence.words})
+    click.echo(f"{len(written)} synthetic sentences of {num_words} words by {signers} drawn people: {out}")
 
 
 def _split(word: str) -> tuple[str, str]:

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from hri.cli.faces import faces_option
 from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_json, write_text
@@ -63,12 +64,7 @@ METHODS = ("chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu")
     help="A picture of the place without a person; what looks like skin there as well is no hand.  'clip': what most "
     "frames of the clip show.",
 )
-@click.option(
-    "--faces",
-    metavar="FILE",
-    help="A cascade of classifiers that finds faces: where one is seen, hands are that person's.  'never': do not look "
-    "for faces.  [default: OpenCV's, where it is installed, without --method and --background]",
-)
+@faces_option("auto, without --method and --background")
 @click.option("--as-found", is_flag=True, help="Leave masks that jump for a frame or two as they are.")
 @click.option(
     "--fps",

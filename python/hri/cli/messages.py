@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import logging
+import warnings
 
 import click
 
@@ -18,6 +19,11 @@ class _StandardError(logging.Handler):
     def emit(self, record: logging.LogRecord) -> None:
         text = record.getMessage()
         click.echo(text if record.name == _COMMANDS.name else f"{record.name}: {text}", err=True)
+
+
+def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
+    """A warning as a line for people, without the place in the source."""
+    note(f"warning: {message}")
 
 
 def note(text: str) -> None:
@@ -41,4 +47,5 @@ def set_verbosity(verbosity: int) -> None:
     _LIBRARY.propagate = False
     level = {-1: logging.ERROR, 0: logging.WARNING, 1: logging.INFO}.get(verbosity, logging.DEBUG)
     _LIBRARY.setLevel(level)
+    warnings.showwarning = _show_warning
     _COMMANDS.setLevel(logging.ERROR if verbosity < 0 else min(level, logging.INFO))

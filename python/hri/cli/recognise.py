@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
@@ -36,6 +37,7 @@ _file = click.Path(exists=True, dir_okay=False)
 )
 @embedding_option
 @click.option("--gesture-model", type=_file, help="The same for gestures.")
+@faces_option("as the model was trained")
 @click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
 @click.option("--fusion", "fusion_path", type=_file, metavar="FILE", help="A learned fusion, in place of --rule.")
 @click.option(
@@ -62,6 +64,7 @@ def recognise(
     speech_model: str | None,
     embedding_path: str | None,
     gesture_model: str | None,
+    faces: str | None,
     rule: str,
     fusion_path: str | None,
     robot_path: str | None,
@@ -93,6 +96,8 @@ def recognise(
         raise click.UsageError("give a recording: --speech FILE, --gesture FILE, or both")
     if speech is None:
         refuse_given(("embedding_path",), "is of speech, and no recording of a word is given")
+    if faces is not None and gesture is None:
+        raise click.UsageError("--faces is for signs: --gesture FILE")
     if gui and backend != "pybullet":
         raise click.UsageError("--gui needs --backend pybullet")
     learned = None if fusion_path is None else LearnedFusion.load(fusion_path)
@@ -103,6 +108,7 @@ def recognise(
         _describe(heard, speech, top)
     if gesture is not None:
         signs = GestureRecognizer.load(gesture_model or kept_model("gesture"))
+        look_for_faces(signs, faces)
         seen = signs.recognise(gesture)
         _describe(seen, gesture, top)
     decision = fuse(heard, seen, rule=learned or rule)

@@ -78,7 +78,7 @@ def serve(
     words = None if chosen.no_speech else chosen.load_words()
     signs = None if chosen.no_gesture else chosen.load_signs()
     chosen.warn_of_stop(words, signs)
-    learned, stored = chosen.load_fusion(), chosen.load_knowledge()
+    learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(), chosen.person_finder()
     recordings, spoken = None, None
     if speech_data:
         recordings = [sample for folder in speech_data for sample in load_dataset(folder, "speech", None).samples]
@@ -97,6 +97,7 @@ def serve(
             model_ids=ids,
             fusion=learned,
             knowledge=stored,
+            faces=faces,
             recordings=recordings,
             spoken=None if spoken is None else partial(_say_again, spoken),
             spoken_labels=() if spoken is None else spoken.texts,

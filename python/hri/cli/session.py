@@ -99,7 +99,7 @@ def session(
     words = chosen.load_words() if with_speech else None
     signs = chosen.load_signs() if with_gesture else None
     chosen.warn_of_stop(words, signs)
-    learned, stored = chosen.load_fusion(), chosen.load_knowledge()
+    learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(), chosen.person_finder()
     with ExitStack() as stack:
         robot: Robot | None = NaoqiRobot(url) if url is not None else chosen.open_robot(gui)
         if robot is not None:
@@ -108,7 +108,17 @@ def session(
         # NAO hears itself: a question that names a word would be answered by it.
         say = robot.say_later if isinstance(robot, NaoqiRobot) and microphone_name != _NAO else None
         ids = chosen.model_ids
-        made = Session(words, signs, robot, options, on_say=say, model_ids=ids, fusion=learned, knowledge=stored)
+        made = Session(
+            words,
+            signs,
+            robot,
+            options,
+            on_say=say,
+            model_ids=ids,
+            fusion=learned,
+            faces=faces,
+            knowledge=stored,
+        )
         for label, why in made.refused.items():
             note(f"no motion for {label}: {why}")
         hear: Any = None
@@ -150,7 +160,7 @@ def _replay(path: Path, chosen: ChosenSession, as_json: bool) -> None:
     again: list[dict[str, Any]] = []
 
     def kept() -> Any:
-        for event in replay(recording, words, signs, learned, stored):
+        for event in replay(recording, words, signs, learned, stored, faces=chosen.person_finder()):
             again.append(event.to_dict())
             yield event
 

@@ -9,11 +9,12 @@ import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from hri.cli.connected import connected_model
+from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import FiniteRange, is_given, refuse_given
 from hri.cli.messages import note
 from hri.cli.recognizers import embedding_option, kept_model, load_embedding, load_signs
@@ -32,6 +33,10 @@ from hri.recognition import (
 from hri.recognition.sentence.commands import MIN_CONFIDENCE
 from hri.robot import BACKENDS, ROBOTS, JointTable, Robot, open_robot
 from hri.session import SessionOptions
+from hri.vision.faces import face_finder
+
+if TYPE_CHECKING:
+    from hri.vision import FaceFinder
 
 model_file = click.Path(exists=True, dir_okay=False, path_type=Path)
 _NO_ROBOT = "none"
@@ -67,6 +72,7 @@ _OPTIONS = (
         type=model_file,
         help="The same for gestures; or from 'hri train-sentences': signs then follow on one another in sentences.",
     ),
+    faces_option("as the model was trained"),
     click.option("--no-speech", is_flag=True, help="Signs only: use no microphone."),
     click.option("--no-gesture", is_flag=True, help="Words only: use no camera."),
     click.option("--wake", multiple=True, metavar="LABEL", help="Take commands only after this word or sign."),
@@ -147,6 +153,7 @@ class ChosenSession:
     grammar_path: Path | None
     min_confidence: float
     gesture_model: Path | None
+    faces: str | None
     no_speech: bool
     no_gesture: bool
     wake: tuple[str, ...]
@@ -212,8 +219,19 @@ class ChosenSession:
 
     def load_signs(self) -> GestureRecognizer | SentenceRecognizer:
         """What recognises gestures, or signed sentences."""
-        path = self._named("gesture", self.gesture_model)
-        return load_signs(path)
+        signs = load_signs(self._named("gesture", self.gesture_model))
+        look_for_faces(signs, self.faces)
+        if self.faces is not None:
+            cascade = self.faces if self.faces in ("auto", "never") else _name_and_hash(Path(self.faces))
+            self.model_ids["gesture"] += f" faces {cascade}"
+        return signs
+
+    def person_finder(self) -> FaceFinder | None:
+        """What finds the person who is imitated or signs sentences; None for what a session takes by default."""
+        if self.faces == "never" and self.imitate:
+            raise click.UsageError("--faces never: --imitate needs the face of the person")
+        found: FaceFinder | None = None if self.faces in (None, "auto", "never") else face_finder(self.faces)
+        return found
 
     def load_fusion(self) -> LearnedFusion | None:
         """The learned fusion, if any."""
@@ -254,6 +272,8 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
                 raise click.UsageError(f"{option} goes with {needed_option}")
         if given["grammar_path"] is not None or given["no_speech"]:
             refuse_given(("embedding_path",), "is for single words, which --grammar and --no-speech leave out")
+        if given["faces"] is not None and given["no_gesture"]:
+            raise click.UsageError("--faces and --no-gesture exclude each other")
         command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
 
     for option in reversed(_OPTIONS):

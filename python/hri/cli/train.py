@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.faces import faces_option
 from hri.cli.groups import CheckedCommand, is_given
 from hri.cli.hand_source import choose_source
 from hri.cli.messages import note
@@ -26,7 +27,8 @@ from hri.cli.recognizers import (
 )
 from hri.evaluation.training import fillers_of
 from hri.evaluation.training import train as train_recognizer
-from hri.recognition import FillerWord, WordRecognizer, embedding_weights
+from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer, embedding_weights
+from hri.vision.faces import face_finder
 
 MANY_PERSONS = 10
 """From which on a network is trained unless asked otherwise: it was measured with twenty, and fewer are untested."""
@@ -70,6 +72,7 @@ MANY_PERSONS = 10
     help="Gesture only: whether gestures are of one hand, the default, or of both. The same as --option num_hands=1 or "
     "2",
 )
+@faces_option("never: an open palm may look like a face")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
 def train(
@@ -85,6 +88,7 @@ def train(
     network: bool | None,
     source: str | None,
     hands: str | None,
+    faces: str | None,
     seed: int,
     json_path: str | None,
 ) -> None:
@@ -99,13 +103,20 @@ def train(
       hri train speech --data spoken/ --embedding embedding_model.onnx
       hri train speech --data spoken/ --no-network
       hri train gesture --data pairs/ --hands both
+      hri train gesture --data room/ --faces auto
     """
     if mode != "speech" and (fillers or no_fillers):
         raise click.UsageError("--fillers and --no-fillers are for speech")
     if fillers and no_fillers:
         raise click.UsageError("--fillers and --no-fillers exclude each other")
-    flags = {"--front-end": "front_end", "--network": "use_network", "--hands": "num_hands", "--source": "source"}
-    for flag, given in zip(flags, (front_end, network, hands, source), strict=True):
+    flags = {
+        "--front-end": "front_end",
+        "--network": "use_network",
+        "--hands": "num_hands",
+        "--source": "source",
+        "--faces": "use_faces",
+    }
+    for flag, given in zip(flags, (front_end, network, hands, source, faces), strict=True):
         if given is not None and any(o.startswith(f"{flags[flag]}=") for o in options):
             raise click.UsageError(f"{flag} and --option {flags[flag]}=... exclude each other")
     if is_given("seed") and any(o.startswith("seed=") for o in options):
@@ -130,6 +141,12 @@ def train(
         if mode != "gesture":
             raise click.UsageError("--source is for gesture")
         options = (*options, f"source={source}")
+    if faces is not None:
+        if mode != "gesture" or "source=landmarks" in options:
+            raise click.UsageError("--faces is for gestures by silhouettes")
+        options = (*options, f"use_faces={str(faces != 'never').lower()}")
+        if source is None and not any(o.startswith("source=") for o in options):
+            options = (*options, "source=silhouettes")
     dataset = load_dataset(data, mode, pattern)
     why_source = ""
     if mode == "gesture" and not any(o.startswith("source=") for o in options):
@@ -140,15 +157,19 @@ def train(
         network = len(dataset.persons) >= MANY_PERSONS
     if network is not None:
         options = (*options, f"use_network={str(network).lower()}")
-    make = recognizer_factory(mode, options, seed)
-    embedding = embedding_for(make(), embedding_path)
+    untrained = recognizer_factory(mode, options, seed)()
+    embedding = embedding_for(untrained, embedding_path)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
         others = fillers_of(load_dataset(fillers, mode, None))
     path = default_model(mode) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
+    if isinstance(untrained, GestureRecognizer):
+        untrained.faces = faces
+        if faces not in (None, "never"):
+            face_finder(faces, required=True)  # refused now, not after all recordings
     with progress_bars() as progress:
-        recognizer = train_recognizer(dataset, make(), fillers=others, embedding=embedding, progress=progress)
+        recognizer = train_recognizer(dataset, untrained, fillers=others, embedding=embedding, progress=progress)
     recognizer.save(path)
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
@@ -159,6 +180,8 @@ def train(
             note("a network of the same words votes too; --no-network trains in a fraction of the time")
     if why_source:
         note(why_source)
+    if faces not in (None, "never"):
+        note("hands: of the person whose face is seen; wherever the model is used something must find faces")
     report = recognizer.held_out if isinstance(recognizer, WordRecognizer) else None
     for line in report.lines() if report is not None else []:
         note(line)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, report, stall_option
 from hri.cli.messages import note
@@ -53,12 +54,7 @@ from hri.vision.faces import face_finder
     help="Film what is seen: picture, mask, outline, track and n-best.",
 )
 @click.option("--show", is_flag=True, help="Show the same in a window.")
-@click.option(
-    "--faces",
-    metavar="auto|never|FILE",
-    help="Whether hands are those of the person whose face is seen, where one is; FILE is a cascade of OpenCV's that "
-    "finds faces. The default is as the model was trained.",
-)
+@faces_option("as the model was trained")
 @click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to show.")
 def watch(
     files: tuple[str, ...],
@@ -94,8 +90,7 @@ def watch(
         refuse_given(("paced",), "is of videos: name FILES")
     path = Path(model_path) if model_path else kept_model("gesture")
     signs = load_signs(path)
-    if isinstance(signs, SentenceRecognizer) and faces == "never":
-        raise click.UsageError("--faces never: signed sentences need the head beside the hands")
+    look_for_faces(signs, faces)
     if not isinstance(signs, SentenceRecognizer) and signs.options.source == "landmarks":
         note("hands: by their joints, as MediaPipe finds them")
     model_id = f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
@@ -106,12 +101,12 @@ def watch(
         with ResultScreen(video_path, source.fps, show, top) as screen:
             watcher: Watcher | SignWatcher
             if isinstance(signs, SentenceRecognizer):
-                hands = PersonTracks(face_finder(faces or "auto"))
+                hands = PersonTracks(face_finder(faces or "auto", required=True))
                 watcher = SignWatcher(
                     signs, hands=hands, reconnect_s=reconnect_s, model_id=model_id, on_result=screen.draw
                 )
             else:
-                watcher = Watcher(signs, reconnect_s=reconnect_s, faces=faces, model_id=model_id, on_result=screen.draw)
+                watcher = Watcher(signs, reconnect_s=reconnect_s, model_id=model_id, on_result=screen.draw)
             report(watcher.watch(source), as_json, partial(describe, top=top))
 
 

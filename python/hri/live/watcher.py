@@ -19,7 +19,6 @@ from hri.live.sources import require_positive
 from hri.live.visibility import Visibility
 from hri.recognition import Decision, GestureRecognizer, GestureSegmenterOptions
 from hri.recognition.quality import mask_quality
-from hri.vision.faces import face_finder
 from hri.vision.landmarks import LandmarkTracker
 
 if TYPE_CHECKING:
@@ -33,9 +32,10 @@ _MAX_HANDS = 1024
 class Watcher:
     """Recognises every gesture in a stream of pictures.
 
-    Hands are found as the recogniser's options say: in every picture by itself for still signs, by colours learned from
-    the stream for dynamic gestures. Features are computed as the pictures come, so that a decision stands at once when
-    a gesture ends. A decision that may still change is reported as "preliminary": a robot obeys "decision" only.
+    Hands are found as the recogniser says, by its options and `GestureRecognizer.faces`: in every picture by itself for
+    still signs, by colours learned from the stream for dynamic gestures. Features are computed as the pictures come, so
+    that a decision stands at once when a gesture ends. A decision that may still change is reported as "preliminary": a
+    robot obeys "decision" only.
 
     Parameters
     ----------
@@ -52,8 +52,6 @@ class Watcher:
         How often it is reported what a gesture looks like so far.
     reconnect_s : float
         For how long a camera that stalled is opened again and again; 0 gives up at once.
-    faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder, optional
-        Whether hands are those of the person whose face is seen, as of `GestureRecognizer.stream`.
     locale : str
         Passed on with decisions.
     model_id : str
@@ -72,7 +70,6 @@ class Watcher:
         hand_interval_s: float = 0.1,
         partial_interval_s: float = 0.5,
         reconnect_s: float = 0.0,
-        faces: Any = None,
         locale: str = "",
         model_id: str = "",
         on_result: Callable[[FrameResult, Decision | None], None] | None = None,
@@ -85,8 +82,7 @@ class Watcher:
             chosen.segmenter = segmenter
         chosen.max_pause_s, chosen.partial_interval_s = max_pause_s, partial_interval_s
         self._options = chosen
-        self._faces = faces
-        recognizer.stream(chosen, faces=faces)  # refuses options out of range now
+        recognizer.stream(chosen)  # refuses options out of range now
         self._intervals = {"hand_interval_s": hand_interval_s, "reconnect_s": reconnect_s}
         self._locale = locale
         self._model_id = model_id
@@ -105,9 +101,9 @@ class Watcher:
             landmarks: LandmarkTracker | None = None
             if self._recognizer.options.source == "landmarks":
                 landmarks = stack.enter_context(LandmarkTracker(max_hands=self._recognizer.options.num_hands))
-            native = self._recognizer.stream(self._options, faces=self._faces)
+            native = self._recognizer.stream(self._options)
             stream = _DecidingStream(native, landmarks, self._locale, self._model_id)
-            seen = Visibility(self._face_finder(), needs_face=True)
+            seen = Visibility(self._recognizer.face_finder(), needs_face=True)
             results = frame_results(source, stream, **self._intervals, visibility=seen, model=self._model_id)
             for result in stack.enter_context(closing(results)):
                 decided = [event.decision for event in result.events if event.decision is not None]
@@ -115,13 +111,6 @@ class Watcher:
                 if self._on_result is not None:
                     self._on_result(result, newest)
                 yield from result.events
-
-    def _face_finder(self) -> Any:
-        """By which hands are found; None where they are found without faces."""
-        options = self._recognizer.options
-        if options.source == "landmarks":
-            return None
-        return face_finder(("auto" if options.use_faces else "never") if self._faces is None else self._faces)
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import InvalidArgument
 from hri.core.optional import import_opencv
 from hri.media import read_image
 from hri.studies.mask_quality import shared_with_hull
 from hri.studies.registry import Layout, Progress, Study
-from hri.vision.faces import VARIABLE, face_finder
+from hri.vision.faces import face_finder
 from hri.vision.hands import find_hands
 from hri.vision.landmarks import Landmarks, LandmarkTracker
 
@@ -91,9 +90,7 @@ def _measure(
 def _run(
     data_dir: Path, progress: Progress, *, signs: Sequence[str] = FOLDERS, way: Sequence[str] = WAYS
 ) -> dict[str, Any]:
-    faces = face_finder()
-    if faces is None:
-        raise InvalidArgument(f"no cascade that finds faces: install opencv-data, or name one in {VARIABLE}")
+    faces = face_finder(required=True)
     rows: list[dict[str, Any]] = []
     for folder in signs:
         paths = sorted((data_dir / DATA / folder).glob("*/*.jpg"))

@@ -98,7 +98,7 @@ def _streamed(words: SentenceRecognizer, rows: GestureRows, clips: Sequence[Gest
 
 
 def _one_by_one(gestures: GestureRecognizer, clips: Sequence[GestureClip]) -> list[str]:
-    events = Watcher(gestures, faces="never").watch(_Filmed(clips))
+    events = Watcher(gestures).watch(_Filmed(clips))
     return [e.decision.nbest[0].label for e in events if e.event == "decision" and e.decision and e.decision.nbest]
 
 

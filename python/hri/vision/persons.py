@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import InvalidArgument
 from hri.features import HandPairTracker
 from hri.vision.faces import face_finder
 
@@ -70,10 +69,7 @@ class PersonTracker:
     """
 
     def __init__(self, faces: Faces | None = None, face_lost_s: float = 1.0) -> None:
-        found = faces if faces is not None else face_finder()
-        if found is None:
-            raise InvalidArgument("persons are found by OpenCV's cascade for faces: Debian's opencv-data has one")
-        self._faces: Faces = found
+        self._faces: Faces = face_finder(required=True) if faces is None else faces
         self._face_lost_s = face_lost_s
         from hri._native_vision import PersonHands, PersonOptions  # which load OpenCV
 

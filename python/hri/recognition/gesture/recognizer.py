@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import ClipInput, as_clips, as_frames, as_texts
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import mask_quality
-from hri.vision.faces import VARIABLE, face_finder
+from hri.vision.faces import face_finder
 from hri.vision.landmarks import (
     find_landmark_pairs,
     find_landmarks,
@@ -51,6 +51,10 @@ class GestureRecognizer(Recognizer):
     ----------
     classes_ : ndarray of str
         The labels, sorted; set by `fit` and `load`.
+    faces : str or None
+        Whether hands are those of the person whose face is seen, where one is: "auto", "never" or the path of a cascade
+        (`hri.vision.faces.face_finder`). None, as at first: as the option ``use_faces`` says, without which there is no
+        going on if nothing finds faces. It is of this computer, and not saved with the model.
 
     Examples
     --------
@@ -66,6 +70,16 @@ class GestureRecognizer(Recognizer):
 
     def __init__(self, **options: Unpack[GestureRecognizerKeywords]) -> None:
         super().__init__(**options)
+        self.faces: str | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**super().__getstate__(), "faces": self.faces}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        if not isinstance(state, dict) or not isinstance(faces := state.get("faces", 0), str | None):
+            raise FormatError(f"the state of {type(self).__name__} must have faces, a text or None")
+        super().__setstate__({name: value for name, value in state.items() if name != "faces"})
+        self.faces = faces
 
     def features(self, clip: ClipInput) -> NDArray[np.float32]:
         """Features of every frame that shows a hand, float32, shape (num_frames_with_hand, num_features).
@@ -83,7 +97,7 @@ class GestureRecognizer(Recognizer):
             return landmark_features(find_landmarks(frames), size)
         from hri import _native_vision
 
-        return np.asarray(_native_vision.gesture_features(frames, self.options, _face_finder(self.options)))
+        return np.asarray(_native_vision.gesture_features(frames, self.options, self.face_finder()))
 
     def observation_features(self, hands: Sequence[Any], right: Sequence[Any] | None = None) -> NDArray[np.float32]:
         """Features as `features` gives them, of hands that are found already (`HandObservation`).
@@ -245,7 +259,7 @@ class GestureRecognizer(Recognizer):
 
         options = self._trained.options
         frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
-        finder = _native_vision.HandFinder(options.hands, faces=_face_finder(options))
+        finder = _native_vision.HandFinder(options.hands, faces=self.face_finder())
         sides = finder.find_pair(frames) if options.num_hands == 2 else [finder.find(frames)]
         surer = [max(hands, key=lambda hand: float(hand.quality)) for hands in zip(*sides, strict=True)]
         return replace(self.recognise_features(_observation_rows(sides, options)), quality=mask_quality(surer))
@@ -260,16 +274,13 @@ class GestureRecognizer(Recognizer):
 
         return _native_vision.GestureStream.options_for(self._trained)
 
-    def stream(self, options: GestureStreamOptions | None = None, *, faces: Any = None) -> GestureStream:
+    def stream(self, options: GestureStreamOptions | None = None) -> GestureStream:
         """Decisions on pictures as they come; `hri.live.Watcher` takes care of cameras and events on top.
 
         Parameters
         ----------
         options : GestureStreamOptions, optional
             By default `stream_options`.
-        faces : "auto", "never", a path of a cascade, or hri.vision.FaceFinder, optional
-            Whether hands are those of the person whose face is seen, while one is (`hri.vision.faces.face_finder`); by
-            default as the option ``use_faces`` says.
 
         Examples
         --------
@@ -279,8 +290,21 @@ class GestureRecognizer(Recognizer):
         """
         from hri import _native_vision
 
-        found = _face_finder(self._trained.options) if faces is None else face_finder(faces)
-        return _native_vision.GestureStream(self._trained, options, found)
+        return _native_vision.GestureStream(self._trained, options, self.face_finder())
+
+    def face_finder(self) -> Any:
+        """The `hri.vision.FaceFinder` that says whose hands are looked for; None where hands are found without faces.
+
+        Raises
+        ------
+        InvalidArgument
+            With the option ``use_faces``, where nothing on this computer finds faces.
+        """
+        if self._by_landmarks:
+            return None
+        if self.faces is not None:
+            return face_finder(self.faces)
+        return face_finder(required=True) if self.options.use_faces else None
 
     def decide(self, X: Sequence[ClipInput]) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
@@ -290,18 +314,6 @@ class GestureRecognizer(Recognizer):
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
         return cls._wrap(load_native(_native.GestureRecognizer.from_model_file, path, "gesture_recognizer"))
-
-
-def _face_finder(options: _native.GestureRecognizerOptions) -> Any:
-    """What finds faces, or None where `options` use none."""
-    if not options.use_faces:
-        return None
-    finder = face_finder("auto")
-    if finder is None:
-        raise InvalidArgument(
-            f"use_faces needs a cascade that finds faces: install opencv-data, or name one in {VARIABLE}"
-        )
-    return finder
 
 
 def _observation_rows(sides: Sequence[Sequence[Any]], options: _native.GestureRecognizerOptions) -> NDArray[np.float32]:

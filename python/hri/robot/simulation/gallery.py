@@ -27,8 +27,8 @@ _VIDEO_FPS = 12.0
 _HEAD = """# Gestures
 
 What HOAP-2 shows for a digit or a word, as `hri robot play NAME` carries it out; the pictures follow one another from
-left to right, the robot seen from the front. The poses are in `hri/robot/gestures.toml`; `hri robot gallery docs` makes
-this page anew.
+left to right, the robot seen from the front. The poses are in `hri/robot/motion/gestures.toml`;
+`hri robot gallery docs` makes this page anew.
 
 HOAP-2 has no fingers and one joint for each hand, so a sign is shown by where the hands are and how they move. Digits,
 which people show with fingers, are an alphabet of arms. The last column says what else of a sign is missing.
