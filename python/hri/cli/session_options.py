@@ -30,7 +30,7 @@ from hri.recognition import (
     WordRecognizer,
 )
 from hri.recognition.sentence.commands import MIN_CONFIDENCE
-from hri.robot import BACKENDS, ROBOTS, JointTable, Robot, open_robot
+from hri.robot import BACKENDS, HOAP2, ROBOTS, JointTable, Robot, open_robot
 from hri.session import SessionOptions
 
 model_file = click.Path(exists=True, dir_okay=False, path_type=Path)
@@ -250,6 +250,11 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
         for name, (option, needed, needed_option) in _GO_WITH.items():
             if is_given(name) and given[needed] is None:
                 raise click.UsageError(f"{option} goes with {needed_option}")
+        if given["imitate"] and given["table"] is not HOAP2:
+            raise click.UsageError(
+                f"--imitate needs HOAP-2's arms: {given['table'].name}'s are built otherwise, leave out one of "
+                "--imitate and --robot"
+            )
         command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
 
     for option in reversed(_OPTIONS):
