@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,7 @@ from hri.core.errors import InvalidArgument
 from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
 from hri.media import kind_of_file
 from hri.robot import NAO, NaoqiRobot, Robot, stopped_by_signals
-from hri.session import McapRecorder, NaoCamera, NaoMicrophone, Session, decisions, read_recording, replay
+from hri.session import McapRecorder, NaoCamera, NaoMicrophone, Session, is_repeated, read_recording, replay
 
 EXIT_DIFFERENT = 1
 EXIT_SIGNAL = 128
@@ -141,28 +142,48 @@ def _microphone(name: str | None, stall_s: float, url: str | None) -> Microphone
 def _replay(path: Path, chosen: ChosenSession, as_json: bool) -> None:
     """Decide once more; exit code 1 where a decision differs."""
     recording = read_recording(path)
-    words = chosen.load_words() if recording.sound else None
-    signs = chosen.load_signs() if recording.pictures else None
+    words = chosen.load_words() if any(True for _ in recording.sound()) else None
+    signs = chosen.load_signs() if any(True for _ in recording.pictures()) else None
     learned, stored = chosen.load_fusion(), chosen.load_knowledge()
     for mode, name in chosen.model_ids.items():
         if name != recording.models.get(mode):
             note(f"{mode}: recorded with {recording.models.get(mode) or 'another model'}, replayed with {name}")
-    again: list[dict[str, Any]] = []
+    compared = _Compared(recording.events())
 
     def kept() -> Any:
         for event in replay(recording, words, signs, learned, stored):
-            again.append(event.to_dict())
+            compared.see(event.to_dict())
             yield event
 
     show_session(kept(), as_json, lambda: False)
-    before, after = decisions(recording.events), decisions(again)
-    if before == after:
-        note(f"{path}: {len(after)} events of the session, all as recorded")
+    place = compared.difference()
+    if place is None:
+        note(f"{path}: {compared.num_same} events of the session, all as recorded")
         return
-    first = next((i for i, pair in enumerate(zip(before, after, strict=False)) if pair[0] != pair[1]), None)
-    place = before[first] if first is not None else (before + after)[min(len(before), len(after))]
     note(f"{path}: differs from what was recorded at {place['time']:g} s, {place['event']}")
     sys.exit(EXIT_DIFFERENT)
+
+
+class _Compared:
+    """Events of the session as they are repeated beside those that were recorded, one by one."""
+
+    def __init__(self, recorded: Iterator[dict[str, Any]]) -> None:
+        self._recorded = (event for event in recorded if is_repeated(event))
+        self._place: dict[str, Any] | None = None
+        self.num_same = 0
+
+    def see(self, event: dict[str, Any]) -> None:
+        """What was repeated."""
+        if self._place is None and is_repeated(event):
+            before = next(self._recorded, None)
+            if before == event:
+                self.num_same += 1
+            else:
+                self._place = before or event
+
+    def difference(self) -> dict[str, Any] | None:
+        """Where both differ, once all is repeated."""
+        return self._place or next(self._recorded, None)
 
 
 def _files(files: tuple[Path, ...]) -> tuple[Path | None, Path | None]:
