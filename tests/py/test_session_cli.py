@@ -158,7 +158,7 @@ def test_a_session_that_nothing_stops_warns(hri, scene: Path) -> None:
 
 
 def test_devices_that_are_missing_end_the_session_in_words(hri, scene: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from hri.cli import session as command
+    from hri.cli import session_devices as command
     from hri.core.errors import IoError
 
     def missing(*_: object) -> Any:

@@ -13,21 +13,21 @@ from typing import Any
 import click
 
 from hri.cli.groups import CheckedCommand, is_given
-from hri.cli.live_screen import camera, events_json_option, microphone, stall_option
+from hri.cli.live_screen import events_json_option, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
 from hri.cli.robot import nao_url_option
+from hri.cli.session_devices import open_camera, open_microphone, open_voice, require_nao
 from hri.cli.session_options import ChosenSession, model_file, session_options
 from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
-from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
+from hri.live import FileSource, VideoSource
 from hri.media import kind_of_file
-from hri.robot import NAO, NaoqiRobot, Robot, stopped_by_signals
-from hri.session import McapRecorder, NaoCamera, NaoMicrophone, Session, is_repeated, read_recording, replay
+from hri.robot import stopped_by_signals
+from hri.session import McapRecorder, Session, is_repeated, read_recording, replay
 
 EXIT_DIFFERENT = 1
 EXIT_SIGNAL = 128
-_NAO = "nao"
 
 
 @click.command(cls=CheckedCommand)
@@ -38,6 +38,9 @@ _NAO = "nao"
     "--camera", "camera_name", default="0", show_default=True, help="Number or address; nao: NAO's, at --url."
 )
 @stall_option
+@click.option(
+    "--speak", is_flag=True, help="Say what the robot says through the loudspeaker, in --language (by espeak-ng)."
+)
 @click.option("--gui", is_flag=True, help="Show the robot in a window (pybullet).")
 @nao_url_option
 @click.option("--record", "record_path", type=OutputFile((".mcap",)), metavar="FILE", help="Keep everything (.mcap).")
@@ -51,6 +54,7 @@ def session(
     microphone_name: str | None,
     camera_name: str,
     stall_s: float,
+    speak: bool,
     gui: bool,
     url: str | None,
     record_path: str | None,
@@ -67,6 +71,7 @@ def session(
     Examples:
       hri session
       hri session --wake robot --resume start --record class.mcap
+      hri session --speak
       hri session --imitate follow --gui
       hri session --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri session --gesture-model sentences.hri --no-speech --knowledge sentences.csv
@@ -76,20 +81,19 @@ def session(
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
     if replay_path is not None:
-        if files or record_path is not None or gui or url is not None:
-            raise click.UsageError("--replay takes what was recorded: no FILE, --record, --gui or --url goes with it")
+        if files or record_path is not None or gui or speak or url is not None:
+            raise click.UsageError(
+                "--replay takes what was recorded: no FILE, --record, --gui, --speak or --url goes with it"
+            )
         _replay(replay_path, chosen, as_json)
         return
-    if url is not None and chosen.table is not NAO:
-        raise click.UsageError("--url is of a real NAO: add --robot nao")
-    if url is not None and (gui or is_given("backend", "stand")):
-        raise click.UsageError("--backend, --stand and --gui are of a simulated robot, --url is of a real one")
-    if url is None and _NAO in (camera_name, microphone_name):
-        raise click.UsageError("--camera nao and --microphone nao are of a real NAO: name its --url")
+    require_nao(chosen, url, camera_name, microphone_name)
+    if url is not None and (gui or speak):
+        raise click.UsageError("--gui is of a simulated robot, and a real NAO speaks by itself, without --speak")
     sound, video = _files(files)
     live = not files
-    if files and is_given("microphone_name", "camera_name", "stall_s"):
-        raise click.UsageError("--microphone, --camera and --stall are of devices, and FILE takes their place")
+    if files and is_given("microphone_name", "camera_name", "stall_s", "speak"):
+        raise click.UsageError("--microphone, --camera, --stall and --speak are of devices; FILE takes their place")
     if (chosen.no_speech and sound is not None) or (chosen.no_gesture and video is not None):
         raise click.UsageError("--no-speech and --no-gesture leave out what FILE brings")
     with_speech = not chosen.no_speech and (live or sound is not None)
@@ -102,22 +106,21 @@ def session(
     chosen.warn_of_stop(words, signs)
     learned, stored = chosen.load_fusion(), chosen.load_knowledge()
     with ExitStack() as stack:
-        robot: Robot | None = NaoqiRobot(url) if url is not None else chosen.open_robot(gui)
+        robot = chosen.open_robot(gui, url)
         if robot is not None:
             stack.enter_context(robot)
+        voice = open_voice(stack, robot, chosen.language if speak else "")
         note("preparing the robot's motions")
-        # NAO hears itself: a question that names a word would be answered by it.
-        say = robot.say_later if isinstance(robot, NaoqiRobot) and microphone_name != _NAO else None
         ids = chosen.model_ids
-        made = Session(words, signs, robot, options, on_say=say, model_ids=ids, fusion=learned, knowledge=stored)
+        made = Session(words, signs, robot, options, voice=voice, model_ids=ids, fusion=learned, knowledge=stored)
         for label, why in made.refused.items():
             note(f"no motion for {label}: {why}")
         hear: Any = None
         see: Any = None
         if with_speech:
-            hear = (lambda: _microphone(microphone_name, stall_s, url)) if live else FileSource(sound or "")
+            hear = (lambda: open_microphone(microphone_name, stall_s, url)) if live else FileSource(sound or "")
         if with_gesture:
-            see = (lambda: _camera(camera_name, stall_s, url)) if live else VideoSource(video or "")
+            see = (lambda: open_camera(camera_name, stall_s, url)) if live else VideoSource(video or "")
         recorder = None if record_path is None else McapRecorder(record_path)
         signals = stack.enter_context(stopped_by_signals(made))
         failed = show_session(made.run(hear, see, live=live, recorder=recorder), as_json, lambda: bool(signals))
@@ -127,16 +130,6 @@ def session(
         sys.exit(EXIT_SIGNAL + signals[0])
     if failed:
         raise InvalidArgument(failed)
-
-
-def _camera(name: str, stall_s: float, url: str | None) -> CameraSource | NaoCamera:
-    """A camera of this computer, or NAO's."""
-    return NaoCamera(url, stall_s=stall_s) if url is not None and name == _NAO else camera(name, stall_s)
-
-
-def _microphone(name: str | None, stall_s: float, url: str | None) -> MicrophoneSource | NaoMicrophone:
-    """A microphone of this computer, or NAO's."""
-    return NaoMicrophone(url, stall_s=stall_s) if url is not None and name == _NAO else microphone(name, stall_s)
 
 
 def _replay(path: Path, chosen: ChosenSession, as_json: bool) -> None:

@@ -16,6 +16,7 @@ from hri.session.reading import Recording, read_recording
 from hri.session.recording import McapRecorder
 from hri.session.replay import decisions, is_repeated, replay
 from hri.session.session import Session
+from hri.session.voice import Voice
 
 __all__ = [
     "STATES",
@@ -34,6 +35,7 @@ __all__ = [
     "Session",
     "SessionOptions",
     "SessionRecorder",
+    "Voice",
     "decisions",
     "event_schema",
     "is_repeated",

@@ -128,6 +128,8 @@ _KINDS: dict[str, tuple[str, ...]] = {
     "resumed": (),
     "asked": ("command",),
     "tick": (),
+    "voice_start": ("text", "message"),
+    "voice_end": ("text", "message"),
     "motion_start": (*_MOTION, "wait_ms", "compute_ms"),
     "halt": (*_MOTION, "wait_ms", "compute_ms"),
     "motion_end": (*_MOTION, "completed", "message", "fault"),

@@ -218,8 +218,9 @@ def _require_event(event: Any) -> None:
     _number(event["time"])
     if not isinstance(event["event"], str) or not isinstance(event["mode"], str):
         raise TypeError("event and mode must be text")
-    if event["event"] == "motion_end" and not isinstance(event["message"], str):
-        raise TypeError("message must be text")
+    for kind, name in (("motion_end", "message"), ("voice_start", "text")):
+        if event["event"] == kind and not isinstance(event[name], str):
+            raise TypeError(f"{name} must be text")
     if event["event"] in ("motion_end", "asked"):
         _ = event["fault"] if event["event"] == "motion_end" else event["command"]
     if event["event"] == "asked" and event["command"] == "only_stop":

@@ -32,13 +32,14 @@ from hri.session.live import PASSING
 from hri.session.logic import ASKED, MOTION_END, TICK, NoRobot, SessionLogic
 from hri.session.reading import Message, Recording, wrong
 from hri.session.recording import SAMPLE_BYTES
+from hri.session.voice import VOICE_END, VOICE_START
 from hri.session.watching import watcher_of
 from hri.signal import EndpointerOptions
 from hri.vision.persons import Faces
 
 REPEATED = ("fused", "state", "say", "ignored", "stop", "rest", "resumed", "sentence")
 """Events of a session that a replay repeats."""
-_GIVEN = (MOTION_END, ASKED, TICK, OVERFLOW)
+_GIVEN = (MOTION_END, ASKED, TICK, OVERFLOW, VOICE_START, VOICE_END)
 _SAME_S = 1e-3
 _FPS = 15.0
 """What "watching" reports; nothing is decided by it."""
