@@ -50,8 +50,8 @@ def pair_decisions(speech: Labelled, gesture: Labelled, signs_per_word: int = 2,
     common = sorted({label for label, _ in speech}.intersection(shown))
     if len(common) < 2:
         said = ", ".join(sorted({label for label, _ in speech})) or "none"
-        signs = ", ".join(sorted(shown)) or "none"
-        raise InvalidArgument(f"words and signs need two labels in common; there are {said}, and {signs}")
+        signed = ", ".join(sorted(shown)) or "none"
+        raise InvalidArgument(f"words and signs need two labels in common; there are {said}, and {signed}")
     rng = np.random.default_rng(seed)
     pairs = DecisionPairs([], [], [])
     for label, decision in speech:

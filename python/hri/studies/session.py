@@ -122,8 +122,8 @@ def sound_of(
 ) -> Any:
     """The words at their times, at levels of their own over a faint noise, and the others between them."""
     rng = np.random.default_rng(seed)
-    ends_s = [one.span_s[1] for one in (*turns, *talk)]
-    stream = make_noise("pink", round((max(ends_s) + 3.0) * rate), rate, rng)
+    last_s = max(one.span_s[1] for some in (turns, talk) for one in some)
+    stream = make_noise("pink", round((last_s + 3.0) * rate), rate, rng)
     stream *= np.float32(10 ** (FLOOR_DB / 20) / np.std(stream))
     said = [(clips[turn.word], turn.word_s[0]) for turn in turns if turn.word >= 0]
     for clip, begin_s in (*said, *((others[one.word], one.span_s[0]) for one in talk)):
