@@ -22,6 +22,7 @@ from hri.serve.messages import SOUND, read_command, read_media
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
 from hri.session.logic import MOTION_END
+from hri.session.voice import VOICE_END
 
 TOO_LARGE = 1009
 REFUSED = 1008
@@ -85,8 +86,8 @@ class Reception:
             loop.call_soon_threadsafe(self._put, message)
 
     def _log_trouble(self, event: dict[str, Any]) -> None:
-        """A source that stalls, and a motion that did not end as it should; the same again once a minute."""
-        text = event["message"] if event["event"] in (STALL, MOTION_END) else ""
+        """A source that stalls, a motion that did not end as it should, what was not said; the same once a minute."""
+        text = event["message"] if event["event"] in (STALL, MOTION_END, VOICE_END) else ""
         now_s = time.monotonic()
         if text and now_s - self._logged_s.get(text, -math.inf) >= _SAME_AGAIN_S:
             self._logged_s = {t: at_s for t, at_s in self._logged_s.items() if now_s - at_s < _SAME_AGAIN_S}
