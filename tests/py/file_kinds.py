@@ -148,6 +148,12 @@ def write_sentences(folder: Path) -> None:
         (folder / name).write_text("".join(",".join(map(str, row)) + "\n" for row in rows))
 
 
+def read_session(path: Any) -> None:
+    recording = read_recording(path)
+    for messages in (recording.events(), recording.sound(), recording.pictures()):
+        list(messages)
+
+
 TRACK = "left-x,left-y,right-x,right-y,nose-x,nose-y\n" + "1,2,3,4,5,6\n" * 4
 KEPT = '{"study": "noise", "arguments": {}, "data": {}, "rows": []}'
 CONDITIONS = '[[condition]]\nname = "dark"\nclips = ["a"]\n'
@@ -190,7 +196,7 @@ READERS: dict[str, Callable[[Any], object]] = {
     "form.csv": is_short_csv,
     "trajectory.json": read_joint_trajectory,
     "trajectory.mcap": read_joint_trajectory,
-    "session.mcap": read_recording,
+    "session.mcap": read_session,
     "checked.csv": check_short_csv,
     "kept.json": lambda path: read_kept(Path(path)),
     "conditions.toml": lambda path: read_conditions(["a"], Path(path)),

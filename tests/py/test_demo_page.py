@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 pytest.importorskip("cv2")
@@ -21,6 +22,7 @@ pytest.importorskip("matplotlib")
 import hri
 from conftest import RATE_HZ, tone_word
 from hri.demo.conversation import conversation, shown
+from hri.demo.film import Answer
 from hri.demo.page import make_page
 from hri.demo.scenes import Scene, Script
 from hri.demo.training import Trained
@@ -42,6 +44,10 @@ FACTS = {
     "num_signers": 2,
     "seconds": 1,
 }
+
+
+STILL = np.zeros((10, 10, 3), np.uint8)
+ANSWERS = [Answer(STILL, True, True, 2.0), Answer(STILL), Answer(STILL)]
 
 
 def decided(mode: str, label: str, confidence: float) -> hri.Decision:
@@ -70,7 +76,7 @@ def page(scenes: list[Scene], tmp_path_factory: pytest.TempPathFactory) -> Path:
     item = EvaluationItem(0, "7", decided("speech", "7", 0.9))
     result = EvaluationResult(["7"], [FoldResult(HOSTILE, (item,))], {})
     trained = Trained(hri.WordRecognizer(), hri.GestureRecognizer(), result, result)
-    text = make_page(scenes, trained, folder / "film.webm", FACTS, lambda *_: None)
+    text = make_page(scenes, ANSWERS, trained, folder / "film.webm", FACTS, lambda *_: None)
     (folder / "index.html").write_text(text, encoding="utf-8")
     return folder / "index.html"
 
@@ -100,12 +106,15 @@ def test_components_of_the_demo_are_those_of_the_server() -> None:
 
 def test_a_scene_is_reported_as_by_a_session(scenes: list[Scene]) -> None:
     agree, stop, unsure = (
-        [(e.event, e.fields.get("text", e.fields.get("label"))) for e in conversation(s)] for s in scenes
+        [(e.event, e.fields.get("text", e.fields.get("label"))) for e in conversation(s, answer)]
+        for s, answer in zip(scenes, ANSWERS, strict=True)
     )
+    fell = conversation(scenes[0], Answer(STILL, True, False, 0.7, "fell while moving"))[-1]
+    assert (fell.fields["completed"], fell.fields["message"]) == (False, "fell while moving")
     assert agree == [("fused", None), ("say", "7."), ("motion_end", "7")]
     assert stop == [("fused", None), ("stop", "stop")]
     assert unsure == [("fused", None), ("say", "Did you mean 5 or stop?")] or unsure[1][1].startswith("Did you mean")
-    moves, rests = shown(scenes[0])["figures"], shown(scenes[1])["figures"]
+    moves, rests = (shown(*both)["figures"] for both in zip(scenes[:2], ANSWERS[:2], strict=True))
     assert len(rests) == 1 and len(moves) > 10 and moves[0]["strokes"] != moves[len(moves) // 2]["strokes"]
 
 

@@ -253,13 +253,31 @@ def test_who_does_not_begin_as_the_page_does_is_sent_away(server: PageServer, co
             assert closed.value.rcvd is not None and closed.value.rcvd.code == 1008
 
 
-def test_a_microphone_that_falls_silent_is_reported_and_comes_back(server: PageServer, cookie: str) -> None:
+def test_a_microphone_that_falls_silent_is_reported_and_comes_back(
+    server: PageServer, cookie: str, notes: pytest.LogCaptureFixture
+) -> None:
     with connected(server, cookie) as page:
         page.perform(speech([], 0.4))
         page.await_event("stall", mode="speech", message="microphone: no sound for 2 s")
         page.perform(speech([("flat", 1.6)], 4.0))
         assert page.await_event("reconnected", mode="speech")
         assert page.await_event("decision")["final"] == "flat"
+    assert notes.text.count("speech: microphone: no sound for 2 s") == 1
+
+
+def test_a_fault_of_the_robot_is_told_on_page_and_terminal(
+    server: PageServer, cookie: str, robot: Robot, notes: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def gone(*_: object) -> bool:
+        raise IoError("it is switched off")
+
+    monkeypatch.setattr(robot, "perform", gone)
+    with connected(server, cookie) as page:
+        page.perform(speech([("flat", 0.8)], 3.2))
+        message = page.await_event("motion_end", fault=True)["message"]
+        assert message == "The robot does not obey: it is switched off"
+        assert page.await_event("stop")["reason"] == message
+    assert notes.text.count(f"robot: {message}") == 1
 
 
 def test_another_rate_of_sound_is_converted(server: PageServer, cookie: str) -> None:

@@ -136,6 +136,7 @@ def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> 
         ((*models(scene), "--min-confidence", "0.5", said), 2, "--min-confidence goes with --grammar"),
         ((*models(scene), "--max-distance", "0.5", said), 2, "--max-distance goes with --knowledge"),
         ((*models(scene), "--language", "hi", said), 2, "--language goes with --knowledge"),
+        ((*models(scene), "--imitate", "flat", "--robot", "nao"), 2, "--imitate needs HOAP-2's arms"),
         (("--robot", "nao", "--url", "tcp://127.0.0.1:9"), 2, "--url is of a real one"),
     ):
         result = hri("session", "--backend", "none", *arguments)
@@ -157,7 +158,7 @@ def test_a_session_that_nothing_stops_warns(hri, scene: Path) -> None:
 
 
 def test_devices_that_are_missing_end_the_session_in_words(hri, scene: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from hri.cli import session as command
+    from hri.cli import session_devices as command
     from hri.core.errors import IoError
 
     def missing(*_: object) -> Any:

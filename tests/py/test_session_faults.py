@@ -14,7 +14,7 @@ import pytest
 
 import hri
 from conftest import RATE_HZ
-from hri.core.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.fusion import FusionOptions
 from hri.live import ArraySource, Event, Listener, Stalled
 from hri.live.events import STALL
@@ -107,6 +107,18 @@ def test_a_recording_that_brings_nothing_new_is_given_up(error: Exception) -> No
         arrivals.append(arrival)
         assert len(arrivals) < 50
     assert broken.num_opened == 2
+
+
+def test_two_sessions_cannot_read_one_source(words: hri.WordRecognizer) -> None:
+    shared = ArraySource(speech([("flat", 1.5)], 4.0), RATE_HZ, name="the microphone")
+    first = Session(words).run(shared)
+    next(first)
+    with pytest.raises(IoError, match="the microphone is in use: another session reads it"):
+        list(Session(words).run(shared))
+    live = list(Session(words).run(lambda: shared, live=True))
+    assert [e.fields["message"] for e in live if e.event == STALL and "in use" in e.fields["message"]]
+    assert "flat" in [e.fields["final"] for e in first if e.event == "fused"], "the first goes on"
+    assert list(Session(words).run(shared)), "it is free again"
 
 
 def decided(label: str) -> Event:

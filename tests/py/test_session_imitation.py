@@ -14,7 +14,7 @@ import hri
 from conftest import RATE_HZ
 from hri.core.errors import InvalidArgument
 from hri.live import ArraySource, ClipSource
-from hri.robot import Robot, Trajectory, check_trajectory, open_robot
+from hri.robot import NAO, Robot, Trajectory, check_trajectory, open_robot
 from hri.robot.imitation import LiveImitation, SeenPerson
 from hri.robot.model.arm import MIRROR, arm_of, arm_points
 from hri.session import Imitator, Session, SessionOptions
@@ -211,6 +211,8 @@ def test_what_imitation_needs_is_said(words: Any, robot: Robot, monkeypatch: pyt
         Session(words, None, robot, SessionOptions(imitate_labels=("tall",)))
     with pytest.raises(InvalidArgument, match="no vocabulary"):
         Session(words, None, robot, SessionOptions(imitate_labels=("nowhere",)))
+    with pytest.raises(InvalidArgument, match="NAO's arms are not built as HOAP-2's"):
+        LiveImitation(NAO)
     monkeypatch.setattr("hri.vision.faces.find_cascade", lambda: None)
     with pytest.raises(InvalidArgument, match="opencv-data"):
         Imitator()

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import json
 import time
-from base64 import b64decode
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -20,9 +20,10 @@ import hri
 from conftest import RATE_HZ
 from drawn_hands import FPS
 from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.ros2_messages import message_encoder
 from hri.live import ArraySource, ClipSource, Stalled
 from hri.robot import open_robot
-from hri.session import McapRecorder, Session, SessionOptions, decisions, read_recording, replay
+from hri.session import McapRecorder, Session, SessionOptions, decisions, event_schema, read_recording, replay
 from session_people import MOTIONS, signing, speech, train_signs, train_words
 from test_hostile_files import hostile, only_hri_s_errors
 
@@ -30,6 +31,7 @@ pytest.importorskip("cv2")
 pytest.importorskip("hri._native_vision")
 reader = pytest.importorskip("mcap.reader")
 writer = pytest.importorskip("mcap.writer")
+pytest.importorskip("mcap_ros2")
 
 
 @pytest.fixture(scope="module")
@@ -42,9 +44,15 @@ def signs() -> hri.GestureRecognizer:
     return train_signs()
 
 
-def messages(path: Path, topic: str) -> list[dict[str, Any]]:
+def messages(path: Path, topic: str) -> list[Any]:
+    """As a reader of others gives them: ROS 2's messages by the schemas in the file, and JSON."""
+    from mcap_ros2.decoder import DecoderFactory
+
     with path.open("rb") as file:
-        return [json.loads(message.data) for _, _, message in reader.make_reader(file).iter_messages([topic])]
+        rows = reader.make_reader(file, decoder_factories=[DecoderFactory()])
+        if topic in ("/hri/events", "/hri/times"):
+            return [json.loads(message.data) for _, _, message in rows.iter_messages([topic])]
+        return [row.decoded_message for row in rows.iter_decoded_messages([topic])]
 
 
 def test_a_recorded_session_is_replayed_to_the_same_decisions(words: Any, signs: Any, tmp_path: Path) -> None:
@@ -62,23 +70,79 @@ def test_a_recorded_session_is_replayed_to_the_same_decisions(words: Any, signs:
     assert recorder.failure == "" and {e["event"] for e in events} >= {"fused", "motion_start", "halt", "stop"}
     recording = read_recording(path)
     assert recording.options == session.options and recording.labels == ["flat", "tall"]
-    assert recording.events == json.loads(json.dumps(events))
+    kept = list(recording.events())
+    assert kept == json.loads(json.dumps(events))
     again = [e.to_dict() for e in replay(recording, words, signs)]
-    assert decisions(again) == decisions(recording.events) and len(decisions(again)) > 8
+    assert decisions(again) == decisions(kept) and len(decisions(again)) > 8
     said = [(e["time"], e["nbest"]) for e in events if e["event"] == "decision"]
     assert [(e["time"], e["nbest"]) for e in again if e["event"] == "decision"] == said
 
-    sound = messages(path, "/hri/sound")
-    assert {m["format"] for m in sound} == {"pcm-s16"}
-    assert np.array_equal(np.concatenate([np.frombuffer(b64decode(m["data"]), "<i2") for m in sound]), stream * 32768)
+    (info,) = messages(path, "/hri/sound_info")
+    assert (info.channels, info.sample_rate, info.sample_format) == (1, RATE_HZ, "S16LE")
+    assert info.bitrate == 16 * RATE_HZ and info.coding_format == "wave"
+    sound = [np.frombuffer(message.data, "<i2") for message in messages(path, "/hri/sound")]
+    assert np.array_equal(np.concatenate(sound), stream * 32768)
     pictures = messages(path, "/hri/pictures")
-    assert len(pictures) == len(frames) and pictures[15]["timestamp"] == {"sec": 1, "nsec": 0}
-    assert np.array_equal(hri.media.decode_image(b64decode(pictures[20]["data"]), ""), frames[20])
+    assert len(pictures) == len(frames) and pictures[15].format == "png"
+    stamp = pictures[15].header.stamp
+    assert (stamp.sec, stamp.nanosec, pictures[15].header.frame_id) == (1, 0, "camera_optical")
+    assert np.array_equal(hri.media.decode_image(pictures[20].data, ""), frames[20])
+    times = [time for time in messages(path, "/hri/times") if time["topic"] == "/hri/pictures"]
+    assert times[15] == {"topic": "/hri/pictures", "sequence": 15, "stream": 0, "time_s": 1.0, "offset_s": 0.0}
     joints, (first, _) = messages(path, "/hri/joint_states"), messages(path, "/hri/joint_trajectory")
-    assert len(joints) > 100 and len(joints[0]["name"]) == len(joints[0]["position"]) == 25
-    assert (
-        first["header"]["frame_id"] == "flat" and first["joint_names"] == ["head_joint_2"] and len(first["points"]) == 5
-    )
+    assert len(joints) > 100 and len(joints[0].name) == len(joints[0].position) == 25
+    assert joints[0].header.frame_id == first.header.frame_id == "base_link"
+    begun_s = next(e["time"] for e in events if e["event"] == "motion_start")
+    assert first.header.stamp.sec + 1e-9 * first.header.stamp.nanosec == pytest.approx(begun_s, abs=1e-4)
+    assert first.joint_names == ["head_joint_2"] and len(first.points) == 5
+    after = first.points[1].time_from_start
+    assert after.sec + 1e-9 * after.nanosec == pytest.approx(MOTIONS["flat"].period_s)
+
+
+def test_what_is_recorded_is_as_ros_2_and_the_schemas_have_it(words: Any, signs: Any, tmp_path: Path) -> None:
+    """By definitions and readers of others: rosbags has those of ROS 2 Humble, jsonschema reads our schemas."""
+    jsonschema = pytest.importorskip("jsonschema")
+    typesys = pytest.importorskip("rosbags.typesys")
+    path = tmp_path / "session.mcap"
+    sound, pictures = ArraySource(speech([("flat", 1.5)], 5.0), RATE_HZ), ClipSource(signing([("flat", 1.2)], 5.0), FPS)
+    with open_robot("kinematic") as robot:
+        session = Session(words, signs, robot, SessionOptions(confirm_below=0.2), motions=MOTIONS)
+        list(session.run(sound, pictures, recorder=McapRecorder(path)))
+    types = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
+    audio = {
+        "AudioData": "uint8[] data",
+        "AudioInfo": """# The audio meta data
+uint8 channels
+uint32 sample_rate
+string sample_format
+uint32 bitrate
+string coding_format
+""",
+    }
+    for name, text in audio.items():
+        types.register(typesys.get_types_from_msg(text, f"audio_common_msgs/msg/{name}"))
+    seen = set()
+    with path.open("rb") as file:
+        rows = reader.make_reader(file)
+        for schema, channel, message in rows.iter_messages():
+            seen.add(channel.topic)
+            assert message.log_time < 8e9
+            if channel.message_encoding == "json":
+                shape = json.loads(schema.data)
+                jsonschema.Draft202012Validator.check_schema(shape)
+                jsonschema.validate(json.loads(message.data), shape)
+            else:
+                assert (channel.message_encoding, schema.encoding) == ("cdr", "ros2msg")
+                read = types.deserialize_cdr(message.data, schema.name)
+                assert bytes(types.serialize_cdr(read, schema.name)) == message.data
+        summary = rows.get_summary()
+    assert seen == {channel.topic for channel in summary.channels.values()} and len(seen) == 7
+    for schema in summary.schemas.values():
+        if schema.encoding == "ros2msg":
+            written = typesys.get_types_from_msg(schema.data.decode(), schema.name)
+            assert all(types.fielddefs[name] == fields for name, fields in written.items()), schema.name
+    with pytest.raises(jsonschema.ValidationError, match="'text' is a required property"):
+        jsonschema.validate({"time": 0, "event": "say", "mode": "session"}, event_schema())
 
 
 def test_buttons_that_begin_and_end_imitation_are_replayed(words: Any, tmp_path: Path) -> None:
@@ -91,9 +155,9 @@ def test_buttons_that_begin_and_end_imitation_are_replayed(words: Any, tmp_path:
             session.rest()  # nothing moves any more: without a robot it is carried out at once
         assert event.event != "rest"
     recording = read_recording(path)
-    found = decisions(recording.events)
+    found = decisions(recording.events())
     assert next(e["text"] for e in found if e["event"] == "say") == "tall." and len(found) > 4
-    assert [e["command"] for e in recording.events if e["event"] == "asked"] == ["imitate", "rest"]
+    assert [e["command"] for e in recording.events() if e["event"] == "asked"] == ["imitate", "rest"]
     assert decisions([e.to_dict() for e in replay(recording, words)]) == found
 
 
@@ -126,13 +190,13 @@ def test_devices_that_come_and_go_are_replayed_as_they_came(words: Any, signs: A
             run.close()  # type: ignore[attr-defined]
             break
     recording = read_recording(path)
-    kept = [e for e in recording.events if e["event"] in ("stall", "reconnected")]
+    kept = [e for e in recording.events() if e["event"] in ("stall", "reconnected")]
     assert [(e["event"], e["mode"]) for e in kept].count(("reconnected", "speech")) == 1
     assert ("stall", "gesture") in [(e["event"], e["mode"]) for e in kept]
     again = [e.to_dict() for e in replay(recording, words, signs)]
-    assert decisions(again) == decisions(recording.events)
+    assert decisions(again) == decisions(recording.events())
     assert [e["final"] for e in again if e["event"] == "fused"] == ["flat", "tall"]
-    assert {m["format"] for m in messages(path, "/hri/sound")} == {"pcm-f32"}
+    assert {info.sample_format for info in messages(path, "/hri/sound_info")} == {"F32LE"}
 
 
 def test_a_recorder_takes_one_session_at_a_time_and_a_place_that_can_be_written(words: Any, tmp_path: Path) -> None:
@@ -142,7 +206,7 @@ def test_a_recorder_takes_one_session_at_a_time_and_a_place_that_can_be_written(
     next(running)
     with pytest.raises(InvalidArgument, match="another session is being recorded"):
         next(other.run(ArraySource(speech([], 1.0), RATE_HZ), recorder=recorder))
-    assert len(list(running)) > 5 and read_recording(tmp_path / "a.mcap").events
+    assert len(list(running)) > 5 and list(read_recording(tmp_path / "a.mcap").events())
     assert list(other.run(ArraySource(speech([], 1.0), RATE_HZ), recorder=recorder))
     with pytest.raises(IoError, match="missing"):
         next(one.run(ArraySource(speech([], 1.0), RATE_HZ), recorder=McapRecorder(tmp_path / "missing" / "a.mcap")))
@@ -172,22 +236,49 @@ def test_a_full_disk_ends_the_recording_and_not_the_session(
 
 
 def made(path: Path, about: dict[str, str] | None, rows: list[tuple[str, bytes]]) -> Path:
+    numbers: dict[str, int] = {}
     with path.open("wb") as file:
         out = writer.Writer(file)
         out.start()
         if about is not None:
             out.add_metadata("hri.session", about)
         for topic, data in rows:
-            channel = out.register_channel(topic, "json", 0)
-            out.add_message(channel, 0, data, 0)
+            channel = out.register_channel(topic, "json" if topic in ("/hri/events", "/hri/times") else "cdr", 0)
+            numbers[topic] = numbers.get(topic, -1) + 1
+            out.add_message(channel, 0, data, 0, numbers[topic])
         out.finish()
     return path
+
+
+def read_all(path: Path) -> None:
+    recording = read_recording(path)
+    for messages in (recording.events(), recording.sound(), recording.pictures()):
+        list(messages)
+
+
+def timed(topic: str = "/hri/sound", **other: Any) -> tuple[str, bytes]:
+    times = {"topic": topic, "sequence": 0, "stream": 0, "time_s": 0.0, "offset_s": 0.0}
+    return "/hri/times", json.dumps(times | other).encode()
+
+
+def sound_info(**other: Any) -> tuple[str, bytes]:
+    info = {"channels": 1, "sample_rate": 8000, "sample_format": "S16LE", "bitrate": 0, "coding_format": "wave"}
+    return "/hri/sound_info", message_encoder("audio_common_msgs/AudioInfo")(info | other)
+
+
+def heard(data: bytes = b"\0\0") -> tuple[str, bytes]:
+    return "/hri/sound", message_encoder("audio_common_msgs/AudioData")({"data": data})
+
+
+def shown(form: str) -> tuple[str, bytes]:
+    fields = {"header": {}, "format": form, "data": b"-"}
+    return "/hri/pictures", message_encoder("sensor_msgs/CompressedImage")(fields)
 
 
 GOOD = {
     name: json.dumps(value)
     for name, value in {
-        "version": 1,
+        "version": 2,
         "options": {"fusion": {}},
         "labels": [],
         "models": {},
@@ -195,14 +286,13 @@ GOOD = {
         "segmenter": None,
     }.items()
 }
-SOUND = {"time_s": 0, "offset_s": 0, "data": "AAA=", "format": "pcm-s16", "sample_rate": 8000, "stream": 0}
 
 
 @pytest.mark.parametrize(
     ("about", "rows", "message"),
     [
         (None, [], "no metadata of a session"),
-        (GOOD | {"version": "2"}, [], "version 2 is not 1"),
+        (GOOD | {"version": "1"}, [], "version 1 is not 2"),
         (GOOD | {"options": '{"window_s": -1, "fusion": {}}'}, [], "window_s"),
         (GOOD | {"options": "[]"}, [], "options"),
         (GOOD | {"labels": "{"}, [], "not a JSON file"),
@@ -224,9 +314,20 @@ SOUND = {"time_s": 0, "offset_s": 0, "data": "AAA=", "format": "pcm-s16", "sampl
         (GOOD, [("/hri/events", b"{}")], "KeyError: 'time'"),
         (GOOD, [("/hri/events", b"\xff")], "UnicodeDecodeError"),
         (GOOD, [("/hri/events", b'{"time": 1e999, "event": "a", "mode": "b"}')], "is no number"),
-        (GOOD, [("/hri/sound", json.dumps(SOUND | {"format": "opus"}).encode())], "format 'opus'"),
-        (GOOD, [("/hri/sound", json.dumps(SOUND | {"sample_rate": 0}).encode())], "sample_rate 0"),
-        (GOOD, [("/hri/sound", json.dumps(SOUND | {"stream": -1}).encode())], "stream -1"),
+        (GOOD, [("/hri/events", b'"' + bytes(1 << 20) + b'"')], "a message of 1048578 bytes"),
+        (GOOD, [heard()], "has no times before it"),
+        (GOOD, [timed(), heard()], "has no /hri/sound_info before it"),
+        (GOOD, [sound_info(), timed(sequence=1), heard()], "has no times before it"),
+        (GOOD, [sound_info(), timed("/hri/pictures"), heard()], "has no times before it"),
+        (GOOD, [sound_info(sample_format="opus")], "1 x 'opus' must be 1 x S16LE or F32LE"),
+        (GOOD, [sound_info(channels=2)], "2 x 'S16LE'"),
+        (GOOD, [sound_info(sample_rate=0)], "sample_rate 0"),
+        (GOOD, [("/hri/sound_info", b"")], "/hri/sound_info"),
+        (GOOD, [sound_info(), timed(stream=-1), heard()], "stream -1"),
+        (GOOD, [sound_info(), timed(time_s=None), heard()], "None is no number"),
+        (GOOD, [sound_info(), ("/hri/times", b"[]")], "/hri/times: TypeError"),
+        (GOOD, [sound_info(), timed(stream=1), heard(), timed(sequence=1), heard()], "stream 0 comes after 1"),
+        (GOOD, [timed("/hri/pictures"), shown("jpeg")], "format 'jpeg' is not png"),
     ],
 )
 def test_damaged_recordings_are_refused(
@@ -234,15 +335,17 @@ def test_damaged_recordings_are_refused(
 ) -> None:
     path = made(tmp_path / "a.mcap", about, rows)
     with pytest.raises(FormatError, match=r"a\.mcap.*" + message):
-        read_recording(path)
+        read_all(path)
 
 
 @pytest.mark.parametrize("change", [lambda data: data[:200], lambda data: b"text", lambda data: b"", bytes.upper])
 def test_files_of_another_kind_are_refused(change: Callable[[bytes], bytes], tmp_path: Path) -> None:
-    path = made(tmp_path / "a.mcap", GOOD, [("/hri/sound", json.dumps(SOUND).encode())] * 30)
+    rows = [row for number in range(30) for row in (timed(sequence=number), heard())]
+    path = made(tmp_path / "a.mcap", GOOD, [sound_info(), *rows])
+    assert len(list(read_recording(path).sound())) == 30
     path.write_bytes(change(path.read_bytes()))
     with pytest.raises(FormatError, match=r"a\.mcap"):
-        read_recording(path)
+        read_all(path)
     with pytest.raises(IoError):
         read_recording(tmp_path / "none.mcap")
 
@@ -259,7 +362,7 @@ def test_a_small_file_that_unfolds_to_a_vast_one_is_refused_before_it_does(compr
     assert path.stat().st_size < 1 << 20
     begun = time.process_time()
     with pytest.raises(FormatError, match=r"a\.mcap.*in a chunk"):
-        read_recording(path)
+        read_all(path)
     assert time.process_time() - begun < 0.1
 
 
@@ -295,8 +398,31 @@ def test_whatever_a_recording_says_it_is_replayed_or_refused(
 def test_a_replay_needs_the_recognisers_and_sound_samples(words: Any, tmp_path: Path) -> None:
     events = [{"time": 0.0, "event": "listening", "mode": "speech"}, {"time": 9.0, "event": "ended", "mode": "speech"}]
     rows = [("/hri/events", json.dumps(event).encode()) for event in events]
-    path = made(tmp_path / "a.mcap", GOOD, [*rows, ("/hri/sound", json.dumps(SOUND | {"data": "!"}).encode())])
+    path = made(tmp_path / "a.mcap", GOOD, [*rows, sound_info(), timed(), heard(b"!")])
     with pytest.raises(InvalidArgument, match="recogniser of words"):
         list(replay(read_recording(path)))
     broken = [e for e in replay(read_recording(path), words) if e.event == "stall"]
     assert "samples at 0 s" in broken[0].fields["message"], "a stream that is damaged ends its mode"
+    path = made(tmp_path / "b.mcap", GOOD, [*rows, sound_info(), timed(), heard(), timed(sequence=7), heard()])
+    with pytest.raises(FormatError, match="message 1 has no times"):
+        list(replay(read_recording(path), words))
+
+
+def test_memory_does_not_grow_with_the_recording(tmp_path: Path) -> None:
+    block = bytes(320_000)  # 10 s
+    tick = ("/hri/events", b'{"time": 0.0, "event": "tick", "mode": "session"}')
+
+    def peak_bytes(num_blocks: int) -> int:
+        rows = [row for number in range(num_blocks) for row in (timed(sequence=number), heard(block), tick)]
+        recording = read_recording(made(tmp_path / "a.mcap", GOOD, [sound_info(sample_rate=16000), *rows]))
+        tracemalloc.start()
+        try:
+            assert sum(len(message.data) for message in recording.sound()) == num_blocks * len(block)
+            assert sum(1 for _ in recording.events()) == num_blocks
+            return tracemalloc.get_traced_memory()[1]
+        finally:
+            tracemalloc.stop()
+
+    peak_bytes(1)  # what is imported on the way
+    few, many = peak_bytes(10), peak_bytes(80)
+    assert many < 1.2 * few < 12 << 20, (few, many)

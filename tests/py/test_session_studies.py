@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hri.live import Event
 from hri.robot import HOAP2, rest_positions
 from hri.session.logic import session_event
 from hri.studies.endurance import rounds_of, same
-from hri.studies.session import APART_S, FPS, PAUSE_S, Turn, judge, pictures_of, plan, sound_of
+from hri.studies.session import APART_S, FPS, PAUSE_S, Turn, judge, latencies, meets, pictures_of, plan, sound_of
 from hri.studies.session_soak import decision_of_session
 from hri.studies.session_stop import Commands, within_limits
 from hri.studies.session_talk import alarms
@@ -23,8 +24,8 @@ SIGNS = [str(digit) for digit in range(10)] * 2
 
 
 def test_turns_are_up_to_a_second_apart_with_pauses_between_them():
-    turns = plan(WORDS, SIGNS, 300, 0)
-    assert turns == plan(WORDS, SIGNS, 300, 0) != plan(WORDS, SIGNS, 300, 1)
+    turns, talk = plan(WORDS, SIGNS, 300, 0)
+    assert (turns, talk) == plan(WORDS, SIGNS, 300, 0) != plan(WORDS, SIGNS, 300, 1) and talk == []
     both = [turn for turn in turns if all(turn.modes)]
     assert 150 < len(both) < 210 and sum(turn.modes == (True, False) for turn in turns) > 40
     apart = [turn.sign_s[0] - turn.word_s[0] for turn in both]
@@ -32,6 +33,32 @@ def test_turns_are_up_to_a_second_apart_with_pauses_between_them():
     assert all(SIGNS[turn.sign] == turn.label == WORDS[turn.word][0] for turn in both)
     pauses = [after.span_s[0] - before.span_s[1] for before, after in pairwise(turns)]
     assert PAUSE_S[0] <= min(pauses) and max(pauses) <= PAUSE_S[1]
+
+
+def test_other_words_come_between_turns():
+    turns, talk = plan(WORDS, SIGNS, 300, 0, [0.5, 0.9])
+    assert 200 < len(talk) < 400
+    for one in talk:
+        before = max(turn.span_s[1] for turn in turns if turn.span_s[1] < one.span_s[0])
+        after = min((turn.span_s[0] for turn in turns if turn.span_s[0] > one.span_s[0]), default=np.inf)
+        assert one.span_s[0] - before >= 1.0 and after - one.span_s[1] >= PAUSE_S[0]
+        assert one.span_s[1] - one.span_s[0] == pytest.approx((0.5, 0.9)[one.word])
+    sound = sound_of(turns[:1], [np.full(400, 0.5, "f4")] * 10, 800, 0, talk[:1], [np.full(400, 0.5, "f4")] * 2)
+    first, last = (round(800 * time_s) for time_s in talk[0].span_s)
+    assert np.abs(sound[first : min(last, first + 400)]).min() > 0.15 > np.abs(sound[last + 1 :]).max()
+    event = fused(talk[0].span_s[0], talk[0].span_s[1], "", "s", "unknown")
+    assert meets(event, [talk[0].span_s]) and not meets(event, [turn.span_s for turn in turns])
+
+
+def test_latencies_are_counted_by_what_led_to_a_motion():
+    def moves(label: str, wait_ms: float) -> Any:
+        return Event(9.0, "motion_start", {"label": label, "wait_ms": wait_ms, "compute_ms": 1.0}, mode="robot")
+
+    events = [
+        *(fused(1.0, 2.0, "1", "g"), moves("1", 500.0), fused(3.0, 4.0, "2", "sg"), moves("2", 300.0)),
+        *(fused(5.0, 6.0, "", "s", "unknown"), fused(7.0, 8.0, "3", "s"), moves("3", 250.0)),
+    ]
+    assert latencies(events) == {"word": [(250.0, 1.0)], "sign": [(500.0, 1.0)], "both": [(300.0, 1.0)]}
 
 
 def test_streams_hold_words_and_signs_at_their_times():

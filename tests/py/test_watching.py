@@ -162,6 +162,41 @@ def camera(monkeypatch: pytest.MonkeyPatch) -> type[FakeCapture]:
     return fake
 
 
+class TakenCapture(FakeCapture):
+    """A camera that one capture at a time may have open, as drivers of cameras have it."""
+
+    holder: Any = None
+
+    def __init__(self, device: Any) -> None:
+        super().__init__(device)
+        self.openable = type(self).holder is None
+        if self.openable:
+            type(self).holder = self
+
+    def release(self) -> None:
+        if type(self).holder is self:
+            type(self).holder = None
+
+
+def test_a_camera_in_use_is_told_as_such(monkeypatch: pytest.MonkeyPatch) -> None:
+    taken = type("Taken", (TakenCapture,), {})
+    monkeypatch.setattr(cv2, "VideoCapture", taken)
+    first = CameraSource(0)
+    with pytest.raises(IoError, match="camera 0 is in use: another session of this program"):
+        CameraSource(0)
+    first.close()
+    other_program = taken("/dev/null")  # a device that is there
+    with pytest.raises(IoError, match="it is there, but does not open; another program may use it"):
+        CameraSource("/dev/null")
+    other_program.release()
+    CameraSource("/dev/null").close()
+    again = CameraSource(0)
+    again.close()
+    taken.holder = other_program
+    with pytest.raises(IoError, match="connect a camera"):
+        CameraSource("/dev/hri-no-such-camera")
+
+
 @pytest.mark.parametrize(
     ("fault", "message"), [("blocks", "no picture"), ("fails", "no picture"), ("repeats", "the same picture")]
 )
@@ -260,8 +295,8 @@ def test_the_command_watches_and_films(
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     assert "--video FILE films the same" in hri(*command, "--show").err
     camera.openable = False
-    missing = hri(*command, "--device", "7")
-    assert missing.code == 3 and "camera 7 cannot be opened" in missing.err
+    missing = hri(*command, "--device", "97")
+    assert missing.code == 3 and "camera 97 cannot be opened: connect a camera" in missing.err
 
 
 def test_the_screen_tells_hands_signs_and_trouble(signs: hri.GestureRecognizer) -> None:
@@ -276,4 +311,5 @@ def test_the_screen_tells_hands_signs_and_trouble(signs: hri.GestureRecognizer) 
     assert any(line.startswith("no hand") for line in reported) and any("gesture" in line for line in reported)
     assert any(line.startswith("so far  ") for line in reported)
     assert "12 frames lost" in describe(Event(1.0, "overflow", {"lost_frames": 12}), 1)
-    assert "back" in describe(Event(1.0, "reconnected"), 1)
+    assert "camera is back" in describe(Event(1.0, "reconnected", mode="gesture"), 1)
+    assert "microphone is back" in describe(Event(1.0, "reconnected", mode="speech"), 1)

@@ -77,9 +77,9 @@ def demo(out: Path, seed: int, backend: str, keep_corpus: bool, quick: bool) -> 
             progress("playing scenes", number + 1, len(SCRIPTS))
         _say(f"filming the robot ({backend})")
         film = out / "signer_and_robot.webm"
-        stills = make_film(film, scenes, backend, lambda done, total: progress("filming the robot", done, total))
-        for number, still in enumerate(stills):
-            write_image(out / "scenes" / f"scene{number + 1}.jpg", still)
+        answers = make_film(film, scenes, backend, lambda done, total: progress("filming the robot", done, total))
+        for number, answer in enumerate(answers):
+            write_image(out / "scenes" / f"scene{number + 1}.jpg", answer.still)
         facts = {
             "seed": seed,
             "backend": backend,
@@ -90,7 +90,7 @@ def demo(out: Path, seed: int, backend: str, keep_corpus: bool, quick: bool) -> 
         }
         seconds = round(time.monotonic() - started)
         _say("writing the page")
-        page = make_page(scenes, trained, film, {**facts, "seconds": seconds}, progress)
+        page = make_page(scenes, answers, trained, film, {**facts, "seconds": seconds}, progress)
     write_text(out / "index.html", page)
     write_json(
         str(out / "result.json"),

@@ -83,7 +83,7 @@ def describe_stream(event: Event) -> str:
     if event.event == "watching":
         return f"watching {event.fields['source']}; Ctrl-C ends"
     if event.event == "reconnected":
-        return f"{event.time:8.2f} s  the camera is back"
+        return f"{event.time:8.2f} s  the {'microphone' if event.mode == 'speech' else 'camera'} is back"
     if event.event == "overflow":
         lost = next(f"{count} {name.removeprefix('lost_')}" for name, count in event.fields.items())
         return f"{event.time:8.2f} s  {lost} lost: this computer is too busy"

@@ -41,6 +41,10 @@ COMMANDS = {
         "hri.cli.sentences:train_sentences",
         "Train a recogniser of signed sentences, on tracks of both hands.",
     ),
+    "train-fusion": (
+        "hri.cli.train_fusion:train_fusion",
+        "Train a learned fusion on words and signs of persons held out.",
+    ),
     "add-word": (
         "hri.cli.vocabulary:add_word",
         "Add a word to a trained recogniser, from few recordings or by its spelling.",

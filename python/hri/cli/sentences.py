@@ -14,8 +14,8 @@ from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import default_model, naming_options, options_option, parse_options
+from hri.cli.voice import SpokenText, spoken
 from hri.core.errors import FormatError, InvalidArgument
-from hri.core.text import is_printable
 from hri.datasets.asl_sentences import read_asl_sentences
 from hri.io import write_wav_pcm16
 from hri.language import KnowledgeBase, StoredMatch
@@ -97,6 +97,7 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
     metavar="FOLDER",
     help="Write each sentence as speech, 001.wav and so on (by espeak-ng).",
 )
+@click.option("--play", is_flag=True, help="Say each sentence through the loudspeaker (by espeak-ng).")
 @json_option
 def read_sentences(
     files: tuple[str, ...],
@@ -106,6 +107,7 @@ def read_sentences(
     max_distance: float,
     language: str,
     speak: str | None,
+    play: bool,
     json_path: str | None,
 ) -> None:
     """Recognise signed sentences in CSV files of tracks; print a line for each sentence: its name and its words.
@@ -118,6 +120,7 @@ def read_sentences(
       hri read-sentences hands.csv
       hri read-sentences monday.csv tuesday.csv --frames --json -
       hri read-sentences hands.csv --knowledge sentences.csv --language hi --speak voice/
+      hri read-sentences hands.csv --knowledge sentences.csv --play
     """
     if knowledge is None:
         refuse_given(("max_distance",), "goes with --knowledge")
@@ -129,7 +132,8 @@ def read_sentences(
     if stored is not None and language != "en" and not any(language in s.texts for s in stored.sentences):
         raise InvalidArgument(f"{knowledge}: no stored sentence has a text in '{language}'")
     found: dict[str, dict[str, object]] = {}
-    spoken: list[str] = []
+    num_spoken = 0
+    voice = SpokenText(language) if play else None
     for file in files:
         found[file] = {}
         for name, track in read_hand_tracks(file).items():
@@ -152,8 +156,10 @@ def read_sentences(
             if stored is not None and match is None:
                 note(f"{file}: {name}: none of the stored sentences")
             if speak is not None and text:
-                _write_speech(text, language, Path(speak) / f"{len(spoken) + 1:03}.wav")
-                spoken.append(name)
+                num_spoken += 1
+                _write_speech(text, language, Path(speak) / f"{num_spoken:03}.wav")
+            if voice is not None and text:
+                voice.say(text)
     write_json(json_path, found)
 
 
@@ -162,12 +168,7 @@ def _as_dict(match: StoredMatch, text: str) -> dict[str, object]:
 
 
 def _write_speech(text: str, language: str, path: Path) -> None:
-    from hri.synthetic.speech import Speaker, speak
-
-    if not is_printable(text):
-        raise InvalidArgument(f"{text!r} cannot be spoken: it holds control characters")
+    audio = spoken(text, language)
     path.parent.mkdir(parents=True, exist_ok=True)
-    voice = Speaker("voice", variant="f2", accent=0, pitch=50, rate=155, noise_db=-96.0)
-    audio = speak(text, language, voice)
     write_wav_pcm16(path, audio.samples, audio.sample_rate_hz)
     note(f"{path}: {text}")

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -12,21 +13,21 @@ from typing import Any
 import click
 
 from hri.cli.groups import CheckedCommand, is_given
-from hri.cli.live_screen import camera, events_json_option, microphone, stall_option
+from hri.cli.live_screen import events_json_option, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
 from hri.cli.robot import nao_url_option
+from hri.cli.session_devices import open_camera, open_microphone, open_voice, require_nao
 from hri.cli.session_options import ChosenSession, model_file, session_options
 from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
-from hri.live import CameraSource, FileSource, MicrophoneSource, VideoSource
+from hri.live import FileSource, VideoSource
 from hri.media import kind_of_file
-from hri.robot import NAO, NaoqiRobot, Robot, stopped_by_signals
-from hri.session import McapRecorder, NaoCamera, NaoMicrophone, Session, decisions, read_recording, replay
+from hri.robot import stopped_by_signals
+from hri.session import McapRecorder, Session, is_repeated, read_recording, replay
 
 EXIT_DIFFERENT = 1
 EXIT_SIGNAL = 128
-_NAO = "nao"
 
 
 @click.command(cls=CheckedCommand)
@@ -37,6 +38,9 @@ _NAO = "nao"
     "--camera", "camera_name", default="0", show_default=True, help="Number or address; nao: NAO's, at --url."
 )
 @stall_option
+@click.option(
+    "--speak", is_flag=True, help="Say what the robot says through the loudspeaker, in --language (by espeak-ng)."
+)
 @click.option("--gui", is_flag=True, help="Show the robot in a window (pybullet).")
 @nao_url_option
 @click.option("--record", "record_path", type=OutputFile((".mcap",)), metavar="FILE", help="Keep everything (.mcap).")
@@ -50,6 +54,7 @@ def session(
     microphone_name: str | None,
     camera_name: str,
     stall_s: float,
+    speak: bool,
     gui: bool,
     url: str | None,
     record_path: str | None,
@@ -66,6 +71,7 @@ def session(
     Examples:
       hri session
       hri session --wake robot --resume start --record class.mcap
+      hri session --speak
       hri session --imitate follow --gui
       hri session --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri session --gesture-model sentences.hri --no-speech --knowledge sentences.csv
@@ -75,20 +81,19 @@ def session(
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
     if replay_path is not None:
-        if files or record_path is not None or gui or url is not None:
-            raise click.UsageError("--replay takes what was recorded: no FILE, --record, --gui or --url goes with it")
+        if files or record_path is not None or gui or speak or url is not None:
+            raise click.UsageError(
+                "--replay takes what was recorded: no FILE, --record, --gui, --speak or --url goes with it"
+            )
         _replay(replay_path, chosen, as_json)
         return
-    if url is not None and chosen.table is not NAO:
-        raise click.UsageError("--url is of a real NAO: add --robot nao")
-    if url is not None and (gui or is_given("backend", "stand")):
-        raise click.UsageError("--backend, --stand and --gui are of a simulated robot, --url is of a real one")
-    if url is None and _NAO in (camera_name, microphone_name):
-        raise click.UsageError("--camera nao and --microphone nao are of a real NAO: name its --url")
+    require_nao(chosen, url, camera_name, microphone_name)
+    if url is not None and (gui or speak):
+        raise click.UsageError("--gui is of a simulated robot, and a real NAO speaks by itself, without --speak")
     sound, video = _files(files)
     live = not files
-    if files and is_given("microphone_name", "camera_name", "stall_s"):
-        raise click.UsageError("--microphone, --camera and --stall are of devices, and FILE takes their place")
+    if files and is_given("microphone_name", "camera_name", "stall_s", "speak"):
+        raise click.UsageError("--microphone, --camera, --stall and --speak are of devices; FILE takes their place")
     if (chosen.no_speech and sound is not None) or (chosen.no_gesture and video is not None):
         raise click.UsageError("--no-speech and --no-gesture leave out what FILE brings")
     with_speech = not chosen.no_speech and (live or sound is not None)
@@ -101,19 +106,18 @@ def session(
     chosen.warn_of_stop(words, signs)
     learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(), chosen.person_finder()
     with ExitStack() as stack:
-        robot: Robot | None = NaoqiRobot(url) if url is not None else chosen.open_robot(gui)
+        robot = chosen.open_robot(gui, url)
         if robot is not None:
             stack.enter_context(robot)
+        voice = open_voice(stack, robot, chosen.language if speak else "")
         note("preparing the robot's motions")
-        # NAO hears itself: a question that names a word would be answered by it.
-        say = robot.say_later if isinstance(robot, NaoqiRobot) and microphone_name != _NAO else None
         ids = chosen.model_ids
         made = Session(
             words,
             signs,
             robot,
             options,
-            on_say=say,
+            voice=voice,
             model_ids=ids,
             fusion=learned,
             faces=faces,
@@ -124,9 +128,9 @@ def session(
         hear: Any = None
         see: Any = None
         if with_speech:
-            hear = (lambda: _microphone(microphone_name, stall_s, url)) if live else FileSource(sound or "")
+            hear = (lambda: open_microphone(microphone_name, stall_s, url)) if live else FileSource(sound or "")
         if with_gesture:
-            see = (lambda: _camera(camera_name, stall_s, url)) if live else VideoSource(video or "")
+            see = (lambda: open_camera(camera_name, stall_s, url)) if live else VideoSource(video or "")
         recorder = None if record_path is None else McapRecorder(record_path)
         signals = stack.enter_context(stopped_by_signals(made))
         failed = show_session(made.run(hear, see, live=live, recorder=recorder), as_json, lambda: bool(signals))
@@ -138,41 +142,51 @@ def session(
         raise InvalidArgument(failed)
 
 
-def _camera(name: str, stall_s: float, url: str | None) -> CameraSource | NaoCamera:
-    """A camera of this computer, or NAO's."""
-    return NaoCamera(url, stall_s=stall_s) if url is not None and name == _NAO else camera(name, stall_s)
-
-
-def _microphone(name: str | None, stall_s: float, url: str | None) -> MicrophoneSource | NaoMicrophone:
-    """A microphone of this computer, or NAO's."""
-    return NaoMicrophone(url, stall_s=stall_s) if url is not None and name == _NAO else microphone(name, stall_s)
-
-
 def _replay(path: Path, chosen: ChosenSession, as_json: bool) -> None:
     """Decide once more; exit code 1 where a decision differs."""
     recording = read_recording(path)
-    words = chosen.load_words() if recording.sound else None
-    signs = chosen.load_signs() if recording.pictures else None
+    words = chosen.load_words() if any(True for _ in recording.sound()) else None
+    signs = chosen.load_signs() if any(True for _ in recording.pictures()) else None
     learned, stored = chosen.load_fusion(), chosen.load_knowledge()
     for mode, name in chosen.model_ids.items():
         if name != recording.models.get(mode):
             note(f"{mode}: recorded with {recording.models.get(mode) or 'another model'}, replayed with {name}")
-    again: list[dict[str, Any]] = []
+    compared = _Compared(recording.events())
 
     def kept() -> Any:
         for event in replay(recording, words, signs, learned, stored, faces=chosen.person_finder()):
-            again.append(event.to_dict())
+            compared.see(event.to_dict())
             yield event
 
     show_session(kept(), as_json, lambda: False)
-    before, after = decisions(recording.events), decisions(again)
-    if before == after:
-        note(f"{path}: {len(after)} events of the session, all as recorded")
+    place = compared.difference()
+    if place is None:
+        note(f"{path}: {compared.num_same} events of the session, all as recorded")
         return
-    first = next((i for i, pair in enumerate(zip(before, after, strict=False)) if pair[0] != pair[1]), None)
-    place = before[first] if first is not None else (before + after)[min(len(before), len(after))]
     note(f"{path}: differs from what was recorded at {place['time']:g} s, {place['event']}")
     sys.exit(EXIT_DIFFERENT)
+
+
+class _Compared:
+    """Events of the session as they are repeated beside those that were recorded, one by one."""
+
+    def __init__(self, recorded: Iterator[dict[str, Any]]) -> None:
+        self._recorded = (event for event in recorded if is_repeated(event))
+        self._place: dict[str, Any] | None = None
+        self.num_same = 0
+
+    def see(self, event: dict[str, Any]) -> None:
+        """What was repeated."""
+        if self._place is None and is_repeated(event):
+            before = next(self._recorded, None)
+            if before == event:
+                self.num_same += 1
+            else:
+                self._place = before or event
+
+    def difference(self) -> dict[str, Any] | None:
+        """Where both differ, once all is repeated."""
+        return self._place or next(self._recorded, None)
 
 
 def _files(files: tuple[Path, ...]) -> tuple[Path | None, Path | None]:

@@ -31,7 +31,7 @@ from hri.recognition import (
     WordRecognizer,
 )
 from hri.recognition.sentence.commands import MIN_CONFIDENCE
-from hri.robot import BACKENDS, ROBOTS, JointTable, Robot, open_robot
+from hri.robot import BACKENDS, HOAP2, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot
 from hri.session import SessionOptions
 from hri.vision.faces import face_finder
 
@@ -114,7 +114,9 @@ _OPTIONS = (
         show_default=True,
         help="Words farther from every stored sentence are none of them.",
     ),
-    click.option("--language", default="en", show_default=True, help="Of what stored sentences say."),
+    click.option(
+        "--language", default="en", show_default=True, help="Of what stored sentences say, and of a voice that speaks."
+    ),
     click.option(
         "--confirm-below", type=float, default=0.5, show_default=True, help="Ask for what is less sure; 1: always."
     ),
@@ -244,8 +246,10 @@ class ChosenSession:
         self.model_ids["knowledge"] = f"{_name_and_hash(self.knowledge_path)} within {self.max_distance:g}"
         return KnowledgeBase.read(self.knowledge_path, self.max_distance)
 
-    def open_robot(self, gui: bool = False) -> Robot | None:
-        """The simulated robot, to be closed; None where there is to be none."""
+    def open_robot(self, gui: bool = False, url: str | None = None) -> Robot | None:
+        """The real NAO at `url`, or the simulated robot, to be closed; None where there is to be none."""
+        if url is not None:
+            return NaoqiRobot(url)
         if self.backend == _NO_ROBOT:
             return None
         return open_robot(self.backend, gui=gui, fixed_base=not self.stand, table=self.table)
@@ -268,12 +272,18 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
     @functools.wraps(command)
     def collected(**given: Any) -> None:
         for name, (option, needed, needed_option) in _GO_WITH.items():
-            if is_given(name) and given[needed] is None:
+            speaks = name == "language" and given.get("speak", False)
+            if is_given(name) and given[needed] is None and not speaks:
                 raise click.UsageError(f"{option} goes with {needed_option}")
         if given["grammar_path"] is not None or given["no_speech"]:
             refuse_given(("embedding_path",), "is for single words, which --grammar and --no-speech leave out")
         if given["faces"] is not None and given["no_gesture"]:
             raise click.UsageError("--faces and --no-gesture exclude each other")
+        if given["imitate"] and given["table"] is not HOAP2:
+            raise click.UsageError(
+                f"--imitate needs HOAP-2's arms: {given['table'].name}'s are built otherwise, leave out one of "
+                "--imitate and --robot"
+            )
         command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
 
     for option in reversed(_OPTIONS):

@@ -97,6 +97,8 @@ def describe(event: Event) -> str:
         return f"{at}signs: {' '.join(fields['words'])}"
     if event.event == "say":
         return f"{at}robot: {fields['text']}"
+    if event.event == "voice_end" and fields["message"]:
+        return f"{at}not said: {fields['message']}"
     if event.event == "sentence":
         near = f"  (nearest: {' '.join(fields['nearest'])}, {fields['distance']:.2f})" if fields["nearest"] else ""
         return f"{at}sentence: {' '.join(fields['words'])}{near}"

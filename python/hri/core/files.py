@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Files in and out, the one way for all of hri: read whole and bounded, written whole or not at all.
+"""Files in and out, the one way for all of hri: read whole and bounded, or piece by piece; written whole or not at all.
 
 Only regular files are read: a pipe or a device in place of one is refused, and not waited for. What is wrong with a
 file is an `IoError` or a `FormatError` that names it; a path with a NUL character is an `InvalidArgument`.
@@ -11,17 +11,19 @@ from __future__ import annotations
 import csv
 import io
 import json
+import os
 import re
+import stat
 import tempfile
 import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from hri import _native
-from hri.core.errors import FormatError, IoError
+from hri.core.errors import FormatError, InvalidArgument, IoError
 
 AtomicFile = _native.AtomicFile
 
@@ -49,6 +51,33 @@ def read_bytes(path: str | PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
         For more than `max_bytes`.
     """
     return bytes(_native.read_file(path, max_bytes))
+
+
+@contextmanager
+def regular_file(path: str | PathLike[str]) -> Iterator[IO[bytes]]:
+    """A regular file to be read piece by piece; for what may be larger than memory.
+
+    Raises
+    ------
+    IoError
+        For a file that cannot be opened, a folder, a pipe or a device.
+    InvalidArgument
+        For a path that no file can have.
+    """
+    # O_NONBLOCK: a pipe without a writer would be waited for before it can be seen to be one.
+    flags = os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
+    try:
+        descriptor = os.open(path, flags)
+    except OSError as error:
+        raise IoError(f"{fspath(path)}: cannot open: {error.strerror}") from error
+    except ValueError as error:  # a NUL character, or what is no character
+        raise InvalidArgument(f"{fspath(path)}: {error}") from error
+    mode = os.fstat(descriptor).st_mode
+    if not stat.S_ISREG(mode):
+        os.close(descriptor)
+        raise IoError(f"{fspath(path)}: {'is a folder' if stat.S_ISDIR(mode) else 'not a regular file'}")
+    with os.fdopen(descriptor, "rb") as file:
+        yield file
 
 
 def read_text(path: str | PathLike[str], max_bytes: int = MAX_BYTES) -> str:

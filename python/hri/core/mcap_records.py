@@ -7,20 +7,26 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import IO, Any
 
 from hri.core.optional import import_optional
 
+_RECORD_HEAD = 1 << 16
 
-def mcap_records(data: bytes, max_bytes: int, max_chunk_bytes: int) -> Iterator[Any]:
+
+def mcap_records(file: IO[bytes], max_chunk_bytes: int, max_bytes: int | None = None) -> Iterator[Any]:
     """All records in the order of the file, those of chunks too; a chunk unfolds no further than it says it holds.
+
+    One record is in memory at a time, or one chunk with one of its records.
 
     Parameters
     ----------
-    data : bytes
-        The whole file.
-    max_bytes, max_chunk_bytes : int
-        How much all chunks and each of them may hold once decompressed.
+    file : binary file
+        From its beginning on.
+    max_chunk_bytes : int
+        How much a record may hold, and a chunk once decompressed.
+    max_bytes : int, optional
+        How much all chunks may hold once decompressed.
 
     Raises
     ------
@@ -32,17 +38,38 @@ def mcap_records(data: bytes, max_bytes: int, max_chunk_bytes: int) -> Iterator[
     from mcap.records import Chunk
 
     mcap = import_optional("mcap.stream_reader", "mcap", "to read MCAP")
-    reader = mcap.StreamReader(io.BytesIO(data), emit_chunks=True, validate_crcs=True, record_size_limit=len(data))
+    reader = mcap.StreamReader(
+        file, emit_chunks=True, validate_crcs=True, record_size_limit=max_chunk_bytes + _RECORD_HEAD
+    )
     left = max_bytes
     for record in reader.records:
         if not isinstance(record, Chunk):
             yield record
             continue
-        left -= record.uncompressed_size
-        if left < 0 or record.uncompressed_size > max_chunk_bytes:
-            raise ValueError(f"holds more than {max_bytes} bytes, or {max_chunk_bytes} in a chunk")
-        plain = replace(record, compression="", data=_decompressed(record))
-        yield from mcap.breakup_chunk(plain, validate_crc=True)
+        left = None if left is None else left - record.uncompressed_size
+        if (left is not None and left < 0) or record.uncompressed_size > max_chunk_bytes:
+            most = "" if max_bytes is None else f"{max_bytes} bytes, or "
+            raise ValueError(f"holds more than {most}{max_chunk_bytes} bytes in a chunk")
+        yield from _records_of(replace(record, compression="", data=_decompressed(record)))
+
+
+def _records_of(chunk: Any) -> Iterator[Any]:
+    """The records of a chunk one by one: a list of all small ones would take many times the chunk's size."""
+    from mcap.opcode import Opcode
+    from mcap.records import Channel, Message, Schema
+    from mcap.stream_reader import get_chunk_data_stream
+
+    stream, num_bytes = get_chunk_data_stream(chunk, validate_crc=True)
+    while stream.count < num_bytes:
+        opcode, length = stream.read1(), stream.read8()
+        if opcode == Opcode.MESSAGE:
+            yield Message.read(stream, length)
+        elif opcode == Opcode.CHANNEL:
+            yield Channel.read(stream)
+        elif opcode == Opcode.SCHEMA:
+            yield Schema.read(stream)
+        else:
+            stream.read(length)
 
 
 def _decompressed(chunk: Any) -> bytes:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from hri.demo.film import robot_moves
+from hri.demo.film import Answer, robot_moves
 from hri.demo.scenes import Scene
 from hri.live import Event
 from hri.page import figure
@@ -16,15 +16,15 @@ from hri.recognition import Decision
 from hri.recognition.possibility import nbest_fields
 from hri.robot import HOAP2, gesture_trajectory, load_gestures
 from hri.session import Dialogue, Pair, SessionOptions
-from hri.session.dialogue import IGNORE, MOVE, SAY, STOP
+from hri.session.dialogue import IGNORE, SAY, STOP
 from hri.session.logic import MOTION_END, fused_event, moved_event, session_event
 from hri.session.mover import Moved
 
 FIGURES_PER_S = 10.0
 
 
-def shown(scene: Scene) -> dict[str, Any]:
-    """A scene as the page's script takes it.
+def shown(scene: Scene, answer: Answer) -> dict[str, Any]:
+    """A scene, and what the robot did in it, as the page's script takes it.
 
     Returns
     -------
@@ -34,14 +34,14 @@ def shown(scene: Scene) -> dict[str, Any]:
     """
     return {
         **{mode: _best(getattr(scene.decision, mode)) for mode in ("speech", "gesture")},
-        "events": [event.to_dict() for event in conversation(scene)],
+        "events": [event.to_dict() for event in conversation(scene, answer)],
         "figures": _figures(scene),
         "figures_per_s": FIGURES_PER_S,
     }
 
 
-def conversation(scene: Scene) -> list[Event]:
-    """The decision, and what the robot says and does by `hri.session.Dialogue`, which never asks twice here."""
+def conversation(scene: Scene, answer: Answer) -> list[Event]:
+    """The decision, what the robot says by `hri.session.Dialogue`, which never asks twice here, and how it moved."""
     end_s = max(len(scene.audio.samples) / scene.audio.sample_rate_hz, len(scene.frames) / scene.fps)
     pair = Pair(scene.decision, 0.0, end_s, 0.0, "a word and a sign at once")
     events = [fused_event(pair, end_s)]
@@ -50,10 +50,10 @@ def conversation(scene: Scene) -> list[Event]:
             events.append(session_event(end_s, SAY, text=action.text))
         elif action.kind in (STOP, IGNORE):
             events.append(session_event(end_s, action.kind, label=action.label, reason=action.text))
-        elif action.kind == MOVE:
-            done_s = end_s + gesture_trajectory(action.label).duration_s
-            moved = Moved(MOTION_END, action.label, done_s, number=1, completed=True)
-            events.append(moved_event(moved))
+    if answer.moved:
+        label, done_s = scene.decision.label, end_s + answer.duration_s
+        ended = Moved(MOTION_END, label, done_s, number=1, message=answer.message, completed=answer.completed)
+        events.append(moved_event(ended))
     return events
 
 

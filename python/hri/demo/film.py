@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -36,41 +37,77 @@ def robot_moves(decision: FusedDecision) -> bool:
     return decision.status == RECOGNISED and decision.label != STOPPED
 
 
-def make_film(path: Path, scenes: list[Scene], backend: str, progress: Callable[[int, int], None]) -> list[Frame]:
-    """Write the film of all scenes, and give one telling frame of each, BGR."""
-    stills: list[Frame] = []
+@dataclass(frozen=True)
+class Answer:
+    """What the robot did in a scene.
+
+    Attributes
+    ----------
+    still : ndarray of uint8, shape (height, width, 3)
+        One telling frame of the film, BGR.
+    moved : bool
+        It has moved.
+    completed : bool
+        The motion was carried out to its end.
+    duration_s : float
+        Of the motion, with the way to its first row, in the robot's time.
+    message : str
+        Why it did not end as it should; "" when it did.
+    """
+
+    still: Frame
+    moved: bool = False
+    completed: bool = False
+    duration_s: float = 0.0
+    message: str = ""
+
+
+def make_film(path: Path, scenes: list[Scene], backend: str, progress: Callable[[int, int], None]) -> list[Answer]:
+    """Write the film of all scenes, and give what the robot did in each."""
+    answers: list[Answer] = []
 
     def frames() -> Iterator[Frame]:
         with open_robot(backend) as robot:
             for number, scene in enumerate(scenes):
-                shown = list(_scene_frames(scene, robot, f"{number + 1}. {scene.script.title}"))
+                begin_s, num_events = robot.time_s, len(robot.events)
+                shown, completed = _scene_frames(scene, robot, f"{number + 1}. {scene.script.title}")
                 # The robot's pose is reached half-way through its motion, behind the signer's clip.
                 moving = max(1, len(shown) - len(scene.frames))
-                stills.append(shown[len(scene.frames) + moving // 2])
+                answers.append(
+                    Answer(
+                        shown[len(scene.frames) + moving // 2],
+                        completed is not None,
+                        completed is True,
+                        robot.time_s - begin_s,
+                        "; ".join(event.message for event in robot.events[num_events:]),
+                    )
+                )
                 yield from shown
                 progress(number + 1, len(scenes))
 
     write_video(path, frames(), FPS)
-    return stills
+    return answers
 
 
-def _scene_frames(scene: Scene, robot: Robot, title: str) -> Iterator[Frame]:
+def _scene_frames(scene: Scene, robot: Robot, title: str) -> tuple[list[Frame], bool | None]:
+    """The film of a scene, and whether the robot's motion was carried out to its end; None where it rests."""
     resting = np.ascontiguousarray(robot.render(*_PANE_PX)[:, :, ::-1])
-    for frame in scene.frames:
-        yield _side_by_side(frame, resting, title, "listening and watching ...", "")
+    film = [_side_by_side(frame, resting, title, "what is said and shown", "") for frame in scene.frames]
     said = f"heard: {_short(scene.decision.speech)}     seen: {_short(scene.decision.gesture)}"
     decided = f"fused: {_short(scene.decision)}  ({scene.decision.rule})"
     held = scene.frames[len(scene.frames) // 2]
     answer: list[Frame] = []
+    completed = None
     if robot_moves(scene.decision):
-        robot.perform(
+        completed = robot.perform(
             gesture_trajectory(scene.decision.label),
             lambda image, time_s: answer.append(np.ascontiguousarray(image[:, :, ::-1])),
             FPS,
             _PANE_PX,
         )
     for image in [resting] * _PAUSE_FRAMES + (answer or [resting] * _PAUSE_FRAMES * 2):
-        yield _side_by_side(held, image, title, said, decided)
+        film.append(_side_by_side(held, image, title, said, decided))
+    return film, completed
 
 
 def _short(decision: Decision | FusedDecision | None) -> str:

@@ -20,7 +20,7 @@ import numpy as np
 from hri import __version__
 from hri.core.files import read_bytes
 from hri.demo.conversation import shown
-from hri.demo.film import robot_moves
+from hri.demo.film import Answer, robot_moves
 from hri.demo.plots import plot_confusions, plot_scene
 from hri.demo.scenes import Scene
 from hri.demo.training import Trained
@@ -30,7 +30,9 @@ from hri.page import component, in_one_file
 from hri.robot import gesture_trajectory
 
 
-def make_page(scenes: list[Scene], trained: Trained, film: Path, facts: dict[str, Any], progress: Any) -> str:
+def make_page(
+    scenes: list[Scene], answers: list[Answer], trained: Trained, film: Path, facts: dict[str, Any], progress: Any
+) -> str:
     """The page as text; film, plots, sounds, style and scripts stand in it, so that the file can be passed on alone."""
     sections = []
     for number, scene in enumerate(scenes):
@@ -60,7 +62,7 @@ def make_page(scenes: list[Scene], trained: Trained, film: Path, facts: dict[str
         film=_embedded("video/webm", read_bytes(film)),
         scenes="".join(sections),
         confusions=confusions,
-        data=_data([shown(scene) for scene in scenes]),
+        data=_data([shown(*both) for both in zip(scenes, answers, strict=True)]),
         script=in_one_file(_own("page.js")),
     )
 

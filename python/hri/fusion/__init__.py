@@ -5,5 +5,17 @@
 from hri.fusion.fuse import CombiningRule, fuse
 from hri.fusion.learned import KINDS, LearnedFusion
 from hri.fusion.options import ASK, RULES, FusedDecision, FusionOptions
+from hri.fusion.pairs import DecisionPairs, pair_decisions
 
-__all__ = ["ASK", "KINDS", "RULES", "CombiningRule", "FusedDecision", "FusionOptions", "LearnedFusion", "fuse"]
+__all__ = [
+    "ASK",
+    "KINDS",
+    "RULES",
+    "CombiningRule",
+    "DecisionPairs",
+    "FusedDecision",
+    "FusionOptions",
+    "LearnedFusion",
+    "fuse",
+    "pair_decisions",
+]

@@ -11,6 +11,7 @@ from hri.live.frames import ClipSource, FrameSource, VideoSource
 from hri.live.gesture_recorder import GestureRecorder
 from hri.live.hand_frames import GestureRows, HandFrames, PersonTracks
 from hri.live.listener import Listener
+from hri.live.loudspeaker import Loudspeaker
 from hri.live.microphone import MicrophoneSource, list_microphones
 from hri.live.recorder import WordRecorder
 from hri.live.ring import SampleRing
@@ -36,6 +37,7 @@ __all__ = [
     "GestureRows",
     "HandFrames",
     "Listener",
+    "Loudspeaker",
     "MicrophoneSource",
     "PersonTracks",
     "SampleRing",

@@ -7,6 +7,8 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from pathlib import Path
+from weakref import WeakValueDictionary
 
 import numpy as np
 
@@ -16,8 +18,12 @@ from hri.live.frames import Frame, TimedFrame
 from hri.live.sources import Stalled, require_positive
 
 _HELP = "connect a camera, name another with --device, or give a video instead"
+_IN_USE = "it is there, but does not open; another program may use it: close that, or name another camera with --device"
 _RETRY_S = 0.02
 _CLOSE_S = 2.0
+_in_use: WeakValueDictionary[str, CameraSource] = WeakValueDictionary()
+"""Cameras of this computer that this program has open, by address."""
+_taking = threading.Lock()
 
 
 class FrameQueue:
@@ -114,23 +120,30 @@ class CameraSource:
     ImportError
         Without OpenCV.
     IoError
-        When the camera cannot be opened; the message says what to do.
+        When the camera cannot be opened, or another source of this program has it open; the message says what to do.
     """
 
     def __init__(self, device: int | str = 0, stall_s: float = 2.0, buffer_frames: int = 32) -> None:
         require_positive("stall_s", stall_s)
         self.name = f"camera {device}" if isinstance(device, int) else device
         self._device = device
+        self._address = _address_of(device)
         self._stall_s = stall_s
         self._capacity = buffer_frames
         self._lost_before = 0
         self._closed = False
         self._last: Frame | None = None
         self._started_s = self._changed_s = time.monotonic()
-        self._grabber = _Grabber(device, buffer_frames)
+        self._take()
+        try:
+            self._grabber = _Grabber(device, buffer_frames)
+        except BaseException:
+            self._give_back()
+            raise
         if not self._grabber.wait_open(max(5.0, stall_s)):
             self.close()
-            raise IoError(f"{self.name} cannot be opened: {_HELP}")
+            there = self._address and Path(self._address).is_char_device()
+            raise IoError(f"{self.name} cannot be opened: {_IN_USE if there else _HELP}")
         self._changed_s = time.monotonic()
         self.fps = self._grabber.fps if 1.0 <= self._grabber.fps <= 240.0 else 15.0
 
@@ -176,3 +189,23 @@ class CameraSource:
         if not self._closed:
             self._closed = True
             self._grabber.stop(_CLOSE_S)
+            self._give_back()
+
+    def _take(self) -> None:
+        with _taking:
+            if self._address in _in_use:
+                raise IoError(f"{self.name} is in use: another session of this program has it open; end that first")
+            if self._address:
+                _in_use[self._address] = self
+
+    def _give_back(self) -> None:
+        with _taking:
+            if _in_use.get(self._address) is self:
+                del _in_use[self._address]
+
+
+def _address_of(device: int | str) -> str:
+    """Of a camera of this computer, which one program at a time may open; "" for any other address."""
+    if isinstance(device, int):
+        return f"/dev/video{device}"
+    return device if device.startswith("/dev/") else ""

@@ -32,19 +32,20 @@ class Microphone:
     is_default: bool
 
 
-def _sounddevice() -> Any:
+def import_sounddevice(purpose: str) -> Any:
+    """Import sounddevice. Raises ImportError, or IoError without the library behind it, that name the `purpose`."""
     try:
-        return import_optional("sounddevice", "live", "to use a microphone")
+        return import_optional("sounddevice", "live", purpose)
     except OSError as error:  # the Python package is there, the library behind it is not
         raise IoError(
-            "to use a microphone the library PortAudio is needed: install the package libportaudio2 "
+            f"{purpose} the library PortAudio is needed: install the package libportaudio2 "
             f"(apt install libportaudio2, dnf install portaudio, brew install portaudio) ({error})"
         ) from error
 
 
 def list_microphones() -> list[Microphone]:
     """Every input device. Raises ImportError or IoError when the libraries for it are not installed."""
-    sounddevice = _sounddevice()
+    sounddevice = import_sounddevice("to use a microphone")
     try:
         devices = list(sounddevice.query_devices())
         default = int(sounddevice.default.device[0])
@@ -88,7 +89,7 @@ class MicrophoneSource:
     ) -> None:
         require_positive("stall_s", stall_s)
         require_positive("buffer_s", buffer_s)
-        sounddevice = _sounddevice()
+        sounddevice = import_sounddevice("to use a microphone")
         try:
             info = sounddevice.query_devices(device, "input")
             self.name = str(info["name"])

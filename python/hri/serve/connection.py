@@ -17,11 +17,14 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from hri.core.errors import FormatError
 from hri.core.phrases import phrase, phrase_of
+from hri.live.events import STALL
 from hri.serve.limits import RateLimit
 from hri.serve.messages import SOUND, read_command, read_media, with_phrases
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
 from hri.serve.voice import RobotVoice
+from hri.session.logic import MOTION_END
+from hri.session.voice import VOICE_END
 
 TOO_LARGE = 1009
 REFUSED = 1008
@@ -31,6 +34,7 @@ _FIGURE_S = 0.12
 _REPEAT_S = 2.0
 _MOST_WAITING = 512
 _MOST_KNOWN = 64
+_SAME_AGAIN_S = 60.0
 
 log = logging.getLogger("hri.serve")
 
@@ -71,14 +75,26 @@ class Reception:
         self.current: Connection | None = None
         stage.publish = self.publish
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._logged_s: dict[str, float] = {}
 
     def publish(self, message: dict[str, Any]) -> None:
-        """Send a message to the page that is there, if any; by any thread."""
+        """Send a message to the page that is there, if any; by any thread. Trouble is logged, too."""
         if message["type"] == "note":
             log.warning("%s", message["text"])
+        elif message["type"] == "event":
+            self._log_trouble(message)
         loop = self._loop
         if loop is not None and not loop.is_closed():
             loop.call_soon_threadsafe(self._put, message)
+
+    def _log_trouble(self, event: dict[str, Any]) -> None:
+        """A source that stalls, a motion that did not end as it should, what was not said; the same once a minute."""
+        text = event["message"] if event["event"] in (STALL, MOTION_END, VOICE_END) else ""
+        now_s = time.monotonic()
+        if text and now_s - self._logged_s.get(text, -math.inf) >= _SAME_AGAIN_S:
+            self._logged_s = {t: at_s for t, at_s in self._logged_s.items() if now_s - at_s < _SAME_AGAIN_S}
+            self._logged_s[text] = now_s
+            log.warning("%s: %s", event["mode"], text)
 
     def _put(self, message: dict[str, Any]) -> None:
         if self.current is not None and message["type"] == "error":

@@ -8,14 +8,14 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Collection, Mapping, Sequence
-from contextlib import closing
+from contextlib import ExitStack, closing
 from typing import Any
 
 from hri.core.errors import Error, InvalidArgument
 from hri.core.phrases import phrase, phrase_of
 from hri.fusion import LearnedFusion
 from hri.language import Grammar, KnowledgeBase
-from hri.live import Event
+from hri.live import AudioSource, Event, FrameSource
 from hri.page import figure
 from hri.recognition import (
     CommandRecognizer,
@@ -30,7 +30,7 @@ from hri.serve.limits import ServeLimits
 from hri.serve.messages import with_phrases
 from hri.serve.recordings import Recording, Spoken, require_recordings_of
 from hri.serve.seen import SeenHands
-from hri.session import Session, SessionOptions
+from hri.session import Session, SessionOptions, SessionRecorder, Voice
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
 from hri.session.logic import BY_BUTTON, MOTION_END, MOTION_START, REST, SENTENCE, STOP
@@ -79,6 +79,12 @@ class Stage:
     speak : callable of str, optional
         Has synthetic voices say a word that is added so: clips, labels and names of voices, as
         `hri.synthetic.speech.speak_words` gives them. Others than who added the word are understood then, too.
+    hear, see : callable that opens a source, optional
+        In place of the page's microphone and camera, as NAO's; the page's are then used to add words and gestures only.
+    voice : Voice, optional
+        As of `Session`.
+    record : callable without arguments, optional
+        Gives a recorder for each session; the page begins a new one with a word that is added, and after an error.
 
     Raises
     ------
@@ -110,6 +116,10 @@ class Stage:
         spoken: Callable[[], Spoken] | None = None,
         spoken_labels: Collection[str] = (),
         speak: Callable[[str], Spoken] | None = None,
+        hear: Callable[[], AudioSource] | None = None,
+        see: Callable[[], FrameSource] | None = None,
+        voice: Voice | None = None,
+        record: Callable[[], SessionRecorder] | None = None,
     ) -> None:
         self.words, self.signs = words, signs
         self.recordings, self.say_again, self.speak = recordings, spoken, speak
@@ -127,6 +137,8 @@ class Stage:
         self._options = options or SessionOptions(retry_s=0.2)
         self._model_ids = dict(model_ids or {})
         self._motions, self._fusion, self._knowledge, self._faces = motions, fusion, knowledge, faces
+        self._hear, self._see, self._page_sees = hear or self.microphone.stream, see or self.camera.stream, see is None
+        self._voice, self._record = voice, record
         self._session = self._made()
         self._log: deque[dict[str, Any]] = deque(maxlen=_MOST_KEPT)
         self._state = IDLE
@@ -279,7 +291,7 @@ class Stage:
         """The robot as a page draws it, the same object while it rests; None without one."""
         if self._robot is None:
             return None
-        joints = self._robot.joint_positions_rad()
+        joints = self._robot.known_positions_rad()  # a real one that does not answer must not keep the page waiting
         if self._figure is None or joints != self._joints:
             self._joints, self._figure = joints, {"type": "robot", **figure(joints, self._robot.table)}
         return self._figure
@@ -328,6 +340,7 @@ class Stage:
             knowledge=self._knowledge,
             faces=self._faces,
             on_result=SeenHands(lambda message: self.publish(message)).heed,
+            voice=self._voice,
         )
 
     def _refused(self, text: str) -> None:
@@ -337,6 +350,12 @@ class Stage:
         message = {"type": "note", "text": text}
         self._log.append(message)
         self.publish(message)
+
+    def _report_failure(self, recorder: SessionRecorder | None) -> None:
+        """Why a session was not recorded, if so."""
+        failure = getattr(recorder, "failure", "")
+        if failure:
+            self._report(f"The session was not recorded: {failure}")
 
     def _free(self) -> None:
         """Let the robot move again; STOP wins when both come at once."""
@@ -372,10 +391,14 @@ class Stage:
     def _play(self, session: Session) -> None:
         self.microphone.expect()
         self.camera.expect()
-        hear: Any = self.microphone.stream if self.words is not None else None
-        see: Any = self.camera.stream if self.signs is not None else None
+        hear: Any = self._hear if self.words is not None else None
+        see: Any = self._see if self.signs is not None else None
+        recorder = None if self._record is None else self._record()
         self._num_heeded = self._num_pressed  # those of before are not the session's
-        with closing(session.run(hear, see, live=True)) as events:  # type: ignore[type-var]
+        run = session.run(hear, see, live=True, recorder=recorder)
+        with ExitStack() as stack:
+            stack.callback(self._report_failure, recorder)  # once it has ended
+            events = stack.enter_context(closing(run))  # type: ignore[type-var]
             self._begun_s = time.monotonic()
             with self._asking:  # what a session was asked for before it runs is lost
                 self._heard = session
@@ -413,7 +436,7 @@ class Stage:
             self._held = self._paused = False
         if event.event in (MOTION_START, MOTION_END, STOP, REST):  # at STOP it is over, though the arms still brake
             self._show_imitation(event.event == MOTION_START and event.fields["label"] in self._imitated)
-        if event.mode == "gesture" and "nbest" in event.fields:
+        if event.mode == "gesture" and "nbest" in event.fields and self._page_sees:
             sent_ms = self.camera.sent_ms(self._begun_s + event.time)
             if sent_ms is not None:
                 message["sent_ms"] = sent_ms

@@ -3,6 +3,7 @@
 """A live session: words and signs paired, a dialogue, a robot that answers."""
 
 from hri.session.dialogue import STATES, Action, Dialogue
+from hri.session.event_schema import event_schema
 from hri.session.feeds import SessionRecorder
 from hri.session.imitation import Imitator
 from hri.session.live import EventQueue
@@ -13,8 +14,9 @@ from hri.session.options import SessionOptions
 from hri.session.pairing import Observation, Pair, Pairer
 from hri.session.reading import Recording, read_recording
 from hri.session.recording import McapRecorder
-from hri.session.replay import decisions, replay
+from hri.session.replay import decisions, is_repeated, replay
 from hri.session.session import Session
+from hri.session.voice import Voice
 
 __all__ = [
     "STATES",
@@ -33,7 +35,10 @@ __all__ = [
     "Session",
     "SessionOptions",
     "SessionRecorder",
+    "Voice",
     "decisions",
+    "event_schema",
+    "is_repeated",
     "read_recording",
     "replay",
 ]

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -21,6 +22,10 @@ from hri.robot import Trajectory
 LEAK = 5e-4
 """By how much of a second the clock of a sound card or a camera may lose against the computer's in a second."""
 _TIMES = ("first_s", "last_s")
+
+_in_use: set[int] = set()
+"""Sources that a feed reads, by identity: two readers would each get a part of what comes."""
+_taking = threading.Lock()
 
 Clock = Callable[[], float]
 Source = TypeVar("Source", AudioSource, FrameSource)
@@ -207,11 +212,14 @@ class Feed(Generic[Source]):
         Raises
         ------
         IoError
-            When a source cannot be opened for the first time.
+            When a source cannot be opened for the first time, or another session reads it.
         """
         returned = self._num_streams > 0
         source = self._source if self._source is not None else self._opened()
         self._source = None
+        if not _take(source):
+            self.lost = False
+            raise IoError(f"{source.name} is in use: another session reads it; give each session a source of its own")
         alignment = self._alignment(source)
         tapped: Any = (TappedSound if self.mode == "speech" else TappedPictures)(
             source, alignment, self._recorder, self._num_streams
@@ -236,6 +244,7 @@ class Feed(Generic[Source]):
             self.lost = self._open is not None
             yield Event(self.time_s, STALL, {"message": what_failed(error)}, mode=self.mode)
         finally:
+            _give_back(source)
             source.close()
 
     def returns(self, time_s: float) -> bool:
@@ -268,6 +277,19 @@ class Feed(Generic[Source]):
         if "times_s" in event.fields:  # of the words of a signed sentence
             moved["times_s"] = [[round(t + offset_s, 4) for t in span] for span in event.fields["times_s"]]
         return replace(event, time=self.time_s, fields=event.fields | moved)
+
+
+def _take(source: Any) -> bool:
+    """Whether no other feed reads this source; it is this one's then, until it is given back."""
+    with _taking:
+        free = id(source) not in _in_use
+        _in_use.add(id(source))
+        return free
+
+
+def _give_back(source: Any) -> None:
+    with _taking:
+        _in_use.discard(id(source))
 
 
 @dataclass(frozen=True)

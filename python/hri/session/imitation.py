@@ -30,6 +30,11 @@ class Imitator:
         Of a robot with HOAP-2's arms.
     faces : Faces, optional
         See `hri.vision.PersonTracker`.
+
+    Raises
+    ------
+    InvalidArgument
+        For a robot with other arms, and where no faces can be found.
     """
 
     def __init__(self, table: JointTable = HOAP2, faces: Faces | None = None) -> None:

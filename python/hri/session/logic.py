@@ -20,6 +20,7 @@ from hri.session.feeds import Arrival, is_over
 from hri.session.mover import Cause, Moved
 from hri.session.options import SessionOptions
 from hri.session.pairing import MODES, Observation, Pair, Pairer
+from hri.session.voice import VOICE_END, VOICE_START, OwnVoice
 
 FUSED = "fused"
 SAY = "say"
@@ -37,6 +38,8 @@ BY_BUTTON = phrase("by_button")
 MOTION_START = "motion_start"
 MOTION_END = "motion_end"
 HALT = "halt"
+
+_OWN_VOICE = "heard while the robot speaks"
 
 _BEGINS = frozenset((kinds.SPEECH_START, kinds.GESTURE_START))
 _DROPS = frozenset((kinds.SPEECH_DROPPED, kinds.GESTURE_DROPPED))
@@ -121,6 +124,7 @@ class SessionLogic:
         self._on_say = on_say
         self.pairer = Pairer(options, fusion)
         self.dialogue = Dialogue(options, labels, knowledge)
+        self._own_voice = OwnVoice()
         self._num_begun = 0
         self._unsettled: set[str] = set()
         self._whole_sentences = whole_sentences
@@ -164,8 +168,12 @@ class SessionLogic:
             self.pairer.begin(mode, event.fields["first_s"], time_s)
         elif event.event == kinds.DECISION and event.decision is not None:
             self._unsettled.discard(mode)
-            seen = Observation(event.decision, event.fields["first_s"], event.fields["last_s"])
-            pairs = self.pairer.observe(seen, time_s)
+            if self._is_own(event):
+                out.append(session_event(time_s, IGNORED, label=event.decision.label, reason=_OWN_VOICE))
+                pairs = self.pairer.drop(mode, time_s)
+            else:
+                seen = Observation(event.decision, event.fields["first_s"], event.fields["last_s"])
+                pairs = self.pairer.observe(seen, time_s)
         elif event.event in _DROPS and mode not in self._unsettled:
             pairs = self.pairer.drop(mode, time_s)
         elif is_over(event):
@@ -180,6 +188,14 @@ class SessionLogic:
             decided = Cause(pair.last_s, time_s, cause.computed_s)
             self._do(self.dialogue.decide(pair, time_s), decided, out)
         self._time_passes(time_s, cause, out)
+
+    def _is_own(self, event: Event) -> bool:
+        """Whether a decision may be on the robot's own voice."""
+        if event.mode != "speech" or event.decision is None:
+            return False
+        span = event.fields["first_s"], event.fields["last_s"]
+        stops = self.dialogue.stop_labels
+        return self._own_voice.may_be(event.decision, *span, stops, self.dialogue.state == ACTING)
 
     def _heed_signs(self, event: Event, cause: Cause, out: list[Event]) -> None:
         """Heed an event of a stream of signed sentences."""
@@ -206,6 +222,10 @@ class SessionLogic:
             self._time_passes(event.time, cause, out)
 
     def _asked(self, event: Event, cause: Cause, out: list[Event]) -> None:
+        if event.event == VOICE_START:
+            self._own_voice.begin(event.fields["text"], event.time)
+        elif event.event == VOICE_END:
+            self._own_voice.end(event.time)
         command = event.fields["command"] if event.event == ASKED else ""
         if command == STOP:
             self._do(self.dialogue.halt(BY_BUTTON), cause, out)

@@ -1,17 +1,16 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A session as an MCAP file, by the package mcap (the extra "mcap"): what was heard, seen, decided and moved.
+"""A session as an MCAP file, by the packages of the extra "mcap": what was heard, seen, decided and moved.
 
-Messages are JSON. Sound and pictures have the schemas of Foxglove, joints and motions those of ROS, events our own
-(docs/session.md). Samples and pictures are kept without loss, so that a replay decides as the session did.
+Sound, pictures, joints and motions are messages of ROS 2 in CDR, events and times our own in JSON (docs/session.md).
+Samples and pictures are kept without loss, so that a replay decides as the session did.
 """
 
 from __future__ import annotations
 
 import json
 import threading
-from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack, suppress
 from os import PathLike, fspath
 from pathlib import Path
@@ -22,58 +21,38 @@ import numpy as np
 from hri.core.errors import InvalidArgument
 from hri.core.files import AtomicFile, atomic_file
 from hri.core.optional import import_optional
+from hri.core.ros2_messages import (
+    DEFINITIONS,
+    ENCODING,
+    SCHEMA_ENCODING,
+    message_definition,
+    message_encoder,
+    message_type,
+)
 from hri.live import Event
 from hri.media import encode_png
-from hri.robot import Trajectory
+from hri.robot import Trajectory, joint_trajectory_message
+from hri.session.event_schema import EVENT, TIMING, event_schema, timing_schema
 
 FORMAT = "hri.session"
-VERSION = 1
-EVENTS, SOUND, PICTURES = "/hri/events", "/hri/sound", "/hri/pictures"
+VERSION = 2
+EVENTS, TIMES = "/hri/events", "/hri/times"
+SOUND, SOUND_INFO, PICTURES = "/hri/sound", "/hri/sound_info", "/hri/pictures"
 JOINTS, MOTIONS = "/hri/joint_states", "/hri/joint_trajectory"
-SCHEMAS = {
-    EVENTS: "hri.Event",
-    SOUND: "foxglove.RawAudio",
-    PICTURES: "foxglove.CompressedImage",
+MESSAGES = {
+    SOUND: "audio_common_msgs/AudioData",
+    SOUND_INFO: "audio_common_msgs/AudioInfo",
+    PICTURES: "sensor_msgs/CompressedImage",
     JOINTS: "sensor_msgs/JointState",
     MOTIONS: "trajectory_msgs/JointTrajectory",
 }
-PCM_16, PCM_FLOAT = "pcm-s16", "pcm-f32"
+"""Of ROS 2, by topic; the other topics hold JSON."""
+SAMPLE_BYTES = {"S16LE": ("<i2", 32768.0), "F32LE": ("<f4", 1.0)}
+"""How samples are kept, and what they are divided by."""
+BASE, CAMERA = "base_link", "camera_optical"
+"""Frames: the robot's base (x forward, y to the left, z up), and the camera's picture (z forward, x right, y down)."""
+_EXACT, _FLOAT = SAMPLE_BYTES
 _JOINT_PERIOD_S = 0.02
-_TIME = {"type": "object", "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}}}
-_NUMBERS = {"type": "array", "items": {"type": "number"}}
-_NAMES = {"type": "array", "items": {"type": "string"}}
-_BYTES = {"type": "string", "contentEncoding": "base64"}
-_FIELDS: dict[str, dict[str, Any]] = {
-    EVENTS: {"time": {"type": "number"}, "event": {"type": "string"}, "mode": {"type": "string"}},
-    SOUND: {
-        "timestamp": _TIME,
-        "data": _BYTES,
-        "format": {"type": "string"},
-        "sample_rate": {"type": "integer"},
-        "number_of_channels": {"type": "integer"},
-        "time_s": {"type": "number"},
-        "offset_s": {"type": "number"},
-        "stream": {"type": "integer"},
-    },
-    PICTURES: {
-        "timestamp": _TIME,
-        "frame_id": {"type": "string"},
-        "data": _BYTES,
-        "format": {"type": "string"},
-        "time_s": {"type": "number"},
-        "offset_s": {"type": "number"},
-        "stream": {"type": "integer"},
-    },
-    JOINTS: {"header": {"type": "object"}, "name": _NAMES, "position": _NUMBERS},
-    MOTIONS: {
-        "header": {"type": "object"},
-        "joint_names": _NAMES,
-        "points": {
-            "type": "array",
-            "items": {"type": "object", "properties": {"positions": _NUMBERS, "time_from_start": _TIME}},
-        },
-    },
-}
 
 
 class McapRecorder:
@@ -89,19 +68,21 @@ class McapRecorder:
     Raises
     ------
     ImportError
-        Without mcap.
+        Without mcap and mcap-ros2-support.
     """
 
     def __init__(self, path: str | PathLike[str]) -> None:
         self._mcap = import_optional("mcap.writer", "mcap", "to record a session")
+        self._encoders = {topic: message_encoder(name) for topic, name in MESSAGES.items()}
         self._path = Path(path)
         self._lock = threading.Lock()
         self._busy = False
         self._writer: Any = None
         self._stack = ExitStack()
         self._channels: dict[str, int] = {}
-        self._sequences = dict.fromkeys(SCHEMAS, 0)
+        self._sequences: dict[str, int] = {}
         self._joints_at_s = -1.0
+        self._info: tuple[int, int, str] | None = None
         self.failure = ""
         """Why nothing more is recorded."""
 
@@ -118,8 +99,7 @@ class McapRecorder:
         with self._lock:
             if self._busy:
                 raise InvalidArgument(f"{fspath(self._path)}: another session is being recorded by this recorder")
-            self._busy, self.failure, self._joints_at_s = True, "", -1.0
-            self._sequences = dict.fromkeys(SCHEMAS, 0)
+            self._busy, self.failure, self._joints_at_s, self._info = True, "", -1.0, None
             try:
                 file = self._stack.enter_context(atomic_file(self._path))
                 out = cast(IO[Any], _Counted(file))
@@ -127,10 +107,8 @@ class McapRecorder:
                 self._writer.start(profile="", library="libhri")
                 facts = {name: json.dumps(value) for name, value in {"version": VERSION, **about}.items()}
                 self._writer.add_metadata(FORMAT, facts)
-                for topic, schema in SCHEMAS.items():
-                    properties = {"title": schema, "type": "object", "properties": _FIELDS[topic]}
-                    number = self._writer.register_schema(schema, "jsonschema", json.dumps(properties).encode())
-                    self._channels[topic] = self._writer.register_channel(topic, "json", number)
+                self._channels = self._registered()
+                self._sequences = dict.fromkeys(self._channels, 0)
             except BaseException as error:
                 self._abandon(error)
                 self._busy = False
@@ -148,65 +126,80 @@ class McapRecorder:
 
     def event(self, event: Event) -> None:
         """Keep an event."""
-        self._write(EVENTS, event.time, event.to_dict())
+        self._write(event.time, lambda: [(EVENTS, event.to_dict())])
 
     def sound(self, samples: Any, sample_rate_hz: int, stream_s: float, offset_s: float, stream: int) -> None:
-        """Keep samples, as 16-bit numbers where these are the same."""
-        whole = np.asarray(samples, np.float32) * np.float32(32768)
-        exact = bool((whole == np.rint(whole)).all() and (np.abs(whole + 0.5) < 32768).all())
-        data = whole.astype("<i2") if exact else np.asarray(samples, "<f4")
-        message = {
-            "timestamp": _stamp(stream_s + offset_s),
-            "data": b64encode(data.tobytes()).decode(),
-            "format": PCM_16 if exact else PCM_FLOAT,
-            "sample_rate": sample_rate_hz,
-            "number_of_channels": 1,
-            "time_s": stream_s,
-            "offset_s": offset_s,
-            "stream": stream,
-        }
-        self._write(SOUND, stream_s + offset_s, message)
+        """Keep samples, as 16-bit numbers where these are the same as all of the stream so far."""
+
+        def messages() -> list[tuple[str, Mapping[str, Any]]]:
+            whole = np.asarray(samples, np.float32) * np.float32(32768)
+            exact = bool((whole == np.rint(whole)).all() and (np.abs(whole + 0.5) < 32768).all())
+            if self._info is not None and self._info[0] == stream:
+                exact = exact and self._info[2] == _EXACT
+            form = _EXACT if exact else _FLOAT
+            data = whole.astype("<i2") if exact else np.asarray(samples, "<f4")
+            made: list[tuple[str, Mapping[str, Any]]] = []
+            if self._info != (stream, sample_rate_hz, form):
+                self._info = (stream, sample_rate_hz, form)
+                made.append((SOUND_INFO, _sound_info(sample_rate_hz, form, data.itemsize)))
+            return [*made, self._timing(SOUND, stream_s, offset_s, stream), (SOUND, {"data": data.tobytes()})]
+
+        self._write(stream_s + offset_s, messages)
 
     def picture(self, frame: Any, stream_s: float, offset_s: float, stream: int) -> None:
         """Keep a picture, as PNG."""
-        message = {
-            "timestamp": _stamp(stream_s + offset_s),
-            "frame_id": "camera",
-            "data": b64encode(encode_png(frame)).decode(),
-            "format": "png",
-            "time_s": stream_s,
-            "offset_s": offset_s,
-            "stream": stream,
-        }
-        self._write(PICTURES, stream_s + offset_s, message)
+        data = encode_png(frame)  # which takes its time, beside what others write
+        header = _header(stream_s + offset_s, CAMERA)
+        self._write(
+            stream_s + offset_s,
+            lambda: [
+                self._timing(PICTURES, stream_s, offset_s, stream),
+                (PICTURES, {"header": header, "format": "png", "data": data}),
+            ],
+        )
 
     def joints(self, time_s: float, positions_rad: Mapping[str, float]) -> None:
         """Keep where joints are sent, 50 times a second at most."""
         if self._joints_at_s <= time_s < self._joints_at_s + _JOINT_PERIOD_S - 1e-9:
             return
         self._joints_at_s = time_s
-        names, positions = list(positions_rad), list(positions_rad.values())
-        self._write(JOINTS, time_s, {"header": _header(time_s), "name": names, "position": positions})
+        fields = {"name": list(positions_rad), "position": [float(value) for value in positions_rad.values()]}
+        self._write(time_s, lambda: [(JOINTS, {"header": _header(time_s, BASE), **fields})])
 
     def motion(self, time_s: float, label: str, trajectory: Trajectory) -> None:
-        """Keep a motion that begins; the frame of its header names it."""
-        points = [
-            {"positions": row, "time_from_start": _stamp(i * trajectory.period_s)}
-            for i, row in enumerate(trajectory.positions_rad.tolist())
-        ]
-        names = list(trajectory.joint_names)
-        self._write(MOTIONS, time_s, {"header": _header(time_s, label), "joint_names": names, "points": points})
+        """Keep a motion that begins; the event "motion_start" before it has its label."""
+        self._write(
+            time_s, lambda: [(MOTIONS, {**joint_trajectory_message(trajectory), "header": _header(time_s, BASE)})]
+        )
 
-    def _write(self, topic: str, time_s: float, message: dict[str, Any]) -> None:
-        data = json.dumps(message, ensure_ascii=False).encode("utf-8", "backslashreplace")
+    def _registered(self) -> dict[str, int]:
+        """Channels by topic."""
+        schemas = {topic: _ros2_schema(name) for topic, name in MESSAGES.items()}
+        for topic, name, schema in ((EVENTS, EVENT, event_schema()), (TIMES, TIMING, timing_schema())):
+            schemas[topic] = ("json", name, "jsonschema", json.dumps(schema).encode())
+        channels = {}
+        for topic, (encoding, name, schema_encoding, text) in schemas.items():
+            number = self._writer.register_schema(name, schema_encoding, text)
+            channels[topic] = self._writer.register_channel(topic, encoding, number)
+        return channels
+
+    def _timing(self, topic: str, stream_s: float, offset_s: float, stream: int) -> tuple[str, Mapping[str, Any]]:
+        """When the next message of a topic was in its stream."""
+        times = {"stream": stream, "time_s": stream_s, "offset_s": offset_s}
+        return TIMES, {"topic": topic, "sequence": self._sequences[topic], **times}
+
+    def _write(self, time_s: float, messages: Callable[[], list[tuple[str, Mapping[str, Any]]]]) -> None:
+        """Write messages one right after the other."""
         time_ns = round(max(0.0, time_s) * 1e9)
         with self._lock:
             if self._writer is None:
                 return
             try:
-                sequence = self._sequences[topic]
-                self._writer.add_message(self._channels[topic], time_ns, data, time_ns, sequence)
-                self._sequences[topic] = sequence + 1
+                for topic, message in messages():
+                    encode = self._encoders.get(topic, _json_of)
+                    sequence = self._sequences[topic]
+                    self._writer.add_message(self._channels[topic], time_ns, encode(message), time_ns, sequence)
+                    self._sequences[topic] = sequence + 1
             except Exception as error:  # whatever a full disk makes of it: what listens for STOP goes on
                 self._abandon(error)
 
@@ -236,10 +229,19 @@ class _Counted:
         """Do nothing: every write goes to the file."""
 
 
-def _stamp(time_s: float) -> dict[str, int]:
+def _ros2_schema(name: str) -> tuple[str, str, str, bytes]:
+    return ENCODING, message_type(name), SCHEMA_ENCODING, message_definition(DEFINITIONS[name]).encode()
+
+
+def _json_of(message: Mapping[str, Any]) -> bytes:
+    return json.dumps(message, ensure_ascii=False).encode("utf-8", "backslashreplace")
+
+
+def _sound_info(rate_hz: int, form: str, sample_bytes: int) -> dict[str, Any]:
+    bits = 8 * sample_bytes * rate_hz
+    return {"channels": 1, "sample_rate": rate_hz, "sample_format": form, "bitrate": bits, "coding_format": "wave"}
+
+
+def _header(time_s: float, frame: str) -> dict[str, Any]:
     time_ns = round(max(0.0, time_s) * 1e9)
-    return {"sec": time_ns // 10**9, "nsec": time_ns % 10**9}
-
-
-def _header(time_s: float, frame: str = "") -> dict[str, Any]:
-    return {"stamp": _stamp(time_s), "frame_id": frame}
+    return {"stamp": {"sec": time_ns // 10**9, "nanosec": time_ns % 10**9}, "frame_id": frame}

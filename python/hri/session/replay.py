@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 import time
-from base64 import b64decode
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.errors import Error, FormatError, InvalidArgument, IoError
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
 from hri.live import Event, HandFrames, Listener
@@ -32,21 +31,28 @@ from hri.session.feeds import Alignment, Arrival, Feed
 from hri.session.live import PASSING
 from hri.session.logic import ASKED, MOTION_END, TICK, NoRobot, SessionLogic
 from hri.session.reading import Message, Recording, wrong
-from hri.session.recording import PCM_16, PCM_FLOAT
+from hri.session.recording import SAMPLE_BYTES
+from hri.session.voice import VOICE_END, VOICE_START
 from hri.session.watching import watcher_of
 from hri.signal import EndpointerOptions
 from hri.vision.persons import Faces
 
 REPEATED = ("fused", "state", "say", "ignored", "stop", "rest", "resumed", "sentence")
 """Events of a session that a replay repeats."""
-_GIVEN = (MOTION_END, ASKED, TICK, OVERFLOW)
+_GIVEN = (MOTION_END, ASKED, TICK, OVERFLOW, VOICE_START, VOICE_END)
 _SAME_S = 1e-3
-_BYTES = {PCM_16: ("<i2", 32768.0), PCM_FLOAT: ("<f4", 1.0)}
+_FPS = 15.0
+"""What "watching" reports; nothing is decided by it."""
 
 
-def decisions(events: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def decisions(events: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     """Those of `events`, as `Event.to_dict` gives them, that a replay repeats."""
-    return [event for event in events if event["event"] in REPEATED]
+    return [event for event in events if is_repeated(event)]
+
+
+def is_repeated(event: dict[str, Any]) -> bool:
+    """Whether a replay repeats an event, as `Event.to_dict` gives it."""
+    return event["event"] in REPEATED
 
 
 def replay(
@@ -81,7 +87,7 @@ def replay(
     InvalidArgument
         For a recogniser, a fusion or stored sentences that are missing, or are there and were not then.
     FormatError
-        For samples or pictures that are damaged.
+        For what is damaged, when it is reached; samples and pictures that cannot be decoded end their mode.
     """
     feeds: dict[str, Feed[Any]] = {}
     needed = (("fusion", fusion, "a learned fusion", "it"), ("knowledge", knowledge, "stored sentences", "them"))
@@ -89,21 +95,22 @@ def replay(
         if (present is None) != (name not in recording.models):
             needs = f"with {what}, and needs {them}" if present is None else f"without {what}"
             raise InvalidArgument(f"{recording.path}: was recorded {needs}")
-    if recording.sound:
+    sound, pictures = _Streams(recording, "speech"), _Streams(recording, "gesture")
+    if sound:
         if words is None:
             raise InvalidArgument(f"{recording.path}: sound was recorded, and needs a recogniser of words")
         endpointer = None if recording.endpointer is None else EndpointerOptions(**recording.endpointer)
         stops = recording.options.fusion.stop_labels
         heard = Listener(words, endpointer, model_id=recording.models.get("speech", ""), urgent=stops)
-        feeds["speech"] = Feed("speech", _Streams(recording, "speech"), heard.listen)
-    if recording.pictures:
+        feeds["speech"] = Feed("speech", sound, heard.listen)
+    if pictures:
         if signs is None:
             raise InvalidArgument(f"{recording.path}: pictures were recorded, and need a recogniser of gestures")
         segmenter = (
             None if recording.segmenter is None else _segmenter_of(recording, isinstance(signs, SentenceRecognizer))
         )
         seen = watcher_of(signs, segmenter, hands, faces, recording.models.get("gesture", ""))
-        feeds["gesture"] = Feed("gesture", _Streams(recording, "gesture"), seen.watch)
+        feeds["gesture"] = Feed("gesture", pictures, seen.watch)
     logic = SessionLogic(
         recording.options,
         NoRobot(reports=False),
@@ -113,12 +120,16 @@ def replay(
         whole_sentences=isinstance(signs, SentenceRecognizer),
     )
     streams = {mode: feed.events() for mode, feed in feeds.items()}
-    for given in recording.events:
+    recorded = {"speech": sound, "gesture": pictures}
+    for given in recording.events():
         if given["mode"] in ("session", "robot") and given["event"] not in _GIVEN:
             continue
         event = None
         if given["event"] not in _GIVEN and given["mode"] in feeds:
             event = _next(streams, feeds[given["mode"]], given)
+            failure = recorded[given["mode"]].failure
+            if failure is not None:  # which a feed makes a stall of
+                raise failure
         yield from logic.process(Arrival(event or as_event(given), time.perf_counter()))
 
 
@@ -154,37 +165,68 @@ def _is(event: Event, given: dict[str, Any]) -> bool:
 
 
 class _Streams:
-    """Opens one recorded stream of a mode after the other."""
+    """Opens one recorded stream of a mode after the other; false where none was recorded."""
 
     def __init__(self, recording: Recording, mode: str) -> None:
-        self._recording = recording
+        self._recording, self._mode = recording, mode
         self._kind: Any = _Sound if mode == "speech" else _Pictures
-        messages = recording.sound if mode == "speech" else recording.pictures
-        self._left = [messages[number] for number in sorted(messages)]
-        ends = [e["event"] for e in recording.events if e["mode"] == mode and e["event"] in ("ended", "stall")]
-        self._stalls = ends[-1:] == ["stall"]
+        self._messages = recording.sound() if mode == "speech" else recording.pictures()
+        self._ahead: Message | None = next(self._messages, None)
+        self._opened = -1
+        self.failure: Error | None = None
+        """Why nothing more can be read."""
+
+    def __bool__(self) -> bool:
+        return self._ahead is not None
 
     def __call__(self) -> Any:
-        if not self._left:
+        while self.take(self._opened) is not None:
+            pass  # what of the last one was not read
+        if self._ahead is None:
             raise IoError("nothing more was recorded")
-        messages = self._left.pop(0)
-        return self._kind(str(self._recording.path), messages, bool(self._left) or self._stalls)
+        self._opened = self._ahead.stream
+        return self._kind(str(self._recording.path), self, self._ahead)
+
+    def take(self, stream: int) -> Message | None:
+        """The next message of a stream; None at its end."""
+        message = self._ahead
+        if message is None or message.stream != stream:
+            return None
+        try:
+            self._ahead = next(self._messages, None)
+        except Error as error:
+            self._ahead, self.failure = None, error
+            raise
+        return message
+
+    def stalls(self) -> bool:
+        """Whether the stream that is over vanished: another one followed, or the session said so."""
+        if self._ahead is not None:
+            return True
+        last = ""
+        for event in self._recording.events():
+            if event["mode"] == self._mode and event["event"] in ("ended", "stall"):
+                last = event["event"]
+        return last == "stall"
 
 
 class _Recorded:
     """What sound and pictures have in common."""
 
-    def __init__(self, name: str, messages: list[Message], stalls: bool) -> None:
+    def __init__(self, name: str, streams: _Streams, first: Message) -> None:
         self.name = name
         self.num_lost = 0
         self.alignment = Alignment(0.0)
-        self._messages = iter(messages)
-        self._stalls = stalls
+        self._streams = streams
+        self._stream = first.stream
+        self._closed = False
 
     def _take(self) -> Message | None:
-        message = next(self._messages, None)
+        if self._closed:
+            return None
+        message = self._streams.take(self._stream)
         if message is None:
-            if self._stalls:
+            if self._streams.stalls():
                 raise Stalled(f"{self.name}: the source vanished here")
             return None
         self.alignment.offset_s = message.offset_s
@@ -192,44 +234,38 @@ class _Recorded:
 
     def close(self) -> None:
         """What has not been read is dropped."""
-        self._messages = iter(())
+        self._closed = True
 
 
 class _Sound(_Recorded):
-    def __init__(self, name: str, messages: list[Message], stalls: bool) -> None:
-        super().__init__(name, messages, stalls)
-        self.sample_rate_hz = messages[0].rate
+    def __init__(self, name: str, streams: _Streams, first: Message) -> None:
+        super().__init__(name, streams, first)
+        self.sample_rate_hz = first.rate_hz
 
     def read(self) -> NDArray[np.float32] | None:
         message = self._take()
         if message is None:
             return None
-        dtype, scale = _BYTES[message.format]
+        dtype, scale = SAMPLE_BYTES[message.format]
         try:
-            samples = np.frombuffer(b64decode(message.data, validate=True), dtype)
+            samples = np.frombuffer(message.data, dtype)
         except ValueError as error:
             raise wrong(self.name, f"samples at {message.time_s:g} s: {error}") from error
-        if message.rate != self.sample_rate_hz or not len(samples) or not np.isfinite(samples).all():
+        if message.rate_hz != self.sample_rate_hz or not len(samples) or not np.isfinite(samples).all():
             raise wrong(self.name, f"samples at {message.time_s:g} s are none, or of another rate")
         return (samples / np.float32(scale)).astype(np.float32)
 
 
 class _Pictures(_Recorded):
-    def __init__(self, name: str, messages: list[Message], stalls: bool) -> None:
-        super().__init__(name, messages, stalls)
-        self.fps = max(1.0, (len(messages) - 1) / max(1e-3, messages[-1].time_s - messages[0].time_s))
+    fps = _FPS
 
     def read(self) -> TimedFrame | None:
         message = self._take()
         if message is None:
             return None
-        try:
-            data = b64decode(message.data, validate=True)
-        except ValueError as error:
-            raise wrong(self.name, f"picture at {message.time_s:g} s: {error}") from error
-        if not data:
+        if not message.data:
             raise FormatError(f"{self.name}: picture at {message.time_s:g} s is empty")
-        return decode_image(data, self.name), message.time_s
+        return decode_image(message.data, self.name), message.time_s
 
     def reconnect(self) -> bool:
         """What was recorded comes as it came."""

@@ -14,8 +14,7 @@ from dataclasses import asdict, replace
 from numbers import Real
 from typing import Any
 
-from hri.core.errors import Error, FormatError, InvalidArgument
-from hri.core.phrases import phrase, phrase_of
+from hri.core.errors import Error, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
 from hri.live import AudioSource, Event, FrameSource, HandFrames, Listener
@@ -27,22 +26,15 @@ from hri.recognition import (
     SentenceStreamOptions,
     WordRecognizer,
 )
-from hri.robot import (
-    NAO,
-    Robot,
-    Trajectory,
-    command_trajectory,
-    gesture_trajectory,
-    load_gestures,
-    nao_gesture_trajectory,
-    needs_feet,
-)
+from hri.robot import Robot, Trajectory
 from hri.session.feeds import Arrival, Clock, Feed, SessionRecorder, merge
 from hri.session.imitation import ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
+from hri.session.motions import prepared_motions
 from hri.session.mover import Guided, Motion, Mover
 from hri.session.options import SessionOptions
+from hri.session.voice import Voice
 from hri.session.watching import OnResult, watcher_of
 from hri.signal import EndpointerOptions
 from hri.vision.persons import Faces
@@ -80,6 +72,8 @@ class Session:
         Gets every `FrameResult` in the thread that watches, as that of `hri.live.Watcher` does; it must not wait.
     on_say : callable of str, optional
         Gets what the robot says, in the thread that decides; it must not wait.
+    voice : Voice, optional
+        Says it, and is left open. While it speaks in a live session, nothing spoken counts but STOP.
     model_ids : mapping of mode to str, optional
         Which models decide, which learned fusion ("fusion") and stored sentences ("knowledge"); passed on with
         decisions.
@@ -117,6 +111,7 @@ class Session:
         hands: HandFrames | None = None,
         on_say: Callable[[str], None] | None = None,
         on_result: OnResult | None = None,
+        voice: Voice | None = None,
         model_ids: Mapping[str, str] | None = None,
         fusion: LearnedFusion | None = None,
         faces: Faces | None = None,
@@ -126,7 +121,7 @@ class Session:
             raise InvalidArgument("a session needs a recogniser of words or of gestures")
         self.options = options or SessionOptions()
         self._robot = robot
-        self._on_say = on_say
+        self._on_say, self._voice = on_say, voice
         self._labels = {str(label) for one in (words, signs) if one is not None for label in one.classes_}
         # Words of a signed sentence are no commands.
         self._command_labels = {
@@ -238,7 +233,13 @@ class Session:
         self._ask(REST)
 
     def _ask(self, command: str, **fields: float) -> None:
-        event = session_event(0.0, ASKED, command=command, **fields)
+        self._put(session_event(0.0, ASKED, command=command, **fields))
+
+    def _voiced(self, kind: str, text: str, message: str) -> None:
+        """The voice has begun or ended to say something."""
+        self._put(session_event(0.0, kind, text=text, message=message))
+
+    def _put(self, event: Event) -> None:
         with self._asking:
             if isinstance(self._inbox, EventQueue):
                 self._inbox.put(event)
@@ -277,38 +278,19 @@ class Session:
     def _prepared(self, motions: Mapping[str, Motion] | None) -> dict[str, Motion]:
         if self._robot is None:
             return {}
-        found: dict[str, Motion] = {}
+        guided: dict[str, Motion] = {}
         if self._imitator is not None:
-            guided = Guided(self._imitator.joint_names, self._imitator.target_at)
-            found |= dict.fromkeys(self.options.imitate_labels, guided)
-        led = {*self.options.control_labels, *self.options.fusion.stop_labels, *found}
-        for label in sorted((self._command_labels - led) | self._answers()):
-            if motions is None and not self._slots.get(label) and label not in load_gestures():
-                self.refused[label] = phrase("no_gesture_of_name")
-            elif motions is not None and label not in motions:
-                self.refused[label] = phrase("in_no_motion")
-            else:
-                try:
-                    motion = motions[label] if motions is not None else self._own_motion(label, self._robot)
-                    if isinstance(motion, Trajectory):
-                        if needs_feet(motion) and not self._robot.on_feet:
-                            raise InvalidArgument(phrase("torso_held"))
-                        self._robot.prepare(motion)
-                    found[label] = motion
-                except (FormatError, InvalidArgument) as error:
-                    self.refused[label] = phrase_of(error)
-        return found
+            one = Guided(self._imitator.joint_names, self._imitator.target_at)
+            guided = dict.fromkeys(self.options.imitate_labels, one)
+        led = {*self.options.control_labels, *self.options.fusion.stop_labels, *guided}
+        labels = (self._command_labels - led) | self._answers()
+        found, self.refused = prepared_motions(self._robot, labels, motions, self._slots)
+        return guided | found
 
     def _answers(self) -> set[str]:
         """Gestures that stored sentences are answered with."""
         stored = () if self._knowledge is None else self._knowledge.sentences
         return {label for sentence in stored for label in sentence.answer}
-
-    def _own_motion(self, label: str, robot: Robot) -> Trajectory:
-        """By the slots of a command, or the gesture of this name."""
-        own = nao_gesture_trajectory if robot.table.name == NAO.name else gesture_trajectory
-        slots = self._slots.get(label)
-        return command_trajectory(slots, robot.table, own) if slots else own(label)
 
     def _about(self) -> dict[str, Any]:
         given = {"endpointer": self._endpointer, "segmenter": self._segmenter}
@@ -324,8 +306,14 @@ class Session:
 
     def _logic(self, body: Body) -> SessionLogic:
         return SessionLogic(
-            self.options, body, self._commands(), self._on_say, self._fusion, self._knowledge, self._whole_sentences
+            self.options, body, self._commands(), self._say, self._fusion, self._knowledge, self._whole_sentences
         )
+
+    def _say(self, text: str) -> None:
+        if self._on_say is not None:
+            self._on_say(text)
+        if self._voice is not None:
+            self._voice.say(text)
 
     @contextmanager
     def _begun(self, clock: Clock | None, recorder: SessionRecorder | None) -> Iterator[Body]:
@@ -384,6 +372,9 @@ class Session:
             live = LiveFeeds(self._feeds(sound, pictures, clock, recorder), self.options.retry_s)
             stack.callback(live.close)
             self._deliver_to(live.queue)  # a STOP of before the first word stops what that word asks for
+            if self._voice is not None:  # over files it is not heard
+                self._voice.attach(self._voiced)
+                stack.callback(self._voice.detach)
             live.start()
 
             def decide() -> None:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Digits said and signed one after the other, as streams of a session and as the same files, by people neither
-recogniser has met."""
+"""Digits said and signed one after the other, with other talk between them, as streams of a session and as the same
+files, by people neither recogniser has met."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ from hri.live import ArraySource, ClipSource, Event
 from hri.live.frames import Frame
 from hri.media import read_audio, read_image
 from hri.recognition import GestureRecognizer, WordRecognizer
-from hri.session import Session
+from hri.robot import Trajectory, open_robot
+from hri.session import Session, SessionOptions
+from hri.signal import resample
 from hri.studies.registry import GESTURE_SOURCES, WORD_SOURCES, Layout, Progress, Study
 from hri.studies.tables import statistics
 
@@ -32,7 +34,16 @@ PAIRED = 0.6
 """Of the turns; of the others, half are said and half are signed alone."""
 APART_S = 1.0
 PAUSE_S = (2.5, 4.0)
-"""From the end of a turn to the beginning of the next."""
+"""From the end of a turn, or of the talk after it, to the beginning of the next."""
+OTHERS = "other_words"
+TALK = 0.5
+"""Of the turns: after these come other words, which are no digits, by strangers."""
+TALK_WORDS = 3
+"""At most, one after the other."""
+TALK_AFTER_S, TALK_GAP_S = (1.0, 2.0), (0.4, 1.0)
+"""From the end of a turn to the first of them, and from one to the next."""
+NOD = Trajectory(("head_joint_2",), 0.2, [[0.0], [0.1], [0.0]])
+"""What the robot answers each digit by."""
 FPS = 15.0
 SLIDE_S, HOLD_S = 0.4, 1.2
 """A still is slid into view, held and slid away: no signer was filmed."""
@@ -63,10 +74,23 @@ class Turn:
         return self.word >= 0, self.sign >= 0
 
 
-def plan(words: Sequence[tuple[str, float]], signs: Sequence[str], num_turns: int, seed: int) -> list[Turn]:
-    """Turns of words (label, seconds) and signs (label) of the same digit; they begin up to a second apart."""
+@dataclass(frozen=True)
+class Talk:
+    """Another word: the number of its recording, and when it begins and ends."""
+
+    word: int
+    span_s: tuple[float, float]
+
+
+def plan(
+    words: Sequence[tuple[str, float]], signs: Sequence[str], num_turns: int, seed: int, others_s: Sequence[float] = ()
+) -> tuple[list[Turn], list[Talk]]:
+    """Turns of words (label, seconds) and signs (label) of the same digit; they begin up to a second apart.
+
+    Between them come other words, of `others_s` seconds each; none where there are none.
+    """
     rng = np.random.default_rng(seed)
-    turns, at_s = [], 1.0
+    turns, talk, at_s = [], [], 1.0
     for _ in range(num_turns):
         kind = rng.choice(3, p=(PAIRED, (1 - PAIRED) / 2, (1 - PAIRED) / 2))
         word = int(rng.integers(len(words)))
@@ -77,20 +101,34 @@ def plan(words: Sequence[tuple[str, float]], signs: Sequence[str], num_turns: in
         word_s, sign_s = (word_at, word_at + length_s), (sign_at, sign_at + 2 * SLIDE_S + HOLD_S)
         turn = Turn(label, -1 if kind == 2 else word, -1 if kind == 1 else sign, word_s, sign_s)
         turns.append(turn)
-        at_s = turn.span_s[1] + float(rng.uniform(*PAUSE_S))
-    return turns
+        at_s = turn.span_s[1]
+        if others_s and rng.random() < TALK:
+            begin_s = at_s + float(rng.uniform(*TALK_AFTER_S))
+            for other in rng.integers(len(others_s), size=int(rng.integers(1, TALK_WORDS + 1))):
+                at_s = begin_s + others_s[int(other)]
+                talk.append(Talk(int(other), (begin_s, at_s)))
+                begin_s = at_s + float(rng.uniform(*TALK_GAP_S))
+        at_s += float(rng.uniform(*PAUSE_S))
+    return turns, talk
 
 
-def sound_of(turns: Sequence[Turn], clips: Sequence[Any], rate: int, seed: int) -> Any:
-    """The words at their times, at levels of their own over a faint noise."""
+def sound_of(
+    turns: Sequence[Turn],
+    clips: Sequence[Any],
+    rate: int,
+    seed: int,
+    talk: Sequence[Talk] = (),
+    others: Sequence[Any] = (),
+) -> Any:
+    """The words at their times, at levels of their own over a faint noise, and the others between them."""
     rng = np.random.default_rng(seed)
-    num_samples = round((turns[-1].span_s[1] + 3.0) * rate)
-    stream = make_noise("pink", num_samples, rate, rng)
+    last_s = max(one.span_s[1] for some in (turns, talk) for one in some)
+    stream = make_noise("pink", round((last_s + 3.0) * rate), rate, rng)
     stream *= np.float32(10 ** (FLOOR_DB / 20) / np.std(stream))
-    for turn in turns:
-        if turn.word >= 0:
-            clip, at = clips[turn.word], round(turn.word_s[0] * rate)
-            stream[at : at + len(clip)] += 10 ** (rng.uniform(*PEAK_DB) / 20) / np.abs(clip).max() * clip
+    said = [(clips[turn.word], turn.word_s[0]) for turn in turns if turn.word >= 0]
+    for clip, begin_s in (*said, *((others[one.word], one.span_s[0]) for one in talk)):
+        at = round(begin_s * rate)
+        stream[at : at + len(clip)] += 10 ** (rng.uniform(*PEAK_DB) / 20) / np.abs(clip).max() * clip
     return np.clip(stream, -1, 1).astype(np.float32)
 
 
@@ -139,13 +177,38 @@ def judge(turns: Sequence[Turn], fused: Sequence[Event]) -> list[dict[str, Any]]
     return found
 
 
+def latencies(events: Sequence[Event]) -> dict[str, list[tuple[float, float]]]:
+    """From the end of a word, of a sign or of the later of both to the first joint command: waiting, and computing.
+
+    In ms, by what led to the motion.
+    """
+    found: dict[str, list[tuple[float, float]]] = {"word": [], "sign": [], "both": []}
+    decided: Event | None = None
+    for event in events:
+        if event.event == "fused":
+            decided = event
+        elif event.event == "motion_start" and decided is not None and decided.fields["final"] == event.fields["label"]:
+            said, shown = (decided.fields[mode] is not None for mode in ("speech", "gesture"))
+            what = "both" if said and shown else "word" if said else "sign"
+            found[what].append((event.fields["wait_ms"], event.fields["compute_ms"]))
+    return found
+
+
+def meets(event: Event, spans_s: Sequence[tuple[float, float]]) -> bool:
+    """Whether a decision is on something of one of these times."""
+    return any(event.fields["first_s"] < last_s and event.fields["last_s"] > first_s for first_s, last_s in spans_s)
+
+
 def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dict[str, Any]:
     spoken = Dataset.load(data_dir / "fsdd" / "recordings", "speech")
     signed = Dataset.load(data_dir / "sign_digits", "gesture")
+    strangers = [read_audio(sample.path) for sample in Dataset.load(data_dir / OTHERS, "speech").samples]
     word_folds = spoken.folds_by_person()
     sign_folds = signed.folds_by_person(len(word_folds), SEED)
     shares: dict[str, dict[str, float]] = {"files": {}, "streams": {}}
-    counts: dict[str, int] = dict.fromkeys(("turns", "pairs", "joined", "apart", "missed", "spurious"), 0)
+    names = ("turns", "pairs", "joined", "apart", "missed", "talk", "talk_as_digits", "spurious")
+    counts: dict[str, int] = dict.fromkeys(names, 0)
+    took: dict[str, list[tuple[float, float]]] = {"word": [], "sign": [], "both": []}
     for part, (said, shown) in enumerate(zip(word_folds, sign_folds, strict=True)):
         if folds is not None and part >= folds:
             break
@@ -157,15 +220,22 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         audio = [read_audio(sample.path) for sample in test_words]
         rate = audio[0].sample_rate_hz
         clips, stills = [a.samples for a in audio], [read_image(sample.path) for sample in test_signs]
+        others = [np.asarray(resample(a.samples, a.sample_rate_hz, rate)) for a in strangers]
         lengths = [(s.label, len(c) / rate) for s, c in zip(test_words, clips, strict=True)]
-        turns = plan(lengths, [s.label for s in test_signs], NUM_TURNS, SEED + part)
+        labels = [s.label for s in test_signs]
+        turns, talk = plan(lengths, labels, NUM_TURNS, SEED + part, [len(other) / rate for other in others])
         as_files = []
         for turn in turns:
             heard = words.recognise(clips[turn.word], rate) if turn.word >= 0 else None
             seen = signs.recognise([stills[turn.sign]]) if turn.sign >= 0 else None
             as_files.append(fuse(heard, seen).label == turn.label)
-        sound = ArraySource(sound_of(turns, clips, rate, SEED + part), rate)
-        events = Session(words, signs).run(sound, ClipSource(pictures_of(turns, stills, SEED + part), FPS))
+        sound = ArraySource(sound_of(turns, clips, rate, SEED + part, talk, others), rate)
+        with open_robot("kinematic") as robot:
+            session = Session(
+                words, signs, robot, SessionOptions(confirm_below=0), motions=dict.fromkeys(set(labels), NOD)
+            )
+            pictures = ClipSource(pictures_of(turns, stills, SEED + part), FPS)
+            events = list(session.run(sound, pictures))
         fused = [event for event in events if event.event == "fused"]
         judged = judge(turns, fused)
         shares["files"][said.name] = float(np.mean(as_files))
@@ -176,10 +246,13 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
             counts[name] += sum(j[name] for j in judged)
         counts["turns"] += len(turns)
         counts["pairs"] += sum(all(turn.modes) for turn in turns)
-        counts["spurious"] += sum(
-            not any(e.fields["first_s"] < t.span_s[1] and e.fields["last_s"] > t.span_s[0] for t in turns)
-            for e in fused
-        )
+        counts["talk"] += len(talk)
+        beside = [event for event in fused if not meets(event, [turn.span_s for turn in turns])]
+        of_talk = [event for event in beside if meets(event, [one.span_s for one in talk])]
+        counts["talk_as_digits"] += sum(event.fields["final"] != "" for event in of_talk)
+        counts["spurious"] += len(beside) - len(of_talk)
+        for what, times in latencies(events).items():
+            took[what] += times
         progress(f"{said.name}: played", 2 * part + 2, 2 * len(word_folds))
     rows = [{"digits": how, **statistics(values)} for how, values in shares.items()]
     gap = rows[0]["accuracy_mean"] - rows[1]["accuracy_mean"]
@@ -191,8 +264,14 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         **counts,
         "gap": gap,
         "paired_wrongly": wrong,
+        "latency": {what: _medians(times) for what, times in took.items() if times},
         "passed": bool(gap <= MAX_GAP and wrong <= MAX_WRONG),
     }
+
+
+def _medians(times: Sequence[tuple[float, float]]) -> dict[str, float]:
+    wait_ms, compute_ms = np.median(times, axis=0)
+    return {"motions": len(times), "wait_ms": float(wait_ms), "compute_ms": float(compute_ms)}
 
 
 def _few(dataset: Dataset, numbers: Sequence[int]) -> list[int]:
@@ -213,13 +292,21 @@ STUDIES = (
     Study(
         "session-digits",
         "spoken digits of unseen speakers and signed digits of unseen persons as streams of a session, begun up to "
-        f"{APART_S:g} s apart, {100 * (1 - PAIRED):.0f} % of them alone, against the same as files",
-        ("fsdd/recordings", "sign_digits"),
+        f"{APART_S:g} s apart, {100 * (1 - PAIRED):.0f} % of them alone, with other words between them, against the "
+        "same as files",
+        ("fsdd/recordings", "sign_digits", OTHERS),
         f"the streams are right as often as the files, less {100 * MAX_GAP:.0f} point; at most {100 * MAX_WRONG:.0f} % "
         "of the turns taken apart or joined wrongly",
         _run,
         Layout(),
-        sources=(*dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES, "python/live", "python/fusion", "python/session")),),
+        sources=(
+            *dict.fromkeys(
+                (
+                    *(*WORD_SOURCES, *GESTURE_SOURCES, "python/live", "python/fusion", "python/session"),
+                    *("python/robot/control", "python/robot/motion"),
+                )
+            ),
+        ),
         folds=True,
     ),
 )

@@ -275,6 +275,10 @@ class Robot(CommandedJoints):
         self._require_open()
         return self._joint_positions()
 
+    def known_positions_rad(self) -> dict[str, float]:
+        """Where the joints are, as far as that is known at once: of a real robot, where they were last sent."""
+        return self.joint_positions_rad()
+
     def close(self) -> None:
         """Let go of the robot, which cannot be used any more; a motion of another thread is stopped first.
 

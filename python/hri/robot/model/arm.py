@@ -71,8 +71,11 @@ def arm_of(side: Side, table: JointTable = HOAP2) -> Arm:
     """
     letter = side[0]
     names = tuple(f"{letter}arm_joint_{number}" for number in range(1, 5))
+    wrist_name = f"{letter}arm_joint_5"
+    if not {*names, wrist_name}.issubset(table.names):
+        raise InvalidArgument(f"{table.name}'s arms are not built as HOAP-2's: it cannot move them as a person does")
     joints = [table[name] for name in names]
-    wrist = table[f"{letter}arm_joint_5"]
+    wrist = table[wrist_name]
     if tuple(joint.axis for joint in joints) != _AXES or joints[3].origin_m[1:] != (0.0, 0.0):
         raise InvalidArgument(f"the {side} arm of {table.name} does not turn about y, z, x, y")
     limits = np.array([(joint.lower_rad, joint.upper_rad) for joint in joints])

@@ -5,30 +5,19 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from hri.core.errors import FormatError
 from hri.core.mcap_records import mcap_records
 from hri.core.optional import import_optional
+from hri.core.ros2_messages import DEFINITIONS, ENCODING, message_decoder, message_definition, message_type
 
-MESSAGE_TYPE = "trajectory_msgs/msg/JointTrajectory"
+NAME = "trajectory_msgs/JointTrajectory"
+MESSAGE_TYPE = message_type(NAME)
 TOPIC = "/joint_trajectory"
 
-_END = "\n" + "=" * 80 + "\n"
-_HEAD = "std_msgs/Header header\nstring[] joint_names\n"
-_PARTS = _END.join(
-    (
-        "",
-        "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id",
-        "MSG: trajectory_msgs/JointTrajectoryPoint\nfloat64[] positions\nfloat64[] velocities\n"
-        "float64[] accelerations\nfloat64[] effort\nbuiltin_interfaces/Duration time_from_start",
-        "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec",
-        "MSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec",
-    )
-)
-_DEFINITION = _HEAD + "trajectory_msgs/JointTrajectoryPoint[] points" + _PARTS
-_COUNTED = _HEAD + "uint32 num_points" + _PARTS  # what stands before the points
+_COUNTED = "std_msgs/Header header\nstring[] joint_names\nuint32 num_points"  # what stands before the points
 
 
 def mcap_of_message(message: dict[str, Any]) -> bytes:
@@ -36,7 +25,7 @@ def mcap_of_message(message: dict[str, Any]) -> bytes:
     writer_of = import_optional("mcap_ros2.writer", "mcap", "to write a motion as MCAP")
     out = io.BytesIO()
     with writer_of.Writer(out) as writer:
-        definition = writer.register_msgdef(MESSAGE_TYPE, _DEFINITION)
+        definition = writer.register_msgdef(MESSAGE_TYPE, message_definition(DEFINITIONS[NAME]))
         writer.write_message(TOPIC, definition, message, log_time=0, publish_time=0)
     return out.getvalue()
 
@@ -55,10 +44,10 @@ def message_of_mcap(data: bytes, name: str, max_bytes: int, max_points: int) -> 
         found = list(_messages(data, max_bytes))
         if len(found) != 1:
             raise FormatError(f"{name}: holds {len(found)} messages {MESSAGE_TYPE} in CDR, must be one")
-        num_points = _decoder(_COUNTED)(found[0]).num_points
+        num_points = message_decoder(NAME, _COUNTED)(found[0]).num_points
         if num_points > max_points:  # each of which would be an object, before anything looks at it
             raise FormatError(f"{name}: points: {num_points}, must be 1 to {max_points}")
-        return _message(_decoder(_DEFINITION)(found[0]))
+        return _message(message_decoder(NAME)(found[0]))
     except FormatError:
         raise
     except Exception as error:  # the libraries raise many kinds for what is damaged
@@ -71,25 +60,14 @@ def _messages(data: bytes, max_bytes: int) -> Iterator[bytes]:
 
     schemas: dict[int, str] = {}
     ours: set[int] = set()
-    for record in mcap_records(data, max_bytes, max_bytes):
+    for record in mcap_records(io.BytesIO(data), max_bytes, max_bytes):
         if isinstance(record, Schema):
             schemas[record.id] = record.name
         elif isinstance(record, Channel):
-            if record.message_encoding == "cdr" and schemas.get(record.schema_id) == MESSAGE_TYPE:
+            if record.message_encoding == ENCODING and schemas.get(record.schema_id) == MESSAGE_TYPE:
                 ours.add(record.id)
         elif isinstance(record, Message) and record.channel_id in ours:
             yield record.data
-
-
-def _decoder(definition: str) -> Callable[[bytes], Any]:
-    """By a definition of ours, whatever the file says of its own."""
-    from mcap.records import Schema
-    from mcap_ros2.decoder import DecoderFactory
-
-    schema = Schema(id=1, name=MESSAGE_TYPE, encoding="ros2msg", data=definition.encode())
-    decode = DecoderFactory().decoder_for("cdr", schema)
-    assert decode is not None
-    return decode
 
 
 def _message(decoded: Any) -> dict[str, Any]:

@@ -83,6 +83,11 @@ class NaoqiRobot(Robot):
         """Where the robot is."""
         return self._link.url
 
+    def known_positions_rad(self) -> dict[str, float]:
+        """Where the joints were last sent, or were when it was connected to; NAO is not asked."""
+        self._require_open()
+        return dict(self._commanded)
+
     def say(self, text: str, language: str | None = None) -> None:
         """Say a text by ALTextToSpeech, and return when it has been said.
 
@@ -126,6 +131,20 @@ class NaoqiRobot(Robot):
             self._event("fault", f"not said: {error}", None)
         else:
             future.addCallback(self._said)
+
+    def say_cleaned(self, text: str) -> None:
+        """Say a text, as `say`, without what no voice can say and all after 1000 characters.
+
+        As `hri.session.Voice` needs it; a text of which nothing is left is not said.
+
+        Raises
+        ------
+        IoError, Error
+            When NAO does not answer.
+        """
+        text = _speakable(text)[:MAX_TEXT_LENGTH]
+        if text.strip():
+            self.say(text)
 
     def wake_up(self) -> bool:
         """Switch all motors on and stand up as NAO does it by itself; False when `stop` ended or prevented it.

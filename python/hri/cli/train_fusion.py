@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri train-fusion``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+
+from hri.cli.groups import CheckedCommand, FiniteRange
+from hri.cli.messages import note
+from hri.cli.output import OutputFile, json_option, say, write_json
+from hri.cli.progress import Progress, progress_bars
+from hri.cli.recognizers import load_dataset, recognizer_factory
+from hri.core.errors import InvalidArgument
+from hri.datasets import Dataset
+from hri.evaluation import EvaluationResult, cross_validate
+from hri.fusion import KINDS, LearnedFusion, fuse, pair_decisions
+from hri.recognition import Decision
+
+PARTS = 2
+"""Into which persons are parted to measure: fusion learns on one, and is measured on the other."""
+_folder = click.Path(exists=True, file_okay=False)
+
+
+@click.command("train-fusion", cls=CheckedCommand)
+@click.option("--speech-data", required=True, type=_folder, metavar="DIR", help="Folder of recorded words.")
+@click.option("--gesture-data", required=True, type=_folder, metavar="DIR", help="Folder of signs of the same labels.")
+@click.option("--out", required=True, type=OutputFile(), metavar="FILE", help="What --fusion of other commands reads.")
+@click.option("--kind", type=click.Choice(KINDS), default=KINDS[0], show_default=True, help="What learns.")
+@click.option("--folds", type=click.IntRange(2), help="Folds by person, of each folder; the default is as of evaluate.")
+@click.option("--noise", help="Also learn from words in this noise: white, pink, or a recording.")
+@click.option("--snr", type=FiniteRange(-30, 60), metavar="DB", help="Signal-to-noise ratio of --noise.")
+@click.option("--exposure", type=FiniteRange(0.05, 20), help="Also learn from signs of another brightness: a factor.")
+@click.option("--speech-option", multiple=True, metavar="NAME=VALUE", help="Of the words' recogniser, as of train.")
+@click.option("--gesture-option", multiple=True, metavar="NAME=VALUE", help="Of the signs' recogniser, as of train.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random.")
+@json_option
+def train_fusion(
+    speech_data: str,
+    gesture_data: str,
+    out: str,
+    kind: str,
+    folds: int | None,
+    noise: str | None,
+    snr: float | None,
+    exposure: float | None,
+    speech_option: tuple[str, ...],
+    gesture_option: tuple[str, ...],
+    seed: int,
+    json_path: str | None,
+) -> None:
+    """Learn how to combine words and signs, from what recognisers decide on persons who are left out of training.
+
+    Recognisers are trained on all but some persons, and decide on those, until each was left out once. Each word goes
+    with two signs of the same label. How often the result is right is measured on half of the persons, by what was
+    learned from the other half; what is written has learned from all.
+
+    \b
+    Examples:
+      hri train-fusion --speech-data spoken/ --gesture-data signed/ --out fusion.hri
+      hri train-fusion --speech-data spoken/ --gesture-data signed/ --out fusion.hri --noise pink --snr 10
+      hri session --fusion fusion.hri
+    """
+    if (noise is None) != (snr is None):
+        raise click.UsageError("--noise and --snr go together")
+    makes = {
+        "speech": recognizer_factory("speech", speech_option, seed),
+        "gesture": recognizer_factory("gesture", gesture_option, seed),
+    }
+    data = {"speech": load_dataset(speech_data, "speech", None), "gesture": load_dataset(gesture_data, "gesture", None)}
+    for mode, dataset in data.items():
+        if len(dataset.persons) < 2:
+            raise InvalidArgument(f"{dataset.root}: {mode} of two persons or more is needed, one is left out at a time")
+    common = [label for label in data["speech"].labels if label in data["gesture"].labels]
+    if len(common) < 2:
+        raise InvalidArgument(f"{speech_data} and {gesture_data} need two labels in common, and have {len(common)}")
+    changed: dict[str, dict[str, Any]] = {
+        "speech": {} if noise is None else {"noise": noise, "snr_db": snr},
+        "gesture": {} if exposure is None else {"exposure": exposure},
+    }
+    path = Path(out)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    decided: dict[str, list[list[tuple[str, Decision]]]] = {}
+    with progress_bars() as progress:
+        for mode, dataset in data.items():
+            decided[mode] = _held_out(dataset, makes[mode], folds, seed, changed[mode], progress)
+    shares = _measured(decided, kind, seed)
+    said, shown = ([one for part in decided[mode] for one in part] for mode in ("speech", "gesture"))
+    pairs = pair_decisions(said, shown, seed=seed)
+    LearnedFusion(kind, seed).fit_decisions(pairs.speech, pairs.gesture, pairs.labels).save(path)
+    say(str(path), json_path)
+    note(f"{len(pairs.labels)} pairs of words and signs of held-out persons, {len(common)} labels: {' '.join(common)}")
+    for name, share in shares.items():
+        note(f"{name}: {100 * share:.1f} % right on persons that it was not learned from")
+    left_out = sorted({*data["speech"].labels, *data["gesture"].labels}.difference(common))
+    if left_out:
+        note(f"labels of one folder only, not learned from: {' '.join(left_out)}")
+    synthetic = any(dataset.synthetic for dataset in data.values())
+    report = {"model": str(path), "kind": kind, "labels": common, "num_pairs": len(pairs.labels), "held_out": shares}
+    write_json(json_path, {**report, "synthetic": synthetic, "seed": seed})
+
+
+def _held_out(
+    dataset: Dataset,
+    make: Callable[[], Any],
+    folds: int | None,
+    seed: int,
+    changed: dict[str, Any],
+    progress: Progress,
+) -> list[list[tuple[str, Decision]]]:
+    """Right labels and decisions, in `PARTS` parts of different persons; also of the changed signal, where it is."""
+    parts: list[list[tuple[str, Decision]]] = [[] for _ in range(PARTS)]
+    for conditions in ({}, changed) if changed else ({},):
+        result: EvaluationResult = cross_validate(
+            dataset, make, num_folds=folds, seed=seed, progress=progress, **conditions
+        )
+        for number, fold in enumerate(result.folds):
+            parts[number % PARTS] += [(item.truth, item.decision) for item in fold.items]
+    return parts
+
+
+def _measured(decided: dict[str, list[list[tuple[str, Decision]]]], kind: str, seed: int) -> dict[str, float]:
+    """How often each mode, the fixed product and what was learned on the other persons are right."""
+    parts = [pair_decisions(*both, seed=seed) for both in zip(decided["speech"], decided["gesture"], strict=True)]
+    right: dict[str, list[bool]] = {"speech": [], "gesture": [], "product": [], f"learned {kind}": []}
+    for number, test in enumerate(parts):
+        train = parts[1 - number]
+        learned = LearnedFusion(kind, seed).fit_decisions(train.speech, train.gesture, train.labels)
+        for speech, gesture, label in zip(test.speech, test.gesture, test.labels, strict=True):
+            right["speech"].append(_best(speech) == label)
+            right["gesture"].append(_best(gesture) == label)
+            right["product"].append(_best(fuse(speech, gesture, rule="product")) == label)
+            right[f"learned {kind}"].append(_best(learned.fuse(speech, gesture)) == label)
+    return {name: float(np.mean(of)) for name, of in right.items()}
+
+
+def _best(decision: Any) -> str:
+    """The best label, whether or not it was rejected."""
+    nbest: Sequence[Any] = decision.nbest
+    return str(nbest[0].label) if nbest else ""

@@ -1,0 +1,228 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The robot's voice: its own words are no commands, a person's STOP is one; what is missing is said at once."""
+
+from __future__ import annotations
+
+import queue
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import hri as package
+from conftest import RATE_HZ
+from hri.cli.session_screen import describe
+from hri.core.errors import InvalidArgument, IoError
+from hri.live import Event, Loudspeaker
+from hri.recognition.decision import Decision
+from hri.robot import open_robot
+from hri.session import McapRecorder, Session, SessionOptions, Voice, decisions, read_recording, replay
+from hri.session.voice import TAIL_S, OwnVoice
+from session_people import MOTIONS, speech, train_words
+
+pytest.importorskip("cv2")
+
+
+@pytest.fixture(scope="module")
+def words() -> package.WordRecognizer:
+    return train_words()
+
+
+def decided(label: str, status: str = "recognised") -> Decision:
+    return Decision("speech", label, status, 0.9, nbest=())
+
+
+@pytest.mark.parametrize(
+    ("heard", "text", "moving", "own"),
+    [
+        (decided("flat"), "flat.", False, True),
+        (decided("tall"), "flat.", False, True),  # misrecognised
+        (decided("unknown", "unknown"), "flat.", True, True),
+        (decided("stop"), "flat.", False, False),
+        (decided("stop"), "flat.", True, False),
+        (decided("stop"), "Did you mean STOP?", False, True),
+        (decided("stop"), "Did you mean stop?", True, False),
+        (decided("stop"), "Nonstop.", False, False),
+        (decided("unknown", "unknown"), "stop", False, True),
+    ],
+)
+def test_which_words_may_be_the_robots_own(heard: Decision, text: str, moving: bool, own: bool) -> None:
+    voice = OwnVoice()
+    assert not voice.may_be(heard, 1.0, 2.0, ("stop",), moving)
+    voice.begin(text, 2.0)
+    assert voice.may_be(heard, 1.0, 2.1, ("stop",), moving) is own
+    assert not voice.may_be(heard, 1.0, 1.9, ("stop",), moving), "before it spoke"
+    assert voice.may_be(heard, 60.0, 61.0, ("stop",), moving) is own, "it speaks still"
+    voice.end(3.0)
+    assert voice.may_be(heard, 2.9 + TAIL_S, 5.0, ("stop",), moving) is own
+    assert not voice.may_be(heard, 3.1 + TAIL_S, 5.0, ("stop",), moving)
+
+
+def test_a_voice_says_one_text_after_the_other_and_reports_what_it_could_not() -> None:
+    said: list[str] = []
+
+    def speak(text: str) -> None:
+        if text == "b":
+            raise RuntimeError("hoarse")
+        said.append(text)
+
+    reports: queue.Queue[tuple[str, str, str]] = queue.Queue()
+    voice = Voice(speak)
+    voice.attach(lambda *report: reports.put(report))
+    with pytest.raises(InvalidArgument, match="another session speaks by it"):
+        voice.attach(lambda *report: None)
+    for text in "abc":
+        voice.say(text)
+    got = [reports.get(timeout=20) for _ in range(6)]
+    assert got == [
+        ("voice_start", "a", ""), ("voice_end", "a", ""), ("voice_start", "b", ""),
+        ("voice_end", "b", "RuntimeError: hoarse"), ("voice_start", "c", ""), ("voice_end", "c", ""),
+    ]  # fmt: skip
+    voice.close()
+    voice.say("d")
+    assert said == ["a", "c"]
+    assert describe(Event(1.0, "voice_end", {"text": "b", "message": "hoarse"}, mode="session")).endswith(
+        "not said: hoarse"
+    )
+
+
+class Room:
+    """A microphone that hears what is put into `sounds`, and else nothing."""
+
+    name, sample_rate_hz, num_lost = "room", RATE_HZ, 0
+
+    def __init__(self) -> None:
+        self.sounds: queue.Queue[np.ndarray] = queue.Queue()
+        self.silent = np.zeros(RATE_HZ // 20, np.float32)
+        self.rest: np.ndarray = np.zeros(0, np.float32)
+        self.ended = threading.Event()
+
+    def read(self) -> np.ndarray | None:
+        """The next 50 ms, when they have passed."""
+        self.ended.wait(0.05)
+        if self.ended.is_set():
+            return None
+        if not len(self.rest) and not self.sounds.empty():
+            self.rest = self.sounds.get()
+        block, self.rest = self.rest[: len(self.silent)], self.rest[len(self.silent) :]
+        return block if len(block) else self.silent
+
+    def close(self) -> None:
+        self.ended.set()
+
+
+def test_a_session_takes_no_command_from_its_own_voice_and_heeds_stop(words: Any, tmp_path: Path) -> None:
+    pytest.importorskip("mcap_ros2")
+    room, speaking = Room(), threading.Event()
+    spoken: list[str] = []
+
+    def speak(text: str) -> None:
+        """The robot says "flat.", and the room hears "tall"; then it goes on while a person says STOP."""
+        spoken.append(text)
+        room.sounds.put(speech([("tall", 0.5)], 2.0))
+        speaking.wait(30)
+
+    voice = Voice(speak)
+    path = tmp_path / "voice.mcap"
+    ignored: list[str] = []
+    stopped = resumed = False
+    with open_robot("kinematic") as robot:
+        session = Session(words, robot=robot, options=SessionOptions(confirm_below=0), motions=MOTIONS, voice=voice)
+        room.sounds.put(speech([("flat", 0.5)], 2.0))
+        run: Iterator[Event] = session.run(room, live=True, recorder=McapRecorder(path))
+        for event in run:
+            assert event.time < 60.0, "something did not come"
+            if event.event == "ignored":
+                ignored.append(event.fields["label"])
+                assert event.fields["reason"] == "heard while the robot speaks"
+                room.sounds.put(speech([("stop", 0.5)], 2.0))
+            if event.event == "stop":
+                stopped = True
+                assert event.fields["label"] == "stop"
+                speaking.set()
+            if event.event == "voice_end" and stopped and not resumed:
+                resumed = True
+                break
+        run.close()  # type: ignore[attr-defined]
+    voice.close()
+    assert ignored == ["tall"] and stopped and resumed and spoken == ["flat."]
+    recording = read_recording(path)
+    kept = list(recording.events())
+    assert [e["final"] for e in kept if e["event"] == "fused"] == ["flat", "stop"]
+    assert [e["event"] for e in kept if e["event"].startswith("voice")][:2] == ["voice_start", "voice_end"]
+    assert decisions(e.to_dict() for e in replay(recording, words)) == decisions(kept)
+
+
+@pytest.fixture
+def loudspeaker(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
+    """A sounddevice with one loudspeaker; `written` is what it played, `broken` that it is unplugged."""
+
+    class PortAudioError(Exception):
+        pass
+
+    class OutputStream:
+        def __init__(self, **options: Any) -> None:
+            self.options = options
+
+        def __enter__(self) -> OutputStream:
+            return self
+
+        def __exit__(self, *_: object) -> None:
+            pass
+
+        def write(self, samples: np.ndarray) -> None:
+            if fake.broken:
+                raise PortAudioError("unplugged")
+            fake.written.append(samples)
+
+    def query(device: Any, kind: str) -> dict[str, Any]:
+        assert kind == "output"
+        if fake.broken:
+            raise PortAudioError("no default device")
+        return {"name": "box", "default_samplerate": 48000.0}
+
+    fake = SimpleNamespace(
+        PortAudioError=PortAudioError, OutputStream=OutputStream, query_devices=query, written=[], broken=False,
+        check_output_settings=lambda **_: None,
+    )  # fmt: skip
+    monkeypatch.setitem(sys.modules, "sounddevice", fake)
+    return fake
+
+
+def test_a_loudspeaker_plays_at_its_own_rate(loudspeaker: SimpleNamespace) -> None:
+    box = Loudspeaker()
+    box.play(np.full(8000, 2.0, np.float32), 16000)
+    played = np.concatenate(loudspeaker.written)
+    assert played.shape == (24000, 1) and played.dtype == np.float32 and played.max() == 1.0
+    box.close()
+    box.play(np.zeros(8000, np.float32), 16000)
+    assert sum(len(block) for block in loudspeaker.written) == 24000
+    other = Loudspeaker()
+    loudspeaker.broken = True
+    with pytest.raises(IoError, match="box plays nothing"):
+        other.play(np.zeros(10, np.float32), 48000)
+
+
+def test_what_a_voice_needs_is_said_at_the_start(
+    hri: Any, words: Any, loudspeaker: SimpleNamespace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words.save(tmp_path / "words.hri")
+    command = ("session", "--backend", "none", "--no-gesture", "--speech-model", tmp_path / "words.hri", "--speak")
+    loudspeaker.broken = True
+    mute = hri(*command)
+    assert (mute.code, mute.out) == (3, "") and "no loudspeaker can be used" in mute.err
+    loudspeaker.broken = False
+    babble = hri(*command, "--language", "xx-none")
+    assert babble.code == 3 and "xx-none" in babble.err
+    monkeypatch.setenv("PATH", str(tmp_path))
+    missing = hri(*command)
+    assert missing.code == 3 and "espeak-ng" in missing.err
+    for more in (("--replay", tmp_path / "words.hri"), ("--robot", "nao", "--url", "tcp://127.0.0.1:9")):
+        refused = hri("session", "--speak", *more)
+        assert refused.code == 2 and "--speak" in refused.err
