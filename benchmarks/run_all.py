@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Speed against named peers: the same process, the same input, one thread, medians of runs in turns.
 
-ratio is the peer's time over ours: above 1 we are faster. A bench whose recordings or extra are absent is skipped.
+ratio is the peer's time over ours: above 1 we are faster.
 """
 
 from __future__ import annotations
@@ -25,7 +25,6 @@ import bench_person
 import bench_possibility
 import bench_robot
 import bench_signal
-import bench_training
 import bench_vision
 import bench_wavelets
 from hri.core.files import write_text
@@ -42,7 +41,6 @@ MODULES = (
     bench_vision,
     bench_person,
     bench_latency,
-    bench_training,
     bench_connected,
     bench_robot,
 )
@@ -93,11 +91,7 @@ def main() -> None:
     for name in arguments.only or ALL:
         if sys.stderr.isatty():
             print(f"{name} ...", end="\r", file=sys.stderr)
-        try:
-            entry = measure(ALL[name])
-        except timing.Skipped as why:
-            print(f"{name:22} skipped: {why}", flush=True)
-            continue
+        entry = measure(ALL[name])
         entries.append(entry)
         print(
             f"{name:22} {1e3 * entry['ours']:9.3f} ms {1e3 * entry['peer']:9.3f} ms  {entry['ratio']:6.2f}x  "

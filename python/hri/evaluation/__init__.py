@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Accuracy with persons held out, in noise, rooms and other light."""
 
-from hri.evaluation.calibration import Reliability, ReliabilityBin, reliability
 from hri.evaluation.conditions import Condition, FrontEnd, expose, gamma, tint
 from hri.evaluation.evaluate import cross_validate, evaluate_split
 from hri.evaluation.noise import AddNoise, active_power, make_noise, mix_noise
@@ -16,8 +15,6 @@ __all__ = [
     "EvaluationResult",
     "FoldResult",
     "FrontEnd",
-    "Reliability",
-    "ReliabilityBin",
     "active_power",
     "adapting",
     "cross_validate",
@@ -27,6 +24,5 @@ __all__ = [
     "gamma",
     "make_noise",
     "mix_noise",
-    "reliability",
     "tint",
 ]
