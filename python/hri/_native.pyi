@@ -9218,8 +9218,8 @@ class SentenceRecognizerOptions:
         iterations of Viterbi training at most; 1..100000
     margin_frames : int, default 1
         frames before and behind its span that count as a word's; 0..100
-    max_variants : int, default 200
-        recordings of a word, at most, that have a model of their own, of a state a frame; 0: one model a word; 0..10000
+    max_variant_frames : int, default 1200
+        frames, of all together at most, of those recordings of a word that have a model of their own, of a state a frame; 0: one model a word; 0..1000000
     variant_weight : float, default 0.6
         where the mean of such a state lies: 0 at that of the word's state, 1 at the frame; 0..1
     variant_variance : float, default 0.7
@@ -9259,7 +9259,7 @@ class SentenceRecognizerOptions:
         max_states: int = 8,
         max_iterations: int = 8,
         margin_frames: int = 1,
-        max_variants: int = 200,
+        max_variant_frames: int = 1200,
         variant_weight: float = 0.6,
         variant_variance: float = 0.7,
         between_states: int = 2,
@@ -9361,12 +9361,12 @@ class SentenceRecognizerOptions:
     @max_states.setter
     def max_states(self, arg1: typing.Any) -> None: ...
     @property
-    def max_variants(self) -> int:
+    def max_variant_frames(self) -> int:
         """
-        recordings of a word, at most, that have a model of their own, of a state a frame; 0: one model a word
+        frames, of all together at most, of those recordings of a word that have a model of their own, of a state a frame; 0: one model a word
         """
-    @max_variants.setter
-    def max_variants(self, arg1: typing.Any) -> None: ...
+    @max_variant_frames.setter
+    def max_variant_frames(self, arg1: typing.Any) -> None: ...
     @property
     def model(self) -> typing.Literal["hmm", "ptbhmm"]:
         """

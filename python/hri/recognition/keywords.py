@@ -328,7 +328,7 @@ class SentenceRecognizerKeywords(TypedDict, total=False):
     max_states: int
     max_iterations: int
     margin_frames: int
-    max_variants: int
+    max_variant_frames: int
     variant_weight: float
     variant_variance: float
     between_states: int

@@ -137,14 +137,14 @@ def read_gesture_clips(data_dir: Path, progress: Progress) -> list[GestureClip]:
     return clips
 
 
-def train_words(clips: Sequence[GestureClip], shapes: Shapes, model: Any) -> SentenceRecognizer:
+def train_words(clips: Sequence[GestureClip], shapes: Shapes, model: Any, **options: Any) -> SentenceRecognizer:
     """On joined clips of one condition each; the insertion penalty is chosen on conditions held out."""
     sentences, groups = [], []
     for number, condition in enumerate(sorted({clip.condition for clip in clips})):
         made = sentences_of([clip for clip in clips if clip.condition == condition], None, SEED + 1 + number)
         sentences += made
         groups += [condition] * len(made)
-    recognizer = SentenceRecognizer(input="rows", model=model, language_order=0)
+    recognizer = SentenceRecognizer(input="rows", model=model, language_order=0, **options)
     return recognizer.fit([shapes(s.rows) for s in sentences], [s.spans for s in sentences], groups=groups)
 
 

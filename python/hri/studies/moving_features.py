@@ -44,6 +44,8 @@ BINS = ("18", "36")
 MODELS = ("hmm", "ptbhmm")
 GAP = 15
 """Frames between two gestures of a sentence."""
+ONE_MODEL: dict[str, Any] = {"max_variant_frames": 0}
+"""A word has one model, as in the thesis."""
 
 Rows = NDArray[np.float32]
 Labels = NDArray[np.int64]
@@ -218,7 +220,7 @@ def _run_sentences(
             for done, condition in enumerate(conditions):
                 train = [clip for clip in clips if clip.condition != condition]
                 histograms: Callable[[Rows], Rows] = _Histograms(train)
-                words = train_words(train, histograms, name)  # type: ignore[arg-type]
+                words = train_words(train, histograms, name, **ONE_MODEL)  # type: ignore[arg-type]
                 sentences = sentences_of([clip for clip in clips if clip.condition == condition], GAP, SEED)
                 truth = [s.labels for s in sentences]
                 found = [list(words.recognise(histograms(s.rows)).labels) for s in sentences]
@@ -238,7 +240,7 @@ def _run_sentences(
                     "over_all": {"word_error": total.rate, **vars(total)},
                 }
             )
-    options = SentenceRecognizer(input="rows", language_order=0).options.as_dict()
+    options = SentenceRecognizer(input="rows", language_order=0, **ONE_MODEL).options.as_dict()
     return {"seed": SEED, "options": options, "rows": rows, "passed": None}
 
 

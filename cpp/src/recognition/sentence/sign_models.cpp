@@ -189,11 +189,13 @@ class ViterbiTrainer {
             MixtureBank(MatrixD::Ones(topology.num_states, 1), sums_[c].means, variances_[c])};
   }
 
-  // Of more recordings than there may be variants, those at equal distances.
+  // Of more recordings than fit, those at equal distances.
   void add_variants(std::size_t c, std::vector<SignVariant>* variants) const {
     const std::size_t num_recordings = words_[c].size();
-    const std::size_t num =
-        std::min(num_recordings, static_cast<std::size_t>(options_.max_variants));
+    std::size_t num_frames = 0;
+    for (const MatrixF& r : words_[c]) num_frames += static_cast<std::size_t>(r.rows());
+    const auto most = static_cast<std::size_t>(options_.max_variant_frames);
+    const std::size_t num = std::min(num_recordings, most * num_recordings / num_frames);
     for (std::size_t i = 0; i < num; ++i) {
       const std::size_t r = i * num_recordings / num;
       if (words_[c][r].rows() > kLongestVariant) continue;

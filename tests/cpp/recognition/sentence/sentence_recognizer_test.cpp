@@ -270,18 +270,18 @@ std::vector<SignedSample> two_ways() {
   return sentences;
 }
 
-SentenceRecognizerOptions options_of_ways(int max_variants) {
+SentenceRecognizerOptions options_of_ways(int max_variant_frames) {
   SentenceRecognizerOptions options = quick_options();
   options.input = SentenceInput::rows;
   options.features.delta_orders = 0;
-  options.max_variants = max_variants;
+  options.max_variant_frames = max_variant_frames;
   return options;
 }
 
 TEST(SentenceRecognizer, VariantsFitAWordThatIsSignedInTwoWays) {
   const std::vector<SignedSample> sentences = two_ways();
   const SentenceRecognizer one = SentenceRecognizer::train(sentences, options_of_ways(0));
-  SentenceRecognizerOptions options = options_of_ways(100);
+  SentenceRecognizerOptions options = options_of_ways(1000);
   options.variant_weight = 1;
   options.variant_variance = 0.1;
   const SentenceRecognizer many = SentenceRecognizer::train(sentences, options);
@@ -297,7 +297,8 @@ TEST(SentenceRecognizer, VariantsFitAWordThatIsSignedInTwoWays) {
 }
 
 TEST(SentenceRecognizer, KeepsAsManyVariantsAsItMay) {
-  const SentenceRecognizer some = SentenceRecognizer::train(two_ways(), options_of_ways(5));
+  const SentenceRecognizer some =
+      SentenceRecognizer::train(two_ways(), options_of_ways(60));  // of 12 frames
   ASSERT_EQ(some.variants().size(), 10U);
   EXPECT_EQ(some.variants()[4].word, 0);
   EXPECT_EQ(some.variants()[5].word, 1);
@@ -305,7 +306,7 @@ TEST(SentenceRecognizer, KeepsAsManyVariantsAsItMay) {
 }
 
 TEST(SentenceRecognizer, MarginsReachBeyondWordsAndAreNotPartOfThem) {
-  SentenceRecognizerOptions options = options_of_ways(100);
+  SentenceRecognizerOptions options = options_of_ways(1000);
   for (const int margin : {0, 3}) {
     options.margin_frames = margin;
     const SentenceRecognizer recognizer = SentenceRecognizer::train(two_ways(), options);

@@ -45,7 +45,7 @@ struct HRI_API SentenceRecognizerOptions {
   int max_states = 8;
   int max_iterations = 8;
   int margin_frames = 1;
-  int max_variants = 200;
+  int max_variant_frames = 1200;
   double variant_weight = 0.6;
   double variant_variance = 0.7;
   int between_states = 2;
@@ -74,9 +74,9 @@ struct HRI_API SentenceRecognizerOptions {
       "iterations of Viterbi training at most");
     v("margin_frames", o.margin_frames, within(0, 100),
       "frames before and behind its span that count as a word's");
-    v("max_variants", o.max_variants, within(0, 10000),
-      "recordings of a word, at most, that have a model of their own, of a state a frame; 0: one "
-      "model a word");
+    v("max_variant_frames", o.max_variant_frames, within(0, 1000000),
+      "frames, of all together at most, of those recordings of a word that have a model of their "
+      "own, of a state a frame; 0: one model a word");
     v("variant_weight", o.variant_weight, within(0, 1),
       "where the mean of such a state lies: 0 at that of the word's state, 1 at the frame");
     v("variant_variance", o.variant_variance, within(1e-3, 1e3),
