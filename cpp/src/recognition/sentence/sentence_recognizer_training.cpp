@@ -100,7 +100,7 @@ class SentenceTrainer {
         [](const WeightErrors& a, const WeightErrors& b) { return a.fewest() < b.fewest(); });
     options_.frames_per_state = lengths[static_cast<std::size_t>(best - errors.begin())];
     if (options_.choose_weights && best->num_sentences > 0) choose_weights(*best);
-    SentenceRecognizer result = train_without(kNoFold);
+    SentenceRecognizer result = train_without(kNoFold, options_);
     if (progress) progress(num_steps, num_steps);
     return result;
   }
@@ -175,7 +175,8 @@ class SentenceTrainer {
   }
 
   // Words that stand only in the fold are left out.
-  [[nodiscard]] SentenceRecognizer train_without(int fold) const {
+  [[nodiscard]] SentenceRecognizer train_without(int fold,
+                                                 const SentenceRecognizerOptions& options) const {
     ClassSequences sequences = sequences_without(fold);
     require(!sequences.back().empty(), "words: all frames lie in words, none before or after them");
     const std::vector<MatrixF> between = std::move(sequences.back());
@@ -187,7 +188,7 @@ class SentenceTrainer {
       labels.push_back(labels_[c]);
       known.push_back(std::move(sequences[c]));
     }
-    detail::SignModels words = detail::train_sign_models(known, options_, should_stop_);
+    detail::SignModels words = detail::train_sign_models(known, options, should_stop_);
     VectorD stays(words.final_stays.size() + 1);
     stays.head(words.final_stays.size()) = words.final_stays;
     words.hmms.push_back(train_between(between));
@@ -195,7 +196,7 @@ class SentenceTrainer {
     for (const MatrixF& frames : between) num_frames += static_cast<double>(frames.rows());
     const auto num_pieces = static_cast<double>(between.size());
     stays[stays.size() - 1] = 1 - num_pieces / (num_frames + 1);
-    return {options_,
+    return {options,
             std::move(labels),
             std::move(words.hmms),
             stays,
@@ -261,9 +262,12 @@ class SentenceTrainer {
     return options_.input == SentenceInput::rows ? kPenaltiesOfRows[p] : kPenalties[p];
   }
 
-  // Of sentences of the fold, by every weight.
+  // Of sentences of the fold, by every weight. One model a word: variants would take many times
+  // as long, and choose much the same.
   void count_errors(int fold, WeightErrors* errors) const {
-    const SentenceRecognizer trained = train_without(fold);
+    SentenceRecognizerOptions options = options_;
+    options.max_variant_frames = 0;
+    const SentenceRecognizer trained = train_without(fold, options);
     for (const Signed& one : sentences_) errors->num_sentences += one.fold == fold ? 1 : 0;
     const std::size_t num_jobs = num_penalties() * num_scales();
     detail::parallel_for(num_jobs, should_stop_, [&](std::size_t job, const StopCheck& stop) {
