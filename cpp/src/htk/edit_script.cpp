@@ -25,8 +25,11 @@ class ScriptReader {
   std::vector<EditCommand> read() {
     std::vector<EditCommand> commands;
     for (skip_blanks(); at_ < text_.size(); skip_blanks()) {
-      if (now() == '#') {
+      if (now() == '#' || text_.compare(at_, 2, "//") == 0) {
         at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (text_.compare(at_, 3, "TR ") == 0) {
+        at_ += 3;  // how much HHEd prints
+        whole(word("{"), 0, 1000000);
       } else {
         commands.push_back(command());
       }

@@ -49,6 +49,14 @@ std::string refusal(const std::string& script) {
   return "nothing thrown";
 }
 
+TEST(EditScript, PassesOverCommentsAndTrace) {
+  const EditScript script =
+      EditScript::parse("// as HTS has them\n# ours\nTR 3\nMU 2 {*.state[2].mix}\n", "script");
+  ASSERT_EQ(script.commands.size(), 1U);
+  EXPECT_EQ(script.commands[0].line, 4);
+  EXPECT_EQ(refusal("TR x\n"), "script: line 1: expected a number, not 'x'");
+}
+
 TEST(EditScript, SplitsTheHeaviestIntoTwoAboutItsMean) {
   const ModelSet given = models();
   const ModelSet made = edited("MU 2 {*.state[2-4].mix}\n", given);

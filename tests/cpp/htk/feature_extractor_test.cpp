@@ -247,7 +247,7 @@ TEST(Configuration, SetsWhatFilesSet) {
   c.parse(
       "# coding\n TARGETKIND = MFCC_0_D  # as in the book\r\nTARGETRATE=100000.0\n"
       "HPARM: WINDOWSIZE = 250000.0\nSAVECOMPRESSED = T\nsavewithcrc = f\nNUMCHANS = 26\n"
-      "ENORMALISE = FALSE\nLOFREQ = -1\nFORCECXTEXP = T\nSOURCEFORMAT = \"WAV\"\n",
+      "ENORMALISE = FALSE\nLOFREQ = -1\nFORCECXTEXP = F\nMAXTRYOPEN = 2\nSOURCEFORMAT = \"WAV\"\n",
       "config");
   EXPECT_EQ(c.target.text(), "MFCC_D_0");
   EXPECT_TRUE(c.has_target_rate);
@@ -256,9 +256,31 @@ TEST(Configuration, SetsWhatFilesSet) {
   EXPECT_EQ(c.features.num_filters, 26);
   EXPECT_FALSE(c.features.normalise_energy);
   EXPECT_EQ(c.source_format, SourceFormat::wav);
-  EXPECT_EQ(c.ignored, std::vector<std::string>{"FORCECXTEXP"});
+  EXPECT_EQ(c.ignored, std::vector<std::string>{"MAXTRYOPEN"});
   EXPECT_EQ(c.written_kind(ParameterKind()).text(), "MFCC_D_C_0");
   EXPECT_EQ(Configuration().written_kind(ParameterKind::parse("FBANK_C")).text(), "FBANK_K");
+}
+
+TEST(Configuration, RefusesWhatWouldChangeValues) {
+  for (const char* setting :
+       {"NATURALREADORDER = T", "BYTEORDER = VAX", "CMEANDIR = means", "VARSCALEFN = scale",
+        "MATTRANFN = matrix", "STEREOMODE = LEFT", "LABELFORMAT = TIMIT", "NSTREAMS = 4",
+        "SAVEBINARY = T", "HWAVEFILTER = 'gunzip $'"}) {
+    EXPECT_NE(refusal_of_options(std::string("\n") + setting + "\n").find("config: line 2: "),
+              std::string::npos)
+        << setting;
+  }
+  EXPECT_EQ(refusal_of_options("NATURALREADORDER = F\nBYTEORDER = NONVAX\nLABELFORMAT = HTK\n"
+                               "NSTREAMS = 1\nSOURCERATE = 625\n"),
+            "nothing thrown");
+}
+
+TEST(Configuration, KeepsSettingsAsTheyCame) {
+  Configuration c;
+  c.parse("HPARM: numchans = 26  # filters\n", "config");
+  ASSERT_EQ(c.settings.size(), 1U);
+  EXPECT_EQ(c.settings[0].first, "NUMCHANS");
+  EXPECT_EQ(c.settings[0].second, "26");
 }
 
 TEST(Configuration, RefusesByNameAndLine) {

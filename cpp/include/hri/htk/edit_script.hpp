@@ -47,8 +47,9 @@ struct HRI_API EditScript {
   std::string name;  ///< what errors call it
   std::vector<EditCommand> commands;
 
-  /// Reads MU, TI, AT and RT. Throws IoError, and FormatError naming file and line for other
-  /// commands, item lists of another form, and items that a command does not take.
+  /// Reads MU, TI, AT and RT; comments stand behind # or //, and TR n changes nothing. Throws
+  /// IoError, and FormatError naming file and line for other commands, item lists of another form,
+  /// and items that a command does not take.
   static EditScript read(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   static EditScript parse(const std::string& text, const std::string& name);

@@ -95,6 +95,10 @@ struct HRI_API ModelSet {
   /// there is already, and final_stay outside 0..1, 1 excluded.
   void add(const std::string& name, const GaussianMixtureHmm& model, double final_stay);
 
+  /// The definitions in another order: `order` has the number of each, once. Throws InvalidArgument
+  /// for other numbers.
+  void reorder(const std::vector<std::size_t>& order);
+
   /// Throws InvalidArgument for an HMM that there is not, and a name that there is already.
   void rename_hmm(const std::string& hmm, const std::string& name);
 };

@@ -90,6 +90,11 @@ class HRI_API NGramModel {
   /// there are not.
   [[nodiscard]] double log_probability(Span<const int> history, int word) const;
 
+  /// Whether the model has the n-gram of a history, of order() - 1 words at most, and a word.
+  [[nodiscard]] bool has(Span<const int> history, int word) const;
+  /// What log_probability() adds where it leaves out the first word of a history, natural log.
+  [[nodiscard]] double log_backoff(Span<const int> history) const;
+
   [[nodiscard]] NGramFit fit_of(const std::vector<Sentence>& sentences) const;
 
  private:
