@@ -72,7 +72,8 @@ class HRI_API NGramModel {
   /// The same from memory; `name` stands for the path in messages.
   static NGramModel parse(const std::string& text, const std::string& name);
   void save(const std::string& path) const;
-  /// The text of the ARPA file; numbers have 17 digits and read back equal to the bit.
+  /// The text of the ARPA file: that which it was read from, byte for byte; of a model that was
+  /// trained numbers have 17 digits and read back equal to the bit.
   [[nodiscard]] std::string to_arpa() const;
 
   [[nodiscard]] int order() const { return static_cast<int>(ngrams_.size()); }
@@ -110,6 +111,7 @@ class HRI_API NGramModel {
   void index_words();
   [[nodiscard]] double log10_probability(NGram history, int word) const;
 
+  std::string text_;  // of the file that it was read from
   std::vector<std::string> words_;
   std::map<std::string, int> index_;
   std::vector<std::map<NGram, Entry>> ngrams_;  // by order, from 1

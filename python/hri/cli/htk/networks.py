@@ -31,6 +31,7 @@ from hri.htk.sentences import NULL
 from hri.language import NGramModel, NGramOptions
 
 HTK_START, HTK_END = "!ENTER", "!EXIT"
+UNKNOWN = "<unk>"
 
 
 @click.command(cls=HtkCommand)
@@ -140,7 +141,7 @@ def sgen(
     help="The model's words for the ends of sentences.  [default: <s> </s>, or !ENTER !EXIT]",
 )
 @click.option("-t", "brackets", nargs=2, metavar="FIRST LAST", help="Words that stand before and after the loop.")
-@click.option("-u", "unknown", metavar="WORD", help="What words that the model does not know count as.")
+@click.option("-u", "unknown", metavar="WORD", help="<unk>: what words that the model does not know count as.")
 @refused_options(
     z=("-u says what unknown words count as", 0),
     m=("matrices of bigrams are not read; -n takes ARPA files", 1),
@@ -173,6 +174,8 @@ def build(
       hri htk build words loopnet
     """
     load_configuration(configs)
+    if unknown not in (None, UNKNOWN):
+        raise click.UsageError(f"-u {unknown} is not supported: language models have {UNKNOWN} for unknown words")
     sentences = _sentences(masters, scripts)
     if arpa is not None and sentences is not None:
         raise click.UsageError("either -n or transcriptions to train on")
