@@ -43,7 +43,7 @@ def hed(
     script: str,
     model_list: str,
 ) -> None:
-    """Split mixtures, tie parameters and change transitions, as HHEd: commands MU, TI, AT and RT.
+    """Split mixtures, tie parameters and change transitions, as HHEd: commands MU, TI, AT, RT and CL.
 
     Every file that was read is written again, to the folder of -M; new macros come to the first one with a model.
 
