@@ -81,7 +81,7 @@ def test_label_files_train_and_smoothing_is_chosen(hri, said: Path):
 
 
 def test_vite_runs_by_a_bigram(hri, said: Path):
-    """Words that sound alike are told apart by what was said before."""
+    """Words that sound alike differ in what was said before them."""
     succeed(hri("htk", "build", "-I", "said.mlf", "words", "net"))
     succeed(hri("htk", "build", "words", "loop"))
     ParameterFile(clip(1, 0.0, 8.11), "USER", 100000).write("a.usr")

@@ -122,9 +122,7 @@ def test_the_tutorial_of_the_book_runs_as_written(hri, work: Path):
     tied.read("hmm5/hmmdefs")
     assert tied.transitions("sp")[0, 2] == pytest.approx(0.3)
 
-    Path("phones1.mlf").write_text(
-        Path("phones0.mlf").read_text().replace("hi\nlo\n", "hi\nlo\n").replace("up\n", "up\nsp\n")
-    )
+    Path("phones1.mlf").write_text(Path("phones0.mlf").read_text().replace("up\n", "up\nsp\n"))
     train(5, "phones1.mlf", "monophones1")
     train(6, "phones1.mlf", "monophones1")
     align = ("-l", "*", "-o", "SWT", "-b", "silence", "-C", "config", "-a", "-H", "hmm7/macros", "-H", "hmm7/hmmdefs")
@@ -142,12 +140,30 @@ def test_the_tutorial_of_the_book_runs_as_written(hri, work: Path):
     recognise = ("-H", "hmm9/macros", "-H", "hmm9/hmmdefs", "-S", "train.scp", "-C", "config", "-l", "*")
     more = ("-i", "recout.mlf", "-w", "wdnet", "-p", 0.0, "-s", 5.0)
     succeed(hri("htk", "vite", *recognise, *more, "dict", "monophones1"))
-    out = (
-        succeed(hri("htk", "results", "-e", "???", "SENT-START", "-I", "words.mlf", "dictwords", "recout.mlf"))
-        if (Path("dictwords").write_text("\n".join(WORDS) + "\n"))
-        else ""
-    )
+    Path("wordlist").write_text("\n".join(WORDS) + "\n")
+    out = succeed(hri("htk", "results", "-e", "???", "SENT-START", "-I", "words.mlf", "wordlist", "recout.mlf"))
     assert "WORD: %Corr=100.00, Acc=100.00" in out
+
+    # Step 9: models of units in context, which share transitions.
+    triphones = ["hi+lo", "hi-lo", "lo+hi", "lo-hi", "up", "sil", "sp"]
+    Path("triphones1").write_text("\n".join(triphones) + "\n")
+    ties = "".join(f"TI T_{unit} {{(*-{unit}+*,{unit}+*,*-{unit}).transP}}\n" for unit in ("hi", "lo"))
+    Path("mktri.hed").write_text(f"CL triphones1\n{ties}")
+    macros9 = ("-H", "hmm9/macros", "-H", "hmm9/hmmdefs")
+    succeed(hri("htk", "hed", *macros9, "-M", "hmm10", "mktri.hed", "monophones1"))
+    made = ModelSet()
+    made.read("hmm10/macros")
+    made.read("hmm10/hmmdefs")
+    assert made.hmm_names == triphones
+    assert Path("hmm10/hmmdefs").read_text().count('~t "T_hi"') == 3
+    words = {"CALL": "hi+lo\nhi-lo\n", "BACK": "lo+hi\nlo-hi\n", "RISE": "up\nsp\n"}
+    text = Path("words.mlf").read_text()
+    for word, units in words.items():
+        text = text.replace(f"{word}\n", units)
+    Path("wintri.mlf").write_text(text.replace('.lab"\n', '.lab"\nsil\n').replace("\n.\n", "\nsil\n.\n"))
+    macros = ("-H", "hmm10/macros", "-H", "hmm10/hmmdefs", "-M", "hmm11", "-s", "stats")
+    succeed(hri("htk", "erest", "-I", "wintri.mlf", *common, *macros, "triphones1"))
+    assert len(Path("stats").read_text().splitlines()) == len(triphones)
 
 
 def test_whole_words_as_in_the_thesis(hri, work: Path):
