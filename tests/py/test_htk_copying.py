@@ -134,7 +134,8 @@ def test_copy_takes_labels_along(hri, sounds: Path):
         refused = hri("htk", "copy", "-C", "config", "-L", "labels", *option, "one.wav", "no.mfc")
         assert refused.code == 3 and message in refused.err and not Path("no.mfc").exists()
     assert hri("htk", "copy", "-C", "config", "one.wav", "+", "no.mfc").code == 2
-    assert hri("htk", "copy", "-C", "config", "-F", "HTK", "one.wav", "no.mfc").code == 3
+    refused = hri("htk", "copy", "-C", "config", "-F", "HTK", "one.wav", "no.mfc")
+    assert refused.code == 3 and "one.wav: is a WAV file, which SOURCEFORMAT = WAV, or -F WAV, reads" in refused.err
 
 
 def test_list_shows_target_and_structure(hri, sounds: Path):
@@ -145,3 +146,19 @@ def test_list_shows_target_and_structure(hri, sounds: Path):
     shown = succeed(hri("htk", "list", "-C", "config", "-s", 3, "-e", 4, "one.wav"))
     assert [line.split(":")[0] for line in shown.splitlines()] == ["3", "4"]
     assert hri("htk", "list", "-t", "u0.usr").code == 2
+
+
+def test_copy_makes_kinds_of_those_that_say_more(hri, sounds: Path):
+    """Filters become cepstra, and a predictor its cepstra, as the recording itself does; others are refused."""
+    for source, target in (("FBANK_E", "MFCC_E_D"), ("LPC", "LPCEPSTRA"), ("LPC", "LPREFC"), ("MELSPEC", "MFCC_0")):
+        text = "SOURCEFORMAT = WAV\nTARGETRATE = 100000\nNUMCHANS = 24\nNUMCEPS = 10\nSAVEWITHCRC = F\n"
+        for name, kind in (("source", source), ("target", target)):
+            Path("config").write_text(f"{text}TARGETKIND = {kind}\n")
+            succeed(hri("htk", "copy", "-C", "config", "one.wav", f"{name}.par"))
+        succeed(hri("htk", "copy", "-C", "config", "-F", "HTK", "source.par", "made.par"))
+        made, expected = ParameterFile.read("made.par"), ParameterFile.read("target.par")
+        assert made.kind == expected.kind == ParameterFile.read("target.par").kind
+        np.testing.assert_allclose(made.values, expected.values, rtol=0, atol=1e-4 * np.abs(expected.values).max())
+    Path("config").write_text("TARGETKIND = FBANK\n")
+    refused = hri("htk", "copy", "-C", "config", "target.par", "no.par")
+    assert refused.code != 0 and "cannot become FBANK" in refused.err and not Path("no.par").exists()

@@ -158,7 +158,10 @@ class ParameterHeader:
 
 def read_header(path: str | PathLike[str]) -> ParameterHeader:
     """The header of a parameter file. Raises IoError; FormatError naming file and byte."""
-    return ParameterHeader(*HtkParameterFile.parse_header(read_bytes(path, MAX_MODEL_BYTES), fspath(path)))
+    data = read_bytes(path, MAX_MODEL_BYTES)
+    if data.startswith(b"RIFF"):
+        raise FormatError(f"{fspath(path)}: is a WAV file, which SOURCEFORMAT = WAV, or -F WAV, reads")
+    return ParameterHeader(*HtkParameterFile.parse_header(data, fspath(path)))
 
 
 def load_observations(

@@ -95,7 +95,7 @@ TEST(EditScript, RefusesListsByNameAndLine) {
   const TriphoneList list("\n");
   EXPECT_EQ(refusal("CL " + TriphoneList::path() + "\n"),
             "script: line 1: the list '" + TriphoneList::path() + "' has no model");
-  EXPECT_EQ(refusal("CL\n"), "script: line 1: expected the path of a list");
+  EXPECT_EQ(refusal("CL"), "script: line 1: expected the path of a list");
   EXPECT_THROW(edited("CL nowhere\n"), IoError);
 }
 

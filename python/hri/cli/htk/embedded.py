@@ -35,7 +35,7 @@ from hri.cli.htk.standard import (
 from hri.cli.htk.training import NOTHING, folder_option, updates_option, weight_floor_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_text
-from hri.core.errors import FormatError
+from hri.core.errors import FormatError, InvalidArgument
 from hri.htk import EmbeddedTrainer, EmbeddedTrainerOptions, ModelOccupation, read_list
 
 WHY = {
@@ -137,7 +137,10 @@ def erest(
         weight_floor=weight_floor,
         **updates,
     )
-    trainer = EmbeddedTrainer(sources.models, options)
+    try:
+        trainer = EmbeddedTrainer(sources.models, options)
+    except InvalidArgument as error:
+        raise FormatError(f"{' '.join(sources.paths)}: {error}") from error
     references = References(masters, label_folder, suffix)
     recordings = data_files(files, scripts, NOTHING)
     utterances = [(file, _units(file.name, references, names)) for file in recordings]
