@@ -71,6 +71,9 @@ def test_results_take_their_options(hri, work: Path):
     assert row.replace("|", " ").split() == ["Sum/Avg", "3", "50.00", "25.00", "25.00", "25.00", "75.00", "100.00"]
     assert any(line.startswith("| ann ") for line in table.splitlines())
     Path("ref.mlf").write_text('#!MLF!#\n"*/s1_ann.lab"\na\nc\n.\n')
+    Path("folder.mlf").write_text('#!MLF!#\n"*" -> "labels"\n')
+    refused = hri("htk", "results", "-I", "ref.mlf", "list", "folder.mlf")
+    assert refused.code == 3 and "folder.mlf: '*' names a folder; labels have to stand here" in refused.err
     refused = hri("htk", "results", "-s", "-m", 1, *given)
     assert refused.code == 3 and "ref.mlf: line 4: the list list does not have 'c'" in refused.err
 

@@ -10,7 +10,7 @@ from typing import Literal
 import click
 import numpy as np
 
-from hri.cli.htk.options import load_configuration
+from hri.cli.htk.options import labelled_entries, load_configuration
 from hri.cli.htk.standard import INPUT, HtkCommand, refused_options, standard_options
 from hri.cli.output import OutputFile
 from hri.core.errors import FormatError, InvalidArgument
@@ -201,7 +201,7 @@ def _sentences(masters: tuple[str, ...], scripts: tuple[str, ...]) -> list[list[
     """Words of all transcriptions; None where none were named."""
     if not masters and not scripts:
         return None
-    found = [one for path in masters for _, one in MasterLabelFile.read(path).entries]
+    found = [one for path in masters for _, one in labelled_entries(MasterLabelFile.read(path), path)]
     found += [Transcription.read(path) for script in scripts for path in read_script(script)]
     return [[label.name for label in one.labels] for one in found]
 

@@ -186,6 +186,19 @@ def all_arguments(given: Sequence[str], scripts: Iterable[str]) -> list[str]:
     return [*given, *(argument for script in scripts for argument in read_script(script))]
 
 
+def labelled_entries(master: MasterLabelFile, path: str) -> list[tuple[str, Transcription]]:
+    """Patterns and transcriptions of a file, none of which may name a folder in place of labels.
+
+    Raises
+    ------
+    FormatError
+    """
+    for pattern, _ in master.entries:
+        if master.folder(pattern) is not None:
+            raise FormatError(f"{path}: {pattern!r} names a folder; labels have to stand here")
+    return master.entries
+
+
 class References:
     """Transcriptions by the names of recordings: of master label files, else of label files.
 

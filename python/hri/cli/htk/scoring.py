@@ -16,6 +16,7 @@ from hri.cli.htk.options import (
     all_arguments,
     label_folder_option,
     label_suffix_option,
+    labelled_entries,
     labels_option,
     load_configuration,
 )
@@ -174,7 +175,7 @@ def _recognised(names: list[str]) -> Iterator[tuple[str, str, Transcription]]:
     for name in names:
         text = read_text(name)
         if text.startswith(MASTER):
-            for pattern, transcription in MasterLabelFile.parse(text, name).entries:
+            for pattern, transcription in labelled_entries(MasterLabelFile.parse(text, name), name):
                 yield pattern, name, transcription
         else:
             yield name, name, Transcription.parse(text, name)
