@@ -170,6 +170,7 @@ void bind_labels(py::module_& m) {
           "others",
           [](const Label& self) {
             std::vector<std::pair<std::string, std::optional<double>>> others;
+            others.reserve(self.auxiliary.size());
             for (const auto& one : self.auxiliary)
               others.emplace_back(one.name,
                                   one.has_score ? std::optional(one.score) : std::nullopt);

@@ -83,7 +83,7 @@ bool NGramModel::has(Span<const int> history, int word) const {
 }
 
 double NGramModel::log_backoff(Span<const int> history) const {
-  if (history.size() == 0 || history.size() >= ngrams_.size()) return 0;
+  if (history.empty() || history.size() >= ngrams_.size()) return 0;
   const auto& contexts = ngrams_[history.size() - 1];
   const auto found = contexts.find(NGram(history.begin(), history.end()));
   return found == contexts.end() ? 0 : kLn10 * found->second.log10_backoff;
