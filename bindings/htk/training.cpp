@@ -96,6 +96,15 @@ void bind_htk_training(py::module_& m) {
           py::arg("frames"), py::arg("units"),
           "Adds an utterance, shape (num_frames, num_columns), by the names of its models; gives "
           "'added', 'too_short' or 'impossible'.")
+      .def(
+          "write_sums",
+          [](const EmbeddedTrainer& self, const Path& path) { self.write_sums(path.text); },
+          py::arg("path"), "Writes the sums over the utterances added, for add_sums().")
+      .def(
+          "add_sums", [](EmbeddedTrainer& self, const Path& path) { self.add_sums(path.text); },
+          py::arg("path"),
+          "As if the utterances that a file of write_sums() sums up were added here; raises "
+          "FormatError for sums of other models.")
       .def("estimate", &EmbeddedTrainer::estimate,
            "The models that the utterances added make most likely.")
       .def_property_readonly("log_likelihood", &EmbeddedTrainer::log_likelihood,

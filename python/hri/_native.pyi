@@ -9224,6 +9224,10 @@ class HtkEmbeddedTrainer:
         """
         Adds an utterance, shape (num_frames, num_columns), by the names of its models; gives 'added', 'too_short' or 'impossible'.
         """
+    def add_sums(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        As if the utterances that a file of write_sums() sums up were added here; raises FormatError for sums of other models.
+        """
     def estimate(self) -> HtkModelSet:
         """
         The models that the utterances added make most likely.
@@ -9231,6 +9235,10 @@ class HtkEmbeddedTrainer:
     def occupations(self) -> list[HtkModelOccupation]:
         """
         Of every model, in the order of the set.
+        """
+    def write_sums(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes the sums over the utterances added, for add_sums().
         """
     @property
     def log_likelihood(self) -> float:

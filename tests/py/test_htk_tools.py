@@ -171,6 +171,27 @@ def test_erest_reads_and_writes_files_by_suffix(hri, words: Path):
     assert sorted(path.name for path in Path("out").iterdir()) == ["hi.new", "sp.new", "x-lo+y.new"]
 
 
+def test_erest_adds_parts_up(hri, words: Path):
+    """-p 1 and -p 2 write sums, -p 0 estimates of both what one pass estimates of all."""
+    Path("said.mlf").write_text('#!MLF!#\n"*/v.lab"\nlow\nhi\nsp\nhi\nlow\n.\n"*/u0.lab"\nlow\nhi\nlow\nhi\n.\n')
+    given = ("-H", "models", "-m", 1, "-I", "said.mlf")
+    shown = succeed(hri("htk", "erest", *given, "-M", "whole", "list", "v.usr", "u0.usr"))
+    for number, name in enumerate(("v.usr", "u0.usr"), 1):
+        assert succeed(hri("htk", "erest", *given, "-M", "parts", "-p", number, "list", name)) == ""
+    assert sorted(path.name for path in Path("parts").iterdir()) == ["HER1.acc", "HER2.acc"]
+    given = ("-H", "models", "-m", 1, "-M", "parts", "-p", 0, "list")
+    assert succeed(hri("htk", "erest", *given, "parts/HER1.acc", "parts/HER2.acc")) == shown
+    made, expected = ModelSet(), ModelSet()
+    made.read("parts/models")
+    expected.read("whole/models")
+    for name in expected.hmm_names:
+        np.testing.assert_allclose(made.hmm(name).means, expected.hmm(name).means, rtol=1e-9)
+        np.testing.assert_allclose(made.transitions(name), expected.transitions(name), atol=1e-9)
+    refused = hri("htk", "erest", "-H", "whole/models", "-M", "no", "-p", 0, "list", "parts/HER1.acc")
+    assert refused.code == 3 and "parts/HER1.acc: models: sums of other models" in refused.err
+    assert not Path("no").exists()
+
+
 def test_every_option_that_there_is_not_is_refused_by_name(hri, words: Path):
     for command, options in {
         "copy": (("-t", 70), ("-O", "NIST"), ("-P", "TIMIT"), ("-G", "ESPS"), ("-F", "NIST")),
@@ -178,7 +199,7 @@ def test_every_option_that_there_is_not_is_refused_by_name(hri, words: Path):
         "init": (("-B",),),
         "rest": (("-B",), ("-G", "TIMIT")),
         "compv": (("-c", "d"), ("-k", "s"), ("-q", "m"), ("-B",)),
-        "erest": (("-p", 1), ("-B",), ("-r",), ("-a",), ("-h", "m"), ("-E", "d"), ("-J", "d"), ("-K", "d")),
+        "erest": (("-B",), ("-r",), ("-a",), ("-h", "m"), ("-E", "d"), ("-J", "d"), ("-K", "d")),
         "hed": (("-B",), ("-z",), ("-Q", "x"), ("-r", "1")),
         "parse": (("-b",), ("-c",)),
         "build": (("-b",), ("-m", "f"), ("-w", "f"), ("-x", "f"), ("-z",)),

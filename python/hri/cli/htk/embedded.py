@@ -10,10 +10,11 @@ from pathlib import Path
 import click
 
 from hri.cli.groups import FiniteRange
-from hri.cli.htk.data import check_headers, data_files, load_frames
+from hri.cli.htk.data import DataFile, check_headers, data_files, load_frames
 from hri.cli.htk.options import (
     ModelFiles,
     References,
+    all_arguments,
     label_folder_option,
     label_suffix_option,
     labels_option,
@@ -36,7 +37,8 @@ from hri.cli.htk.training import NOTHING, folder_option, updates_option, weight_
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_text
 from hri.core.errors import FormatError, InvalidArgument
-from hri.htk import EmbeddedTrainer, EmbeddedTrainerOptions, ModelOccupation, read_list
+from hri.core.files import make_folder
+from hri.htk import Configuration, EmbeddedTrainer, EmbeddedTrainerOptions, ModelOccupation, read_list
 
 WHY = {
     "too_short": "has fewer frames than the models of its transcript take; left out",
@@ -68,6 +70,13 @@ _TWO_KINDS = "a single pass over two kinds of parameters (HERest -r) is not made
 @click.option("-o", "new_suffix", metavar="EXT", help="Suffix of the files that models of -d are written to.")
 @click.option("-c", "pruning", type=FiniteRange(0), help="Not needed: all Gaussians are summed.")
 @click.option("-m", "min_examples", type=click.IntRange(0), default=3, help="Leave models that occur less often.")
+@click.option(
+    "-p",
+    "part",
+    type=click.IntRange(0),
+    metavar="N",
+    help="Write the sums of these recordings alone, to HERN.acc; 0: FILES are such sums of all parts.",
+)
 @click.option("-s", "statistics", type=OutputFile(), metavar="FILE", help="Write how often states were met.")
 @click.option(
     "-t",
@@ -87,7 +96,6 @@ _TWO_KINDS = "a single pass over two kinds of parameters (HERest -r) is not made
     h=("there are no speakers in training", 1),
     k=("there are no transforms of models", 1),
     l=("there are no speakers in training", 1),
-    p=("a pass is not split among processes", 1),
     r=(_TWO_KINDS, 0),
     z=("there are no transforms of models", 1),
     **BINARY,
@@ -109,6 +117,7 @@ def erest(
     new_suffix: str | None,
     pruning: float | None,
     min_examples: int,
+    part: int | None,
     statistics: str | None,
     beams: tuple[float, ...],
     updates: dict[str, bool],
@@ -122,6 +131,8 @@ def erest(
     \b
     Example:
       hri htk erest -H hmm0/models -M hmm1 -I words.mlf -S train.scp list
+      hri htk erest -H hmm0/models -M hmm1 -p 1 -I words.mlf -S half1.scp list
+      hri htk erest -H hmm0/models -M hmm1 -p 0 list hmm1/HER1.acc hmm1/HER2.acc
     """
     configuration = load_configuration(configs)
     names = read_list(model_list)
@@ -141,21 +152,26 @@ def erest(
         trainer = EmbeddedTrainer(sources.models, options)
     except InvalidArgument as error:
         raise FormatError(f"{' '.join(sources.paths)}: {error}") from error
-    references = References(masters, label_folder, suffix)
-    recordings = data_files(files, scripts, NOTHING)
-    utterances = [(file, _units(file.name, references, names)) for file in recordings]
-    check_headers(recordings, sources.models, configuration)
-    for file, units in utterances:
-        frames = load_frames(file, sources.models.kind, configuration)
-        before = trainer.log_likelihood
-        outcome = trainer.add(frames, units)
-        if outcome != "added":
-            note(f"{file.name}: {WHY[outcome]}")
-        elif trace:
-            gained = (trainer.log_likelihood - before) / len(frames)
-            click.echo(f"{file.name}: {len(frames)} frames, {gained:.4f} a frame")
+    if part == 0:
+        sums = all_arguments(files, scripts)
+        if not sums:
+            raise click.UsageError(NOTHING)
+        for path in sums:
+            trainer.add_sums(path)
+    else:
+        recordings = data_files(files, scripts, NOTHING)
+        references = References(masters, label_folder, suffix)
+        utterances = [(file, _units(file.name, references, names)) for file in recordings]
+        check_headers(recordings, sources.models, configuration)
+        _add_all(trainer, utterances, sources.models.kind, configuration, trace)
     if not trainer.num_frames:
         raise FormatError("no recording fits its transcript; nothing was trained")
+    if part:
+        target = Path(make_folder(folder or "."), f"HER{part}.acc")
+        trainer.write_sums(target)
+        if trace:
+            click.echo(f"{trainer.num_frames} frames -> {target}")
+        return
     occupations = [one for one in trainer.occupations() if one.name in names.values()]
     for one in occupations:
         if one.num_examples < min_examples:
@@ -169,6 +185,25 @@ def erest(
         f"{trainer.log_likelihood / trainer.num_frames:.6e}\n"
         f"     - total frames seen          = {trainer.num_frames:.6e}"
     )
+
+
+def _add_all(
+    trainer: EmbeddedTrainer,
+    utterances: Sequence[tuple[DataFile, list[str]]],
+    kind: str,
+    configuration: Configuration,
+    trace: int,
+) -> None:
+    """Add recordings with the models of their transcripts; those that do not fit are named."""
+    for file, units in utterances:
+        frames = load_frames(file, kind, configuration)
+        before = trainer.log_likelihood
+        outcome = trainer.add(frames, units)
+        if outcome != "added":
+            note(f"{file.name}: {WHY[outcome]}")
+        elif trace:
+            gained = (trainer.log_likelihood - before) / len(frames)
+            click.echo(f"{file.name}: {len(frames)} frames, {gained:.4f} a frame")
 
 
 def _units(file: str, references: References, names: dict[str, str]) -> list[str]:
