@@ -165,3 +165,31 @@ def test_copy_makes_kinds_of_those_that_say_more(hri, sounds: Path):
     Path("config").write_text("TARGETKIND = FBANK\n")
     refused = hri("htk", "copy", "-C", "config", "target.par", "no.par")
     assert refused.code != 0 and "cannot become FBANK" in refused.err and not Path("no.par").exists()
+
+
+def test_results_count_keywords_by_their_times(hri, work: Path):
+    """Half an hour: five false alarms an hour. What ranks above each of them, by hand."""
+    hour = 36_000_000_000
+    Path("list").write_text("fire\nhelp\n")
+    said = "0 100 fire\n100 200 other\n1000 2000 fire\n3000 4000 fire\n5000 6000 help\n"
+    Path("said.mlf").write_text(f'#!MLF!#\n"*/a.lab"\n{said}{hour // 2 - 9} {hour // 2} other\n.\n')
+    # By score: hit, false alarm, hit, false alarm (its label is taken), a word that is no keyword, hit of help.
+    found = (
+        "10 90 fire -1\n200 300 fire -2\n900 2000 fire -3\n1100 1900 fire -4\n2000 2500 other 5\n5100 5200 help -9\n"
+    )
+    Path("found.mlf").write_text(f'#!MLF!#\n"*/a.rec"\n{found}.\n')
+    rows = succeed(hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")).splitlines()
+    cells = {row.split(":")[0].strip(): row.split(":")[1].split() for row in rows[2:5]}
+    # N = 5: after one hit of three, then two for good.
+    assert cells["fire"] == ["2", "2", "3", f"{(100 / 3 + 4 * 200 / 3) / 5:.2f}"]
+    assert cells["help"] == ["1", "0", "1", "100.00"]
+    assert cells["Overall"][:3] == ["3", "2", "4"]
+    rows = succeed(hri("htk", "results", "-w", "-u", 2.5, "-I", "said.mlf", "list", "found.mlf")).splitlines()
+    # 2 false alarms in 2.5 hours.
+    assert rows[2].split()[-1] == f"{(100 / 3 + 200 / 3) / 2:.2f}"
+    Path("found.mlf").write_text('#!MLF!#\n"*/a.rec"\n0 100 fire\n.\n')
+    refused = hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")
+    assert refused.code == 3 and "found.mlf: line 3: the keyword 'fire' has no score" in refused.err
+    Path("found.mlf").write_text('#!MLF!#\n"*/a.rec"\nfire -3\n.\n')
+    refused = hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")
+    assert refused.code == 3 and "found.mlf: line 3: the label 'fire' has no times" in refused.err

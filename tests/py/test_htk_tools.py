@@ -204,7 +204,7 @@ def test_every_option_that_there_is_not_is_refused_by_name(hri, words: Path):
         "parse": (("-b",), ("-c",)),
         "build": (("-b",), ("-m", "f"), ("-w", "f"), ("-x", "f"), ("-z",)),
         "vite": (("-B",), ("-e",), ("-g",), ("-h", "m"), ("-j", 1), ("-k",), ("-J", "d"), ("-P", "ESPS")),
-        "results": (("-w",), ("-u", 1), ("-g", "TIMIT")),
+        "results": (("-g", "TIMIT"),),
     }.items():
         arguments = {
             "init": ("proto", *FILES),

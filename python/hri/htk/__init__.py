@@ -35,6 +35,7 @@ from hri.htk.sentences import (
     require_words,
 )
 from hri.htk.training import retrain_by_baum_welch, train_by_viterbi, train_model
+from hri.htk.word_spotting import WordSpotting
 
 __all__ = [
     "HTK_COSTS",
@@ -65,6 +66,7 @@ __all__ = [
     "ViterbiTrainerOptions",
     "ViterbiTraining",
     "WordLattice",
+    "WordSpotting",
     "code_file",
     "code_sources",
     "compare",

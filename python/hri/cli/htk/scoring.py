@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import click
 
+from hri.cli.groups import FiniteRange
 from hri.cli.htk.formatting import strip_contexts
 from hri.cli.htk.options import (
     References,
@@ -23,12 +24,11 @@ from hri.cli.htk.options import (
 from hri.cli.htk.standard import INPUT, HtkCommand, label_format_option, refused_options, standard_options
 from hri.core.errors import FormatError
 from hri.core.files import read_text
-from hri.htk import Label, MasterLabelFile, Results, Transcription, compare, read_list
+from hri.htk import Label, MasterLabelFile, Results, Transcription, WordSpotting, compare, read_list
 from hri.htk.results import HTK_COSTS, WIDTH, Confusions, aligned_lines, nist_table, speaker_of
 from hri.language.word_errors import NIST_COSTS
 
 MASTER = "#!MLF!#"
-_NO_SPOTTING = "hits and false alarms of word spotting are not counted"
 
 
 @dataclass(frozen=True)
@@ -71,8 +71,18 @@ class _Labels:
 @click.option("-p", "confusions", is_flag=True, help="A table of labels said and found.")
 @click.option("-s", "strip", is_flag=True, help="Labels without their contexts: a-b+c is b.")
 @click.option("-t", "aligned", is_flag=True, help="Sentences with errors, aligned.")
+@click.option(
+    "-u",
+    "unit_hours",
+    type=FiniteRange(0, min_open=True),
+    default=1.0,
+    show_default=True,
+    metavar="HOURS",
+    help="With -w: false alarms are counted in a unit of so many hours.",
+)
+@click.option("-w", "spotting", is_flag=True, help="Hits, false alarms and figures of merit of keywords, by times.")
 @click.option("-z", "null", default="???", show_default=True, metavar="NAME", help="The label that is not counted.")
-@refused_options(g=("labels found are in HTK's format", 1), u=(_NO_SPOTTING, 1), w=(_NO_SPOTTING, 0))
+@refused_options(g=("labels found are in HTK's format", 1))
 @click.argument("label_list", type=INPUT)
 @click.argument("found", nargs=-1)
 def results(
@@ -95,6 +105,8 @@ def results(
     confusions: bool,
     strip: bool,
     aligned: bool,
+    unit_hours: float,
+    spotting: bool,
     null: str,
     label_list: str,
     found: tuple[str, ...],
@@ -114,6 +126,9 @@ def results(
     labels = _Labels(classes, case(null), ignore_case, strip)
     known = {labels.one(name) for name in read_list(label_list)} | set(classes.values())
     references = References(masters, label_folder, suffix)
+    if spotting:
+        _spot(_recognised(names), references, list(read_list(label_list)), unit_hours)
+        return
     costs = NIST_COSTS if nist or nist_format else HTK_COSTS
     total, matrix = Results(), Confusions()
     of_speakers: dict[str, Results] = {}
@@ -157,6 +172,28 @@ def results(
         lines += [" Confusion Matrix ".center(WIDTH, "-"), *matrix.lines()]
     lines += [] if nist_format else ["=" * WIDTH]
     for line in lines:
+        click.echo(line)
+
+
+def _spot(
+    recognised: Iterator[tuple[str, str, Transcription]],
+    references: References,
+    keywords: list[str],
+    unit_hours: float,
+) -> None:
+    """Count keywords by their times; other labels are not looked at."""
+    counted = WordSpotting(keywords)
+    for name, source, transcription in recognised:
+        reference, where = references.locate(name)
+        for file, labels in ((where, reference.labels), (source, transcription.labels)):
+            for label in labels:
+                if label.first is None or label.last is None:
+                    raise FormatError(f"{file}: line {label.line}: the label {label.name!r} has no times")
+        for label in transcription.labels:
+            if label.name in keywords and label.score is None:
+                raise FormatError(f"{source}: line {label.line}: the keyword {label.name!r} has no score")
+        counted.add(reference.labels, transcription.labels)
+    for line in counted.lines(unit_hours):
         click.echo(line)
 
 
