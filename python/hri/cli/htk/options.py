@@ -65,6 +65,7 @@ class ModelFiles:
     def __init__(self, paths: Iterable[str]) -> None:
         self.models = ModelSet()
         self._parts: list[tuple[str, int, int]] = []
+        self._names: set[str] = set()
         for path in paths:
             self.read(path)
 
@@ -82,7 +83,7 @@ class ModelFiles:
             Where neither defines it, and for a file that defines several models.
         """
         name = Path(given).name
-        if name in self.models.hmm_names:
+        if self.has(name):
             return name, None
         if not Path(given).is_file():
             raise FormatError(f"{given}: there is no such file, and no -H defines the model {name!r}")
@@ -103,13 +104,13 @@ class ModelFiles:
         """
         read = []
         for model in dict.fromkeys(names):
-            if model in self.models.hmm_names:
+            if self.has(model):
                 continue
             path = Path(folder or ".", model if suffix is None else f"{model}.{suffix}")
             if not path.is_file():
                 raise FormatError(f"{path}: there is no such file, and no -H defines the model {model!r}")
             self.read(str(path))
-            if model not in self.models.hmm_names:
+            if not self.has(model):
                 raise FormatError(f"{path}: does not define the model {model!r}")
             read.append(str(path))
         return read
@@ -151,6 +152,11 @@ class ModelFiles:
         first = self.models.num_definitions
         self.models.read(path)
         self._parts.append((path, first, self.models.num_definitions))
+        self._names.update(self.models.hmm_names)
+
+    def has(self, model: str) -> bool:
+        """Whether the files define this model."""
+        return model in self._names
 
     def write(self, models: ModelSet, folder: str | None, renamed: Mapping[str, str] | None = None) -> list[Path]:
         """Write `models`, which have the same definitions, to files of the same names; gives these.

@@ -78,12 +78,12 @@ class Vocabulary:
                 f"{where}: the list of models {self._list_path} does not have {model!r}, of the word {entry.word!r}"
             )
         physical = self._names[model]
-        if physical in sources.models.hmm_names:
+        if sources.has(physical):
             return
         path = Path(folder or ".", physical if suffix is None else f"{physical}.{suffix}")
         if path.is_file():
             sources.read(str(path))
-        if physical not in sources.models.hmm_names:
+        if not sources.has(physical):
             raise FormatError(
                 f"{where}: there is no model {physical!r}, of the word {entry.word!r}: "
                 f"neither a -H nor a file {path} defines it"
