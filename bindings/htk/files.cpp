@@ -52,6 +52,16 @@ void bind_parameters(py::module_& m) {
           "read", [](const Path& path) { return ParameterFile::read(path.text); }, py::arg("path"),
           Release(), "Raises FormatError naming file and byte.")
       .def_static(
+          "parse_header",
+          [](const py::bytes& data, const std::string& name) {
+            const auto text = static_cast<std::string>(data);
+            const auto header = hri::htk::ParameterHeader::parse(as_bytes(text), name);
+            return std::make_tuple(header.kind.text(), header.sample_period, header.num_frames,
+                                   header.num_columns);
+          },
+          py::arg("data"), py::arg("name"),
+          "(kind, sample_period, num_frames, num_columns) of the first 12 bytes.")
+      .def_static(
           "parse",
           [](const py::bytes& data, const std::string& name) {
             const auto text = static_cast<std::string>(data);
@@ -132,23 +142,41 @@ void bind_features(py::module_& m) {
       .def_readonly("has_target_rate", &Configuration::has_target_rate,
                     "Whether TARGETRATE is set.")
       .def_readonly("features", &Configuration::features, "As HtkFeatureOptions.")
+      .def_readonly("settings", &Configuration::settings,
+                    "Pairs of a key and a value, as they came.")
       .def_readonly("ignored", &Configuration::ignored, "Keys that set nothing here.");
 }
 
 void bind_labels(py::module_& m) {
   py::class_<Label>(m, "HtkLabel", "A name with times in 100 ns and a score, where it has them.")
       .def(py::init([](std::string name, std::optional<std::int64_t> first,
-                       std::optional<std::int64_t> last, std::optional<double> score) {
+                       std::optional<std::int64_t> last, std::optional<double> score,
+                       const std::vector<std::pair<std::string, std::optional<double>>>& others) {
              Label label;
              label.name = std::move(name);
              label.first = first.value_or(Label::kNoTime);
              label.last = last.value_or(Label::kNoTime);
              label.has_score = score.has_value();
              label.score = score.value_or(0);
+             for (const auto& [also, value] : others)
+               label.auxiliary.push_back({also, value.has_value(), value.value_or(0)});
              return label;
            }),
            py::arg("name"), py::arg("first") = py::none(), py::arg("last") = py::none(),
-           py::arg("score") = py::none())
+           py::arg("score") = py::none(),
+           py::arg("others") = std::vector<std::pair<std::string, std::optional<double>>>{},
+           "`others` are further levels of the transcription: names with scores, or None.")
+      .def_property_readonly(
+          "others",
+          [](const Label& self) {
+            std::vector<std::pair<std::string, std::optional<double>>> others;
+            others.reserve(self.auxiliary.size());
+            for (const auto& one : self.auxiliary)
+              others.emplace_back(one.name,
+                                  one.has_score ? std::optional(one.score) : std::nullopt);
+            return others;
+          },
+          "Names and scores of further levels.")
       .def_readonly("name", &Label::name, "What was said.")
       .def_readonly("line", &Label::line, "Of the file that it was read from, from 1; 0: of none.")
       .def_property_readonly(
@@ -193,7 +221,7 @@ void bind_labels(py::module_& m) {
       .def(py::init([](const std::vector<std::pair<std::string, Transcription>>& entries) {
              MasterLabelFile made;
              for (const auto& [pattern, transcription] : entries)
-               made.entries.push_back({pattern, transcription});
+               made.entries.push_back({pattern, transcription, "", false});
              return made;
            }),
            py::arg("entries") = std::vector<std::pair<std::string, Transcription>>{})
@@ -210,10 +238,23 @@ void bind_labels(py::module_& m) {
           "find",
           [](const MasterLabelFile& self, const std::string& name) -> std::optional<Transcription> {
             const auto* entry = self.find(name);
-            if (entry == nullptr) return std::nullopt;
+            if (entry == nullptr || !entry->folder.empty()) return std::nullopt;
             return entry->transcription;
           },
-          py::arg("name"), "Of the first pattern that matches the name; None where none does.")
+          py::arg("name"),
+          "Of the first pattern that matches the name; None where none does, or where it names a "
+          "folder.")
+      .def(
+          "folder",
+          [](const MasterLabelFile& self,
+             const std::string& name) -> std::optional<std::pair<std::string, bool>> {
+            const auto* entry = self.find(name);
+            if (entry == nullptr || entry->folder.empty()) return std::nullopt;
+            return std::pair(entry->folder, entry->is_searched);
+          },
+          py::arg("name"),
+          "Where the first pattern that matches the name says that its label file is, and whether "
+          "folders of the name may stand in it (=>); None: here, or nowhere.")
       .def_property_readonly(
           "entries",
           [](const MasterLabelFile& self) {

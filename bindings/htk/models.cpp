@@ -14,6 +14,8 @@
 #include "hri/htk/recognizer.hpp"
 
 namespace py = pybind11;
+using hri::htk::AlignedModel;
+using hri::htk::AlignedState;
 using hri::htk::Dictionary;
 using hri::htk::ModelSet;
 using hri::htk::Pronunciation;
@@ -52,6 +54,18 @@ void bind_models(py::module_& m) {
           "Writes the definitions first..last - 1, which may use those before.")
       .def("add", &ModelSet::add, py::arg("name"), py::arg("model"), py::arg("final_stay"),
            "Adds a left-right HMM, whose last state is left with 1 - final_stay.")
+      .def("reorder", &ModelSet::reorder, py::arg("order"),
+           "The definitions in another order: the number of each, once.")
+      .def_property_readonly(
+          "definitions",
+          [](const ModelSet& self) {
+            std::vector<std::pair<std::string, std::string>> all;
+            all.reserve(self.macros.size());
+            for (const auto& macro : self.macros)
+              all.emplace_back(std::string(1, macro.type), macro.name);
+            return all;
+          },
+          "(type, name) of every definition in order; type is one of h s m u v t.")
       .def("rename_hmm", &ModelSet::rename_hmm, py::arg("hmm"), py::arg("name"), "Renames an HMM.")
       .def(
           "hmm",
@@ -84,14 +98,20 @@ void bind_htk_words(py::module_& m) {
   py::class_<Pronunciation>(m, "HtkPronunciation", "A word and the models that it is made of.")
       .def(py::init([](std::string word, std::vector<std::string> models,
                        const std::optional<std::string>& output, double probability) {
-             return Pronunciation{std::move(word), output.has_value(), output.value_or(""),
-                                  probability, std::move(models)};
+             Pronunciation made;
+             made.word = std::move(word);
+             made.has_output = output.has_value();
+             made.output = output.value_or("");
+             made.probability = probability;
+             made.models = std::move(models);
+             return made;
            }),
            py::arg("word"), py::arg("models"), py::arg("output") = py::none(),
            py::arg("probability") = 1.0)
       .def_readonly("word", &Pronunciation::word, "As networks have it.")
       .def_readonly("models", &Pronunciation::models, "Names of models.")
       .def_readonly("probability", &Pronunciation::probability, "Among those of the word.")
+      .def_readonly("line", &Pronunciation::line, "Of the file that it was read from; 0: of none.")
       .def_property_readonly(
           "output",
           [](const Pronunciation& self) { return self.has_output ? self.output : self.word; },
@@ -132,6 +152,10 @@ void bind_htk_words(py::module_& m) {
       .def_static(
           "read_grammar", [](const Path& path) { return WordLattice::read_grammar(path.text); },
           py::arg("path"), "The same of a file.")
+      .def_static("of_bigram", &WordLattice::of_bigram, py::arg("language"), py::arg("words"),
+                  py::arg("start") = hri::NGramModel::kStart,
+                  py::arg("end") = hri::NGramModel::kEnd,
+                  "Words in any order, weighted by an NGramModel of order 1 or 2.")
       .def_static("of_words", &WordLattice::of_words, py::arg("words"),
                   "The one sentence, for forced alignment.")
       .def("to_text", &WordLattice::to_text, "The text of the file.")
@@ -157,6 +181,10 @@ void bind_htk_words(py::module_& m) {
            py::arg("frame_s") = 0.01,
            "The same back; words of `silences` are silence. Raises InvalidArgument for a file "
            "without times.")
+      .def_readonly("lines", &WordLattice::lines,
+                    "Of the file that the nodes were read from; empty: of none.")
+      .def_readonly("variants", &WordLattice::variants,
+                    "Pronunciation of every node, from 1, 0: any; or empty.")
       .def_readonly("times_s", &WordLattice::times_s, "Where the words of the nodes end, or empty.")
       .def_property_readonly("first", &WordLattice::first, "The node that begins sentences.")
       .def_property_readonly("last", &WordLattice::last, "The node that ends them.");
@@ -168,7 +196,22 @@ void bind_recognizer(py::module_& m) {
       .def_readonly("output", &RecognisedWord::output, "What is printed for it; empty: nothing.")
       .def_readonly("first_frame", &RecognisedWord::first_frame, "First frame.")
       .def_readonly("last_frame", &RecognisedWord::last_frame, "One past the last frame.")
-      .def_readonly("log_score", &RecognisedWord::log_score, "What it adds to the sentence's.");
+      .def_readonly("log_score", &RecognisedWord::log_score, "What it adds to the sentence's.")
+      .def_readonly("pronunciation", &RecognisedWord::pronunciation,
+                    "Its entry in the dictionary.");
+  py::class_<AlignedState>(m, "HtkAlignedState", "A state on the best path through a model.")
+      .def_readonly("state", &AlignedState::state, "As HTK counts: the entry is 1.")
+      .def_readonly("first_frame", &AlignedState::first_frame, "First frame.")
+      .def_readonly("last_frame", &AlignedState::last_frame, "One past the last frame.")
+      .def_readonly("log_score", &AlignedState::log_score,
+                    "Of its frames, and of the steps into it and on from it.");
+  py::class_<AlignedModel>(m, "HtkAlignedModel", "A model of a recognised word.")
+      .def_readonly("model", &AlignedModel::model, "Its name.")
+      .def_readonly("first_frame", &AlignedModel::first_frame, "First frame.")
+      .def_readonly("last_frame", &AlignedModel::last_frame,
+                    "One past the last frame; the first where it was passed without a frame.")
+      .def_readonly("log_score", &AlignedModel::log_score, "Of its frames and steps.")
+      .def_readonly("states", &AlignedModel::states, "In the order of time.");
   py::class_<RecognisedSentence>(m, "HtkRecognisedSentence", "What a recogniser found.")
       .def_readonly("complete", &RecognisedSentence::complete, "Whether it is a whole sentence.")
       .def_readonly("log_score", &RecognisedSentence::log_score, "Of the best path.")
@@ -198,6 +241,16 @@ void bind_recognizer(py::module_& m) {
           py::arg_v("options", hri::LatticeOptions{1000, 200000},
                     "LatticeOptions(beam=1000, max_arcs=200000)"),
           "All sentences near the best; model i is the pronunciation of words[i].")
+      .def(
+          "align",
+          [](const Recognizer& self, const FloatArray& observations,
+             const RecognisedSentence& sentence) {
+            const auto frames = hri_bind::as_matrix(observations, "observations");
+            const py::gil_scoped_release release;
+            return self.align(frames, sentence);
+          },
+          py::arg("observations"), py::arg("sentence"),
+          "Models and states of every word of a sentence of these frames.")
       .def("n_best", &Recognizer::n_best, py::arg("lattice"), py::arg("count"),
            py::call_guard<py::gil_scoped_release>(),
            "At most `count` (1..1000) sentences of a lattice of this recogniser that differ in "

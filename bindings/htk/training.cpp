@@ -14,6 +14,7 @@
 #include "hri/htk/edit_script.hpp"
 #include "hri/htk/embedded_trainer.hpp"
 #include "hri/htk/flat_start.hpp"
+#include "hri/htk/viterbi_trainer.hpp"
 
 namespace py = pybind11;
 using hri::htk::EditScript;
@@ -22,6 +23,8 @@ using hri::htk::EmbeddedTrainerOptions;
 using hri::htk::FlatStart;
 using hri::htk::ModelOccupation;
 using hri::htk::ModelSet;
+using hri::htk::ViterbiTrainerOptions;
+using hri::htk::ViterbiTraining;
 using hri_bind::FloatArray;
 using hri_bind::Path;
 
@@ -49,6 +52,30 @@ void bind_htk_training(py::module_& m) {
       .def("variance_floors", &FlatStart::variance_floors, py::arg("share"),
            "The macro varFloor1, of this share of the variance.");
 
+  hri_bind::bind_options<ViterbiTrainerOptions>(m, "Options of training by best paths.");
+  py::class_<ViterbiTraining>(m, "HtkViterbiTraining", "What training by best paths gave.")
+      .def_readonly("models", &ViterbiTraining::models, "All of the set.")
+      .def_readonly("log_probabilities", &ViterbiTraining::log_probabilities,
+                    "Of the best paths before each pass, all recordings together; natural log.")
+      .def_readonly("converged", &ViterbiTraining::converged, "Or the passes were at their end.");
+  m.def(
+      "train_htk_model_by_viterbi",
+      [](const ModelSet& models, const std::string& hmm, const std::vector<FloatArray>& recordings,
+         const ViterbiTrainerOptions& options) {
+        std::vector<hri::MatrixF> all;
+        all.reserve(recordings.size());
+        for (const FloatArray& one : recordings)
+          all.emplace_back(hri_bind::as_matrix(one, "recordings"));
+        const py::gil_scoped_release release;
+        return hri::htk::train_by_viterbi(models, hmm, all, options);
+      },
+      py::arg("models"), py::arg("hmm"), py::arg("recordings"),
+      py::arg_v("options", ViterbiTrainerOptions(), "ViterbiTrainerOptions()"),
+      "HInit: a model from recordings of its unit, each of shape (num_frames, num_columns); its "
+      "topology, number of Gaussians and macros stay.");
+  m.def("min_frames_of_htk_model", &hri::htk::min_frames_of, py::arg("models"), py::arg("hmm"),
+        "Frames on the shortest way through a model.");
+
   hri_bind::bind_options<EmbeddedTrainerOptions>(m, "Options of embedded Baum-Welch.");
   py::class_<ModelOccupation>(m, "HtkModelOccupation", "How often a model was met in training.")
       .def_readonly("name", &ModelOccupation::name, "Of the model.")
@@ -69,6 +96,15 @@ void bind_htk_training(py::module_& m) {
           py::arg("frames"), py::arg("units"),
           "Adds an utterance, shape (num_frames, num_columns), by the names of its models; gives "
           "'added', 'too_short' or 'impossible'.")
+      .def(
+          "write_sums",
+          [](const EmbeddedTrainer& self, const Path& path) { self.write_sums(path.text); },
+          py::arg("path"), "Writes the sums over the utterances added, for add_sums().")
+      .def(
+          "add_sums", [](EmbeddedTrainer& self, const Path& path) { self.add_sums(path.text); },
+          py::arg("path"),
+          "As if the utterances that a file of write_sums() sums up were added here; raises "
+          "FormatError for sums of other models.")
       .def("estimate", &EmbeddedTrainer::estimate,
            "The models that the utterances added make most likely.")
       .def_property_readonly("log_likelihood", &EmbeddedTrainer::log_likelihood,

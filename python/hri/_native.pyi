@@ -77,6 +77,8 @@ __all__: list[str] = [
     "HandTrackComputer",
     "HandTrackOptions",
     "HeldOutReport",
+    "HtkAlignedModel",
+    "HtkAlignedState",
     "HtkConfiguration",
     "HtkDictionary",
     "HtkEditScript",
@@ -94,6 +96,7 @@ __all__: list[str] = [
     "HtkRecognisedWord",
     "HtkRecognizer",
     "HtkTranscription",
+    "HtkViterbiTraining",
     "HtkWordLattice",
     "HybridFeatureComputer",
     "HybridFeatureOptions",
@@ -171,6 +174,7 @@ __all__: list[str] = [
     "TwoHandFeatureComputer",
     "TwoHandFeatureOptions",
     "UtteranceDecision",
+    "ViterbiTrainerOptions",
     "Wav",
     "WaveletDescriptorComputer",
     "WaveletDescriptorOptions",
@@ -211,6 +215,7 @@ __all__: list[str] = [
     "linear_prediction",
     "lpc_cepstrum",
     "max_dwt_level",
+    "min_frames_of_htk_model",
     "necessity_of",
     "noise_level",
     "normalise_time",
@@ -236,6 +241,7 @@ __all__: list[str] = [
     "swt",
     "trace_contour",
     "track_rows",
+    "train_htk_model_by_viterbi",
     "wavedec",
     "wavedec2",
     "wavelet_filters",
@@ -8243,6 +8249,11 @@ class HtkParameterFile:
         The same of bytes; `name` is what errors call them.
         """
     @staticmethod
+    def parse_header(data: bytes, name: str) -> tuple[str, int, int, int]:
+        """
+        (kind, sample_period, num_frames, num_columns) of the first 12 bytes.
+        """
+    @staticmethod
     def read(path: str | bytes | os.PathLike[str]) -> HtkParameterFile:
         """
         Raises FormatError naming file and byte.
@@ -8342,6 +8353,11 @@ class HtkConfiguration:
         Keys that set nothing here.
         """
     @property
+    def settings(self) -> list[tuple[str, str]]:
+        """
+        Pairs of a key and a value, as they came.
+        """
+    @property
     def source_format(self) -> str:
         """
         SOURCEFORMAT: HTK or WAV.
@@ -8362,7 +8378,11 @@ class HtkLabel:
         first: typing.SupportsInt | typing.SupportsIndex | None = None,
         last: typing.SupportsInt | typing.SupportsIndex | None = None,
         score: typing.SupportsFloat | typing.SupportsIndex | None = None,
-    ) -> None: ...
+        others: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex | None]] = [],
+    ) -> None:
+        """
+        `others` are further levels of the transcription: names with scores, or None.
+        """
     @property
     def first(self) -> int | None:
         """
@@ -8382,6 +8402,11 @@ class HtkLabel:
     def name(self) -> str:
         """
         What was said.
+        """
+    @property
+    def others(self) -> list[tuple[str, float | None]]:
+        """
+        Names and scores of further levels.
         """
     @property
     def score(self) -> float | None:
@@ -8444,7 +8469,11 @@ class HtkMasterLabelFile:
     def __init__(self, entries: collections.abc.Sequence[tuple[str, HtkTranscription]] = []) -> None: ...
     def find(self, name: str) -> HtkTranscription | None:
         """
-        Of the first pattern that matches the name; None where none does.
+        Of the first pattern that matches the name; None where none does, or where it names a folder.
+        """
+    def folder(self, name: str) -> tuple[str, bool] | None:
+        """
+        Where the first pattern that matches the name says that its label file is, and whether folders of the name may stand in it (=>); None: here, or nowhere.
         """
     def to_text(self) -> str:
         """
@@ -8487,6 +8516,10 @@ class HtkModelSet:
         """
         Renames an HMM.
         """
+    def reorder(self, order: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> None:
+        """
+        The definitions in another order: the number of each, once.
+        """
     def to_text(self) -> str:
         """
         The text of a file.
@@ -8507,6 +8540,11 @@ class HtkModelSet:
     ) -> None:
         """
         Writes the definitions first..last - 1, which may use those before.
+        """
+    @property
+    def definitions(self) -> list[tuple[str, str]]:
+        """
+        (type, name) of every definition in order; type is one of h s m u v t.
         """
     @property
     def hmm_names(self) -> list[str]:
@@ -8540,6 +8578,11 @@ class HtkPronunciation:
         output: str | None = None,
         probability: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
+    @property
+    def line(self) -> int:
+        """
+        Of the file that it was read from; 0: of none.
+        """
     @property
     def models(self) -> list[str]:
         """
@@ -8594,6 +8637,13 @@ class HtkWordLattice:
     """
     A word network: words on nodes, weights on arcs.
     """
+    @staticmethod
+    def of_bigram(
+        language: NGramModel, words: collections.abc.Sequence[str], start: str = "<s>", end: str = "</s>"
+    ) -> HtkWordLattice:
+        """
+        Words in any order, weighted by an NGramModel of order 1 or 2.
+        """
     @staticmethod
     def of_grammar(text: str, name: str) -> HtkWordLattice:
         """
@@ -8677,9 +8727,19 @@ class HtkWordLattice:
         The node that ends them.
         """
     @property
+    def lines(self) -> list[int]:
+        """
+        Of the file that the nodes were read from; empty: of none.
+        """
+    @property
     def times_s(self) -> list[float]:
         """
         Where the words of the nodes end, or empty.
+        """
+    @property
+    def variants(self) -> list[int]:
+        """
+        Pronunciation of every node, from 1, 0: any; or empty.
         """
     @property
     def words(self) -> list[str]:
@@ -8712,9 +8772,69 @@ class HtkRecognisedWord:
         What is printed for it; empty: nothing.
         """
     @property
+    def pronunciation(self) -> int:
+        """
+        Its entry in the dictionary.
+        """
+    @property
     def word(self) -> str:
         """
         As the network has it.
+        """
+
+class HtkAlignedState:
+    """
+    A state on the best path through a model.
+    """
+    @property
+    def first_frame(self) -> int:
+        """
+        First frame.
+        """
+    @property
+    def last_frame(self) -> int:
+        """
+        One past the last frame.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        Of its frames, and of the steps into it and on from it.
+        """
+    @property
+    def state(self) -> int:
+        """
+        As HTK counts: the entry is 1.
+        """
+
+class HtkAlignedModel:
+    """
+    A model of a recognised word.
+    """
+    @property
+    def first_frame(self) -> int:
+        """
+        First frame.
+        """
+    @property
+    def last_frame(self) -> int:
+        """
+        One past the last frame; the first where it was passed without a frame.
+        """
+    @property
+    def log_score(self) -> float:
+        """
+        Of its frames and steps.
+        """
+    @property
+    def model(self) -> str:
+        """
+        Its name.
+        """
+    @property
+    def states(self) -> list[HtkAlignedState]:
+        """
+        In the order of time.
         """
 
 class HtkRecognisedSentence:
@@ -8748,6 +8868,12 @@ class HtkRecognizer:
         lattice: HtkWordLattice,
         options: ConnectedDecoderOptions = ...,
     ) -> None: ...
+    def align(
+        self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], sentence: HtkRecognisedSentence
+    ) -> list[list[HtkAlignedModel]]:
+        """
+        Models and states of every word of a sentence of these frames.
+        """
     def lattice(
         self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32], options: LatticeOptions = ...
     ) -> Lattice:
@@ -8801,6 +8927,143 @@ class HtkFlatStart:
     def variance(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         Of all frames, divided by their number, float64.
+        """
+
+class ViterbiTrainerOptions:
+    """
+    Options of training by best paths.
+
+    Parameters
+    ----------
+    max_iterations : int, default 20
+        passes after that over equal parts, at most; 0..100000
+    tolerance : float, default 0.0001
+        training stops when the log probability of a recording grows by less (natural log); 0..1000000
+    weight_floor : float, default 0.0
+        smallest mixture weight, in units of 1e-5; 0..100000
+    min_variance : float, default 0.01
+        smallest variance; ~v "varFloor1" of the models holds beside it; 0..1e+12
+    uniform_start : bool, default True
+        False: the model is good enough to begin with the best paths
+    update_transitions : bool, default True
+        False: transitions stay
+    update_means : bool, default True
+        False: means stay
+    update_variances : bool, default True
+        False: variances stay
+    update_weights : bool, default True
+        False: mixture weights stay
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list[OptionField]:
+        """
+        What each field is, in their order.
+        """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> dict: ...
+    def __init__(
+        self,
+        *,
+        max_iterations: int = 20,
+        tolerance: float = 0.0001,
+        weight_floor: float = 0.0,
+        min_variance: float = 0.01,
+        uniform_start: bool = True,
+        update_transitions: bool = True,
+        update_means: bool = True,
+        update_variances: bool = True,
+        update_weights: bool = True,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: dict) -> None: ...
+    def as_dict(self) -> dict:
+        """
+        All fields as plain values, those of nested structs as dicts.
+        """
+    @property
+    def max_iterations(self) -> int:
+        """
+        passes after that over equal parts, at most
+        """
+    @max_iterations.setter
+    def max_iterations(self, arg1: typing.Any) -> None: ...
+    @property
+    def min_variance(self) -> float:
+        """
+        smallest variance; ~v "varFloor1" of the models holds beside it
+        """
+    @min_variance.setter
+    def min_variance(self, arg1: typing.Any) -> None: ...
+    @property
+    def tolerance(self) -> float:
+        """
+        training stops when the log probability of a recording grows by less (natural log)
+        """
+    @tolerance.setter
+    def tolerance(self, arg1: typing.Any) -> None: ...
+    @property
+    def uniform_start(self) -> bool:
+        """
+        False: the model is good enough to begin with the best paths
+        """
+    @uniform_start.setter
+    def uniform_start(self, arg1: typing.Any) -> None: ...
+    @property
+    def update_means(self) -> bool:
+        """
+        False: means stay
+        """
+    @update_means.setter
+    def update_means(self, arg1: typing.Any) -> None: ...
+    @property
+    def update_transitions(self) -> bool:
+        """
+        False: transitions stay
+        """
+    @update_transitions.setter
+    def update_transitions(self, arg1: typing.Any) -> None: ...
+    @property
+    def update_variances(self) -> bool:
+        """
+        False: variances stay
+        """
+    @update_variances.setter
+    def update_variances(self, arg1: typing.Any) -> None: ...
+    @property
+    def update_weights(self) -> bool:
+        """
+        False: mixture weights stay
+        """
+    @update_weights.setter
+    def update_weights(self, arg1: typing.Any) -> None: ...
+    @property
+    def weight_floor(self) -> float:
+        """
+        smallest mixture weight, in units of 1e-5
+        """
+    @weight_floor.setter
+    def weight_floor(self, arg1: typing.Any) -> None: ...
+
+class HtkViterbiTraining:
+    """
+    What training by best paths gave.
+    """
+    @property
+    def converged(self) -> bool:
+        """
+        Or the passes were at their end.
+        """
+    @property
+    def log_probabilities(self) -> list[float]:
+        """
+        Of the best paths before each pass, all recordings together; natural log.
+        """
+    @property
+    def models(self) -> HtkModelSet:
+        """
+        All of the set.
         """
 
 class EmbeddedTrainerOptions:
@@ -8961,6 +9224,10 @@ class HtkEmbeddedTrainer:
         """
         Adds an utterance, shape (num_frames, num_columns), by the names of its models; gives 'added', 'too_short' or 'impossible'.
         """
+    def add_sums(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        As if the utterances that a file of write_sums() sums up were added here; raises FormatError for sums of other models.
+        """
     def estimate(self) -> HtkModelSet:
         """
         The models that the utterances added make most likely.
@@ -8968,6 +9235,10 @@ class HtkEmbeddedTrainer:
     def occupations(self) -> list[HtkModelOccupation]:
         """
         Of every model, in the order of the set.
+        """
+    def write_sums(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes the sums over the utterances added, for add_sums().
         """
     @property
     def log_likelihood(self) -> float:
@@ -10147,6 +10418,11 @@ def max_dwt_level(num_samples: typing.SupportsInt | typing.SupportsIndex, wavele
     Levels until the border reaches every coefficient.
     """
 
+def min_frames_of_htk_model(models: HtkModelSet, hmm: str) -> int:
+    """
+    Frames on the shortest way through a model.
+    """
+
 def necessity_of(
     distribution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     event: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
@@ -10389,6 +10665,16 @@ def track_rows(
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Rows of a gesture of which only places are known, for GestureRecognizer.fit_features: float32, shape (num_frames, num_features). tracks, scale_px: as of TwoHandFeatureComputer.compute. Raises InvalidArgument.
+    """
+
+def train_htk_model_by_viterbi(
+    models: HtkModelSet,
+    hmm: str,
+    recordings: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
+    options: ViterbiTrainerOptions = ...,
+) -> HtkViterbiTraining:
+    """
+    HInit: a model from recordings of its unit, each of shape (num_frames, num_columns); its topology, number of Gaussians and macros stay.
     """
 
 @typing.overload

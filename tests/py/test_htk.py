@@ -287,14 +287,14 @@ def test_vite_refuses_before_anything_is_decoded(hri, tmp_path: Path):
     (tmp_path / "list").write_text("a\nb\n")
     (tmp_path / "net").write_text("N=3 L=2\nI=0\nI=1 W=one\nI=2\nJ=0 S=0 E=1\nJ=1 S=1 E=2\n")
     for text, message in (
-        ("two a\n", "the dictionary has no word 'one'"),
-        ("one b\n", "there is no model 'b', of the word 'one'"),
-        ("one c\n", "the list of models does not have 'c', of the word 'one'"),
+        ("two a\n", "net: line 3: the dictionary {0}/dict does not have the word 'one'"),
+        ("one b\n", "dict: line 1: there is no model 'b', of the word 'one': neither a -H nor a file b"),
+        ("one c\n", "dict: line 1: the list of models {0}/list does not have 'c', of the word 'one'"),
     ):
         (tmp_path / "dict").write_text(text)
         files = (tmp_path / "dict", tmp_path / "list", "missing.mfc")
         result = hri("htk", "vite", "-H", tmp_path / "models", "-w", tmp_path / "net", *files)
-        assert result.code == 3 and message in result.err
+        assert result.code == 3 and message.format(tmp_path) in result.err
     assert hri("htk", "vite", tmp_path / "dict", tmp_path / "list").code == 2
 
 

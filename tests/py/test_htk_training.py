@@ -349,3 +349,32 @@ def test_more_gaussians_fit_two_clusters_better():
     assert np.all(np.diff(likelihoods[:60]) >= -1e-9) and np.all(np.diff(likelihoods[60:]) >= -1e-9)
     assert likelihoods[-1] > likelihoods[59] + 100
     np.testing.assert_allclose(np.sort(models.hmm("x").means[:, 0]), [-4, 4], atol=0.3)
+
+
+def test_tied_mixtures_are_trained_together(hri, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """States that share all Gaussians differ in their weights; what erest writes is such a file again."""
+    monkeypatch.chdir(tmp_path)
+    text = "~o <VECSIZE> 1 <USER>\n"
+    for number, mean in enumerate((0.0, 6.0, 12.0), 1):
+        text += f'~m "mix{number}"\n<MEAN> 1\n{mean}\n<VARIANCE> 1\n1\n'
+    for name in ("a", "b"):
+        text += f'~h "{name}"\n<BEGINHMM>\n<NUMSTATES> 3\n<STATE> 2\n<NUMMIXES> 3\n<TMIX> mix 0.4 0.3*2\n'
+        text += "<TRANSP> 3\n0 1 0\n0 .9 .1\n0 0 0\n<ENDHMM>\n"
+    Path("models").write_text(text)
+    Path("list").write_text("a\nb\n")
+    rng = np.random.default_rng(0)
+    heaps = {"a": ([0.0, 6.0], [0.75, 0.25]), "b": ([6.0, 12.0], [0.5, 0.5])}
+    for name, (means, shares) in heaps.items():
+        frames = rng.choice(means, size=(400, 1), p=shares) + rng.normal(size=(400, 1)) + 0.5
+        ParameterFile(frames.astype(np.float32), "USER", 100000).write(f"{name}.usr")
+        Path(f"{name}.lab").write_text(f"{name}\n")
+    for number in range(8):
+        given = ("-H", f"{number}/models" if number else "models", "-M", str(number + 1), "-m", 1)
+        succeed(hri("htk", "erest", *given, "list", "a.usr", "b.usr"))
+    made = ModelSet()
+    made.read("8/models")
+    assert Path("8/models").read_text().count('<TMIX> "mix"') == 2
+    np.testing.assert_allclose(made.hmm("a").weights, [[0.75, 0.25, 0]], atol=0.06)
+    np.testing.assert_allclose(made.hmm("b").weights, [[0, 0.5, 0.5]], atol=0.06)
+    np.testing.assert_array_equal(made.hmm("a").means, made.hmm("b").means)
+    np.testing.assert_allclose(made.hmm("a").means[:, 0], [0.5, 6.5, 12.5], atol=0.2)

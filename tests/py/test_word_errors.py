@@ -4,15 +4,13 @@
 
 from __future__ import annotations
 
-import re
-import shutil
-import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from foreign_programs import SCLITE, sclite_counts
 from hri.core.errors import InvalidArgument
 from hri.htk import HTK_COSTS
 from hri.language import WordErrors, align_words, count_word_errors
@@ -76,18 +74,14 @@ def test_what_has_no_rate_is_refused() -> None:
         count_word_errors(["a b"], [["a"]])
 
 
-@pytest.mark.skipif(shutil.which("sclite") is None, reason="sclite (Debian: sctk) is not installed")
+@pytest.mark.skipif(SCLITE is None, reason="sclite (Debian: sctk) is not installed")
 def test_sclite_counts_the_same(tmp_path: Path) -> None:
     references, hypotheses = sentences(200, 9, 3), sentences(200, 9, 4)
     references = [[*words, "end"] for words in references]
-    for name, lists in (("ref", references), ("hyp", hypotheses)):
-        lines = [f"{' '.join(words)} (speaker_{i})\n" for i, words in enumerate(lists)]
-        (tmp_path / name).write_text("".join(lines))
-    command = ["sclite", "-r", "ref", "trn", "-h", "hyp", "trn", "-i", "rm", "-o", "rsum", "stdout"]
-    out = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True).stdout
-    row = re.search(r"\|\s*Sum\s*\|\s*(\d+)\s+(\d+)\s*\|\s*(\d+)\s+(\d+)\s+(\d+)\s+(\d+)\s+(\d+)", out)
-    assert row is not None, out
+    # Alignments that cost the same have other numbers of errors here, and sclite takes the one with an insertion last.
+    references.append(["one", "one", "one", "one", "two", "two", "six", "end"])
+    hypotheses.append(["two", "six", "six", "six", "two", "end"])
     found = count_word_errors(references, hypotheses)
-    counted = [int(number) for number in row.groups()]
-    expected = [200, found.num_words, found.num_words - found.substitutions - found.deletions]
+    expected = [201, found.num_words, found.num_words - found.substitutions - found.deletions]
+    counted = sclite_counts(tmp_path, references, hypotheses)
     assert counted == [*expected, found.substitutions, found.deletions, found.insertions, found.total]

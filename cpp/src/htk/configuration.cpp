@@ -64,6 +64,9 @@ class ConfigurationReader {
     if (!detail::split_fields(key, &keys) || keys.size() != 1 || values.empty())
       lines_.refuse("expected KEY = VALUE");
     const std::string name = upper(keys.front());
+    const std::size_t first = line.find_first_not_of(detail::kBlanks, equals + 1);
+    const std::size_t last = line.find_last_not_of(detail::kBlanks);
+    out_->settings.emplace_back(name, line.substr(first, last + 1 - first));
     const auto found = setters_.find(name);
     if (found == setters_.end()) {
       out_->ignored.push_back(name);
@@ -156,6 +159,34 @@ class ConfigurationReader {
     for (const char* key : {"SIMPLEDIFFS", "V1COMPAT", "ADDDITHER", "DOUBLEFFT", "SAVEASVQ"})
       add_fixed(key, 0);
     for (const char* key : {"CEPSCALE", "MELFLOOR"}) add_fixed(key, 1);
+    add_refusals();
+  }
+
+  // What would change parameters, labels or results, and is not carried out: refused, unless it
+  // says what is done anyhow.
+  void add_refusals() {
+    for (const char* key :
+         {"NATURALREADORDER", "NATURALWRITEORDER", "USESILDET",      "MEASURESIL",   "ADAPTCMN",
+          "NONUMESCAPES",     "RAWMITFORMAT",      "FORCEOUT",       "FORCECXTEXP",  "FORCELEFTBI",
+          "FORCERIGHTBI",     "ALLOWXWRDEXP",      "CFWORDBOUNDARY", "USEHMMSETLOG", "SAVEBINARY",
+          "SAVELATBIN",       "STRIPTRIPHONES",    "STRIPCONTEXT",   "IGNORECASE",   "NISTSCORE",
+          "TRANSALT",         "USEINXFORM"})
+      add_fixed(key, 0);
+    add_word("BYTEORDER", {"NONVAX"});
+    add_fixed("NSTREAMS", 1);
+    for (const char* key : {"LABELFORMAT", "SOURCELABEL", "TARGETLABEL"}) add_word(key, {"HTK"});
+    for (const char* key : {"TRANSLEVEL", "REFLEVEL", "TESTLEVEL"}) add_fixed(key, 0);
+    for (const char* key :
+         {"CMEANDIR",         "CMEANMASK",     "CMEANPATHMASK", "VARSCALEDIR",   "VARSCALEMASK",
+          "VARSCALEPATHMASK", "VARSCALEFN",    "MATTRANFN",     "MATTRAN",       "SIDEXFORMMASK",
+          "SIDEXFORMEXT",     "STEREOMODE",    "VQTABLE",       "LABFILEMASK",   "LABOFILEMASK",
+          "LATFILEMASK",      "LATOFILEMASK",  "RECOUTPREFIX",  "RECOUTSUFFIX",  "HPARMFILTER",
+          "HWAVEFILTER",      "HLABELFILTER",  "HMMDEFFILTER",  "HMMLISTFILTER", "HNETFILTER",
+          "HDICTFILTER",      "LANGMODFILTER", "PRONSCALE",     "INPUTXFORM",    "PAXFORMMASK",
+          "INXFORMMASK",      "SPEAKERMASK",   "PHRASELABEL",   "PHONELABEL"})
+      setters_[key] = [this, key](const std::string& value) {
+        lines_.refuse(std::string(key) + " = " + value + " is not supported");
+      };
   }
 
   void set_target(const std::string& value) {

@@ -14,34 +14,43 @@ bool in_brackets(const std::string& field) {
   return field.size() >= 2 && field.front() == '[' && field.back() == ']';
 }
 
-Pronunciation read_entry(const detail::TextLines& lines) {
+// Fills an entry from its line; gives "", or what is wrong with it.
+std::string read_entry(const std::string& line, Pronunciation* entry) {
   std::vector<std::string> fields;
   std::vector<bool> marked;
-  if (!detail::split_fields(lines.line(), &fields, &marked))
-    lines.refuse("a quotation does not end");
-  Pronunciation entry;
-  entry.word = fields[0];
-  if (entry.word.empty()) lines.refuse("a word is empty");
+  if (!detail::split_fields(line, &fields, &marked)) return "a quotation does not end";
+  entry->word = fields[0];
+  if (entry->word.empty()) return "a word is empty";
   std::size_t at = 1;
   if (at < fields.size() && !marked[at] && in_brackets(fields[at])) {
-    entry.has_output = true;
-    entry.output = fields[at].substr(1, fields[at].size() - 2);
+    entry->has_output = true;
+    entry->output = fields[at].substr(1, fields[at].size() - 2);
     ++at;
   }
   // A number that is all that is left is the name of a model.
   double probability = 0;
   if (at + 1 < fields.size() && !marked[at] && detail::parse_number(fields[at], &probability)) {
     if (!(probability > 0 && probability <= 1))
-      lines.refuse("the probability of a pronunciation is outside 0..1, 0 excluded");
-    entry.probability = probability;
+      return "the probability of a pronunciation is outside 0..1, 0 excluded";
+    entry->probability = probability;
     ++at;
   }
   for (; at < fields.size(); ++at) {
-    if (fields[at].empty()) lines.refuse("the name of a model is empty");
-    entry.models.push_back(fields[at]);
+    if (fields[at].empty()) return "the name of a model is empty";
+    entry->models.push_back(fields[at]);
   }
-  if (entry.models.empty()) lines.refuse("'" + entry.word + "' has no models");
-  return entry;
+  return entry->models.empty() ? "'" + entry->word + "' has no models" : "";
+}
+
+// Whether the line that an entry was read from says what it holds now.
+bool is_said_by_its_line(const Pronunciation& entry) {
+  if (entry.text.find_first_not_of(detail::kBlanks) == std::string::npos ||
+      entry.text.find_first_of("\r\n") != std::string::npos || entry.text.front() == '#')
+    return false;
+  Pronunciation again;
+  return read_entry(entry.text, &again).empty() && again.word == entry.word &&
+         again.has_output == entry.has_output && again.output == entry.output &&
+         again.probability == entry.probability && again.models == entry.models;
 }
 
 // In quotation marks also where it would be read as something else.
@@ -61,7 +70,12 @@ Dictionary Dictionary::parse(const std::string& text, const std::string& name) {
   Dictionary dictionary;
   while (lines.next()) {
     if (lines.line().empty() || lines.line().front() == '#') continue;
-    dictionary.entries.push_back(read_entry(lines));
+    Pronunciation entry;
+    if (const std::string fault = read_entry(lines.line(), &entry); !fault.empty())
+      lines.refuse(fault);
+    entry.line = lines.number();
+    entry.text = lines.line();
+    dictionary.entries.push_back(std::move(entry));
   }
   return dictionary;
 }
@@ -76,6 +90,10 @@ std::string Dictionary::to_text() const {
     require(entry.probability > 0 && entry.probability <= 1,
             "the probability of a pronunciation is outside 0..1, 0 excluded");
     require(!entry.models.empty(), "a pronunciation has no models");
+    if (is_said_by_its_line(entry)) {
+      text += entry.text + "\n";
+      continue;
+    }
     text += field_text(entry.word, "the word");
     if (entry.has_output) {
       if (!entry.output.empty()) detail::require_name(entry.output, "the output");

@@ -6,6 +6,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/features/speech/dynamics.hpp"
+#include "htk/base_conversion.hpp"
 
 namespace hri::htk {
 
@@ -47,10 +48,18 @@ ParameterFile convert(const ParameterFile& file, ParameterKind kind,
     fail(ErrorKind::invalid_argument,
          "frames of kind " + file.kind.text() + " cannot become " + kind.text() + what);
   };
-  if (kind.base != file.kind.base) missing("");
   if (kind.has(kEnergy) != file.kind.has(kEnergy)) missing(": energy is not added or left out");
+  if (file.kind.has(kZeroMean) && (!kind.has(kZeroMean) || kind.base != file.kind.base))
+    missing(": the mean is not known");
+  if (kind.base != file.kind.base) {
+    if (!detail::is_convertible(file.kind.base, kind.base)) missing("");
+    if (kind.has(kC0) && kind.base != BaseKind::mfcc) missing(": only MFCC has _0");
+    ParameterKind made{kind.base, static_cast<std::uint16_t>(kind.qualifiers & (kEnergy | kC0))};
+    const MatrixF statics = detail::converted_statics(file.values.leftCols(file.num_static()),
+                                                      file.kind, kind.base, kind.has(kC0), options);
+    return convert({made, file.sample_period, statics, {}, {}}, kind, options);
+  }
   if (kind.has(kC0) != file.kind.has(kC0)) missing(": c0 is not added or left out");
-  if (file.kind.has(kZeroMean) && !kind.has(kZeroMean)) missing(": the mean is not known");
   ParameterFile out;
   out.kind = kind;
   out.sample_period = file.sample_period;

@@ -25,8 +25,11 @@ class ScriptReader {
   std::vector<EditCommand> read() {
     std::vector<EditCommand> commands;
     for (skip_blanks(); at_ < text_.size(); skip_blanks()) {
-      if (now() == '#') {
+      if (now() == '#' || text_.compare(at_, 2, "//") == 0) {
         at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (text_.compare(at_, 3, "TR ") == 0) {
+        at_ += 3;  // how much HHEd prints
+        whole(word("{"), 0, 1000000);
       } else {
         commands.push_back(command());
       }
@@ -90,7 +93,7 @@ class ScriptReader {
       made.num_mixtures = whole(made.is_more ? count.substr(1) : count, 1, kMostMixtures);
     } else if (name == "TI") {
       made.kind = EditCommand::Kind::tie;
-      made.macro = macro();
+      made.macro = quotable("the name of a macro");
     } else if (name == "AT" || name == "RT") {
       made.kind =
           name == "AT" ? EditCommand::Kind::add_transition : EditCommand::Kind::remove_transition;
@@ -99,23 +102,28 @@ class ScriptReader {
       if (name == "AT") made.probability = number_of(word("{"));
       if (made.probability < 0 || made.probability > 1 || (name == "AT" && made.probability == 0))
         refuse("a probability is above 0, and at most 1");
+    } else if (name == "CL") {
+      made.kind = EditCommand::Kind::clone;
+      made.list = quotable("the path of a list");
+      return made;
     } else {
-      refuse("there is no command '" + name + "' but MU, TI, AT and RT");
+      refuse("there is no command '" + name + "' but MU, TI, AT, RT and CL");
     }
     made.items = items();
     for (const EditItem& item : made.items) check(made, item);
     return made;
   }
 
-  std::string macro() {
+  // A name that may stand in quotation marks.
+  std::string quotable(const std::string& what) {
     skip_blanks();
-    if (now() != '"') return nonempty(word("{"), "the name of a macro");
+    if (now() != '"') return nonempty(word("{"), what);
     const std::size_t end = text_.find('"', at_ + 1);
     if (end == std::string::npos || text_.substr(at_, end - at_).find('\n') != std::string::npos)
       refuse("a quotation does not end");
     const std::string name = text_.substr(at_ + 1, end - at_ - 1);
     at_ = end + 1;
-    return nonempty(name, "the name of a macro");
+    return nonempty(name, what);
   }
 
   std::string nonempty(const std::string& text, const std::string& what) const {

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "core/numbers.hpp"
+#include "hri/core/error.hpp"
 
 namespace hri::htk::detail {
 namespace {
@@ -165,6 +168,63 @@ void SharedSums::estimate_variances(const std::vector<bool>& marked, const Vecto
     if (wanted[v] && counts[v] > 0)
       parameters->variances[v] = (squares[v] / counts[v]).cwiseMax(floor);
   }
+}
+
+void SharedSums::write(ModelFile* file) const {
+  std::vector<double> steps;
+  for (const MatrixD& one : transitions)
+    steps.insert(steps.end(), one.data(), one.data() + one.size());
+  std::vector<double> weights;
+  for (const std::vector<double>& one : slots_)
+    weights.insert(weights.end(), one.begin(), one.end());
+  const auto vector = [](const std::vector<double>& all) {
+    return VectorD(Eigen::Map<const VectorD>(all.data(), static_cast<Eigen::Index>(all.size())));
+  };
+  file->set_vector("transitions", vector(steps));
+  file->set_vector("weights", vector(weights));
+  file->set_vector("counts", counts_);
+  file->set_matrix("firsts", ConstMatrixRefD(firsts_));
+  file->set_matrix("seconds", ConstMatrixRefD(seconds_));
+}
+
+void SharedSums::add(const ModelFile& file) {
+  const auto refuse = [&file](const char* field, const char* why) {
+    fail(ErrorKind::format, file.name() + ": " + field + ": " + why);
+  };
+  const VectorD steps = file.vector_d("transitions");
+  const VectorD weights = file.vector_d("weights");
+  const VectorD counts = file.vector_d("counts");
+  const MatrixD firsts = file.matrix_d("firsts");
+  const MatrixD seconds = file.matrix_d("seconds");
+  Eigen::Index num_steps = 0;
+  for (const MatrixD& one : transitions) num_steps += one.size();
+  Eigen::Index num_weights = 0;
+  for (const std::vector<double>& one : slots_)
+    num_weights += static_cast<Eigen::Index>(one.size());
+  if (steps.size() != num_steps) refuse("transitions", "not as many as the models have");
+  if (weights.size() != num_weights) refuse("weights", "not as many as the models have");
+  if (counts.size() != counts_.size()) refuse("counts", "not as many as the models have");
+  for (const auto& [field, matrix] :
+       {std::pair{"firsts", &firsts}, std::pair{"seconds", &seconds}}) {
+    if (matrix->rows() != firsts_.rows() || matrix->cols() != firsts_.cols())
+      refuse(field, "not as many as the models have");
+  }
+  if (steps.minCoeff() < 0) refuse("transitions", "one is below 0");
+  if (weights.minCoeff() < 0) refuse("weights", "one is below 0");
+  if (counts.minCoeff() < 0) refuse("counts", "one is below 0");
+  if (seconds.minCoeff() < 0) refuse("seconds", "one is below 0");
+  Eigen::Index at = 0;
+  for (MatrixD& one : transitions) {
+    one += Eigen::Map<const MatrixD>(steps.data() + at, one.rows(), one.cols());
+    at += one.size();
+  }
+  at = 0;
+  for (std::vector<double>& one : slots_) {
+    for (double& weight : one) weight += weights[at++];
+  }
+  counts_ += counts;
+  firsts_ += firsts;
+  seconds_ += seconds;
 }
 
 }  // namespace hri::htk::detail

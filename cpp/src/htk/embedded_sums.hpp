@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hri/core/types.hpp"
+#include "hri/io/model_file.hpp"
 #include "htk/shared_parameters.hpp"
 
 namespace hri::htk::detail {
@@ -49,6 +50,11 @@ class SharedSums {
   /// About the means in `parameters`.
   void estimate_variances(const std::vector<bool>& marked, const VectorD& floor,
                           SharedParameters* parameters) const;
+
+  void write(ModelFile* file) const;
+  /// Adds those of a file. Throws FormatError naming file and field for other sizes, and counts
+  /// below 0.
+  void add(const ModelFile& file);
 
   std::vector<MatrixD> transitions;  ///< counts, by the place of the matrix
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "hri/io/model_file.hpp"
 #include "htk/composite_pass.hpp"
 #include "htk/embedded_sums.hpp"
 #include "htk/shared_parameters.hpp"
@@ -18,6 +19,8 @@ constexpr double kWeightUnit = 1e-5;
 constexpr double kLeastVariance = 1e-10;   // of a column that is constant
 constexpr double kLeastPosterior = 1e-15;  // less is lost in rounding
 constexpr std::int64_t kNotComputed = -1;
+constexpr double kMostExamples = 1e15;
+constexpr const char* kKindOfSums = "htk_embedded_sums";
 
 std::size_t place(int number) { return static_cast<std::size_t>(number); }
 
@@ -89,6 +92,47 @@ class EmbeddedTrainer::Sums {
     return made.applied_to(models_);
   }
 
+  void write_sums(const std::string& path) const {
+    ModelFile file;
+    file.set_kind(kKindOfSums);
+    file.set_text("models", fingerprint());
+    file.set_number("log_likelihood", log_likelihood_);
+    file.set_integer("num_frames", num_frames_);
+    VectorD examples(static_cast<Eigen::Index>(num_examples_.size()));
+    for (std::size_t h = 0; h < num_examples_.size(); ++h)
+      examples[static_cast<Eigen::Index>(h)] = static_cast<double>(num_examples_[h]);
+    file.set_vector("examples", examples);
+    sums_.write(&file);
+    file.write(path);
+  }
+
+  void add_sums(const std::string& path) {
+    const ModelFile file = ModelFile::read(path);
+    const auto refuse = [&path](const std::string& why) {
+      fail(ErrorKind::format, path + ": " + why);
+    };
+    if (file.kind() != kKindOfSums) refuse("kind: no sums of embedded training");
+    if (file.text("models") != fingerprint()) refuse("models: sums of other models");
+    const double log_likelihood = file.number("log_likelihood");
+    const std::int64_t num_frames = file.integer("num_frames");
+    const VectorD examples = file.vector_d("examples");
+    if (num_frames < 0) refuse("num_frames: is below 0");
+    if (examples.size() != static_cast<Eigen::Index>(num_examples_.size()))
+      refuse("examples: not as many as the models");
+    for (const double count : examples) {
+      if (count < 0 || count > kMostExamples || count != std::floor(count))
+        refuse("examples: one is no whole number");
+    }
+    detail::SharedSums sums = sums_;
+    sums.add(file);
+    file.require_all_read();
+    sums_ = std::move(sums);
+    for (std::size_t h = 0; h < num_examples_.size(); ++h)
+      num_examples_[h] += static_cast<std::int64_t>(examples[static_cast<Eigen::Index>(h)]);
+    log_likelihood_ += log_likelihood;
+    num_frames_ += num_frames;
+  }
+
   [[nodiscard]] std::vector<ModelOccupation> occupations() const {
     std::vector<ModelOccupation> all;
     for (std::size_t h = 0; h < parameters_.hmms.size(); ++h) {
@@ -104,6 +148,19 @@ class EmbeddedTrainer::Sums {
   [[nodiscard]] std::int64_t num_frames() const { return num_frames_; }
 
  private:
+  // Of the models, before estimation: FNV-1a of their text.
+  [[nodiscard]] std::string fingerprint() const {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char c : models_.to_text()) {
+      hash ^= static_cast<unsigned char>(c);
+      hash *= 0x100000001b3U;
+    }
+    std::string digits;
+    for (int nibble = 15; nibble >= 0; --nibble)
+      digits += "0123456789abcdef"[(hash >> (4U * static_cast<unsigned>(nibble))) & 0xfU];
+    return digits;
+  }
+
   // Gives the least number of frames.
   std::int64_t begin(const std::vector<std::string>& units) {
     hmms_.clear();
@@ -191,6 +248,8 @@ EmbeddedOutcome EmbeddedTrainer::add(ConstMatrixRefF frames,
   return sums_->add(frames, units);
 }
 
+void EmbeddedTrainer::write_sums(const std::string& path) const { sums_->write_sums(path); }
+void EmbeddedTrainer::add_sums(const std::string& path) { sums_->add_sums(path); }
 ModelSet EmbeddedTrainer::estimate() const { return sums_->estimate(); }
 double EmbeddedTrainer::log_likelihood() const { return sums_->log_likelihood(); }
 std::int64_t EmbeddedTrainer::num_frames() const { return sums_->num_frames(); }

@@ -8,6 +8,7 @@
 #include "hri/core/error.hpp"
 #include "hri/core/kernels.hpp"
 #include "hri/signal/linear_prediction.hpp"
+#include "htk/base_conversion.hpp"
 #include "htk/differences.hpp"
 
 namespace hri::htk {
@@ -22,13 +23,17 @@ bool is_of_filters(BaseKind base) {
   return base == BaseKind::mfcc || base == BaseKind::fbank || base == BaseKind::melspec;
 }
 
+bool is_of_predictor(BaseKind base) {
+  return base == BaseKind::lpc || base == BaseKind::lprefc || base == BaseKind::irefc;
+}
+
 ParameterKind checked(ParameterKind kind) {
   const bool known =
-      is_of_filters(kind.base) || kind.base == BaseKind::lpc || kind.base == BaseKind::lpcepstra;
+      is_of_filters(kind.base) || is_of_predictor(kind.base) || kind.base == BaseKind::lpcepstra;
   if (!known)
     fail(ErrorKind::invalid_argument,
          "parameters of kind " + kind.text() +
-             " are not computed; MFCC, FBANK, MELSPEC, LPC and LPCEPSTRA are");
+             " are not computed; MFCC, FBANK, MELSPEC, LPC, LPREFC, IREFC and LPCEPSTRA are");
   if (const char* fault = kind.fault(); fault != nullptr)
     fail(ErrorKind::invalid_argument, "the parameter kind '" + kind.text() + "' " + fault);
   require(!kind.has(kC0) || kind.base == BaseKind::mfcc, "_0 needs the kind MFCC");
@@ -87,7 +92,7 @@ FeatureExtractor::FeatureExtractor(ParameterKind kind, int sample_rate_hz,
       window_(make_window(computer_.options().window, computer_.frame_length())) {}
 
 int FeatureExtractor::num_base() const {
-  if (kind_.base == BaseKind::lpc) return options_.lpc_order;
+  if (is_of_predictor(kind_.base)) return options_.lpc_order;
   return kind_.base == BaseKind::fbank || kind_.base == BaseKind::melspec ? options_.num_filters
                                                                           : options_.num_cepstra;
 }
@@ -123,6 +128,10 @@ MatrixF FeatureExtractor::base(Span<const float> audio) const {
       return filter_energies(audio);
     case BaseKind::lpc:
       return linear_prediction(audio);
+    case BaseKind::lprefc:
+    case BaseKind::irefc:
+      return detail::converted_statics(linear_prediction(audio), {BaseKind::lpc, 0}, kind_.base,
+                                       false, options_);
     default:
       return computer_.compute(audio);
   }

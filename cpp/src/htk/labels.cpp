@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/htk/labels.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,66 +16,96 @@ constexpr const char* kHeader = "#!MLF!#";
 constexpr const char* kAlternative = "///";
 constexpr const char* kEnd = ".";
 constexpr double kLargestTime = 9e15;  // whole numbers of double
+constexpr double kLargestScore = 1e30;
 
 bool is_number(const std::string& text) {
   double value = 0;
   return detail::parse_number(text, &value);
 }
 
+bool same(const Label& a, const Label& b) {
+  const auto same_auxiliary = [](const AuxiliaryLabel& x, const AuxiliaryLabel& y) {
+    return x.name == y.name && x.has_score == y.has_score && x.score == y.score;
+  };
+  return a.name == b.name && a.first == b.first && a.last == b.last && a.has_score == b.has_score &&
+         a.score == b.score &&
+         std::equal(a.auxiliary.begin(), a.auxiliary.end(), b.auxiliary.begin(), b.auxiliary.end(),
+                    same_auxiliary);
+}
+
 // Fields of one line, taken from the front.
 class LabelLine {
  public:
-  explicit LabelLine(const detail::TextLines& lines) : lines_(lines) {
-    if (!detail::split_fields(lines.line(), &fields_, &marked_))
-      lines.refuse("a quotation does not end");
+  explicit LabelLine(const std::string& line) {
+    if (!detail::split_fields(line, &fields_, &marked_)) fault_ = "a quotation does not end";
   }
 
-  Label read() {
-    Label label;
+  // "", or what is wrong with the line.
+  std::string read(Label* label) {
+    if (!fault_.empty()) return fault_;
     // What is left over by the times is the name, even where it is a number.
-    if (number_ahead() && fields_.size() > 1) label.first = time();
-    if (label.first != Label::kNoTime && number_ahead() && fields_.size() - at_ > 1)
-      label.last = time();
-    if (label.last != Label::kNoTime && label.last < label.first)
-      lines_.refuse("a label ends before it begins");
-    label.name = take_name();
-    label.has_score = take_score(&label.score);
+    if (number_ahead() && fields_.size() > 1) label->first = time();
+    if (label->first != Label::kNoTime && number_ahead() && fields_.size() - at_ > 1)
+      label->last = time();
+    if (label->last != Label::kNoTime && label->last < label->first)
+      set_fault("a label ends before it begins");
+    label->name = take_name();
+    label->has_score = take_score(&label->score);
     while (at_ < fields_.size()) {
       AuxiliaryLabel auxiliary;
       auxiliary.name = take_name();
       auxiliary.has_score = take_score(&auxiliary.score);
-      label.auxiliary.push_back(std::move(auxiliary));
+      label->auxiliary.push_back(std::move(auxiliary));
     }
-    return label;
+    return fault_;
   }
 
  private:
+  void set_fault(const std::string& fault) {
+    if (fault_.empty()) fault_ = fault;
+  }
+
   [[nodiscard]] bool number_ahead() const {
     return at_ < fields_.size() && !marked_[at_] && is_number(fields_[at_]);
   }
 
+  double number(double largest) {
+    double value = 0;
+    if (!detail::parse_number(fields_[at_], &value) || std::fabs(value) > largest)
+      set_fault("'" + fields_[at_] + "' is no number that can stand here");
+    ++at_;
+    return fault_.empty() ? value : 0;
+  }
+
   std::int64_t time() {
-    const double value = lines_.number_of(fields_[at_++], kLargestTime);
-    if (value < 0) lines_.refuse("a time is below 0");
+    const double value = number(kLargestTime);
+    if (value < 0) set_fault("a time is below 0");
     return std::llround(value);
   }
 
   std::string take_name() {
-    if (fields_[at_].empty()) lines_.refuse("a name is empty");
+    if (fields_[at_].empty()) set_fault("a name is empty");
     return fields_[at_++];
   }
 
   bool take_score(double* score) {
     if (!number_ahead()) return false;
-    *score = lines_.number_of(fields_[at_++]);
+    *score = number(kLargestScore);
     return true;
   }
 
-  const detail::TextLines& lines_;
   std::vector<std::string> fields_;
   std::vector<bool> marked_;
   std::size_t at_ = 0;
+  std::string fault_;
 };
+
+// Whether the line that a label was read from says what it holds now.
+bool is_said_by_its_line(const Label& label) {
+  if (label.text.empty() || label.text.find_first_of("\r\n") != std::string::npos) return false;
+  Label again;
+  return LabelLine(label.text).read(&again).empty() && same(label, again);
+}
 
 // Lines up to the end of the text, or up to a line with a full stop where `in_master`.
 Transcription read_labels(detail::TextLines* lines, bool in_master) {
@@ -87,8 +118,11 @@ Transcription read_labels(detail::TextLines* lines, bool in_master) {
     } else if (line == kAlternative) {
       found.alternatives.emplace_back();
     } else if (!line.empty() && line.front() != '#') {
-      Label label = LabelLine(*lines).read();
+      Label label;
+      if (const std::string fault = LabelLine(line).read(&label); !fault.empty())
+        lines->refuse(fault);
       label.line = lines->number();
+      label.text = line;
       auto& labels = found.alternatives.back();
       if (!labels.empty() && label.first != Label::kNoTime && label.first < labels.back().first)
         lines->refuse("a label begins before the one above");
@@ -108,7 +142,8 @@ std::string name_text(const std::string& name) {
 
 void add_score(bool has_score, double score, std::string* text) {
   if (!has_score) return;
-  require(std::isfinite(score) && std::fabs(score) <= 1e30, "the score of a label is not finite");
+  require(std::isfinite(score) && std::fabs(score) <= kLargestScore,
+          "the score of a label is not finite");
   *text += " " + detail::shortest(score);
 }
 
@@ -119,6 +154,7 @@ std::string label_text(const Label& label) {
   require(is_time(label.first) && is_time(label.last), "the time of a label is out of range");
   require(label.last == Label::kNoTime || (label.first >= 0 && label.last >= label.first),
           "a label ends before it begins");
+  if (is_said_by_its_line(label)) return label.text + "\n";
   std::string text;
   if (label.first != Label::kNoTime) text += std::to_string(label.first) + " ";
   if (label.last != Label::kNoTime) text += std::to_string(label.last) + " ";
@@ -175,11 +211,17 @@ MasterLabelFile MasterLabelFile::parse(const std::string& text, const std::strin
       lines.refuse("a quotation does not end");
     if (!marked.front() || fields.front().empty())
       lines.refuse("expected the name of a label file in quotation marks");
-    if (fields.size() > 1)
-      lines.refuse("only transcriptions are read, no entries that name a folder");
     Entry entry;
     entry.pattern = fields.front();
-    entry.transcription = read_labels(&lines, true);
+    if (fields.size() == 1) {
+      entry.transcription = read_labels(&lines, true);
+    } else {
+      entry.is_searched = fields[1] == "=>";
+      if (fields.size() != 3 || marked[1] || !marked[2] || fields[2].empty() ||
+          (fields[1] != "->" && !entry.is_searched))
+        lines.refuse("expected \"pattern\", or \"pattern\" -> \"folder\"");
+      entry.folder = fields[2];
+    }
     file.entries.push_back(std::move(entry));
   }
   return file;
@@ -193,7 +235,14 @@ std::string MasterLabelFile::to_text() const {
   std::string text = std::string(kHeader) + "\n";
   for (const Entry& entry : entries) {
     detail::require_name(entry.pattern, "the pattern");
-    text += detail::in_quotes(entry.pattern) + "\n" + entry.transcription.to_text() + kEnd + "\n";
+    text += detail::in_quotes(entry.pattern);
+    if (entry.folder.empty()) {
+      text += "\n" + entry.transcription.to_text() + kEnd + "\n";
+    } else {
+      detail::require_name(entry.folder, "the folder");
+      text +=
+          std::string(entry.is_searched ? " => " : " -> ") + detail::in_quotes(entry.folder) + "\n";
+    }
   }
   return text;
 }

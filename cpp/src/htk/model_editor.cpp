@@ -4,6 +4,8 @@
 // EditScript on models.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -12,6 +14,7 @@
 #include "hri/htk/labels.hpp"
 #include "htk/model_text.hpp"
 #include "htk/shared_parameters.hpp"
+#include "htk/text_lines.hpp"
 
 namespace hri::htk {
 namespace {
@@ -69,6 +72,23 @@ double breadth(const StateDefinition& state) {
   return sum;
 }
 
+constexpr std::int64_t kMostCloned = std::int64_t{1} << 24U;  // values of all copies
+
+std::string without_contexts(const std::string& name) {
+  const std::size_t minus = name.rfind('-');
+  const std::string rest = minus == std::string::npos ? name : name.substr(minus + 1);
+  return rest.substr(0, rest.find('+'));
+}
+
+std::int64_t size_of(const HmmDefinition& hmm) {
+  std::int64_t size = hmm.transitions.values.size();
+  for (const StateDefinition& state : hmm.states) {
+    for (const WeightedComponent& one : state.components)
+      size += 2 * one.component.mean.values.size();
+  }
+  return size;
+}
+
 // What a definition uses stands before it.
 int rank(char type) { return type == 'h' ? 3 : type == 's' ? 2 : type == 'm' ? 1 : 0; }
 
@@ -78,6 +98,10 @@ class Editor {
 
   void run(const EditCommand& command) {
     line_ = command.line;
+    if (command.kind == EditCommand::Kind::clone) {
+      clone(command.list);
+      return;
+    }
     const std::vector<Place> places = find(command.items);
     if (places.empty()) refuse("no model has what the items name");
     switch (command.kind) {
@@ -94,6 +118,39 @@ class Editor {
   }
 
  private:
+  // Models of a list in place of those that there are: these, or copies of those without contexts.
+  void clone(const std::string& list) {
+    std::map<std::string, const MacroDefinition*> known;
+    for (const MacroDefinition& macro : set_->macros) {
+      if (macro.type == 'h') known.emplace(macro.name, &macro);
+    }
+    const std::string text = detail::read_text(list);
+    detail::TextLines lines(text, list);
+    std::vector<MacroDefinition> made;
+    std::set<std::string> names;
+    std::int64_t num_values = 0;
+    while (lines.next()) {
+      const std::vector<std::string> fields = lines.fields();
+      if (fields.empty()) continue;
+      if (fields.size() > 1 || fields[0].empty()) lines.refuse("expected the name of a model");
+      const std::string& name = fields[0];
+      if (!names.insert(name).second) lines.refuse("'" + name + "' stands here again");
+      auto found = known.find(name);
+      if (found == known.end()) found = known.find(without_contexts(name));
+      if (found == known.end())
+        lines.refuse("there is no model '" + name + "', and no '" + without_contexts(name) + "'");
+      made.push_back(*found->second);
+      made.back().name = name;
+      num_values += size_of(made.back().hmm);
+      if (num_values > kMostCloned) lines.refuse("the copies have too many values");
+    }
+    if (made.empty()) refuse("the list '" + list + "' has no model");
+    const auto is_model = [](const MacroDefinition& macro) { return macro.type == 'h'; };
+    set_->macros.erase(std::remove_if(set_->macros.begin(), set_->macros.end(), is_model),
+                       set_->macros.end());
+    std::move(made.begin(), made.end(), std::back_inserter(set_->macros));
+  }
+
   [[noreturn]] void refuse(const std::string& why) const {
     fail(ErrorKind::format, name_ + ": line " + std::to_string(line_) + ": " + why);
   }

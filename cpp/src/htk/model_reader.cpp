@@ -176,8 +176,11 @@ class ModelReader {
         tokens_.refuse_taken("models of several streams are not read");
     }
     if (tokens_.skip("STREAM")) tokens_.take_whole(1, 1);
-    if (tokens_.is("DPROB") || tokens_.is("TMIX"))
-      tokens_.refuse("discrete and tied-mixture models are not read");
+    if (tokens_.is("DPROB")) tokens_.refuse("discrete models are not read");
+    if (tokens_.skip("TMIX")) {
+      tied_mixture(&definition);
+      return definition;
+    }
     if (definition.num_mixtures == 1 && !tokens_.is("MIXTURE")) {
       definition.components.push_back({1, 1, component()});
       return definition;
@@ -197,6 +200,43 @@ class ModelReader {
     if (!(std::fabs(sum - 1) <= kSumTolerance))
       tokens_.refuse_taken("the weights of a state do not sum to 1");
     return definition;
+  }
+
+  // The weights of Gaussians that are macros of one name and a number: w, or w*n for n of them.
+  void tied_mixture(StateDefinition* definition) {
+    definition->tied = tokens_.take_name();
+    double sum = 0;
+    while (static_cast<int>(definition->components.size()) < definition->num_mixtures) {
+      const std::string text = tokens_.now().text;
+      const std::size_t star = text.find('*');
+      double weight = 0;
+      double count = 1;
+      if (tokens_.now().kind != ModelToken::Kind::word ||
+          !detail::parse_number(text.substr(0, star), &weight) ||
+          (star != std::string::npos && !detail::parse_number(text.substr(star + 1), &count)))
+        tokens_.refuse("expected a weight, or weight*times");
+      if (weight < 0 || weight > 1) tokens_.refuse("a weight is outside 0..1");
+      const auto left = static_cast<double>(definition->num_mixtures) -
+                        static_cast<double>(definition->components.size());
+      if (count != std::floor(count) || count < 1 || count > left)
+        tokens_.refuse("there are more weights than <NUMMIXES> says");
+      for (int n = 0; n < static_cast<int>(count); ++n) {
+        WeightedComponent one;
+        one.number = static_cast<int>(definition->components.size()) + 1;
+        one.weight = weight;
+        const std::string name = definition->tied + std::to_string(one.number);
+        const auto found = index_.find(key('m', name));
+        if (found == index_.end()) tokens_.refuse("~m \"" + name + "\" is not defined above");
+        one.component = set_->macros[found->second].component;
+        one.component.macro = name;
+        count_values(2 * one.component.mean.values.size());
+        sum += weight;
+        definition->components.push_back(std::move(one));
+      }
+      tokens_.advance();
+    }
+    if (!(std::fabs(sum - 1) <= kSumTolerance))
+      tokens_.refuse_taken("the weights of a state do not sum to 1");
   }
 
   ComponentDefinition component() {

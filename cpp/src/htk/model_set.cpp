@@ -90,6 +90,19 @@ void ModelSet::add(const std::string& name, const GaussianMixtureHmm& model, dou
   macros.push_back(std::move(macro));
 }
 
+void ModelSet::reorder(const std::vector<std::size_t>& order) {
+  std::vector<bool> known(macros.size(), false);
+  require(order.size() == macros.size(), "order must name every definition once");
+  for (const std::size_t number : order) {
+    require(number < macros.size() && !known[number], "order must name every definition once");
+    known[number] = true;
+  }
+  std::vector<MacroDefinition> ordered;
+  ordered.reserve(order.size());
+  for (const std::size_t number : order) ordered.push_back(std::move(macros[number]));
+  macros = std::move(ordered);
+}
+
 void ModelSet::rename_hmm(const std::string& hmm, const std::string& name) {
   if (hmm == name) return;
   if (find('h', name) != nullptr)

@@ -100,6 +100,10 @@ class ModelWriter {
       return;
     }
     require(!state.components.empty(), "a state of a model has no Gaussian");
+    if (is_tied(state)) {
+      add_tied(state);
+      return;
+    }
     const bool plain = state.num_mixtures == 1 && state.components.front().weight == 1;
     if (state.num_mixtures != 1) text_ += "<NUMMIXES> " + std::to_string(state.num_mixtures) + "\n";
     for (const WeightedComponent& one : state.components) {
@@ -107,6 +111,35 @@ class ModelWriter {
         text_ += "<MIXTURE> " + std::to_string(one.number) + " " + number(one.weight) + "\n";
       add_component(one.component);
     }
+  }
+
+  // Whether its Gaussians are still those that <TMix> names.
+  static bool is_tied(const StateDefinition& state) {
+    if (state.tied.empty() ||
+        state.components.size() != static_cast<std::size_t>(state.num_mixtures))
+      return false;
+    for (std::size_t c = 0; c < state.components.size(); ++c) {
+      const WeightedComponent& one = state.components[c];
+      const std::string number = std::to_string(c + 1);
+      if (one.number != static_cast<int>(c) + 1 || one.component.macro != state.tied + number)
+        return false;
+    }
+    return true;
+  }
+
+  void add_tied(const StateDefinition& state) {
+    text_ += "<NUMMIXES> " + std::to_string(state.num_mixtures) + "\n<TMIX> " +
+             name_text(state.tied) + "\n";
+    for (std::size_t c = 0; c < state.components.size();) {
+      std::size_t end = c + 1;
+      while (end < state.components.size() &&
+             state.components[end].weight == state.components[c].weight)
+        ++end;
+      text_ += " " + number(state.components[c].weight);
+      if (end - c > 1) text_ += "*" + std::to_string(end - c);
+      c = end;
+    }
+    text_ += '\n';
   }
 
   void add_component(const ComponentDefinition& component) {

@@ -11,7 +11,7 @@
 namespace hri::htk {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kHeaderBytes = ParameterHeader::kBytes;
 constexpr float kLargest = 32767;  // of the integers of _C and IREFC
 constexpr int kExtraSamples = 4;   // that scale and offset of _C count as
 
@@ -34,8 +34,8 @@ class Reader {
  public:
   Reader(Span<const std::uint8_t> bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
-  ParameterFile read() {
-    ParameterFile file;
+  ParameterHeader read_header() {
+    ParameterHeader header;
     if (bytes_.size() < kHeaderBytes) refuse("the header takes 12 bytes");
     const std::uint32_t count = long_word();
     const std::uint32_t period = long_word();
@@ -45,11 +45,30 @@ class Reader {
     if (count == 0 || count > 0x7fffffff) refuse("the number of frames is not above 0");
     at_ = 4;
     if (period == 0 || period > 0x7fffffff) refuse("the sample period is not above 0");
-    file.sample_period = static_cast<std::int32_t>(period);
+    header.sample_period = static_cast<std::int32_t>(period);
     at_ = 10;
-    file.kind = kind_of(code);
-    if (file.kind.has(kNoEnergy)) refuse("the parameter kind has _N, which no file has");
-    read_sizes(count, sample_bytes, &file);
+    header.kind = kind_of(code);
+    if (header.kind.has(kNoEnergy)) refuse("the parameter kind has _N, which no file has");
+    header.num_columns = columns_of(header.kind, sample_bytes);
+    at_ = 0;
+    const bool compressed = header.kind.has(kCompressed);
+    if (compressed && count <= kExtraSamples) refuse("no frame is left beside _C");
+    header.num_frames = count - (compressed ? kExtraSamples : 0);
+    num_bytes_ = kHeaderBytes + std::uint64_t{count} * sample_bytes +
+                 (header.kind.has(kChecksum) ? std::uint64_t{2} : std::uint64_t{0});
+    return header;
+  }
+
+  ParameterFile read() {
+    const ParameterHeader header = read_header();
+    if (bytes_.size() != num_bytes_)
+      refuse("the header says " + std::to_string(num_bytes_) + " bytes, the file has " +
+             std::to_string(bytes_.size()));
+    ParameterFile file;
+    file.kind = header.kind;
+    file.sample_period = header.sample_period;
+    file.values.resize(header.num_frames, header.num_columns);
+    at_ = kHeaderBytes;
     check_sum(file.kind);
     read_values(&file);
     return file;
@@ -92,9 +111,7 @@ class Reader {
     return kind;
   }
 
-  // Shape of the values, once the size of the file is as the header says.
-  void read_sizes(std::uint32_t count, std::uint16_t sample_bytes, ParameterFile* file) {
-    const ParameterKind kind = file->kind;
+  int columns_of(ParameterKind kind, std::uint16_t sample_bytes) {
     at_ = 8;
     const unsigned width = is_of_integers(kind) || kind.has(kCompressed) ? 2 : 4;
     if (sample_bytes == 0 || sample_bytes % width != 0)
@@ -104,16 +121,7 @@ class Reader {
     if (kind.base == BaseKind::waveform && columns != 1) refuse("a waveform has 2 bytes a sample");
     if (columns % kind.num_blocks() != 0)
       refuse(std::to_string(columns) + " columns cannot be " + kind.text());
-    at_ = 0;
-    if (kind.has(kCompressed) && count <= kExtraSamples) refuse("no frame is left beside _C");
-    const std::uint64_t size = kHeaderBytes + std::uint64_t{count} * sample_bytes +
-                               (kind.has(kChecksum) ? std::uint64_t{2} : std::uint64_t{0});
-    if (bytes_.size() != size)
-      refuse("the header says " + std::to_string(size) + " bytes, the file has " +
-             std::to_string(bytes_.size()));
-    const std::uint32_t frames = count - (kind.has(kCompressed) ? kExtraSamples : 0);
-    file->values.resize(static_cast<Eigen::Index>(frames), columns);
-    at_ = kHeaderBytes;
+    return columns;
   }
 
   void check_sum(ParameterKind kind) {
@@ -156,6 +164,7 @@ class Reader {
   Span<const std::uint8_t> bytes_;
   const std::string& name_;
   std::size_t at_ = 0;
+  std::uint64_t num_bytes_ = 0;  // of the file, as the header says
 };
 
 class Writer {
@@ -265,6 +274,10 @@ class Writer {
 };
 
 }  // namespace
+
+ParameterHeader ParameterHeader::parse(Span<const std::uint8_t> bytes, const std::string& name) {
+  return Reader(bytes, name).read_header();
+}
 
 ParameterFile ParameterFile::parse(Span<const std::uint8_t> bytes, const std::string& name) {
   return Reader(bytes, name).read();

@@ -65,6 +65,115 @@ WordChain joined(const std::vector<const Unit*>& units, double log_probability,
   return whole;
 }
 
+detail::UnitPlaces places_of(const std::vector<const Unit*>& units, int first_column) {
+  detail::UnitPlaces places;
+  places.first_column = first_column;
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    const VectorD& exits = units[u]->chain.log_exit;
+    for (Eigen::Index s = 0; s < exits.size(); ++s)
+      places.states.push_back({static_cast<int>(u), static_cast<int>(s), exits[s]});
+    places.log_skips.push_back(units[u]->log_skip);
+  }
+  return places;
+}
+
+// The best path through a chain: its states.
+std::vector<int> path_through(const WordChain& chain, ConstMatrixRefF scores) {
+  const Eigen::Index n = chain.log_start.size();
+  std::vector<std::vector<int>> from(static_cast<std::size_t>(scores.rows()),
+                                     std::vector<int>(static_cast<std::size_t>(n), -1));
+  VectorD best = chain.log_start + scores.row(0).transpose().cast<double>();
+  for (Eigen::Index t = 1; t < scores.rows(); ++t) {
+    VectorD next(n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Eigen::Index before = 0;
+      next[j] = (best + chain.log_transition.col(j)).maxCoeff(&before) +
+                static_cast<double>(scores(t, j));
+      from[static_cast<std::size_t>(t)][static_cast<std::size_t>(j)] = static_cast<int>(before);
+    }
+    best = next;
+  }
+  Eigen::Index last = 0;
+  const double found = (best + chain.log_exit).maxCoeff(&last);
+  if (!(found > kImpossible)) return {};
+  std::vector<int> states(static_cast<std::size_t>(scores.rows()));
+  int state = static_cast<int>(last);
+  for (std::size_t t = states.size(); t-- > 0;) {
+    states[t] = state;
+    state = from[t][static_cast<std::size_t>(state)];
+  }
+  return states;
+}
+
+// Models and states along a path, and the scores of each.
+class PathReader {
+ public:
+  PathReader(const WordChain& chain, const detail::UnitPlaces& places,
+             const Pronunciation& pronunciation, std::int64_t first_frame)
+      : chain_(chain), places_(places), names_(pronunciation.models), frame_(first_frame) {
+    // What the pronunciation adds at the beginning is none of its models'.
+    before_ = std::log(pronunciation.probability);
+  }
+
+  std::vector<AlignedModel> read(const std::vector<int>& path, ConstMatrixRefF scores) {
+    int previous = -1;
+    for (std::size_t t = 0; t < path.size(); ++t, ++frame_) {
+      const int state = path[t];
+      double weight =
+          previous < 0 ? chain_.log_start[state] - before_ : chain_.log_transition(previous, state);
+      const int unit = place(state).unit;
+      if (previous < 0 || place(previous).unit != unit) {
+        weight -= leave(previous, unit);
+        models_.push_back({names_[static_cast<std::size_t>(unit)], frame_, frame_, 0, {}});
+        begin(state);
+      } else if (previous != state) {
+        begin(state);
+      }
+      add(weight + static_cast<double>(scores(static_cast<Eigen::Index>(t), state)));
+      models_.back().last_frame = models_.back().states.back().last_frame = frame_ + 1;
+      previous = state;
+    }
+    leave(previous, static_cast<int>(names_.size()));
+    return std::move(models_);
+  }
+
+ private:
+  [[nodiscard]] const detail::UnitPlaces::State& place(int state) const {
+    return places_.states[static_cast<std::size_t>(state)];
+  }
+  void begin(int state) {
+    models_.back().states.push_back({place(state).state + 2, frame_, frame_, 0});
+  }
+  void add(double score) {
+    models_.back().log_score += score;
+    models_.back().states.back().log_score += score;
+  }
+
+  // Out of the model of a state, past those before model `next`; gives what that weighs.
+  double leave(int state, int next) {
+    double weight = 0;
+    int unit = 0;
+    if (state >= 0) {
+      weight = place(state).log_exit;
+      add(weight);
+      unit = place(state).unit + 1;
+    }
+    for (; unit < next; ++unit) {
+      const auto u = static_cast<std::size_t>(unit);
+      models_.push_back({names_[u], frame_, frame_, places_.log_skips[u], {}});
+      weight += places_.log_skips[u];
+    }
+    return weight;
+  }
+
+  const WordChain& chain_;
+  const detail::UnitPlaces& places_;
+  const std::vector<std::string>& names_;
+  std::int64_t frame_;
+  double before_ = 0;
+  std::vector<AlignedModel> models_;
+};
+
 // The lattice with a node for every pronunciation of its words.
 class NetworkBuilder {
  public:
@@ -74,7 +183,8 @@ class NetworkBuilder {
 
   WordNetwork build() {
     const int initial = add(WordNetwork::kNull);
-    for (const std::string& word : lattice_.words) add_word(word);
+    for (std::size_t n = 0; n < lattice_.words.size(); ++n)
+      add_word(lattice_.words[n], lattice_.variants.empty() ? 0 : lattice_.variants[n]);
     const int final = add(WordNetwork::kNull);
     connect(initial, entries_[static_cast<std::size_t>(lattice_.first())]);
     for (const WordLattice::Arc& arc : lattice_.arcs) {
@@ -92,9 +202,17 @@ class NetworkBuilder {
   }
   void connect(int from, int to) { arcs_.push_back({from, to, 0}); }
 
-  void add_word(const std::string& word) {
+  // `variant`: which of its pronunciations, from 1; 0: any.
+  void add_word(const std::string& word, int variant) {
     const auto found = numbers_.find(word);
-    const std::vector<int> chains = found == numbers_.end() ? std::vector<int>() : found->second;
+    std::vector<int> chains = found == numbers_.end() ? std::vector<int>() : found->second;
+    if (variant > 0 && !chains.empty()) {
+      if (variant > static_cast<int>(chains.size()))
+        fail(ErrorKind::invalid_argument, "the network wants pronunciation " +
+                                              std::to_string(variant) + " of '" + word +
+                                              "', which has " + std::to_string(chains.size()));
+      chains = {chains[static_cast<std::size_t>(variant) - 1]};
+    }
     if (chains.size() < 2) {
       const int node = add(chains.empty() ? WordNetwork::kNull : chains.front());
       entries_.push_back(node);
@@ -171,6 +289,9 @@ Recognizer::Recognizer(const ModelSet& models, const Dictionary& dictionary,
       units.reserve(entry.models.size());
       for (const std::string& model : entry.models) units.push_back(table.unit(model, word));
       numbers[word].push_back(static_cast<int>(chains_.size()));
+      of_entry_.emplace(number, static_cast<int>(chains_.size()));
+      entries_.push_back(number);
+      units_.push_back(places_of(units, static_cast<int>(columns_.size())));
       chains_.push_back(joined(units, std::log(entry.probability), word));
       pronunciations_.push_back(entry);
       for (const Unit* unit : units) {
@@ -204,7 +325,8 @@ std::vector<RecognisedWord> Recognizer::words_of(const std::vector<DecodedWord>&
   for (const DecodedWord& word : words) {
     const Pronunciation& entry = pronunciations_[static_cast<std::size_t>(word.model)];
     result.push_back({entry.word, entry.has_output ? entry.output : entry.word, word.first_frame,
-                      word.last_frame, word.log_score});
+                      word.last_frame, word.log_score,
+                      entries_[static_cast<std::size_t>(word.model)]});
   }
   return result;
 }
@@ -217,6 +339,28 @@ RecognisedSentence Recognizer::recognise(ConstMatrixRefF observations) const {
   const DecodedSentence rest = decoder.finish();
   words.insert(words.end(), rest.words.begin(), rest.words.end());
   return {rest.complete, rest.log_score, words_of(words)};
+}
+
+std::vector<std::vector<AlignedModel>> Recognizer::align(ConstMatrixRefF observations,
+                                                         const RecognisedSentence& sentence) const {
+  const MatrixF of_states = scores(observations);
+  std::vector<std::vector<AlignedModel>> result;
+  for (const RecognisedWord& word : sentence.words) {
+    const auto found = of_entry_.find(word.pronunciation);
+    require(found != of_entry_.end() && word.first_frame >= 0 &&
+                word.first_frame < word.last_frame && word.last_frame <= of_states.rows(),
+            "a word of the sentence is not of this recogniser and recording");
+    const auto number = static_cast<std::size_t>(found->second);
+    const MatrixF part = of_states.block(word.first_frame, units_[number].first_column,
+                                         word.last_frame - word.first_frame,
+                                         static_cast<Eigen::Index>(units_[number].states.size()));
+    const std::vector<int> path = path_through(chains_[number], part);
+    require(!path.empty(), "no path leads through the frames of a word");
+    result.push_back(
+        PathReader(chains_[number], units_[number], pronunciations_[number], word.first_frame)
+            .read(path, part));
+  }
+  return result;
 }
 
 Lattice Recognizer::lattice(ConstMatrixRefF observations, const LatticeOptions& options) const {

@@ -35,10 +35,17 @@ class LatticeReader {
       lines_.refuse("there are " + std::to_string(lattice_.arcs.size()) + " arcs above, L= says " +
                     std::to_string(num_arcs_));
     for (auto& [number, word] : nodes_) lattice_.words.push_back(std::move(word));
+    for (const auto& [number, line] : line_of_) lattice_.lines.push_back(line);
+    if (!variant_of_.empty()) {
+      lattice_.variants.resize(lattice_.words.size());
+      for (const auto& [number, variant] : variant_of_)
+        lattice_.variants[static_cast<std::size_t>(number)] = variant;
+    }
     // Of the times of some nodes alone nothing can be made.
     for (const auto& [number, time] : times_) {
       if (times_.size() == nodes_.size()) lattice_.times_s.push_back(time);
     }
+    if (!words_of_arcs_.empty()) put_words_on_nodes();
     if (const std::string fault = lattice_.fault(); !fault.empty()) lines_.refuse(fault);
     return std::move(lattice_);
   }
@@ -83,10 +90,18 @@ class LatticeReader {
       if (fields.count("N") == 0 || fields.count("L") == 0) lines_.refuse("expected N= and L=");
       num_nodes_ = lines_.whole_of(fields.at("N"), 1, kMost);
       num_arcs_ = lines_.whole_of(fields.at("L"), 0, kMost);
-    } else if (fields.count("base") > 0) {
-      const double base = lines_.number_of(fields.at("base"));
-      if (!(base > 0) || base == 1) lines_.refuse("the base of logs is not above 0, or is 1");
-      log_base_ = std::log(base);
+    }
+    if (fields.count("I") == 0 && fields.count("J") == 0) {
+      if (fields.count("base") > 0) {
+        const double base = lines_.number_of(fields.at("base"));
+        if (!(base > 0) || base == 1) lines_.refuse("the base of logs is not above 0, or is 1");
+        log_base_ = std::log(base);
+      }
+      for (const auto& [key, node] :
+           {std::pair{"start", &lattice_.start}, std::pair{"end", &lattice_.end}}) {
+        if (fields.count(key) > 0)
+          *node = static_cast<int>(lines_.whole_of(fields.at(key), 0, kMost));
+      }
     }
     // All others say where the lattice comes from.
   }
@@ -103,14 +118,36 @@ class LatticeReader {
     if (name.empty()) lines_.refuse("a word is empty");
     if (!nodes_.emplace(number, name).second)
       lines_.refuse("node " + std::to_string(number) + " stands here again");
+    line_of_[number] = lines_.number();
+    if (word != fields.end())
+      has_words_on_nodes_ = has_words_on_nodes_ || name != WordLattice::kNull;
     if (const auto time = fields.find("t"); time != fields.end())
       times_[number] = lines_.number_of(time->second, 1e12);
+    if (const auto variant = fields.find("v"); variant != fields.end())
+      variant_of_[number] = static_cast<int>(lines_.whole_of(variant->second, 0, kMost));
+  }
+
+  // A node on every arc that has a word; it ends where the arc does.
+  void put_words_on_nodes() {
+    if (has_words_on_nodes_) lines_.refuse("there are words on nodes and on arcs");
+    const bool has_times = !lattice_.times_s.empty();
+    lattice_.variants.resize(lattice_.words.size());
+    for (ArcWord& one : words_of_arcs_) {
+      WordLattice::Arc& arc = lattice_.arcs[one.arc];
+      const int node = static_cast<int>(lattice_.words.size());
+      lattice_.words.push_back(std::move(one.word));
+      lattice_.lines.push_back(one.line);
+      lattice_.variants.push_back(one.variant);
+      if (has_times) lattice_.times_s.push_back(lattice_.times_s[static_cast<std::size_t>(arc.to)]);
+      const int to = arc.to;
+      arc.to = node;
+      lattice_.arcs.push_back({node, to, 0, 0});
+    }
   }
 
   void read_arc(const Fields& fields) {
     require_header();
     (void)lines_.whole_of(fields.at("J"), 0, std::max<std::int64_t>(num_arcs_, 1) - 1);
-    if (fields.count("W") > 0) lines_.refuse("words on arcs are not read");
     WordLattice::Arc arc;
     for (const auto& [keys, node] : {std::pair{std::pair{"S", "START"}, &arc.from},
                                      std::pair{std::pair{"E", "END"}, &arc.to}}) {
@@ -125,11 +162,31 @@ class LatticeReader {
       arc.log_acoustic = lines_.number_of(score->second, 1e12) * log_base_;
     if (static_cast<std::int64_t>(lattice_.arcs.size()) >= num_arcs_)
       lines_.refuse("there are more arcs than L= says");
+    if (const auto word = fields.find("W");
+        word != fields.end() && word->second != WordLattice::kNull) {
+      if (word->second.empty()) lines_.refuse("a word is empty");
+      const auto variant = fields.find("v");
+      words_of_arcs_.push_back(
+          {lattice_.arcs.size(), word->second, lines_.number(),
+           variant == fields.end() ? 0
+                                   : static_cast<int>(lines_.whole_of(variant->second, 0, kMost))});
+    }
     lattice_.arcs.push_back(arc);
   }
 
+  struct ArcWord {
+    std::size_t arc = 0;
+    std::string word;
+    std::int64_t line = 0;
+    int variant = 0;
+  };
+
   detail::TextLines lines_;
   WordLattice lattice_;
+  std::vector<ArcWord> words_of_arcs_;
+  std::map<std::int64_t, std::int64_t> line_of_;
+  std::map<std::int64_t, int> variant_of_;
+  bool has_words_on_nodes_ = false;
   std::map<std::int64_t, std::string> nodes_;
   std::map<std::int64_t, double> times_;
   std::int64_t num_nodes_ = -1;
@@ -191,8 +248,8 @@ std::string padded(const std::string& text, std::size_t width) {
 
 }  // namespace
 
-int WordLattice::first() const { return end_of(*this, false); }
-int WordLattice::last() const { return end_of(*this, true); }
+int WordLattice::first() const { return start != kByArcs ? start : end_of(*this, false); }
+int WordLattice::last() const { return end != kByArcs ? end : end_of(*this, true); }
 
 std::string WordLattice::fault() const {
   const auto size = static_cast<int>(words.size());
@@ -206,6 +263,12 @@ std::string WordLattice::fault() const {
   for (const double time : times_s) {
     if (!std::isfinite(time)) return "the time of a node is not finite";
   }
+  if (!variants.empty() && variants.size() != words.size()) return "some nodes have no variant";
+  for (const int variant : variants) {
+    if (variant < 0) return "the variant of a pronunciation is below 0";
+  }
+  if (start < kByArcs || start >= size || end < kByArcs || end >= size)
+    return "start= or end= is no node";
   if (first() < 0) return "not exactly one node is without predecessors, to begin sentences";
   if (last() < 0) return "not exactly one node is without successors, to end sentences";
   if (has_null_cycle(*this)) return "nodes without words make a cycle";
@@ -238,12 +301,17 @@ WordLattice WordLattice::read_grammar(const std::string& path) {
 std::string WordLattice::to_text() const {
   const std::string found = fault();
   require(found.empty(), found.c_str());
-  std::string text = "VERSION=1.0\nN=" + padded(std::to_string(words.size()), 4) +
-                     " L=" + std::to_string(arcs.size()) + "\n";
+  std::string text = "VERSION=1.0\n";
+  if (start != kByArcs) text += "start=" + std::to_string(start) + "\n";
+  if (end != kByArcs) text += "end=" + std::to_string(end) + "\n";
+  text +=
+      "N=" + padded(std::to_string(words.size()), 4) + " L=" + std::to_string(arcs.size()) + "\n";
   for (std::size_t n = 0; n < words.size(); ++n) {
     text += "I=" + padded(std::to_string(n), 4);
     if (!times_s.empty()) text += " t=" + padded(detail::shortest(times_s[n]), 5);
-    text += " W=" + word_text(words[n]) + "\n";
+    text += " W=" + word_text(words[n]);
+    if (!variants.empty() && variants[n] > 0) text += " v=" + std::to_string(variants[n]);
+    text += '\n';
   }
   for (std::size_t a = 0; a < arcs.size(); ++a) {
     text += "J=" + padded(std::to_string(a), 5) + " S=" + padded(std::to_string(arcs[a].from), 4) +

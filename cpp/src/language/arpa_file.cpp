@@ -27,6 +27,7 @@ class ArpaReader {
     if (line_ != "\\end\\") refuse("has no \\end\\ here");
     if (model_.start_ < 0) refuse("has no unigram <s>");
     if (model_.end_ < 0) refuse("has no unigram </s>");
+    model_.text_ = text_;
     return std::move(model_);
   }
 
@@ -158,6 +159,7 @@ NGramModel NGramModel::load(const std::string& path) {
 }
 
 std::string NGramModel::to_arpa() const {
+  if (!text_.empty()) return text_;
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out << std::setprecision(17) << "\\data\\\n";

@@ -75,6 +75,20 @@ double NGramModel::log_probability(Span<const int> history, int word) const {
   return kLn10 * log10_probability(std::move(known), word);
 }
 
+bool NGramModel::has(Span<const int> history, int word) const {
+  if (history.size() >= ngrams_.size()) return false;
+  NGram ngram(history.begin(), history.end());
+  ngram.push_back(word);
+  return ngrams_[history.size()].count(ngram) > 0;
+}
+
+double NGramModel::log_backoff(Span<const int> history) const {
+  if (history.empty() || history.size() >= ngrams_.size()) return 0;
+  const auto& contexts = ngrams_[history.size() - 1];
+  const auto found = contexts.find(NGram(history.begin(), history.end()));
+  return found == contexts.end() ? 0 : kLn10 * found->second.log10_backoff;
+}
+
 NGramFit NGramModel::fit_of(const std::vector<Sentence>& sentences) const {
   NGramFit fit;
   std::vector<int> history;

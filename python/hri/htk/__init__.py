@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """HTK's files: parameters, labels, model definitions, dictionaries, word networks; and what its tools do with them."""
 
-from hri._native import EmbeddedTrainerOptions, HtkFeatureOptions
+from hri._native import EmbeddedTrainerOptions, HtkFeatureOptions, ViterbiTrainerOptions
+from hri._native import HtkAlignedModel as AlignedModel
+from hri._native import HtkAlignedState as AlignedState
 from hri._native import HtkConfiguration as Configuration
 from hri._native import HtkDictionary as Dictionary
 from hri._native import HtkEditScript as EditScript
@@ -19,18 +21,29 @@ from hri._native import HtkRecognisedSentence as RecognisedSentence
 from hri._native import HtkRecognisedWord as RecognisedWord
 from hri._native import HtkRecognizer as Recognizer
 from hri._native import HtkTranscription as Transcription
+from hri._native import HtkViterbiTraining as ViterbiTraining
 from hri._native import HtkWordLattice as WordLattice
-from hri.htk.coding import code_file, load_observations
-from hri.htk.listing import list_parameters
+from hri.htk.coding import ParameterHeader, Source, code_file, code_sources, load_observations, read_header
+from hri.htk.listing import list_parameters, observation_names
 from hri.htk.lists import read_list, read_script
 from hri.htk.results import HTK_COSTS, Results, compare
-from hri.htk.sentences import random_sentence
-from hri.htk.training import retrain_model, train_model
+from hri.htk.sentences import (
+    DrawnSentence,
+    draw_sentence,
+    network_statistics,
+    random_sentence,
+    require_words,
+)
+from hri.htk.training import retrain_by_baum_welch, train_by_viterbi, train_model
+from hri.htk.word_spotting import WordSpotting
 
 __all__ = [
     "HTK_COSTS",
+    "AlignedModel",
+    "AlignedState",
     "Configuration",
     "Dictionary",
+    "DrawnSentence",
     "EditScript",
     "EmbeddedTrainer",
     "EmbeddedTrainerOptions",
@@ -42,20 +55,32 @@ __all__ = [
     "ModelOccupation",
     "ModelSet",
     "ParameterFile",
+    "ParameterHeader",
     "Pronunciation",
     "RecognisedSentence",
     "RecognisedWord",
     "Recognizer",
     "Results",
+    "Source",
     "Transcription",
+    "ViterbiTrainerOptions",
+    "ViterbiTraining",
     "WordLattice",
+    "WordSpotting",
     "code_file",
+    "code_sources",
     "compare",
+    "draw_sentence",
     "list_parameters",
     "load_observations",
+    "network_statistics",
+    "observation_names",
     "random_sentence",
+    "read_header",
     "read_list",
     "read_script",
-    "retrain_model",
+    "require_words",
+    "retrain_by_baum_welch",
+    "train_by_viterbi",
     "train_model",
 ]

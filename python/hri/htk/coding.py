@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from os import PathLike, fspath
 
 import numpy as np
@@ -11,10 +13,48 @@ from numpy.typing import NDArray
 
 from hri._native import HtkConfiguration, HtkFeatureExtractor, HtkParameterFile
 from hri.core.errors import FormatError
+from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.io import read_wav
 
 UNITS_PER_S = 10_000_000
 FULL_SCALE = 32768
+
+
+@dataclass(frozen=True)
+class Source:
+    """A recording, or a part of it.
+
+    Attributes
+    ----------
+    path : path
+        A WAV file where SOURCEFORMAT says so; else a parameter file, which may be a waveform.
+    start : float
+        Where the part begins, in 100 ns.
+    end : float or None
+        Where it ends; None: with the recording.
+    """
+
+    path: str | PathLike[str]
+    start: float = 0.0
+    end: float | None = None
+
+    def duration(self, configuration: HtkConfiguration) -> int:
+        """Of the part, in 100 ns. Raises as `code_file` does."""
+        audio = _audio(self.path, configuration)
+        if audio is not None:
+            return round(len(self.cut(*audio)) * UNITS_PER_S / audio[1])
+        file = HtkParameterFile.read(self.path)
+        return len(self.cut(file.values, UNITS_PER_S / file.sample_period)) * file.sample_period
+
+    def cut(self, values: NDArray[np.float32], rate_hz: float) -> NDArray[np.float32]:
+        """The part of samples or frames. Raises FormatError where it is empty, or ends behind them."""
+        first = round(self.start * rate_hz / UNITS_PER_S)
+        last = len(values) if self.end is None else round(self.end * rate_hz / UNITS_PER_S)
+        if last > len(values):
+            raise FormatError(f"{fspath(self.path)}: ends before {self.end} * 100 ns")
+        if first >= last:
+            raise FormatError(f"{fspath(self.path)}: nothing is left between {self.start} and {self.end} * 100 ns")
+        return values[first:last]
 
 
 def code_file(source: str | PathLike[str], configuration: HtkConfiguration) -> HtkParameterFile:
@@ -33,17 +73,95 @@ def code_file(source: str | PathLike[str], configuration: HtkConfiguration) -> H
     InvalidArgument
         For recordings shorter than a frame, and kinds that the source cannot become.
     """
+    return code_sources([Source(source)], configuration)
+
+
+def code_sources(sources: Sequence[Source], configuration: HtkConfiguration) -> HtkParameterFile:
+    """What HCopy makes of recordings, or parts of them, one behind the other; errors as of `code_file`.
+
+    Raises
+    ------
+    FormatError
+        Also for recordings of several rates, or parameters of several kinds or periods.
+    """
+    clips: list[tuple[NDArray[np.float32], int]] = []
+    files: list[HtkParameterFile] = []
+    for source in sources:
+        name = fspath(source.path)
+        audio = _audio(source.path, configuration)
+        if audio is not None:
+            clips.append((source.cut(*audio), audio[1]))
+        else:
+            file = HtkParameterFile.read(source.path)
+            whole = source.start == 0 and source.end is None
+            part = file if whole else _part_of(file, source)
+            files.append(part)
+            if (part.kind, part.sample_period) != (files[0].kind, files[0].sample_period):
+                raise FormatError(
+                    f"{name}: {part.kind}, {part.sample_period} * 100 ns: of another kind than those before"
+                )
+        if (clips and files) or (clips and clips[-1][1] != clips[0][1]):
+            raise FormatError(f"{name}: of another kind or rate than the files before it")
+    name = fspath(sources[0].path)
+    if clips:
+        return _code_audio(np.concatenate([samples for samples, _ in clips]), clips[0][1], name, configuration)
+    if len(files) > 1:
+        together = np.concatenate([file.values for file in files])
+        files = [HtkParameterFile(together, _uncompressed(files[0].kind), files[0].sample_period)]
+    return files[0].convert(configuration.written_kind(files[0].kind), configuration.features)
+
+
+def _part_of(file: HtkParameterFile, source: Source) -> HtkParameterFile:
+    values = source.cut(file.values, UNITS_PER_S / file.sample_period)
+    return HtkParameterFile(values, _uncompressed(file.kind), file.sample_period)
+
+
+def _uncompressed(kind: str) -> str:
+    """The kind without _C, whose scales are of the whole file, and _K."""
+    base, *letters = kind.split("_")
+    return "_".join([base, *(letter for letter in letters if letter not in "CK")])
+
+
+def _audio(source: str | PathLike[str], configuration: HtkConfiguration) -> tuple[NDArray[np.float32], int] | None:
+    """Samples and their rate in Hz, of a recording that is coded; None for parameters, and waveforms that stay so."""
     if configuration.source_format == "WAV":
         wav = read_wav(source)
-        return _code_audio(wav.samples, wav.sample_rate_hz, fspath(source), configuration)
+        return wav.samples, wav.sample_rate_hz
+    header = read_header(source)
+    becomes = configuration.written_kind(header.kind)
+    if not header.kind.startswith("WAVEFORM") or becomes.startswith("WAVEFORM"):
+        return None
     file = HtkParameterFile.read(source)
-    kind = configuration.written_kind(file.kind)
-    if not file.kind.startswith("WAVEFORM") or kind.startswith("WAVEFORM"):
-        return file.convert(kind, configuration.features)
     rate = UNITS_PER_S / file.sample_period
     if rate != round(rate):
         raise FormatError(f"{fspath(source)}: a sample period of {file.sample_period} * 100 ns is no whole rate in Hz")
-    return _code_audio(file.values[:, 0] / np.float32(FULL_SCALE), round(rate), fspath(source), configuration)
+    return file.values[:, 0] / np.float32(FULL_SCALE), round(rate)
+
+
+@dataclass(frozen=True)
+class ParameterHeader:
+    """What a parameter file says of itself.
+
+    Attributes
+    ----------
+    kind : str
+    sample_period : int
+        From frame to frame, in 100 ns.
+    num_frames, num_columns : int
+    """
+
+    kind: str
+    sample_period: int
+    num_frames: int
+    num_columns: int
+
+
+def read_header(path: str | PathLike[str]) -> ParameterHeader:
+    """The header of a parameter file. Raises IoError; FormatError naming file and byte."""
+    data = read_bytes(path, MAX_MODEL_BYTES)
+    if data.startswith(b"RIFF"):
+        raise FormatError(f"{fspath(path)}: is a WAV file, which SOURCEFORMAT = WAV, or -F WAV, reads")
+    return ParameterHeader(*HtkParameterFile.parse_header(data, fspath(path)))
 
 
 def load_observations(

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hri._native import HtkParameterFile
+from hri.core.errors import InvalidArgument
 
 WIDTH = 86
 MARGIN = 7
@@ -22,6 +23,8 @@ def list_parameters(
     header: bool = False,
     items: int = ITEMS_A_LINE,
     values: bool = True,
+    title: str = "Source",
+    header_lines: bool = True,
 ) -> Iterator[str]:
     """Lines of a listing.
 
@@ -38,11 +41,15 @@ def list_parameters(
         Values in a line.
     values : bool
         Whether frames are printed.
+    title : str
+        Of the header.
+    header_lines : bool
+        Whether, with `header`, its lines are printed, too, and not only those that frame the values.
     """
     frames = file.values
-    if header:
+    if header and header_lines:
         width = 2 if file.kind.startswith((*OF_INTEGERS, "IREFC")) or "_C" in file.kind else 4
-        yield f" Source: {name} ".center(WIDTH, "-")
+        yield f" {title}: {name} ".center(WIDTH, "-")
         yield f"  Sample Bytes:  {frames.shape[1] * width:<8} Sample Kind:   {file.kind}"
         yield f"  Num Comps:     {frames.shape[1]:<8} Sample Period: {file.sample_period / 10:.1f} us"
         yield f"  Num Samples:   {len(frames):<8} File Format:   HTK"
@@ -58,3 +65,31 @@ def list_parameters(
                 yield mark.ljust(MARGIN) + " ".join(cells[at : at + items])
     if header:
         yield " END ".center(WIDTH, "-")
+
+
+def observation_names(kind: str, num_columns: int) -> list[str]:
+    """The name of every value of a frame, as HList has them: MFCC-1 .., C0, E, then Del-1 .., Acc-1 .., Th-1 ..
+
+    Parameters
+    ----------
+    kind : str
+    num_columns : int
+        Blocks of static values and of each order of differences, all of one size.
+
+    Raises
+    ------
+    InvalidArgument
+        For columns that the kind cannot have.
+    """
+    base, *letters = kind.split("_")
+    orders = [letter for letter in "DAT" if letter in letters]
+    if num_columns % (1 + len(orders)):
+        raise InvalidArgument(f"{num_columns} columns cannot be {kind}")
+    size = num_columns // (1 + len(orders))
+    extra = [name for letter, name in (("0", "C0"), ("E", "E")) if letter in letters]
+    names = [f"{base}-{number}" for number in range(1, size - len(extra) + 1)] + extra
+    for letter, prefix in (("D", "Del"), ("A", "Acc"), ("T", "Th")):
+        if letter in orders:
+            numbered = [f"{prefix}-{number}" for number in range(1, size - len(extra) + 1)]
+            names += numbered + [f"{prefix}{name}" for name in extra]
+    return names

@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from hri.core.errors import FormatError
 from hri.language.word_errors import AlignedWord, WordErrors, align_words
 
 HTK_COSTS = (10, 7, 7)
@@ -50,14 +52,14 @@ class Results:
         """(N - D - S - I) / N in percent; 0 of no words."""
         return _percent(self.num_hits - self.words.insertions, self.words.num_words)
 
-    def lines(self) -> list[str]:
-        """The lines of sentences and words."""
+    def lines(self, word_name: str = "WORD", sentence_name: str = "SENT") -> list[str]:
+        """The lines of sentences and words, and what these are called."""
         w = self.words
         wrong = self.num_sentences - self.num_correct
         return [
-            f"SENT: %Correct={_percent(self.num_correct, self.num_sentences):.2f} "
+            f"{sentence_name}: %Correct={_percent(self.num_correct, self.num_sentences):.2f} "
             f"[H={self.num_correct}, S={wrong}, N={self.num_sentences}]",
-            f"WORD: %Corr={self.correct:.2f}, Acc={self.accuracy:.2f} [H={self.num_hits}, D={w.deletions}, "
+            f"{word_name}: %Corr={self.correct:.2f}, Acc={self.accuracy:.2f} [H={self.num_hits}, D={w.deletions}, "
             f"S={w.substitutions}, I={w.insertions}, N={w.num_words}]",
         ]
 
@@ -90,3 +92,75 @@ def aligned_lines(pairs: Sequence[AlignedWord]) -> list[str]:
 
 def _percent(part: int, whole: int) -> float:
     return 100 * part / whole if whole else 0.0
+
+
+class Confusions:
+    """Labels that were said, and what was found in their place.
+
+    Attributes
+    ----------
+    counts : dict
+        By pairs of what was said and what was recognised; None: nothing, of an insertion or a deletion.
+    """
+
+    def __init__(self) -> None:
+        self.counts: dict[tuple[str | None, str | None], int] = {}
+
+    def add(self, pairs: Sequence[AlignedWord]) -> None:
+        """Count the words of an aligned sentence."""
+        for pair in pairs:
+            key = (pair.reference, pair.hypothesis)
+            self.counts[key] = self.counts.get(key, 0) + 1
+
+    def lines(self) -> list[str]:
+        """A row for every label said, a column for every one recognised, deletions, share correct, insertions below."""
+        said = sorted({r for r, _ in self.counts if r is not None} | {h for _, h in self.counts if h is not None})
+        width = max([5, *map(len, said)]) + 1
+        lines = [" " * width + "".join(f"{name:>{width}}" for name in [*said, "Del", "%c"])]
+        for name in said:
+            row = [self.counts.get((name, other), 0) for other in said]
+            deleted = self.counts.get((name, None), 0)
+            share = _percent(self.counts.get((name, name), 0), sum(row))
+            cells = "".join(f"{count:>{width}}" for count in [*row, deleted])
+            lines.append(f"{name:<{width}}{cells}{share:>{width}.1f}")
+        inserted = "".join(f"{self.counts.get((None, name), 0):>{width}}" for name in said)
+        return [*lines, f"{'Ins':<{width}}{inserted}"]
+
+
+def speaker_of(mask: str, name: str) -> str:
+    """What the % of a mask stand for in a name: *_%%%.rec has the three characters before .rec.
+
+    Raises
+    ------
+    FormatError
+        For a name that the mask does not match.
+    """
+    parts = {"*": ".*", "?": ".", "%": "(.)"}
+    pattern = "".join(parts.get(character, re.escape(character)) for character in mask)
+    match = re.fullmatch(pattern, name)
+    if match is None:
+        raise FormatError(f"{name}: is not as the mask {mask!r} has it")
+    return "".join(match.groups())
+
+
+def nist_table(of_speakers: Mapping[str, Results], total: Results) -> list[str]:
+    """Percent of words correct, substituted, deleted and inserted, of all errors, and of sentences with one."""
+    border = "," + "-" * 61 + "."
+    rule = "|" + "-" * 61 + "|"
+    lines = [
+        border,
+        f"|{'HTK Results Analysis':^61}|",
+        rule,
+        "| SPKR    | # Snt |  Corr    Sub    Del    Ins    Err  S. Err   |".ljust(62) + "|",
+        rule,
+    ]
+    rows = [*of_speakers.items(), ("Sum/Avg", total)]
+    for number, (name, one) in enumerate(rows):
+        if number and number == len(rows) - 1:
+            lines.append(rule)
+        w = one.words
+        shares = [one.num_hits, w.substitutions, w.deletions, w.insertions, w.total]
+        cells = "".join(f"{_percent(count, w.num_words):7.2f}" for count in shares)
+        wrong = _percent(one.num_sentences - one.num_correct, one.num_sentences)
+        lines.append(f"| {name:<8}| {one.num_sentences:5d} |{cells}{wrong:7.2f}".ljust(62) + "|")
+    return [*lines, "`" + "-" * 61 + "'"]

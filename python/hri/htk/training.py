@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Models of isolated units, as HInit and HRest train them; by Baum-Welch of `hri.models`."""
+"""Models of isolated units."""
 
 from __future__ import annotations
 
@@ -10,8 +10,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri._native import GaussianMixtureHmm, GaussianMixtureHmmOptions, HtkModelSet, Topology
+from hri._native import (
+    EmbeddedTrainerOptions,
+    GaussianMixtureHmm,
+    GaussianMixtureHmmOptions,
+    HtkEmbeddedTrainer,
+    HtkModelSet,
+    Topology,
+)
+from hri._native import min_frames_of_htk_model as min_frames_of
+from hri._native import train_htk_model_by_viterbi as train_by_viterbi
 from hri.core.errors import InvalidArgument
+
+__all__ = ["min_frames_of", "retrain_by_baum_welch", "train_by_viterbi", "train_model"]
 
 
 def train_model(
@@ -49,15 +60,50 @@ def train_model(
     return model
 
 
-def retrain_model(
-    models: HtkModelSet, source: HtkModelSet, name: str, sequences: Sequence[NDArray[np.float32]], **options: Any
-) -> GaussianMixtureHmm:
-    """Train the model `name` of `source` further, and add it to `models`; as `train_model` else."""
-    if not len(sequences):
-        raise InvalidArgument(f"there is no recording to train {name!r} on")
-    model = source.hmm(name).retrain(list(sequences), GaussianMixtureHmmOptions(**options))
-    models.add(name, model, _final_stay(model, sequences))
-    return model
+def retrain_by_baum_welch(
+    models: HtkModelSet,
+    name: str,
+    sequences: Sequence[NDArray[np.float32]],
+    options: EmbeddedTrainerOptions,
+    max_iterations: int = 20,
+    tolerance: float = 1e-4,
+) -> tuple[HtkModelSet, list[float]]:
+    """Train one model of a set further by Baum-Welch, as HRest: its topology and macros stay.
+
+    Parameters
+    ----------
+    models : ModelSet
+    name : str
+    sequences : list of ndarray of float32, shape (num_frames, num_columns)
+        Recordings of the unit; those that no path of the model fits are not counted.
+    options : EmbeddedTrainerOptions
+    max_iterations : int
+    tolerance : float
+        Training ends when the log likelihood grows by a smaller share.
+
+    Returns
+    -------
+    ModelSet
+    list of float
+        The log likelihood before each pass.
+
+    Raises
+    ------
+    InvalidArgument
+        For a model that there is not, options out of range, and where no recording fits.
+    """
+    likelihoods: list[float] = []
+    for _ in range(max_iterations):
+        trainer = HtkEmbeddedTrainer(models, options)
+        for frames in sequences:
+            trainer.add(frames, [name])
+        if not trainer.num_frames:
+            raise InvalidArgument(f"there is no recording that fits {name!r}")
+        models = trainer.estimate()
+        likelihoods.append(trainer.log_likelihood)
+        if len(likelihoods) > 1 and likelihoods[-1] - likelihoods[-2] < tolerance * abs(likelihoods[-2]):
+            break
+    return models, likelihoods
 
 
 def _final_stay(model: GaussianMixtureHmm, sequences: Sequence[NDArray[np.float32]]) -> float:

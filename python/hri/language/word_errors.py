@@ -79,7 +79,8 @@ def align_words(
 ) -> list[AlignedWord]:
     """Align two sentences at the least cost of substitutions, deletions and insertions, by default as sclite does.
 
-    Of alignments that cost the same, one with a word on both sides as late as possible.
+    Of alignments that cost the same, as sclite: one with a word on both sides as late as possible, then with an
+    insertion.
     """
     substitution, deletion, insertion = costs
     rows = [[j * insertion for j in range(len(hypothesis) + 1)]]
@@ -96,12 +97,12 @@ def align_words(
         if i and j and cost == rows[i - 1][j - 1] + (0 if reference[i - 1] == hypothesis[j - 1] else substitution):
             i, j = i - 1, j - 1
             aligned.append(AlignedWord(reference[i], hypothesis[j]))
-        elif i and cost == rows[i - 1][j] + deletion:
-            i -= 1
-            aligned.append(AlignedWord(reference[i], None))
-        else:
+        elif j and cost == rows[i][j - 1] + insertion:
             j -= 1
             aligned.append(AlignedWord(None, hypothesis[j]))
+        else:
+            i -= 1
+            aligned.append(AlignedWord(reference[i], None))
     return aligned[::-1]
 
 

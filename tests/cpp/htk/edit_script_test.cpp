@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "hri/core/error.hpp"
+#include "hri/io/file.hpp"
 
 namespace hri::htk {
 namespace {
@@ -47,6 +49,54 @@ std::string refusal(const std::string& script) {
     return error.what();
   }
   return "nothing thrown";
+}
+
+TEST(EditScript, PassesOverCommentsAndTrace) {
+  const EditScript script =
+      EditScript::parse("// as HTS has them\n# ours\nTR 3\nMU 2 {*.state[2].mix}\n", "script");
+  ASSERT_EQ(script.commands.size(), 1U);
+  EXPECT_EQ(script.commands[0].line, 4);
+  EXPECT_EQ(refusal("TR x\n"), "script: line 1: expected a number, not 'x'");
+}
+
+class TriphoneList {
+ public:
+  explicit TriphoneList(const std::string& text) {
+    write_file_atomically(path(), std::vector<std::uint8_t>(text.begin(), text.end()));
+  }
+  TriphoneList(const TriphoneList&) = delete;
+  TriphoneList& operator=(const TriphoneList&) = delete;
+  ~TriphoneList() { (void)std::remove(path().c_str()); }
+  static std::string path() { return testing::TempDir() + "triphones"; }
+};
+
+TEST(EditScript, ClonesModelsForTheirContexts) {
+  const TriphoneList list("sp\nx-aa+y\n\naa+b\nb-ab\n");
+  const ModelSet made = edited("TI steps {(aa,ab).transP}\nCL \"" + TriphoneList::path() +
+                               "\"\nTI T_aa {(*-aa+*,aa+*).state[3]}\n");
+  EXPECT_EQ(made.hmm_names(), (std::vector<std::string>{"sp", "x-aa+y", "aa+b", "b-ab"}));
+  EXPECT_EQ(state_of(made, "x-aa+y", 1).macro, "T_aa");
+  EXPECT_EQ(state_of(made, "aa+b", 1).macro, "T_aa");
+  EXPECT_EQ(state_of(made, "b-ab", 1).macro, "");
+  EXPECT_EQ(state_of(made, "x-aa+y", 0).components[0].component.mean.values,
+            state_of(models(), "aa", 0).components[0].component.mean.values);
+  EXPECT_EQ(made.find('h', "b-ab")->hmm.transitions.macro, "steps");
+}
+
+TEST(EditScript, RefusesListsByNameAndLine) {
+  for (const auto& [text, message] :
+       {std::pair<const char*, const char*>{"aa\nx-oo+y\n",
+                                            ": line 2: there is no model 'x-oo+y', and no 'oo'"},
+        {"aa\naa\n", ": line 2: 'aa' stands here again"},
+        {"aa ab\n", ": line 1: expected the name of a model"}}) {
+    const TriphoneList list(text);
+    EXPECT_EQ(refusal("CL " + TriphoneList::path() + "\n"), TriphoneList::path() + message);
+  }
+  const TriphoneList list("\n");
+  EXPECT_EQ(refusal("CL " + TriphoneList::path() + "\n"),
+            "script: line 1: the list '" + TriphoneList::path() + "' has no model");
+  EXPECT_EQ(refusal("CL"), "script: line 1: expected the path of a list");
+  EXPECT_THROW(edited("CL nowhere\n"), IoError);
 }
 
 TEST(EditScript, SplitsTheHeaviestIntoTwoAboutItsMean) {
@@ -148,7 +198,7 @@ TEST(EditScript, RefusesWithFileAndLine) {
   const auto expect = [](const std::string& script, const std::string& why) {
     EXPECT_EQ(refusal(script), "script: line " + why);
   };
-  expect("MU 2 {*.state[2].mix}\nXX 1", "2: there is no command 'XX' but MU, TI, AT and RT");
+  expect("MU 2 {*.state[2].mix}\nXX 1", "2: there is no command 'XX' but MU, TI, AT, RT and CL");
   expect("MU 2 *.state[2].mix}", "1: expected {");
   expect("\nMU 2 {*.state[2].mix", "2: expected }");
   expect("MU 0 {*.state[2].mix}", "1: expected a whole number in 1..4096");

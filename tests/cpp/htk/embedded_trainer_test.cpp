@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 
 #include "hri/core/error.hpp"
+#include "hri/io/model_file.hpp"
 
 namespace hri::htk {
 namespace {
@@ -93,6 +95,92 @@ TEST(EmbeddedTrainer, NeverMakesTheUtterancesLessLikely) {
     set = trainer.estimate();
     expect_proper(set);
   }
+}
+
+class SumsFile {
+ public:
+  SumsFile() = default;
+  SumsFile(const SumsFile&) = delete;
+  SumsFile& operator=(const SumsFile&) = delete;
+  ~SumsFile() { (void)std::remove(path.c_str()); }
+  const std::string path = testing::TempDir() + "HER1.acc";
+};
+
+TEST(EmbeddedTrainer, AddsSumsOfPartsOfTheUtterances) {
+  const SumsFile file;
+  EmbeddedTrainer whole(models_to_train(), rare());
+  EmbeddedTrainer part(models_to_train(), rare());
+  EmbeddedTrainer rest(models_to_train(), rare());
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    for (EmbeddedTrainer* trainer : {&whole, seed % 2 == 0 ? &part : &rest})
+      trainer->add(frames({1, 4, 9, 6, 3}, seed), {"a", "sp", "b", "sp"});
+  }
+  part.write_sums(file.path);
+  rest.add_sums(file.path);
+  EXPECT_EQ(rest.num_frames(), whole.num_frames());
+  EXPECT_NEAR(rest.log_likelihood(), whole.log_likelihood(), 1e-9);
+  EXPECT_EQ(rest.occupations()[0].num_examples, 6);
+  const ModelSet expected = whole.estimate();
+  const ModelSet found = rest.estimate();
+  for (const char* name : {"a", "b", "sp"}) {
+    const HmmDefinition& one = expected.find('h', name)->hmm;
+    const HmmDefinition& other = found.find('h', name)->hmm;
+    EXPECT_LT((one.transitions.values - other.transitions.values).cwiseAbs().maxCoeff(), 1e-12);
+    for (std::size_t s = 0; s < one.states.size(); ++s) {
+      const ComponentDefinition& a = one.states[s].components[0].component;
+      const ComponentDefinition& b = other.states[s].components[0].component;
+      EXPECT_NEAR(a.mean.values[0], b.mean.values[0], 1e-12);
+      EXPECT_NEAR(a.variance.values[0], b.variance.values[0], 1e-12);
+    }
+  }
+}
+
+TEST(EmbeddedTrainer, RefusesSumsOfOtherModelsAndDamagedOnes) {
+  const SumsFile file;
+  const auto refusal = [&file](const EmbeddedTrainer& written, const auto& change) {
+    written.write_sums(file.path);
+    ModelFile changed = ModelFile::read(file.path);
+    change(&changed);
+    changed.write(file.path);
+    EmbeddedTrainer trainer(models_to_train(), rare());
+    try {
+      trainer.add_sums(file.path);
+    } catch (const FormatError& error) {
+      EXPECT_EQ(trainer.num_frames(), 0);
+      return std::string(error.what()).substr(file.path.size());
+    }
+    return std::string("nothing thrown");
+  };
+  EmbeddedTrainer given(models_to_train(), rare());
+  add_all(&given);
+  const EmbeddedTrainer later(given.estimate(), rare());
+  EXPECT_EQ(refusal(given, [](ModelFile*) {}), "nothing thrown");
+  EXPECT_EQ(refusal(later, [](ModelFile*) {}), ": models: sums of other models");
+  EXPECT_EQ(refusal(given, [](ModelFile* f) { f->set_kind("hmm"); }),
+            ": kind: no sums of embedded training");
+  EXPECT_EQ(refusal(given, [](ModelFile* f) { f->set_integer("num_frames", -1); }),
+            ": num_frames: is below 0");
+  EXPECT_EQ(
+      refusal(given, [](ModelFile* f) { f->set_vector("examples", VectorD(VectorD::Zero(2))); }),
+      ": examples: not as many as the models");
+  EXPECT_EQ(
+      refusal(given,
+              [](ModelFile* f) { f->set_vector("examples", VectorD(VectorD::Constant(3, 0.5))); }),
+      ": examples: one is no whole number");
+  for (const char* field : {"transitions", "weights", "counts"}) {
+    EXPECT_EQ(refusal(given,
+                      [&](ModelFile* f) {
+                        VectorD values = f->vector_d(field);
+                        values[0] = -1;
+                        f->set_vector(field, values);
+                      }),
+              std::string(": ") + field + ": one is below 0");
+    EXPECT_EQ(
+        refusal(given,
+                [&](ModelFile* f) { f->set_vector(field, VectorD(f->vector_d(field).head(2))); }),
+        std::string(": ") + field + ": not as many as the models have");
+  }
+  EXPECT_NE(refusal(given, [](ModelFile* f) { f->set_text("more", "x"); }), "nothing thrown");
 }
 
 TEST(EmbeddedTrainer, CountsEveryFrameOnce) {

@@ -200,7 +200,7 @@ TEST(FeatureExtractor, PredictsLinearly) {
 }
 
 TEST(FeatureExtractor, RefusesWhatIsNotComputedAndBadAudio) {
-  for (const char* kind : {"PLP", "WAVEFORM", "ANON", "FBANK_0", "IREFC"})
+  for (const char* kind : {"PLP", "WAVEFORM", "ANON", "FBANK_0", "LPDELCEP"})
     EXPECT_THROW(FeatureExtractor(ParameterKind::parse(kind), kRate), InvalidArgument) << kind;
   const FeatureExtractor extractor(ParameterKind::parse("MFCC_E"), kRate, options());
   EXPECT_THROW((void)extractor.compute(std::vector<float>(199)), InvalidArgument);
@@ -226,10 +226,59 @@ TEST(Convert, AddsAndLeavesOutDifferences) {
   EXPECT_LT(centred.values.leftCols(13).colwise().mean().cwiseAbs().maxCoeff(), 1e-4F);
   EXPECT_THROW(convert(centred, full), InvalidArgument);
   EXPECT_THROW(convert(file, ParameterKind::parse("FBANK")), InvalidArgument);
+  EXPECT_THROW(convert(file, ParameterKind::parse("LPC_0")), InvalidArgument);
   EXPECT_THROW(convert(file, ParameterKind::parse("MFCC_E")), InvalidArgument);
   const MatrixF seen = observations(file, ParameterKind::parse("MFCC_0_D_N"));
   EXPECT_EQ(seen.cols(), 25);
   EXPECT_EQ(seen.leftCols(12), file.values.leftCols(12));
+}
+
+// Frames of a file of the one kind as another, beside those of the audio itself.
+double error_of_conversion(const std::string& from, const std::string& to) {
+  const std::vector<float> x = audio();
+  ParameterFile file;
+  file.kind = ParameterKind::parse(from);
+  file.values = FeatureExtractor(file.kind, kRate, options()).compute(x);
+  const ParameterKind kind = ParameterKind::parse(to);
+  const MatrixF made = convert(file, kind, options()).values;
+  const MatrixF expected = FeatureExtractor(kind, kRate, options()).compute(x);
+  EXPECT_EQ(made.rows(), expected.rows());
+  EXPECT_EQ(made.cols(), expected.cols());
+  return static_cast<double>((made - expected).cwiseAbs().maxCoeff() /
+                             expected.cwiseAbs().maxCoeff());
+}
+
+TEST(Convert, MakesKindsOfThoseThatSayMore) {
+  // Float files between: their rounding is all that differs.
+  EXPECT_LT(error_of_conversion("FBANK", "MFCC_0_D_A"), 1e-5);
+  EXPECT_LT(error_of_conversion("FBANK_E_D", "MFCC_E_D_Z"), 1e-5);
+  EXPECT_LT(error_of_conversion("MELSPEC", "FBANK"), 1e-5);
+  EXPECT_LT(error_of_conversion("MELSPEC", "MFCC"), 1e-5);
+  EXPECT_LT(error_of_conversion("LPC_E", "LPCEPSTRA_E_D"), 1e-4);
+  EXPECT_LT(error_of_conversion("LPC", "LPREFC"), 1e-4);
+  EXPECT_LT(error_of_conversion("LPREFC", "LPC"), 1e-4);
+  EXPECT_LT(error_of_conversion("LPREFC_D", "LPCEPSTRA"), 1e-4);
+}
+
+TEST(FeatureExtractor, GivesReflectionCoefficientsOfTheBooksRecursion) {
+  const std::vector<float> x = audio();
+  const MatrixF k = FeatureExtractor(ParameterKind::parse("LPREFC"), kRate, options()).compute(x);
+  const MatrixF a = FeatureExtractor(ParameterKind::parse("LPC"), kRate, options()).compute(x);
+  EXPECT_LT(k.cwiseAbs().maxCoeff(), 1);
+  for (Eigen::Index t = 0; t < k.rows(); ++t) {
+    std::vector<double> now;
+    for (Eigen::Index i = 0; i < k.cols(); ++i) {
+      const std::vector<double> before = now;
+      for (std::size_t j = 0; j < before.size(); ++j)
+        now[j] = before[j] - static_cast<double>(k(t, i)) * before[before.size() - 1 - j];
+      now.push_back(-static_cast<double>(k(t, i)));
+    }
+    for (Eigen::Index i = 0; i < k.cols(); ++i)
+      EXPECT_NEAR(now[static_cast<std::size_t>(i)], static_cast<double>(a(t, i)), 1e-3);
+  }
+  const MatrixF integers =
+      FeatureExtractor(ParameterKind::parse("IREFC"), kRate, options()).compute(x);
+  EXPECT_EQ(integers, k);
 }
 
 std::string refusal_of_options(const std::string& text) {
@@ -247,7 +296,7 @@ TEST(Configuration, SetsWhatFilesSet) {
   c.parse(
       "# coding\n TARGETKIND = MFCC_0_D  # as in the book\r\nTARGETRATE=100000.0\n"
       "HPARM: WINDOWSIZE = 250000.0\nSAVECOMPRESSED = T\nsavewithcrc = f\nNUMCHANS = 26\n"
-      "ENORMALISE = FALSE\nLOFREQ = -1\nFORCECXTEXP = T\nSOURCEFORMAT = \"WAV\"\n",
+      "ENORMALISE = FALSE\nLOFREQ = -1\nFORCECXTEXP = F\nMAXTRYOPEN = 2\nSOURCEFORMAT = \"WAV\"\n",
       "config");
   EXPECT_EQ(c.target.text(), "MFCC_D_0");
   EXPECT_TRUE(c.has_target_rate);
@@ -256,9 +305,31 @@ TEST(Configuration, SetsWhatFilesSet) {
   EXPECT_EQ(c.features.num_filters, 26);
   EXPECT_FALSE(c.features.normalise_energy);
   EXPECT_EQ(c.source_format, SourceFormat::wav);
-  EXPECT_EQ(c.ignored, std::vector<std::string>{"FORCECXTEXP"});
+  EXPECT_EQ(c.ignored, std::vector<std::string>{"MAXTRYOPEN"});
   EXPECT_EQ(c.written_kind(ParameterKind()).text(), "MFCC_D_C_0");
   EXPECT_EQ(Configuration().written_kind(ParameterKind::parse("FBANK_C")).text(), "FBANK_K");
+}
+
+TEST(Configuration, RefusesWhatWouldChangeValues) {
+  for (const char* setting :
+       {"NATURALREADORDER = T", "BYTEORDER = VAX", "CMEANDIR = means", "VARSCALEFN = scale",
+        "MATTRANFN = matrix", "STEREOMODE = LEFT", "LABELFORMAT = TIMIT", "NSTREAMS = 4",
+        "SAVEBINARY = T", "HWAVEFILTER = 'gunzip $'"}) {
+    EXPECT_NE(refusal_of_options(std::string("\n") + setting + "\n").find("config: line 2: "),
+              std::string::npos)
+        << setting;
+  }
+  EXPECT_EQ(refusal_of_options("NATURALREADORDER = F\nBYTEORDER = NONVAX\nLABELFORMAT = HTK\n"
+                               "NSTREAMS = 1\nSOURCERATE = 625\n"),
+            "nothing thrown");
+}
+
+TEST(Configuration, KeepsSettingsAsTheyCame) {
+  Configuration c;
+  c.parse("HPARM: numchans = 26  # filters\n", "config");
+  ASSERT_EQ(c.settings.size(), 1U);
+  EXPECT_EQ(c.settings[0].first, "NUMCHANS");
+  EXPECT_EQ(c.settings[0].second, "26");
 }
 
 TEST(Configuration, RefusesByNameAndLine) {

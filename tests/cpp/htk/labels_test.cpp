@@ -58,7 +58,7 @@ TEST(Transcription, IsReadAsItWasWritten) {
     t.alternatives[0].push_back(label);
     t.alternatives.push_back(t.alternatives[0]);
   }
-  const MasterLabelFile file{{{"*/a \"quoted\".lab", t}, {"*/b.lab", {}}}};
+  const MasterLabelFile file{{{"*/a \"quoted\".lab", t, "", false}, {"*/b.lab", {}, "", false}}};
   const std::string text = file.to_text();
   const MasterLabelFile read = MasterLabelFile::parse(text, "again");
   EXPECT_EQ(read.to_text(), text);
@@ -78,6 +78,26 @@ TEST(MasterLabelFile, FindsTheFirstPatternThatMatches) {
   EXPECT_EQ(file.find("x/y/a1.lab")->transcription.labels()[0].name, "one");
   EXPECT_EQ(file.find("x/y/a.lab")->transcription.labels()[0].name, "two");
   EXPECT_EQ(MasterLabelFile().find("a"), nullptr);
+}
+
+TEST(MasterLabelFile, KeepsFoldersOfLabelFiles) {
+  const std::string text = "#!MLF!#\n\"*/a.lab\"\none\n.\n\"*\" -> \"labels\"\n\"*\" => \"x/y\"\n";
+  const MasterLabelFile file = MasterLabelFile::parse(text, "words.mlf");
+  EXPECT_EQ(file.to_text(), text);
+  EXPECT_EQ(file.find("x/a.lab")->folder, "");
+  EXPECT_EQ(file.find("b.lab")->folder, "labels");
+  EXPECT_FALSE(file.find("b.lab")->is_searched);
+  EXPECT_TRUE(file.entries[2].is_searched);
+}
+
+TEST(MasterLabelFile, WritesLinesAsTheyWereWhileTheySayTheSame) {
+  const std::string text =
+      "#!MLF!#\n\"*/a.rec\"\n0 3600000 sil -1234.500000\n3600000 5100000 7 -0.30 \"w\" 1.0\n"
+      "5100000 5200000 'b c'\n.\n";
+  MasterLabelFile file = MasterLabelFile::parse(text, "found.mlf");
+  EXPECT_EQ(file.to_text(), text);
+  file.entries[0].transcription.alternatives[0][0].score = -7;
+  EXPECT_EQ(file.to_text().substr(0, 40), "#!MLF!#\n\"*/a.rec\"\n0 3600000 sil -7\n36000");
 }
 
 TEST(Matches, TakesStarsAndQuestionMarks) {
@@ -100,8 +120,11 @@ TEST(MasterLabelFile, RefusesDamagedFilesByNameAndLine) {
             "words.mlf: line 2: expected the name of a label file in quotation marks");
   EXPECT_EQ(refusal_of_labels(head + "\"a.lab\n.\n"),
             "words.mlf: line 2: a quotation does not end");
-  EXPECT_EQ(refusal_of_labels(head + "\"*\" -> \"folder\"\n"),
-            "words.mlf: line 2: only transcriptions are read, no entries that name a folder");
+  for (const char* line : {"\"*\" -> folder", "\"*\" ->", "\"*\" > \"folder\"", "\"*\" -> \"\"",
+                           "\"*\" \"->\" \"folder\""}) {
+    EXPECT_EQ(refusal_of_labels(head + line + "\n"),
+              "words.mlf: line 2: expected \"pattern\", or \"pattern\" -> \"folder\"");
+  }
   EXPECT_EQ(refusal_of_labels(head + "\"a\"\n200 100 one\n.\n"),
             "words.mlf: line 3: a label ends before it begins");
   EXPECT_EQ(refusal_of_labels(head + "\"a\"\n200 300 one\n100 200 two\n.\n"),

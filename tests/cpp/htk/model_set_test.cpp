@@ -55,6 +55,53 @@ GaussianMixtureHmm model(int num_states, int num_mixtures) {
   return {MarkovChain::initial(topology), MixtureBank(weights, means, variances)};
 }
 
+// Two Gaussians that all states share.
+std::string tied_mixture(const std::string& weights) {
+  return "~o\n<STREAMINFO> 1 1\n<VECSIZE> 1<NULLD><USER><DIAGC>\n"
+         "~m \"mix1\"\n<MEAN> 1\n 0.000000e+00\n<VARIANCE> 1\n 1.000000e+00\n"
+         "~m \"mix2\"\n<MEAN> 1\n 4.000000e+00\n<VARIANCE> 1\n 1.000000e+00\n"
+         "~m \"mix3\"\n<MEAN> 1\n 9.000000e+00\n<VARIANCE> 1\n 1.000000e+00\n"
+         "~h \"x\"\n<BEGINHMM>\n<NUMSTATES> 3\n<STATE> 2\n<NUMMIXES> 3\n<TMIX> \"mix\"\n " +
+         weights +
+         "\n<TRANSP> 3\n 0.000000e+00 1.000000e+00 0.000000e+00\n 0.000000e+00 5.000000e-01 "
+         "5.000000e-01\n 0.000000e+00 0.000000e+00 0.000000e+00\n<ENDHMM>\n";
+}
+
+TEST(ModelSet, ReadsAndWritesTiedMixtures) {
+  const std::string text = tied_mixture("5.000000e-01 2.500000e-01*2");
+  ModelSet set;
+  set.parse(text, "models");
+  EXPECT_EQ(set.to_text(), text);
+  const StateDefinition& state = set.find('h', "x")->hmm.states[0];
+  ASSERT_EQ(state.components.size(), 3U);
+  EXPECT_EQ(state.components[2].weight, 0.25);
+  EXPECT_EQ(state.components[2].component.mean.values[0], 9);
+  EXPECT_EQ(to_hmm(set.find('h', "x")->hmm).bank().num_mixtures(), 3);
+
+  // Without one of them it is a mixture as others.
+  set.macros.back().hmm.states[0].components.pop_back();
+  set.macros.back().hmm.states[0].components[0].weight = 0.75;
+  EXPECT_EQ(set.to_text().find("<TMIX>"), std::string::npos);
+  EXPECT_NE(set.to_text().find("<MIXTURE> 2 2.500000e-01\n~m \"mix2\""), std::string::npos);
+}
+
+TEST(ModelSet, RefusesDamagedTiedMixturesByNameAndLine) {
+  const auto refusal = [](const std::string& weights) {
+    return refusal_of_definitions(tied_mixture(weights));
+  };
+  EXPECT_EQ(refusal("0.5 0.25 0.25"), "nothing thrown");
+  EXPECT_EQ(refusal("0.5 0.25*3"), "models: line 25: there are more weights than <NUMMIXES> says");
+  EXPECT_EQ(refusal("0.5*1.5 0.5"), "models: line 25: there are more weights than <NUMMIXES> says");
+  EXPECT_EQ(refusal("0.5 0.5"), "models: line 26: expected a weight, or weight*times");
+  EXPECT_EQ(refusal("0.5 2 0.5"), "models: line 25: a weight is outside 0..1");
+  EXPECT_EQ(refusal("0.5*3"), "models: line 25: the weights of a state do not sum to 1");
+  EXPECT_EQ(refusal_of_definitions(replaced(tied_mixture("0.5 0.25*2"), "mix3", "mix4")),
+            "models: line 25: ~m \"mix3\" is not defined above");
+  EXPECT_EQ(
+      refusal_of_definitions(replaced(tied_mixture("0.5 0.25*2"), "<TMIX> \"mix\"", "<DPROB>")),
+      "models: line 24: discrete models are not read");
+}
+
 TEST(ModelSet, WritesFilesOfHtkByteForByte) {
   ModelSet set;
   set.parse(kShared, "models");

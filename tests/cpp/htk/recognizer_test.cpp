@@ -70,6 +70,53 @@ TEST(Recognizer, SaysWhereNoSentenceFits) {
   EXPECT_TRUE(recognizer.recognise(frames({0, 10, 20})).complete);
 }
 
+TEST(Recognizer, AlignsModelsAndStatesOfWords) {
+  const Recognizer recognizer(models_of_words(), words(),
+                              WordLattice::of_grammar("( { first | second | quiet } )", "g"));
+  const MatrixF observations = frames({0, 0, 10, 30, 20, 10, 0});
+  const RecognisedSentence sentence = recognizer.recognise(observations);
+  ASSERT_EQ(sentence.words.size(), 3U);
+  const auto aligned = recognizer.align(observations, sentence);
+  std::string text;
+  for (std::size_t w = 0; w < aligned.size(); ++w) {
+    double sum = 0;
+    for (const AlignedModel& model : aligned[w]) {
+      text += model.model + std::to_string(model.first_frame) + "-" +
+              std::to_string(model.last_frame) + " ";
+      sum += model.log_score;
+      double of_states = 0;
+      for (const AlignedState& state : model.states) {
+        EXPECT_EQ(state.state, 2);
+        EXPECT_EQ(state.first_frame, model.first_frame);
+        EXPECT_EQ(state.last_frame, model.last_frame);
+        of_states += state.log_score;
+      }
+      EXPECT_NEAR(model.states.empty() ? model.log_score : of_states, model.log_score, 1e-9);
+    }
+    const double of_entry = w == 2 ? std::log(0.5) : 0;
+    EXPECT_NEAR(sum + of_entry, sentence.words[w].log_score, 1e-4) << w;
+    text += "| ";
+  }
+  EXPECT_EQ(text, "a0-2 b2-3 sp3-4 | c4-5 sp5-5 | b5-6 a6-7 sp7-7 | ");
+  EXPECT_EQ(sentence.words[2].pronunciation, 1);
+  RecognisedSentence other = sentence;
+  other.words[0].last_frame = 20;
+  EXPECT_THROW((void)recognizer.align(observations, other), InvalidArgument);
+}
+
+TEST(Recognizer, TakesThePronunciationThatANodeNames) {
+  const auto score = [](const std::string& variant) {
+    const Recognizer recognizer(
+        models_of_words(), words(),
+        WordLattice::parse(
+            "N=3 L=2\nI=0\nI=1 W=first v=" + variant + "\nI=2\nJ=0 S=0 E=1\nJ=1 S=1 E=2\n", "slf"));
+    return recognizer.recognise(frames({0, 10})).log_score;
+  };
+  EXPECT_GT(score("1"), score("2") + 50);
+  EXPECT_EQ(score("0"), score("1"));
+  EXPECT_THROW(score("3"), InvalidArgument);
+}
+
 TEST(Recognizer, RefusesWhatDoesNotFitTogether) {
   const auto lattice = [](const std::string& word) { return WordLattice::of_words({word}); };
   EXPECT_THROW(Recognizer(models_of_words(), words(), lattice("third")), InvalidArgument);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -103,6 +104,8 @@ TEST(WordLattice, RefusesGrammarsByNameAndLine) {
   EXPECT_EQ(grammar_refusal(""),
             "file: line 1: expected a definition of a $name, or the sentence in ( )");
   EXPECT_EQ(grammar_refusal("$a = b | $a;\n( $a )"), "file: line 1: '$a' is not defined above");
+  EXPECT_EQ(grammar_refusal("$a = x $b;\n$b = y [ $a ];\n( $a )"),
+            "file: line 1: '$b' is not defined above");
   EXPECT_EQ(grammar_refusal("$a = b;\n$a = c;\n( $a )"), "file: line 3: '$a' is defined twice");
   EXPECT_EQ(grammar_refusal("( a\n"), "file: line 2: expected )");
   EXPECT_EQ(grammar_refusal("( a ) b"), "file: line 1: nothing stands behind the sentence");
@@ -148,6 +151,67 @@ TEST(WordLattice, ReadsFilesOfOtherPrograms) {
   EXPECT_NEAR(lattice.arcs[0].log_weight, -2.302585092994046, 1e-12);
 }
 
+TEST(WordLattice, ReadsWordsOnArcsAndEndsThatAreNamed) {
+  const WordLattice lattice = WordLattice::parse(
+      "VERSION=1.0\nstart=0 end=2\nN=3 L=4\nI=0 t=0\nI=1 t=0.5\nI=2 t=1\nJ=0 S=0 E=1 W=one l=-1 "
+      "a=-9\nJ=1 S=1 E=2 W=two v=2\nJ=2 S=1 E=2 W=!NULL\nJ=3 S=1 E=0 W=again\n",
+      "other.slf");
+  EXPECT_EQ(sentences(lattice, 2), (std::set<Words>{{"one"}, {"one", "two"}}));
+  EXPECT_EQ(lattice.words[3], "one");
+  EXPECT_EQ(lattice.times_s[3], 0.5);
+  EXPECT_EQ(lattice.arcs[0].log_weight, -1);
+  EXPECT_EQ(lattice.arcs[0].log_acoustic, -9);
+  EXPECT_EQ(lattice.variants, (std::vector<int>{0, 0, 0, 0, 2, 0}));
+  EXPECT_EQ(lattice.lines, (std::vector<std::int64_t>{4, 5, 6, 7, 8, 10}));
+  const WordLattice again = WordLattice::parse(lattice.to_text(), "again");
+  EXPECT_EQ(again.to_text(), lattice.to_text());
+  EXPECT_EQ(sentences(again, 3), sentences(lattice, 3));
+}
+
+// The log probability of the best path that says a sentence.
+double best_score(const WordLattice& lattice, const Words& sentence) {
+  std::function<double(int, std::size_t)> walk = [&](int node, std::size_t said) {
+    const std::string& word = lattice.words[static_cast<std::size_t>(node)];
+    if (word != WordLattice::kNull) {
+      if (said >= sentence.size() || sentence[said] != word) return -1e9;
+      ++said;
+    }
+    if (node == lattice.last()) return said == sentence.size() ? 0 : -1e9;
+    double best = -1e9;
+    for (const WordLattice::Arc& arc : lattice.arcs) {
+      if (arc.from == node) best = std::max(best, arc.log_weight + walk(arc.to, said));
+    }
+    return best;
+  };
+  return walk(lattice.first(), 0);
+}
+
+TEST(WordLattice, WeighsSentencesAsTheBigramDoes) {
+  const NGramModel language =
+      NGramModel::train({{"go", "left"}, {"go", "right"}, {"stop"}, {"go", "left"}}, {}, {"never"});
+  const WordLattice lattice =
+      WordLattice::of_bigram(language, {"go", "left", "right", "stop", "never"});
+  EXPECT_EQ(lattice.fault(), "");
+  for (const Words& sentence :
+       {Words{"go", "left"}, Words{"stop"}, Words{"left", "never", "go"}, Words{}}) {
+    const NGramFit fit = language.fit_of({sentence});
+    const double found = best_score(lattice, sentence);
+    // Backing off may weigh more than the bigram that there is: the better way counts.
+    EXPECT_GE(found, fit.log_probability - 1e-9);
+    EXPECT_NEAR(found, fit.log_probability, 0.7);
+  }
+  EXPECT_NEAR(best_score(lattice, {"go", "left"}),
+              language.fit_of({{"go", "left"}}).log_probability, 1e-9);
+  EXPECT_THROW((void)WordLattice::of_bigram(language, {"jump"}), InvalidArgument);
+  EXPECT_THROW((void)WordLattice::of_bigram(language, {"go", "go"}), InvalidArgument);
+  EXPECT_THROW((void)WordLattice::of_bigram(language, {"<s>"}), InvalidArgument);
+  EXPECT_THROW((void)WordLattice::of_bigram(language, {}), InvalidArgument);
+  NGramOptions trigram;
+  trigram.order = 3;
+  EXPECT_THROW((void)WordLattice::of_bigram(NGramModel::train({{"a"}}, trigram), {"a"}),
+               InvalidArgument);
+}
+
 TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
   const std::string good = "N=3 L=2\nI=0\nI=1 W=a\nI=2\nJ=0 S=0 E=1\nJ=1 S=1 E=2\n";
   EXPECT_EQ(lattice_refusal(good), "nothing thrown");
@@ -164,13 +228,24 @@ TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
             "file: line 1: '99999999999' is no whole number in 1..10000000");
   EXPECT_EQ(lattice_refusal("N=3 L=2\nSUBLAT=x\n"),
             "file: line 2: lattices in lattices are not read");
-  EXPECT_EQ(lattice_refusal("N=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1 W=a\n"),
-            "file: line 4: words on arcs are not read");
+  EXPECT_EQ(lattice_refusal("N=2 L=1\nI=0\nI=1 W=b\nJ=0 S=0 E=1 W=a\n"),
+            "file: line 4: there are words on nodes and on arcs");
+  EXPECT_EQ(lattice_refusal("start=7\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1\n"),
+            "file: line 5: start= or end= is no node");
   EXPECT_EQ(lattice_refusal("N=3 L=1\nI=0\nI=1\nI=2\nJ=0 S=0 E=1\n"),
             "file: line 5: not exactly one node is without predecessors, to begin sentences");
   EXPECT_EQ(lattice_refusal("N=4 L=5\nI=0\nI=1\nI=2\nI=3\nJ=0 S=0 E=1\nJ=1 S=1 E=2\nJ=2 S=2 E=1\n"
                             "J=3 S=2 E=3\nJ=4 S=0 E=3\n"),
             "file: line 10: nodes without words make a cycle");
+}
+
+TEST(Dictionary, WritesLinesAsTheyWereWhileTheySayTheSame) {
+  const std::string text = "ONE             [one]  0.50 w  ah n sp\nSENT-END        []  sil\n";
+  Dictionary d = Dictionary::parse(text, "words.dic");
+  EXPECT_EQ(d.to_text(), text);
+  EXPECT_EQ(d.entries[1].line, 2);
+  d.entries[0].models.pop_back();
+  EXPECT_EQ(d.to_text(), "ONE [one] 0.5 w ah n\nSENT-END        []  sil\n");
 }
 
 TEST(Dictionary, ReadsOutputsAndProbabilities) {

@@ -121,6 +121,15 @@ TEST(NGramModel, ReadsFilesOfOtherPrograms) {
   EXPECT_NEAR(probability(model, {"go"}, "anything"), std::pow(10, -2.1), 1e-12);
 }
 
+TEST(NGramModel, WritesFilesOfOtherProgramsByteForByte) {
+  // Layout and digits of SRILM: no back-off where there is none, a free line in front.
+  const std::string text =
+      "\n\\data\\\nngram 1=4\nngram 2=3\n\n\\1-grams:\n-0.4771213\t</s>\n-99\t<s>\t-0.30103\n"
+      "-0.4771213\tstop\t-0.1760913\n-0.50\tgo\n\n\\2-grams:\n-0.1760913\t<s> stop\n-0.60206\t"
+      "<s> go\n-0.1249387\tgo </s>\n\n\\end\\\n";
+  EXPECT_EQ(NGramModel::parse(text, "srilm.arpa").to_arpa(), text);
+}
+
 TEST(NGramModel, RefusesDamagedFilesByNameAndLine) {
   EXPECT_EQ(refusal_of_arpa(arpa(kUnigrams)), "nothing thrown");
   EXPECT_EQ(refusal_of_arpa(""), "commands.arpa: line 0: has no \\data\\");

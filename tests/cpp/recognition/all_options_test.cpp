@@ -13,6 +13,7 @@
 #include "hri/features/motion/hybrid_feature.hpp"
 #include "hri/htk/embedded_trainer.hpp"
 #include "hri/htk/feature_extractor.hpp"
+#include "hri/htk/viterbi_trainer.hpp"
 #include "hri/language/connected_decoder.hpp"
 #include "hri/language/lattice.hpp"
 #include "hri/language/ngram_model.hpp"
@@ -64,9 +65,10 @@ using All = testing::Types<
     SpeechEmbeddingOptions, WordRecognizerOptions, GestureRecognizerOptions, SilhouetteOptions,
     HandColourOptions, MaskSmoothingOptions, HandFinderOptions, GestureSegmenterOptions,
     GestureStreamOptions, NGramOptions, ConnectedDecoderOptions, ConnectedWordRecognizerOptions,
-    htk::HtkFeatureOptions, htk::EmbeddedTrainerOptions, TwoHandFeatureOptions,
-    SentenceRecognizerOptions, LandmarkPairOptions, LatticeOptions, ConnectedWordStreamOptions,
-    SubwordRecognizerOptions, HybridFeatureOptions, SentenceStreamOptions>;
+    htk::HtkFeatureOptions, htk::EmbeddedTrainerOptions, htk::ViterbiTrainerOptions,
+    TwoHandFeatureOptions, SentenceRecognizerOptions, LandmarkPairOptions, LatticeOptions,
+    ConnectedWordStreamOptions, SubwordRecognizerOptions, HybridFeatureOptions,
+    SentenceStreamOptions>;
 TYPED_TEST_SUITE(EveryOptions, All);
 
 TYPED_TEST(EveryOptions, RefusesWhatLiesOutsideARange) {

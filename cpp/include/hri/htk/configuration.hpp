@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hri/core/export.hpp"
@@ -27,10 +28,12 @@ struct HRI_API Configuration {
   bool save_with_checksum = true;
   HtkFeatureOptions features;
   std::vector<std::string> ignored;  ///< keys that are read by other tools only, or by none
+  std::vector<std::pair<std::string, std::string>> settings;  ///< keys and values, as they came
 
   /// Sets what a file sets: lines of KEY = VALUE, or MODULE: KEY = VALUE, and comments behind #.
   /// Throws IoError; FormatError naming file and line for lines of another form, values out of
-  /// range, and settings that would change the parameters and that there are not here.
+  /// range, and settings that would change parameters, labels or results and that there are not
+  /// here.
   void read(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   void parse(const std::string& text, const std::string& name);

@@ -4,6 +4,7 @@
 // HTK's pronunciation dictionaries (HTK Book, section 12.7).
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct Pronunciation {
   std::string output;       ///< what is printed for it; "": nothing
   double probability = 1;
   std::vector<std::string> models;
+  std::int64_t line = 0;  ///< of the file that it was read from, from 1; 0: of none
+  std::string text;       ///< that line; it is written again while it says the same
 };
 
 /// Pronunciations in the order of the file.

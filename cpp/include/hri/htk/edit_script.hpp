@@ -29,7 +29,7 @@ struct EditItem {
 };
 
 struct EditCommand {
-  enum class Kind : std::uint8_t { split_mixtures, tie, add_transition, remove_transition };
+  enum class Kind : std::uint8_t { split_mixtures, tie, add_transition, remove_transition, clone };
 
   Kind kind = Kind::split_mixtures;
   std::int64_t line = 1;
@@ -37,6 +37,7 @@ struct EditCommand {
   int num_mixtures = 0;  ///< of MU
   bool is_more = false;  ///< of MU: so many more than there are
   std::string macro;     ///< of TI
+  std::string list;      ///< of CL: the path of a list of models
   int from = 0;          ///< of AT and RT
   int to = 0;
   double probability = 0;  ///< of AT
@@ -47,8 +48,9 @@ struct HRI_API EditScript {
   std::string name;  ///< what errors call it
   std::vector<EditCommand> commands;
 
-  /// Reads MU, TI, AT and RT. Throws IoError, and FormatError naming file and line for other
-  /// commands, item lists of another form, and items that a command does not take.
+  /// Reads MU, TI, AT, RT and CL; comments stand behind # or //, and TR n changes nothing. Throws
+  /// IoError, and FormatError naming file and line for other commands, item lists of another form,
+  /// and items that a command does not take.
   static EditScript read(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   static EditScript parse(const std::string& text, const std::string& name);
@@ -60,10 +62,13 @@ struct HRI_API EditScript {
   /// as it says; Gaussians without weight are dropped first. TI ties to the mean of means, to the
   /// largest of variances, to the state or the Gaussian that is broadest, to the first of
   /// transitions. AT sets a transition, RT removes one; the others of its row are rescaled. What
-  /// macros share is changed for all that use it. Macros stand before all models.
+  /// macros share is changed for all that use it. CL leaves the models of a list, each line of
+  /// which is a name, in its order: those that there are, and copies of the model b for others such
+  /// as a-b+c; copies share what is a macro. Macros stand before all models.
   ///
-  /// Throws FormatError naming file and line for items that no model has, a macro that there is
-  /// already, parameters of different sizes, and a row that would be left empty.
+  /// Throws IoError for a list that cannot be read; FormatError naming file and line for items that
+  /// no model has, a macro that there is already, parameters of different sizes, and a row that
+  /// would be left empty.
   [[nodiscard]] ModelSet apply(ModelSet models) const;
 };
 

@@ -86,6 +86,13 @@ class HRI_API EmbeddedTrainer {
   /// another number of columns, and values not finite.
   EmbeddedOutcome add(ConstMatrixRefF frames, const std::vector<std::string>& units);
 
+  /// The sums over the utterances added, for add_sums() of a trainer of the same models: passes
+  /// over parts of the recordings, side by side. Throws IoError.
+  void write_sums(const std::string& path) const;
+  /// As if the utterances that a file sums up were added here. Throws IoError; FormatError naming
+  /// file and field for sums of other models, and whatever is no such file.
+  void add_sums(const std::string& path);
+
   /// The models as the utterances added make them most likely, given where they were. Parameters
   /// without frames stay. With means of several variances, each weighs by its own; variances are
   /// about the new means. Without floors no estimate is less likely than the models before it.

@@ -74,8 +74,8 @@ struct HtkFeatureOptions {
   }
 };
 
-/// Immutable; const calls are safe from several threads. It computes MFCC, FBANK, MELSPEC, LPC and
-/// LPCEPSTRA with _E _0 _N _D _A _T _Z.
+/// Immutable; const calls are safe from several threads. It computes MFCC, FBANK, MELSPEC, LPC,
+/// LPREFC, IREFC and LPCEPSTRA with _E _0 _N _D _A _T _Z.
 class HRI_API FeatureExtractor {
  public:
   /// Throws InvalidArgument naming the field that is out of range, and for kinds that are not
@@ -107,8 +107,9 @@ class HRI_API FeatureExtractor {
   std::vector<float> window_;
 };
 
-/// `file` as another kind of the same base: differences are added from the static coefficients, or
-/// left out, and so are _Z, _C and _K; _Z cannot be undone. Throws InvalidArgument for what the
+/// `file` as another kind: differences are added from the static coefficients, or left out, and so
+/// are _Z, _C and _K; _Z cannot be undone. FBANK and MELSPEC become MFCC, MELSPEC FBANK, and LPC,
+/// LPREFC and IREFC one another and LPCEPSTRA, by `options`. Throws InvalidArgument for what the
 /// file has not.
 HRI_API ParameterFile convert(const ParameterFile& file, ParameterKind kind,
                               const HtkFeatureOptions& options = {});

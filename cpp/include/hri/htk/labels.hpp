@@ -29,6 +29,7 @@ struct Label {
   double score = 0;
   std::vector<AuxiliaryLabel> auxiliary;
   std::int64_t line = 0;  ///< of the file that it was read from, from 1; 0: of none
+  std::string text;       ///< that line; it is written again while it says the same
 };
 
 /// The labels of one recording; further ones are alternatives.
@@ -55,10 +56,15 @@ struct HRI_API MasterLabelFile {
   struct Entry {
     std::string pattern;  ///< * stands for any characters, ? for one
     Transcription transcription;
+    /// Where label files that the pattern matches are: "pattern" -> "folder"; "": the labels are
+    /// here.
+    std::string folder;
+    /// "pattern" => "folder": folders of the name may stand in it, too.
+    bool is_searched = false;
   };
   std::vector<Entry> entries;
 
-  /// Throws as Transcription::read() does, and for entries that name a folder in place of labels.
+  /// Throws as Transcription::read() does.
   static MasterLabelFile read(const std::string& path);
   static MasterLabelFile parse(const std::string& text, const std::string& name);
 

@@ -41,6 +41,7 @@ struct StateDefinition {
   std::string macro;  ///< of a ~s
   int num_mixtures = 1;
   std::vector<WeightedComponent> components;
+  std::string tied;  ///< of <TMix>: its Gaussians are the ~m of this name and a number from 1
 };
 
 struct TransitionDefinition {
@@ -72,7 +73,8 @@ struct HRI_API ModelSet {
 
   /// Adds what a file defines; macros of files before may be used. Throws IoError; FormatError
   /// naming file and line for whatever is no such definition, and for what is not read: binary
-  /// files, several streams, full covariances, durations, discrete models.
+  /// files, several streams, full covariances, durations, discrete models. States of tied mixtures
+  /// (<TMix>) have all Gaussians of the set.
   void read(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   void parse(const std::string& text, const std::string& name);
@@ -94,6 +96,10 @@ struct HRI_API ModelSet {
   /// 1 - final_stay. Throws InvalidArgument for other topologies, another dimension, a name that
   /// there is already, and final_stay outside 0..1, 1 excluded.
   void add(const std::string& name, const GaussianMixtureHmm& model, double final_stay);
+
+  /// The definitions in another order: `order` has the number of each, once. Throws InvalidArgument
+  /// for other numbers.
+  void reorder(const std::vector<std::size_t>& order);
 
   /// Throws InvalidArgument for an HMM that there is not, and a name that there is already.
   void rename_hmm(const std::string& hmm, const std::string& name);

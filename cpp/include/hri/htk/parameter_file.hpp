@@ -15,6 +15,20 @@
 
 namespace hri::htk {
 
+/// What the first 12 bytes of a file say.
+struct HRI_API ParameterHeader {
+  static constexpr std::size_t kBytes = 12;
+
+  ParameterKind kind;
+  std::int32_t sample_period = 0;  ///< in 100 ns
+  std::int64_t num_frames = 0;
+  int num_columns = 0;
+
+  /// Throws FormatError naming file and byte as ParameterFile::parse() does; of the bytes only the
+  /// first 12 are read.
+  static ParameterHeader parse(Span<const std::uint8_t> bytes, const std::string& name);
+};
+
 /// What a file holds. What was read is written again byte for byte, unless _C meets a column whose
 /// mean is more than about 100 times its range.
 struct HRI_API ParameterFile {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,22 @@
 
 namespace hri::htk {
 
+namespace detail {
+
+/// Where the models of a pronunciation lie in its chain.
+struct UnitPlaces {
+  struct State {
+    int unit = 0;
+    int state = 0;        ///< of the model, from 0
+    double log_exit = 0;  ///< out of the model
+  };
+  std::vector<State> states;
+  std::vector<double> log_skips;  ///< past every model
+  int first_column = 0;           ///< of its states among those of all chains
+};
+
+}  // namespace detail
+
 /// A word of a recognised sentence.
 struct RecognisedWord {
   std::string word;    ///< as the network has it
@@ -27,6 +44,25 @@ struct RecognisedWord {
   std::int64_t first_frame = 0;
   std::int64_t last_frame = 0;  ///< one past the last
   double log_score = 0;         ///< what it adds to the sentence's, weights and penalty included
+  int pronunciation = 0;        ///< its entry in the dictionary
+};
+
+/// A state on the best path through a model.
+struct AlignedState {
+  int state = 2;  ///< as HTK counts: the entry is 1
+  std::int64_t first_frame = 0;
+  std::int64_t last_frame = 0;  ///< one past the last
+  double log_score = 0;         ///< of its frames, and of the steps into it and on from it
+};
+
+/// A model of a recognised word.
+struct AlignedModel {
+  std::string model;
+  std::int64_t first_frame = 0;
+  std::int64_t last_frame =
+      0;  ///< one past the last; the first where it was passed without a frame
+  double log_score = 0;
+  std::vector<AlignedState> states;
 };
 
 struct RecognisedSentence {
@@ -48,6 +84,13 @@ class HRI_API Recognizer {
   /// number of columns, and values not finite.
   [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF observations) const;
 
+  /// The models of every word of a sentence of `observations`, and their states, on the best path
+  /// within the frames of the word. Their log scores sum to that of the word but for the weights of
+  /// the network, the penalty and the probability of the pronunciation. Throws InvalidArgument as
+  /// recognise() does, and for words that are not of this recogniser or fit no path.
+  [[nodiscard]] std::vector<std::vector<AlignedModel>> align(
+      ConstMatrixRefF observations, const RecognisedSentence& sentence) const;
+
   /// All sentences near the best; model i is the pronunciation i, whose word is words()[i]. Throws
   /// InvalidArgument as recognise() and Lattice::decode() do.
   [[nodiscard]] Lattice lattice(ConstMatrixRefF observations,
@@ -67,8 +110,11 @@ class HRI_API Recognizer {
   ConnectedDecoderOptions options_;
   std::vector<GaussianEmissions> emissions_;  // one
   std::vector<Pronunciation> pronunciations_;
-  std::vector<WordChain> chains_;  // by pronunciation
-  std::vector<int> columns_;       // of the emissions, by states of the chains
+  std::vector<int> entries_;               // of the dictionary, by pronunciation
+  std::map<int, int> of_entry_;            // the same back
+  std::vector<WordChain> chains_;          // by pronunciation
+  std::vector<detail::UnitPlaces> units_;  // of their states
+  std::vector<int> columns_;               // of the emissions, by states of the chains
   WordNetwork network_;
 };
 

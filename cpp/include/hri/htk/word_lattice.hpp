@@ -6,18 +6,21 @@
 // recognition are such files, too, with times and acoustic scores.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "hri/core/export.hpp"
 #include "hri/language/lattice.hpp"
+#include "hri/language/ngram_model.hpp"
 
 namespace hri::htk {
 
-/// Words on nodes, weights on arcs. Nodes without predecessors begin sentences, those without
-/// successors end them; there is one of each.
+/// Words on nodes, weights on arcs. A node without predecessors begins sentences, one without
+/// successors ends them; where there is not one of each, `start` and `end` name them.
 struct HRI_API WordLattice {
   static constexpr const char* kNull = "!NULL";  ///< the word of a node that stands for none
+  static constexpr int kByArcs = -1;  ///< the one node without predecessors, or successors
 
   struct Arc {
     int from = 0;
@@ -25,13 +28,18 @@ struct HRI_API WordLattice {
     double log_weight = 0;    ///< natural log: l=
     double log_acoustic = 0;  ///< natural log, of the word that the arc leads to: a=
   };
-  std::vector<std::string> words;  ///< of the nodes
-  std::vector<double> times_s;     ///< where the words end: t=; empty: not known of all
+  std::vector<std::string> words;   ///< of the nodes
+  std::vector<double> times_s;      ///< where the words end: t=; empty: not known of all
+  std::vector<int> variants;        ///< which pronunciation, from 1: v=; 0: any; empty: any of all
+  std::vector<std::int64_t> lines;  ///< of the file that the nodes were read from; empty: of none
   std::vector<Arc> arcs;
+  int start = kByArcs;  ///< where sentences begin: start=
+  int end = kByArcs;    ///< where they end: end=
 
-  /// Reads a lattice. Throws IoError, and FormatError naming file and line for counts that differ
-  /// from what is there, nodes that there are not, no or several ends, cycles without words, and
-  /// lattices of other kinds: with sub-lattices, or words on arcs.
+  /// Reads a lattice; a word on an arc becomes a node of its own on it, behind all nodes of the
+  /// file. Throws IoError, and FormatError naming file and line for counts that differ from what is
+  /// there, nodes that there are not, no or several ends, cycles without words, words both on nodes
+  /// and on arcs, and sub-lattices.
   static WordLattice read(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   static WordLattice parse(const std::string& text, const std::string& name);
@@ -45,6 +53,15 @@ struct HRI_API WordLattice {
   static WordLattice read_grammar(const std::string& path);
   /// The one sentence, for forced alignment.
   static WordLattice of_words(const std::vector<std::string>& sentence);
+
+  /// The words in any order, weighted by a model of order 1 or 2: arcs for the bigrams that it has,
+  /// and a node without a word that the others back off over. Sentences begin and end where the
+  /// model says, which its markers, or others of these names, stand for. Throws InvalidArgument for
+  /// models of higher order, no word, a word twice, one that is a marker, and for words that the
+  /// model does not know.
+  static WordLattice of_bigram(const NGramModel& language, const std::vector<std::string>& words,
+                               const std::string& start = NGramModel::kStart,
+                               const std::string& end = NGramModel::kEnd);
 
   /// A lattice of recognition: `labels` are the words of its models, and frame n begins at
   /// first_s + n frame_s. Throws InvalidArgument for models without a label, and empty lattices.

@@ -72,7 +72,8 @@ class HRI_API NGramModel {
   /// The same from memory; `name` stands for the path in messages.
   static NGramModel parse(const std::string& text, const std::string& name);
   void save(const std::string& path) const;
-  /// The text of the ARPA file; numbers have 17 digits and read back equal to the bit.
+  /// The text of the ARPA file: that which it was read from, byte for byte; of a model that was
+  /// trained numbers have 17 digits and read back equal to the bit.
   [[nodiscard]] std::string to_arpa() const;
 
   [[nodiscard]] int order() const { return static_cast<int>(ngrams_.size()); }
@@ -90,6 +91,11 @@ class HRI_API NGramModel {
   /// there are not.
   [[nodiscard]] double log_probability(Span<const int> history, int word) const;
 
+  /// Whether the model has the n-gram of a history, of order() - 1 words at most, and a word.
+  [[nodiscard]] bool has(Span<const int> history, int word) const;
+  /// What log_probability() adds where it leaves out the first word of a history, natural log.
+  [[nodiscard]] double log_backoff(Span<const int> history) const;
+
   [[nodiscard]] NGramFit fit_of(const std::vector<Sentence>& sentences) const;
 
  private:
@@ -105,6 +111,7 @@ class HRI_API NGramModel {
   void index_words();
   [[nodiscard]] double log10_probability(NGram history, int word) const;
 
+  std::string text_;  // of the file that it was read from
   std::vector<std::string> words_;
   std::map<std::string, int> index_;
   std::vector<std::map<NGram, Entry>> ngrams_;  // by order, from 1

@@ -8,8 +8,9 @@ import click
 
 from hri.cli.groups import SuggestingGroup
 from hri.cli.htk.editing import hed
-from hri.cli.htk.embedded import compv, erest
-from hri.cli.htk.networks import parse, sgen
+from hri.cli.htk.embedded import erest
+from hri.cli.htk.flat_start import compv
+from hri.cli.htk.networks import build, parse, sgen
 from hri.cli.htk.parameters import copy, list_files
 from hri.cli.htk.recognition import vite
 from hri.cli.htk.scoring import results
@@ -32,5 +33,5 @@ def htk() -> None:
     """
 
 
-for _command in (copy, list_files, results, parse, sgen, vite, compv, init, rest, erest, hed):
+for _command in (copy, list_files, results, parse, build, sgen, vite, compv, init, rest, erest, hed):
     htk.add_command(_command)

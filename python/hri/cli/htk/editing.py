@@ -8,44 +8,61 @@ from pathlib import Path
 
 import click
 
-from hri.cli.groups import CheckedCommand
-from hri.cli.htk.embedded import models_of
-from hri.cli.htk.options import INPUT, models_option, trace_option
+from hri.cli.htk.options import ModelFiles, load_configuration, models_option
+from hri.cli.htk.standard import BINARY, INPUT, HtkCommand, refused_options, standard_options
+from hri.cli.htk.training import folder_option
 from hri.core.files import make_folder
 from hri.htk import EditScript, read_list
 
 
-@click.command(cls=CheckedCommand)
+@click.command(cls=HtkCommand)
+@standard_options("ACDTV")
 @models_option
-@trace_option
 @click.option("-d", "model_folder", metavar="DIR", help="Folder of models that no -H defines, a file for each.")
-@click.option("-M", "folder", metavar="DIR", help="Where the models go; over those that were read else.")
-@click.option("-w", "master", metavar="MMF", help="One file for all models; needed where several were read.")
+@click.option("-x", "model_suffix", metavar="EXT", help="Suffix of these files.")
+@folder_option
+@click.option("-o", "new_suffix", metavar="EXT", help="Suffix of the files that models of -d are written to.")
+@click.option("-w", "master", metavar="MMF", help="One file for all models, in place of those that were read.")
+@refused_options(
+    Q=("lists of models are not written", 1),
+    r=("there are no regression classes", 1),
+    z=("lists of models are not written", 0),
+    **BINARY,
+)
 @click.argument("script", type=INPUT)
 @click.argument("model_list", type=INPUT)
 def hed(
+    configs: tuple[str, ...],
     macros: tuple[str, ...],
     trace: int,
     model_folder: str | None,
+    model_suffix: str | None,
     folder: str | None,
+    new_suffix: str | None,
     master: str | None,
     script: str,
     model_list: str,
 ) -> None:
-    """Split mixtures, tie parameters and change transitions, as HHEd: commands MU, TI, AT and RT.
+    """Split mixtures, tie parameters and change transitions, as HHEd: commands MU, TI, AT, RT and CL.
+
+    Every file that was read is written again, to the folder of -M; new macros come to the first one with a model.
 
     \b
     Example:
-      hri htk hed -H hmm3/models -M hmm4 split.hed list
+      hri htk hed -H hmm4/macros -H hmm4/hmmdefs -M hmm5 sil.hed list
     """
+    load_configuration(configs)
     commands = EditScript.read(script)
-    sources = models_of(read_list(model_list), macros, model_folder)
-    if master is None and len(sources.paths) > 1:
-        raise click.UsageError("models of several files go to one: name it with -w")
+    sources = ModelFiles(macros)
+    listed = sources.add_listed(read_list(model_list).values(), model_folder, model_suffix)
     made = commands.apply(sources.models)
-    name = Path(master or sources.paths[0])
-    target = name if folder is None else Path(folder, name.name)
-    make_folder(target.parent)
-    made.write(target)
+    if master is not None:
+        target = Path(master) if folder is None else Path(folder, Path(master).name)
+        make_folder(target.parent)
+        made.write(target)
+        targets = [target]
+    else:
+        renamed = {} if new_suffix is None else {path: str(Path(path).with_suffix(f".{new_suffix}")) for path in listed}
+        targets = sources.write(sources.follow(made), folder, renamed)
     if trace:
-        click.echo(f"{script}: {commands.num_commands} commands -> {target}")
+        click.echo(f"{script}: {commands.num_commands} commands -> {' '.join(map(str, targets))}")

@@ -9,15 +9,12 @@ from pathlib import Path
 
 import click
 
+from hri.cli.htk.standard import INPUT, given_format, settings_are_shown
 from hri.cli.messages import note
 from hri.core.errors import FormatError
 from hri.core.files import make_folder
 from hri.htk import Configuration, MasterLabelFile, ModelSet, Transcription, read_script
 
-INPUT = click.Path(exists=True, dir_okay=False)
-config_option = click.option("-C", "configs", multiple=True, type=INPUT, metavar="CONFIG", help="A configuration file.")
-script_option = click.option("-S", "scripts", multiple=True, type=INPUT, metavar="SCRIPT", help="A file of arguments.")
-trace_option = click.option("-T", "trace", type=click.IntRange(0), default=0, metavar="N", help="1: say what is done.")
 models_option = click.option("-H", "macros", multiple=True, type=INPUT, metavar="MMF", help="A file of models.")
 labels_option = click.option("-I", "masters", multiple=True, type=INPUT, metavar="MLF", help="A master label file.")
 label_folder_option = click.option("-L", "label_folder", metavar="DIR", help="The folder of label files.")
@@ -25,10 +22,20 @@ label_suffix_option = click.option("-X", "suffix", default="lab", show_default=T
 
 
 def load_configuration(paths: Iterable[str]) -> Configuration:
-    """What all configuration files set, the last one last; keys that set nothing are named."""
+    """What all configuration files set, the last one last, then ``-F``; keys that set nothing are named.
+
+    With ``-D`` all settings are printed.
+    """
     configuration = Configuration()
     for path in paths:
         configuration.read(path)
+    chosen = given_format()
+    if chosen is not None:
+        configuration.parse(f"SOURCEFORMAT = {chosen}", "-F")
+    if settings_are_shown():
+        click.echo("Configuration Parameters")
+        for key, value in configuration.settings:
+            click.echo(f"  {key:<16} {value}")
     if configuration.ignored:
         note(f"set nothing here: {' '.join(sorted(set(configuration.ignored)))}")
     return configuration
@@ -58,6 +65,7 @@ class ModelFiles:
     def __init__(self, paths: Iterable[str]) -> None:
         self.models = ModelSet()
         self._parts: list[tuple[str, int, int]] = []
+        self._names: set[str] = set()
         for path in paths:
             self.read(path)
 
@@ -66,11 +74,89 @@ class ModelFiles:
         """Of the files, in their order."""
         return [path for path, _, _ in self._parts]
 
+    def add_prototype(self, given: str) -> tuple[str, str | None]:
+        """The model of this name, which these files define or a file of this name does, and the path of that file.
+
+        Raises
+        ------
+        FormatError
+            Where neither defines it, and for a file that defines several models.
+        """
+        name = Path(given).name
+        if self.has(name):
+            return name, None
+        if not Path(given).is_file():
+            raise FormatError(f"{given}: there is no such file, and no -H defines the model {name!r}")
+        above = set(self.models.hmm_names)
+        self.read(given)
+        defined = [model for model in self.models.hmm_names if model not in above]
+        if len(defined) != 1:
+            raise FormatError(f"{given}: defines {len(defined)} models, not one")
+        return defined[0], given
+
+    def add_listed(self, names: Iterable[str], folder: str | None, suffix: str | None = None) -> list[str]:
+        """Read a file of `folder` for every model that is not defined yet; gives the paths.
+
+        Raises
+        ------
+        FormatError
+            For a model that is defined nowhere.
+        """
+        read = []
+        for model in dict.fromkeys(names):
+            if self.has(model):
+                continue
+            path = Path(folder or ".", model if suffix is None else f"{model}.{suffix}")
+            if not path.is_file():
+                raise FormatError(f"{path}: there is no such file, and no -H defines the model {model!r}")
+            self.read(str(path))
+            if not self.has(model):
+                raise FormatError(f"{path}: does not define the model {model!r}")
+            read.append(str(path))
+        return read
+
+    def follow(self, models: ModelSet) -> ModelSet:
+        """`models`, which have macros that these files had not, in their order of files; writes go by it from now on.
+
+        New macros come to the first file that defines a model, and stand before its models.
+
+        Raises
+        ------
+        FormatError
+            For definitions that would use what stands in a file behind theirs.
+        """
+        places = {}
+        for number, (_, first, last) in enumerate(self._parts):
+            places.update(dict.fromkeys(self.models.definitions[first:last], number))
+        of_models = [number for (kind, _), number in places.items() if kind == "h"]
+        new_place = min(of_models, default=0)
+        numbers = [places.get(definition, new_place) for definition in models.definitions]
+        order = sorted(range(len(numbers)), key=lambda i: numbers[i])
+        models.reorder(order)
+        counts = [numbers.count(number) for number in range(len(self._parts))]
+        ends = [sum(counts[: number + 1]) for number in range(len(counts))]
+        self._parts = [
+            (path, end - count, end) for (path, _, _), count, end in zip(self._parts, counts, ends, strict=True)
+        ]
+        try:
+            models.to_text()
+        except FormatError as error:
+            raise FormatError(
+                f"the models cannot go to the files that they came from; name one with -w ({error})"
+            ) from error
+        self.models = models
+        return models
+
     def read(self, path: str) -> None:
         """Add what a file defines."""
         first = self.models.num_definitions
         self.models.read(path)
         self._parts.append((path, first, self.models.num_definitions))
+        self._names.update(self.models.hmm_names)
+
+    def has(self, model: str) -> bool:
+        """Whether the files define this model."""
+        return model in self._names
 
     def write(self, models: ModelSet, folder: str | None, renamed: Mapping[str, str] | None = None) -> list[Path]:
         """Write `models`, which have the same definitions, to files of the same names; gives these.
@@ -106,6 +192,19 @@ def all_arguments(given: Sequence[str], scripts: Iterable[str]) -> list[str]:
     return [*given, *(argument for script in scripts for argument in read_script(script))]
 
 
+def labelled_entries(master: MasterLabelFile, path: str) -> list[tuple[str, Transcription]]:
+    """Patterns and transcriptions of a file, none of which may name a folder in place of labels.
+
+    Raises
+    ------
+    FormatError
+    """
+    for pattern, _ in master.entries:
+        if master.folder(pattern) is not None:
+            raise FormatError(f"{path}: {pattern!r} names a folder; labels have to stand here")
+    return master.entries
+
+
 class References:
     """Transcriptions by the names of recordings: of master label files, else of label files.
 
@@ -138,6 +237,20 @@ class References:
             found = master.find(name)
             if found is not None:
                 return found, source
+            elsewhere = master.folder(name)
+            if elsewhere is not None:
+                return _in_folder(path, *elsewhere)
         if self._masters and not path.is_file():
             raise FormatError(f"{recording}: no master label file has a transcription for {str(path)!r}")
         return Transcription.read(path), str(path)
+
+
+def _in_folder(path: Path, folder: str, is_searched: bool) -> tuple[Transcription, str]:
+    """The label file in a folder that a master label file names, perhaps in the last folders of its own name."""
+    parts = [part for part in path.parts if part != path.anchor]
+    depths = range(1, len(parts) + 1) if is_searched else range(1, 2)
+    tried = [Path(folder, *parts[len(parts) - depth :]) for depth in depths]
+    for place in tried:
+        if place.is_file():
+            return Transcription.read(place), str(place)
+    raise FormatError(f"{tried[0]}: there is no such label file, where a master label file says that it is")

@@ -8,66 +8,276 @@ from pathlib import Path
 
 import click
 
-from hri.cli.groups import CheckedCommand
-from hri.cli.htk.options import all_arguments, config_option, load_configuration, script_option, trace_option
+from hri.cli.groups import FiniteRange
+from hri.cli.htk.options import (
+    References,
+    all_arguments,
+    label_folder_option,
+    label_suffix_option,
+    labels_option,
+    load_configuration,
+)
+from hri.cli.htk.standard import (
+    HtkCommand,
+    NumbersOption,
+    label_format_option,
+    only_format,
+    refused_options,
+    source_format_option,
+    standard_options,
+)
+from hri.cli.output import OutputFile
+from hri.core.errors import FormatError
 from hri.core.files import make_folder
-from hri.htk import ParameterFile, code_file, list_parameters
+from hri.htk import (
+    Label,
+    MasterLabelFile,
+    ParameterFile,
+    Source,
+    Transcription,
+    code_sources,
+    list_parameters,
+    observation_names,
+)
 
 
-@click.command(cls=CheckedCommand)
-@config_option
-@script_option
-@trace_option
+def _label_numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """Of ``-n i [j]``."""
+    if value is None:
+        return None
+    try:
+        first, *rest = map(int, value.split())
+    except ValueError:
+        raise click.BadParameter("takes one whole number, or two") from None
+    if len(rest) > 1 or first == 0:
+        raise click.BadParameter("takes one whole number, or two; labels count from 1, from the end below 0")
+    return first, rest[0] if rest else first
+
+
+def _named_label(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[str, int] | None:
+    """Of ``-x s [n]``."""
+    if value is None:
+        return None
+    name, *rest = value.split()
+    if not all(part.isdecimal() and int(part) > 0 for part in rest):
+        raise click.BadParameter("takes a label, and perhaps which of its occurrences, from 1")
+    return name, int(rest[0]) if rest else 1
+
+
+@click.command(cls=HtkCommand)
+@standard_options("ACDSTV")
+@labels_option
+@label_folder_option
+@label_suffix_option
+@source_format_option
+@label_format_option
+@only_format("-O", "parameter files")
+@only_format("-P", "label files")
+@click.option("-s", "start", type=FiniteRange(0), default=0.0, metavar="T", help="Begin here, in 100 ns.")
+@click.option("-e", "end", type=FiniteRange(0), metavar="T", help="End here, in 100 ns.")
+@click.option(
+    "-n",
+    "numbers",
+    cls=NumbersOption,
+    most=2,
+    callback=_label_numbers,
+    metavar="I [J]",
+    help="What label I, or I to J, spans.",
+)
+@click.option(
+    "-x",
+    "named",
+    cls=NumbersOption,
+    most=2,
+    callback=_named_label,
+    metavar="NAME [N]",
+    help="What the Nth label of this name spans.",
+)
+@click.option("-m", "margin", type=FiniteRange(0), default=0.0, metavar="T", help="With -n and -x: so much around it.")
+@click.option("-a", "level", type=click.IntRange(1), default=1, help="Which alternative of labels counts.")
+@click.option(
+    "-i", "master", type=OutputFile(), metavar="MLF", help="Write the labels of what was copied to this file."
+)
+@click.option("-l", "label_target", metavar="DIR", help="Write them to label files in this folder.")
+@refused_options(t=("what is traced has no width", 1))
 @click.argument("files", nargs=-1)
-def copy(configs: tuple[str, ...], scripts: tuple[str, ...], trace: int, files: tuple[str, ...]) -> None:
-    """Convert recordings to parameter files, as HCopy; FILES are pairs of a source and a target.
+def copy(
+    configs: tuple[str, ...],
+    scripts: tuple[str, ...],
+    masters: tuple[str, ...],
+    label_folder: str | None,
+    suffix: str,
+    trace: int,
+    start: float,
+    end: float | None,
+    numbers: tuple[int, int] | None,
+    named: tuple[str, int] | None,
+    margin: float,
+    level: int,
+    master: str | None,
+    label_target: str | None,
+    files: tuple[str, ...],
+) -> None:
+    """Convert recordings to parameter files, as HCopy; FILES are sources and targets: `a.wav a.mfc`.
+
+    Several sources become one target: `a.wav + b.wav both.mfc`. With -s, -e, -n or -x a part is copied, and its labels
+    with it where -i or -l asks for them.
 
     \b
     Example:
       hri htk copy -C config -S copy.scp
+      hri htk copy -C config -x seven 2 -L labels all.wav seven.mfc
     """
     configuration = load_configuration(configs)
-    names = all_arguments(files, scripts)
-    if not names or len(names) % 2:
-        raise click.UsageError("files come in pairs of a source and a target")
-    for source, target in zip(names[::2], names[1::2], strict=True):
-        file = code_file(source, configuration)
+    pairs = _pairs(all_arguments(files, scripts))
+    if numbers is not None and named is not None:
+        raise click.UsageError("either -n or -x")
+    wants_labels = master is not None or label_target is not None
+    references = References(masters, label_folder, suffix)
+    entries = []
+    for sources, target in pairs:
+        parts, labels = [], []
+        length = 0
+        for source in sources:
+            spans = numbers is not None or named is not None
+            found: list[Label] = []
+            where = source
+            if spans or wants_labels:
+                transcription, where = references.locate(source)
+                if level > len(transcription.alternatives):
+                    raise FormatError(f"{where}: has {len(transcription.alternatives)} alternatives, no number {level}")
+                found = list(transcription.alternatives[level - 1])
+            first, last = (start, end) if not spans else _span(found, where, numbers, named, margin)
+            part = Source(source, first, last)
+            parts.append(part)
+            if wants_labels:
+                duration = part.duration(configuration)
+                labels += _moved(found, first, first + duration, length)
+                length += duration
+        file = code_sources(parts, configuration)
         make_folder(Path(target).parent)
         file.write(target)
+        if label_target is not None:
+            path = Path(label_target, Path(target).with_suffix(f".{suffix}").name)
+            make_folder(path.parent)
+            Transcription(labels).write(path)
+        entries.append((f"*/{Path(target).with_suffix(f'.{suffix}').name}", Transcription(labels)))
         if trace:
-            click.echo(f"{source} -> {target}")
+            click.echo(f"{' + '.join(sources)} -> {target}")
+    if master is not None:
+        make_folder(Path(master).parent)
+        MasterLabelFile(entries).write(master)
 
 
-@click.command("list", cls=CheckedCommand, context_settings={"help_option_names": ["--help"]})
-@script_option
+def _pairs(names: list[str]) -> list[tuple[list[str], str]]:
+    """Sources, which + joins, and the target of each."""
+    pairs = []
+    at = 0
+    while at < len(names):
+        sources = [names[at]]
+        while at + 2 < len(names) and names[at + 1] == "+":
+            at += 2
+            sources.append(names[at])
+        if at + 1 >= len(names) or names[at + 1] == "+":
+            raise click.UsageError("files come in pairs of a source, or several with + between them, and a target")
+        pairs.append((sources, names[at + 1]))
+        at += 2
+    if not pairs:
+        raise click.UsageError("files come in pairs of a source, or several with + between them, and a target")
+    return pairs
+
+
+def _span(
+    labels: list[Label], where: str, numbers: tuple[int, int] | None, named: tuple[str, int] | None, margin: float
+) -> tuple[float, float]:
+    """The time that the labels of -n or -x take, with a margin, in 100 ns."""
+    if named is not None:
+        name, number = named
+        wanted = [label for label in labels if label.name == name][number - 1 : number]
+        if not wanted:
+            raise FormatError(f"{where}: has no label {name!r} number {number}")
+    else:
+        assert numbers is not None
+        first, last = (n - 1 if n > 0 else len(labels) + n for n in numbers)
+        wanted = labels[first : last + 1] if 0 <= first <= last < len(labels) else []
+        if not wanted:
+            raise FormatError(f"{where}: has {len(labels)} labels, and not those from {numbers[0]} to {numbers[1]}")
+    begin, end = wanted[0].first, wanted[-1].last
+    if begin is None or end is None:
+        raise FormatError(f"{where}: line {wanted[0].line}: the label {wanted[0].name!r} has no times")
+    return max(0.0, begin - margin), end + margin
+
+
+def _moved(labels: list[Label], start: float, end: float, offset: int) -> list[Label]:
+    """Labels that lie in a part, with times from its beginning on, and `offset`."""
+    kept = []
+    for label in labels:
+        if label.first is None or label.last is None:
+            kept.append(label)
+        elif label.first < end and label.last > start:
+            first, last = max(label.first - round(start), 0), round(min(label.last, end) - start)
+            kept.append(Label(label.name, first + offset, last + offset, label.score, label.others))
+    return kept
+
+
+@click.command("list", cls=HtkCommand)
+@standard_options("ACDSTV")
+@source_format_option
 @click.option("-h", "header", is_flag=True, help="Also what the header says.")
+@click.option("-t", "target", is_flag=True, help="Also what that of the target of the configuration would say.")
+@click.option("-o", "structure", is_flag=True, help="Also the names of the values of a frame.")
 @click.option("-r", "raw", is_flag=True, help="Values alone, a frame a line.")
 @click.option("-z", "no_values", is_flag=True, help="No frames.")
 @click.option("-s", "first", type=click.IntRange(0), default=0, metavar="N", help="The first frame.")
 @click.option("-e", "last", type=click.IntRange(-1), default=-1, metavar="N", help="The last frame.")
 @click.option("-i", "items", type=click.IntRange(1), default=10, metavar="N", help="Values in a line.")
+@click.option("-n", "streams", type=click.IntRange(1), default=1, help="1: frames have one stream.")
+@refused_options(d=("there are no codebooks of HQuant", 0), p=("nothing is played", 0))
 @click.argument("files", nargs=-1)
 def list_files(
+    configs: tuple[str, ...],
     scripts: tuple[str, ...],
+    trace: int,
     header: bool,
+    target: bool,
+    structure: bool,
     raw: bool,
     no_values: bool,
     first: int,
     last: int,
     items: int,
+    streams: int,
     files: tuple[str, ...],
 ) -> None:
-    """Print parameter files, as HList.
+    """Print parameter files, as HList; with a configuration, what they become by it.
 
     \b
     Example:
       hri htk list -h -e 9 seven.mfc
+      hri htk list -C config -t -o -z seven.wav
     """
+    if streams != 1:
+        raise click.UsageError(f"-n {streams} is not supported: frames have one stream")
+    configuration = load_configuration(configs)
+    is_coded = configuration.source_format == "WAV" or configuration.target != "ANON"
+    if target and not is_coded:
+        raise click.UsageError("-t shows what a configuration makes of a file: name one with TARGETKIND with -C")
     for name in all_arguments(files, scripts):
-        file = ParameterFile.read(name)
+        source = None if configuration.source_format == "WAV" else ParameterFile.read(name)
+        file = code_sources([Source(name)], configuration) if is_coded else source
+        assert file is not None
+        shown = source if source is not None else file
+        if header:
+            for line in list_parameters(shown, name, header=True, values=False):
+                click.echo(line)
+        if target:
+            for line in list_parameters(file, name, header=True, values=False, title="Target"):
+                click.echo(line)
+        if structure:
+            click.echo(" ".join(observation_names(file.kind, file.values.shape[1])))
         if raw:
             for row in file.values[first : None if last < 0 else last + 1]:
                 click.echo(" ".join(f"{value:e}" for value in row))
-        else:
-            for line in list_parameters(file, name, first, last, header, items, not no_values):
+        elif not no_values:
+            for line in list_parameters(file, name, first, last, header, items, header_lines=False):
                 click.echo(line)

@@ -4,43 +4,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import click
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.cli.groups import FiniteRange
+from hri.cli.htk.data import DataFile, check_headers, data_files, load_frames
+from hri.cli.htk.formatting import LabelFormat
 from hri.cli.htk.options import (
-    INPUT,
+    ModelFiles,
     References,
-    all_arguments,
-    config_option,
     label_folder_option,
     label_suffix_option,
     labels_option,
     load_configuration,
-    load_models,
     models_option,
-    script_option,
-    trace_option,
 )
+from hri.cli.htk.standard import (
+    ADAPTATION,
+    BINARY,
+    INPUT,
+    HtkCommand,
+    NumbersOption,
+    is_number,
+    label_format_option,
+    only_format,
+    refused_options,
+    source_format_option,
+    standard_options,
+)
+from hri.cli.htk.vocabulary import Vocabulary, transcripts_of
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
-from hri.core.errors import FormatError
+from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import make_folder
 from hri.htk import (
-    Dictionary,
-    Label,
     MasterLabelFile,
-    Pronunciation,
     RecognisedSentence,
     Recognizer,
     Transcription,
     WordLattice,
-    load_observations,
     read_list,
+    require_words,
 )
+from hri.htk.sentences import NULL
 from hri.language import ConnectedDecoderOptions, LatticeOptions
 
 NO_BEAM = 1e12
@@ -49,19 +59,8 @@ LATTICE_BEAMS = (1000.0, 4000.0, 16000.0, 64000.0)
 """The next one where sentences are too few."""
 UNIT_S = 1e-7
 """Of times in HTK's files."""
-
-
-class _Command(click.Command):
-    """HVite's ``-n I [N]`` takes one number or two."""
-
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        given = list(args)
-        if "-n" in given:
-            at = given.index("-n") + 1
-            numbers = given[at : at + 2]
-            if len(numbers) == 2 and all(number.isdecimal() for number in numbers):
-                given[at : at + 2] = [" ".join(numbers)]
-        return super().parse_args(ctx, given)
+NOTHING = "there is nothing to recognise"
+_NO_AUDIO = "recordings come from files"
 
 
 def _num_sentences(context: click.Context, option: click.Parameter, value: str | None) -> int:
@@ -77,35 +76,81 @@ def _num_sentences(context: click.Context, option: click.Parameter, value: str |
     return sentences
 
 
-@click.command(cls=_Command)
-@config_option
+def _beams(context: click.Context, option: click.Parameter, value: str) -> list[float]:
+    """All beams of ``-t F [I L]``, the narrowest first; no beam for 0."""
+    parts = value.split()
+    if len(parts) not in (1, 3) or not all(map(is_number, parts)):
+        raise click.BadParameter("takes one number, or three")
+    first, step, limit = (float(part) for part in (*parts, "0", "0")[:3])
+    if not (0 <= first < NO_BEAM and 0 <= step < NO_BEAM and 0 <= limit < NO_BEAM):
+        raise click.BadParameter("numbers must not be negative")
+    beams = [first or NO_BEAM]
+    while first and step and beams[-1] + step <= limit and len(beams) < 1000:
+        beams.append(beams[-1] + step)
+    return beams
+
+
+@click.command(cls=HtkCommand)
+@standard_options("ACDSTV")
 @models_option
 @labels_option
 @label_folder_option
 @label_suffix_option
-@script_option
-@trace_option
-@click.option("-w", "network", type=INPUT, metavar="SLF", help="The word network.")
-@click.option("-a", "align", is_flag=True, help="Align the transcription of each file instead.")
-@click.option("-b", "boundary", metavar="WORD", help="With -a: a word before and after each transcription.")
-@click.option("-i", "master", type=OutputFile(), metavar="MLF", help="Write all results to one master label file.")
-@click.option("-l", "folder", metavar="DIR", help="Folder of the results; '*' in a master label file: any.")
+@source_format_option
+@label_format_option
+@only_format("-P", "results")
+@click.option("-w", "network", type=INPUT, metavar="SLF", help="Recognise by this word network.")
+@click.option("-a", "align", is_flag=True, help="Align the transcriptions of the recordings.")
+@click.option("-b", "boundary", metavar="WORD", help="With -a: the word before and after every transcription.")
+@click.option("-c", "mixture_pruning", type=FiniteRange(0), help="Not needed: all Gaussians are summed.")
+@click.option("-d", "model_folder", metavar="DIR", help="Folder of models that no -H defines, a file for each.")
+@click.option("-x", "model_suffix", metavar="EXT", help="Suffix of these files.")
+@click.option("-f", "states", is_flag=True, help="A label for every state.")
+@click.option("-m", "models", is_flag=True, help="A label for every model.")
+@click.option("-i", "master", type=OutputFile(), metavar="MLF", help="Write results to one master label file.")
+@click.option("-l", "folder", metavar="DIR", help="Folder of the results; '*': any, in a master label file.")
 @click.option("-y", "out_suffix", default="rec", show_default=True, help="Suffix of the results.")
 @click.option(
     "-n",
     "num_sentences",
+    cls=NumbersOption,
+    most=2,
     callback=_num_sentences,
     metavar="I [N]",
-    help="The N best sentences, 1 where it is left out; exact whatever I is, HVite's tokens a state.",
+    help="The N best sentences, 1 if not said; from a lattice, which makes I, HVite's tokens a state, needless.",
 )
 @click.option(
-    "-o", "leave_out", default="", metavar="LETTERS", help="Leave out S: scores, T: times. N: scores a frame."
+    "-o", "letters", default="", metavar="FLAGS", help="N scores a frame; leave out S T W M; X strip contexts."
 )
 @click.option("-p", "penalty", type=float, default=0.0, help="Added to the log score at every word.")
 @click.option("-s", "scale", type=float, default=1.0, help="Factor on the log weights of the network.")
-@click.option("-t", "beam", type=float, default=0.0, help="Beam; 0: none.")
+@click.option("-r", "pronunciation_scale", type=FiniteRange(0, 1e6), default=1.0, help="The same for pronunciations.")
+@click.option(
+    "-t",
+    "beams",
+    cls=NumbersOption,
+    most=3,
+    default="0",
+    callback=_beams,
+    metavar="F [I L]",
+    help="Beam; where no sentence is left, again with I more, up to L; 0: none.",
+)
+@click.option("-u", "max_models", type=click.IntRange(0), help="Not needed: the beam of -t alone drops anything.")
+@click.option("-v", "word_beam", type=FiniteRange(0), help="Not needed: the beam of -t alone drops anything.")
+@click.option(
+    "-q", "lattice_letters", default="tal", metavar="FLAGS", help="What lattices hold: tal, and nothing else."
+)
 @click.option(
     "-z", "lattice_suffix", metavar="EXT", help="With -n: write lattices with this suffix beside the results."
+)
+@refused_options(
+    e=(_NO_AUDIO, 0),
+    g=(_NO_AUDIO, 0),
+    h=("there are no transforms of models", 1),
+    j=("there are no transforms of models", 1),
+    k=("there are no transforms of models", 0),
+    **BINARY,
+    **ADAPTATION,
 )
 @click.argument("dictionary", type=INPUT)
 @click.argument("model_list", type=INPUT)
@@ -121,14 +166,23 @@ def vite(
     network: str | None,
     align: bool,
     boundary: str | None,
+    mixture_pruning: float | None,
+    model_folder: str | None,
+    model_suffix: str | None,
+    states: bool,
+    models: bool,
     master: str | None,
     folder: str | None,
     out_suffix: str,
     num_sentences: int,
-    leave_out: str,
+    letters: str,
     penalty: float,
     scale: float,
-    beam: float,
+    pronunciation_scale: float,
+    beams: list[float],
+    max_models: int | None,
+    word_beam: float | None,
+    lattice_letters: str,
     lattice_suffix: str | None,
     dictionary: str,
     model_list: str,
@@ -140,51 +194,89 @@ def vite(
     Example:
       hri htk vite -H models -w wdnet -S test.scp -i found.mlf dict list
       hri htk vite -H models -w wdnet -n 4 20 -z lat -S test.scp -l lattices dict list
+      hri htk vite -H models -a -m -o SW -I words.mlf -S train.scp -i phones.mlf dict list
     """
     if align == (network is not None):
         raise click.UsageError("either -w SLF or -a")
-    if set(leave_out) - set("STN"):
-        raise click.UsageError("-o takes letters of STN")
     if lattice_suffix is not None and (num_sentences == 0 or folder == "*"):
         raise click.UsageError("-z goes with -n, and not with -l '*'")
+    if set(lattice_letters) != set("tal"):
+        raise click.UsageError("-q takes tal: lattices have times, acoustic and language scores, and words on nodes")
+    form = LabelFormat(letters, models, states)
     configuration = load_configuration(configs)
-    models = load_models(macros)
-    words = _physical(Dictionary.read(dictionary), read_list(model_list))
-    options = ConnectedDecoderOptions(beam=beam or NO_BEAM, language_scale=scale, insertion_penalty=penalty)
-    references = References(masters, label_folder, suffix)
-
-    def aligner(name: str) -> Recognizer:
-        edge = [] if boundary is None else [boundary]
-        said = [label.name for label in references.find(name).labels]
-        return Recognizer(models, words, WordLattice.of_words([*edge, *said, *edge]), options)
-
-    recognizer_of: Callable[[str], Recognizer] = aligner
+    recordings = data_files(files, scripts, NOTHING)
+    vocabulary = Vocabulary(dictionary, read_list(model_list), model_list, pronunciation_scale)
+    sources = ModelFiles(macros)
     if network is not None:
-        recognizer = Recognizer(models, words, WordLattice.read(network), options)
-        recognizer_of = lambda _: recognizer  # noqa: E731
+        lattice = WordLattice.read(network)
+        require_words(lattice, network, vocabulary.dictionary, dictionary)
+        words = [word for word in lattice.words if word != NULL]
+        lattice_of: Callable[[DataFile], WordLattice] = lambda _: lattice  # noqa: E731
+    else:
+        edge = [] if boundary is None else [boundary]
+        if boundary is not None and not vocabulary.has(boundary):
+            raise FormatError(f"{dictionary}: does not have the word {boundary!r}, of -b")
+        references = References(masters, label_folder, suffix)
+        said = transcripts_of([file.name for file in recordings], references, vocabulary)
+        words = [*edge, *(label.name for labels in said.values() for label in labels)]
+        lattice_of = lambda file: WordLattice.of_words(  # noqa: E731
+            [*edge, *(label.name for label in said[file.name]), *edge]
+        )
+    selected = vocabulary.select(words, sources, model_folder, model_suffix)
+    period = check_headers(recordings, sources.models, configuration)
+
+    def recognizer_of(file: DataFile, beam: float) -> Recognizer:
+        options = ConnectedDecoderOptions(beam=beam, language_scale=scale, insertion_penalty=penalty)
+        try:
+            return Recognizer(sources.models, selected, lattice_of(file), options)
+        except InvalidArgument as error:
+            raise FormatError(f"{network or file.name}: {error}") from error
+
+    shared = None if network is None else [recognizer_of(recordings[0], beam) for beam in beams]
     entries = []
-    for name in all_arguments(files, scripts):
-        frames, period = load_observations(name, models.kind, configuration)
-        path = Path(name).with_suffix(f".{out_suffix}")
+    for file in recordings:
+        frames = load_frames(file, sources.models.kind, configuration)
+        path = Path(file.name).with_suffix(f".{out_suffix}")
         target = path if folder is None else Path(folder, path.name)
         lattice_path = None if lattice_suffix is None else target.with_suffix(f".{lattice_suffix}")
-        sentences = _recognised(recognizer_of(name), frames, num_sentences, lattice_path, period)
+        recognizers = iter(shared) if shared is not None else (recognizer_of(file, beam) for beam in beams)
+        recognizer, sentences = _first_found(recognizers, frames, num_sentences, lattice_path, period)
         if not sentences:
-            note(f"{name}: no sentence of the network ends with the recording")
+            note(f"{file.name}: no sentence of the network ends with the recording")
             continue
-        sentence = sentences[0]
-        first, *others = (_labels(one, period, leave_out) for one in sentences)
+        all_labels = []
+        for one in sentences:
+            aligned = recognizer.align(frames, one) if form.is_aligned else []
+            names = [vocabulary.logical(word.pronunciation) for word in one.words]
+            all_labels.append(form.labels(one, aligned, names, period))
+        first, *others = all_labels
         found = Transcription(first, others)
         entries.append((str(target), found))
         if trace:
-            said = " ".join(label.name for label in found.labels)
-            click.echo(f"File: {name}\n{said}  ==  [{len(frames)} frames] {sentence.log_score / len(frames):.4f}")
+            spoken = " ".join(word.output for word in sentences[0].words if word.output)
+            score = sentences[0].log_score / len(frames)
+            click.echo(f"File: {file.name}\n{spoken}  ==  [{len(frames)} frames] {score:.4f}")
         if master is None:
             make_folder(target.parent)
             found.write(target)
     if master is not None:
         make_folder(Path(master).parent)
         MasterLabelFile(entries).write(master)
+
+
+def _first_found(
+    recognizers: Iterator[Recognizer],
+    frames: NDArray[np.float32],
+    num_sentences: int,
+    lattice_path: Path | None,
+    period: int,
+) -> tuple[Recognizer, list[RecognisedSentence]]:
+    """Sentences by the first of the recognisers, whose beams grow, that finds any; and that one, or the last."""
+    for recognizer in recognizers:
+        found = _recognised(recognizer, frames, num_sentences, lattice_path, period)
+        if found:
+            break
+    return recognizer, found
 
 
 def _recognised(
@@ -203,32 +295,3 @@ def _recognised(
         make_folder(lattice_path.parent)
         WordLattice.of_lattice(lattice, recognizer.words, 0.0, period * UNIT_S).write(lattice_path)
     return found
-
-
-def _physical(dictionary: Dictionary, names: dict[str, str]) -> Dictionary:
-    """The dictionary with physical models for the logical ones of the list."""
-    entries = []
-    for entry in dictionary.entries:
-        for model in entry.models:
-            if model not in names:
-                raise FormatError(f"the list of models does not have {model!r}, of the word {entry.word!r}")
-        entries.append(Pronunciation(entry.word, [names[m] for m in entry.models], entry.output, entry.probability))
-    return Dictionary(entries)
-
-
-def _labels(sentence: RecognisedSentence, period: int, leave_out: str) -> list[Label]:
-    labels = []
-    for word in sentence.words:
-        if not word.output:
-            continue
-        frames = word.last_frame - word.first_frame
-        score = word.log_score / frames if "N" in leave_out else word.log_score
-        first, last = word.first_frame * period, word.last_frame * period
-        label = Label(
-            word.output,
-            None if "T" in leave_out else first,
-            None if "T" in leave_out else last,
-            None if "S" in leave_out else round(score, 6),
-        )
-        labels.append(label)
-    return labels

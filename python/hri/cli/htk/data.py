@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Recordings that tools read: their names in scripts, and what their headers agree on before anything is done."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.cli.htk.options import all_arguments
+from hri.core.errors import FormatError, InvalidArgument
+from hri.htk import Configuration, ModelSet, ParameterFile, load_observations, read_header
+
+UNITS_PER_MS = 10_000
+_EXTENDED = re.compile(r"(?:(?P<name>[^=]+)=)?(?P<path>[^=\[\]]+)(?:\[(?P<first>\d{1,12}),(?P<last>\d{1,12})\])?")
+
+
+@dataclass(frozen=True)
+class DataFile:
+    """A recording, or a part of it.
+
+    Attributes
+    ----------
+    name : str
+        By which its labels are found, and under which its results go.
+    path : str
+    first, last : int or None
+        Frames of the part, both included; None: all.
+    """
+
+    name: str
+    path: str
+    first: int | None = None
+    last: int | None = None
+
+    def cut(self, frames: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Frames of the part. Raises FormatError where the file has less."""
+        if self.first is None or self.last is None:
+            return frames
+        if self.last >= len(frames):
+            raise FormatError(f"{self.path}: has {len(frames)} frames, none with number {self.last}")
+        return frames[self.first : self.last + 1]
+
+
+def data_files(given: Sequence[str], scripts: Iterable[str], what: str) -> list[DataFile]:
+    """The recordings of the command line and of scripts: `path`, `name=path`, each perhaps with `[first,last]`.
+
+    Raises
+    ------
+    click.UsageError
+        Where there is none: `what` is then the message.
+    FormatError
+        For parts that end before they begin.
+    """
+    files = [_data_file(text) for text in all_arguments(given, scripts)]
+    if not files:
+        raise click.UsageError(what)
+    return files
+
+
+def _data_file(text: str) -> DataFile:
+    match = _EXTENDED.fullmatch(text)
+    if Path(text).is_file() or match is None:
+        return DataFile(text, text)
+    path, name = match["path"], match["name"] or match["path"]
+    if match["first"] is None:
+        return DataFile(name, path)
+    first, last = int(match["first"]), int(match["last"])
+    if last < first:
+        raise FormatError(f"{text}: the part ends before it begins")
+    return DataFile(name, path, first, last)
+
+
+def check_headers(files: Sequence[DataFile], models: ModelSet, configuration: Configuration) -> int:
+    """The sample period of all files, in 100 ns, once every one can become what the models take.
+
+    Raises
+    ------
+    IoError, FormatError
+        For a file that cannot be read, and one of another kind, size or sample period; names it.
+    """
+    period, before = 0, ""
+    checked: set[str] = set()
+    for file in files:
+        if file.path in checked:
+            continue
+        checked.add(file.path)
+        of_file = _check_header(file.path, models, configuration)
+        if period and of_file != period:
+            raise FormatError(
+                f"{file.path}: a frame each {of_file} * 100 ns, where {before} has one each {period} * 100 ns"
+            )
+        if not period:
+            period, before = of_file, file.path
+    return period
+
+
+def _check_header(path: str, models: ModelSet, configuration: Configuration) -> int:
+    target = round(configuration.features.frame_shift_ms * UNITS_PER_MS)
+    kind = configuration.target if configuration.source_format == "WAV" else read_header(path).kind
+    if kind.startswith("WAVEFORM") or configuration.source_format == "WAV":
+        if not Path(path).is_file():
+            raise FormatError(f"{path}: there is no such file")
+        _check_kind(path, configuration.target, None, models, configuration)
+        if not configuration.has_target_rate:
+            raise FormatError(f"{path}: TARGETRATE is not set in any configuration file")
+        return target
+    header = read_header(path)
+    _check_kind(path, header.kind, header.num_columns, models, configuration)
+    if configuration.has_target_rate and header.sample_period != target:
+        raise FormatError(
+            f"{path}: a frame each {header.sample_period} * 100 ns, where TARGETRATE says {target} * 100 ns"
+        )
+    return header.sample_period
+
+
+def _check_kind(path: str, kind: str, columns: int | None, models: ModelSet, configuration: Configuration) -> None:
+    """Whether frames of this kind can become what models take; of as many columns, if they are known."""
+    wanted = models.kind
+    if columns is None:
+        if wanted != "ANON" and kind.split("_")[0] != wanted.split("_")[0]:
+            raise FormatError(f"{path}: becomes {kind} by the configuration, and the models take {wanted}")
+        return
+    try:
+        # One frame of zeros goes the way that all will go.
+        frame = ParameterFile(np.zeros((1, columns), np.float32), kind, UNITS_PER_MS)
+        file = frame.convert(configuration.written_kind(kind), configuration.features)
+        seen = file.observations(file.kind if wanted == "ANON" else wanted, configuration.features)
+    except InvalidArgument as error:
+        raise FormatError(f"{path}: its frames are {kind}, and the models take {wanted}: {error}") from error
+    if models.vector_size and seen.shape[1] != models.vector_size:
+        raise FormatError(
+            f"{path}: {seen.shape[1]} columns as {wanted}, and the models take vectors of {models.vector_size}"
+        )
+
+
+def load_frames(file: DataFile, kind: str, configuration: Configuration) -> NDArray[np.float32]:
+    """Frames as models of this kind see them; errors as of `load_observations`, with the file."""
+    try:
+        frames, _ = load_observations(file.path, kind, configuration)
+    except InvalidArgument as error:
+        raise FormatError(f"{file.path}: {error}") from error
+    return file.cut(frames)

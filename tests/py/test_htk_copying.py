@@ -1,0 +1,195 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Options of `hri htk` copy, list, parse, sgen and results, one by one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conftest import RATE_HZ, tone_word
+from hri.htk import MasterLabelFile, ParameterFile, Transcription
+from hri.io import write_wav_pcm16
+from htk_toys import make_words, make_work, succeed
+
+
+@pytest.fixture
+def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    make_work(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def words(work: Path) -> Path:
+    make_words(work)
+    return work
+
+
+def test_sgen_and_parse_take_their_options(hri, words: Path):
+    succeed(hri("htk", "parse", "-l", "-d", "made.dict", "gram", "made.net"))
+    assert Path("made.dict").read_text() == "up up\ndown down\n"
+    assert "l=-0.69314" in Path("made.net").read_text()
+    shown = succeed(hri("htk", "sgen", "-q", "-s", "-n", 300, "net", "dict")).splitlines()
+    assert shown[0] == "Number of Nodes = 4 [2 words], Vocab Size = 2"
+    # Two of three times: one word of two, then perhaps another.
+    entropy = float(shown[1].split("Entropy = ")[1].split(",")[0])
+    assert 1.0 < entropy < 1.35 and shown[1].endswith(f"Perplexity = {2**entropy:.6f}") is not None
+    assert shown[2].startswith("300 Sentences: average len = 1.") and shown[2].endswith("min=1, max=2")
+
+
+def test_results_take_their_options(hri, work: Path):
+    Path("list").write_text("a\nb\nx-a+y\n")
+    Path("ref.mlf").write_text('#!MLF!#\n"*/s1_ann.lab"\na\nb\n.\n"*/s2_ann.lab"\nb\n.\n"*/s1_bob.lab"\na\n.\n')
+    Path("rec.mlf").write_text(
+        '#!MLF!#\n"*/s1_ann.rec"\nx-a+y\n///\na\nb\n.\n"*/s2_ann.rec"\nA\n.\n"*/s1_bob.rec"\na\nb\n.\n'
+    )
+    given = ("-I", "ref.mlf", "list", "rec.mlf")
+    refused = hri("htk", "results", *given)
+    assert refused.code == 3 and "rec.mlf: line 9: the list list does not have 'A'" in refused.err
+    out = succeed(hri("htk", "results", "-c", "-s", *given))
+    assert "SENT: %Correct=0.00 [H=0, S=3, N=3]" in out and "[H=2, D=1, S=1, I=1, N=4]" in out
+    out = succeed(hri("htk", "results", "-c", "-d", 2, "-a", "CLIP", "-b", "UNIT", *given))
+    assert "CLIP: %Correct=33.33" in out and "UNIT: %Corr=75.00, Acc=50.00 [H=3, D=0, S=1, I=1, N=4]" in out
+    out = succeed(hri("htk", "results", "-c", "-s", "-m", 1, *given))
+    assert "[H=1, D=1, S=0, I=0, N=2]" in out
+    out = succeed(hri("htk", "results", "-c", "-s", "-z", "b", *given))
+    assert "[H=2, D=0, S=0, I=1, N=2]" in out
+    out = succeed(hri("htk", "results", "-c", "-s", "-k", "*_%%%.rec", *given))
+    assert "Speaker ann: WORD: %Corr=33.33" in out and "Speaker bob: WORD: %Corr=100.00, Acc=0.00" in out
+    wrong = hri("htk", "results", "-c", "-s", "-k", "*_%%.rec", *given)
+    assert wrong.code == 3 and "is not as the mask '*_%%.rec' has it" in wrong.err
+    rows = succeed(hri("htk", "results", "-c", "-s", "-p", *given)).split("Confusion Matrix")[1].splitlines()[1:]
+    assert rows[0].split() == ["A", "B", "Del", "%c"]
+    assert rows[1].split() == ["A", "2", "0", "0", "100.0"] and rows[2].split() == ["B", "1", "0", "1", "0.0"]
+    assert rows[3].split() == ["Ins", "0", "1"]
+    table = succeed(hri("htk", "results", "-h", "-c", "-s", "-k", "*_%%%.rec", *given))
+    assert "Usage" not in table
+    row = next(line for line in table.splitlines() if line.startswith("| Sum/Avg"))
+    assert row.replace("|", " ").split() == ["Sum/Avg", "3", "50.00", "25.00", "25.00", "25.00", "75.00", "100.00"]
+    assert any(line.startswith("| ann ") for line in table.splitlines())
+    Path("ref.mlf").write_text('#!MLF!#\n"*/s1_ann.lab"\na\nc\n.\n')
+    Path("folder.mlf").write_text('#!MLF!#\n"*" -> "labels"\n')
+    refused = hri("htk", "results", "-I", "ref.mlf", "list", "folder.mlf")
+    assert refused.code == 3 and "folder.mlf: '*' names a folder; labels have to stand here" in refused.err
+    refused = hri("htk", "results", "-s", "-m", 1, *given)
+    assert refused.code == 3 and "ref.mlf: line 4: the list list does not have 'c'" in refused.err
+
+
+@pytest.fixture
+def sounds(work: Path) -> Path:
+    for name, base in (("one", 500.0), ("two", 900.0)):
+        write_wav_pcm16(work / f"{name}.wav", tone_word(base, 0, 1)[:16000], RATE_HZ)
+    Path("config").write_text("SOURCEFORMAT = WAV\nTARGETKIND = MFCC_0\nTARGETRATE = 100000\nSAVEWITHCRC = F\n")
+    Path("labels").mkdir()
+    Path("labels/one.lab").write_text(
+        "0 2000000 sil\n2000000 6000000 word\n6000000 8000000 sil\n8000000 10000000 word\n"
+    )
+    return work
+
+
+def test_copy_cuts_and_joins(hri, sounds: Path):
+    def coded(*arguments: object) -> ParameterFile:
+        succeed(hri("htk", "copy", "-C", "config", *arguments))
+        return ParameterFile.read(str(arguments[-1]))
+
+    whole = coded("one.wav", "whole.mfc")
+    part = coded("-s", 2_000_000, "-e", 6_000_000, "one.wav", "part.mfc")
+    assert len(whole.values) == 98 and len(part.values) == 38
+    np.testing.assert_allclose(part.values, whole.values[20:58], atol=1e-4)
+    for option in (("-n", 2), ("-x", "word"), ("-n", -3), ("-x", "word", 1)):
+        named = coded(*option, "-L", "labels", "one.wav", "named.mfc")
+        np.testing.assert_array_equal(named.values, part.values)
+    assert len(coded("-n", 2, 3, "-L", "labels", "one.wav", "n.mfc").values) == 58
+    assert len(coded("-x", "word", 1, "-m", 500_000, "-L", "labels", "one.wav", "m.mfc").values) == 48
+    joined = coded("one.wav", "+", "two.wav", "both.mfc")
+    assert len(joined.values) == 198
+    # Parameter files are cut and joined by frames.
+    Path("plain").write_text("SAVEWITHCRC = F\n")
+    succeed(
+        hri("htk", "copy", "-C", "plain", "-s", 2_000_000, "-e", 3_000_000, "whole.mfc", "+", "whole.mfc", "cut.mfc")
+    )
+    np.testing.assert_array_equal(ParameterFile.read("cut.mfc").values, np.tile(whole.values[20:30], (2, 1)))
+
+
+def test_copy_takes_labels_along(hri, sounds: Path):
+    given = ("-C", "config", "-L", "labels", "-s", 1_000_000, "-e", 7_000_000)
+    succeed(hri("htk", "copy", *given, "-i", "new.mlf", "-l", "cut", "one.wav", "+", "one.wav", "both.mfc"))
+    expected = [
+        ("sil", 0, 1_000_000),
+        ("word", 1_000_000, 5_000_000),
+        ("sil", 5_000_000, 6_000_000),
+        ("sil", 6_000_000, 7_000_000),
+        ("word", 7_000_000, 11_000_000),
+        ("sil", 11_000_000, 12_000_000),
+    ]
+    for labels in (Transcription.read("cut/both.lab").labels, MasterLabelFile.read("new.mlf").entries[0][1].labels):
+        assert [(label.name, label.first, label.last) for label in labels] == expected
+    for option, message in (
+        (("-x", "other"), "has no label 'other' number 1"),
+        (("-n", 3, 9), "has 4 labels, and not those from 3 to 9"),
+        (("-a", 2, "-n", 1), "has 1 alternatives, no number 2"),
+        (("-s", 5_000_000, "-e", 4_000_000), "nothing is left between"),
+        (("-e", 90_000_000), "ends before 90000000"),
+    ):
+        refused = hri("htk", "copy", "-C", "config", "-L", "labels", *option, "one.wav", "no.mfc")
+        assert refused.code == 3 and message in refused.err and not Path("no.mfc").exists()
+    assert hri("htk", "copy", "-C", "config", "one.wav", "+", "no.mfc").code == 2
+    refused = hri("htk", "copy", "-C", "config", "-F", "HTK", "one.wav", "no.mfc")
+    assert refused.code == 3 and "one.wav: is a WAV file, which SOURCEFORMAT = WAV, or -F WAV, reads" in refused.err
+
+
+def test_list_shows_target_and_structure(hri, sounds: Path):
+    Path("config").write_text("SOURCEFORMAT = WAV\nTARGETKIND = MFCC_0_D\nTARGETRATE = 100000\nNUMCEPS = 2\n")
+    shown = succeed(hri("htk", "list", "-C", "config", "-t", "-o", "-z", "one.wav"))
+    assert "Target: one.wav" in shown and "Sample Kind:   MFCC_D_K_0" in shown and "\n0:" not in shown
+    assert shown.splitlines()[-1] == "MFCC-1 MFCC-2 C0 Del-1 Del-2 DelC0"
+    shown = succeed(hri("htk", "list", "-C", "config", "-s", 3, "-e", 4, "one.wav"))
+    assert [line.split(":")[0] for line in shown.splitlines()] == ["3", "4"]
+    assert hri("htk", "list", "-t", "u0.usr").code == 2
+
+
+def test_copy_makes_kinds_of_those_that_say_more(hri, sounds: Path):
+    """Filters become cepstra, and a predictor its cepstra, as the recording itself does; others are refused."""
+    for source, target in (("FBANK_E", "MFCC_E_D"), ("LPC", "LPCEPSTRA"), ("LPC", "LPREFC"), ("MELSPEC", "MFCC_0")):
+        text = "SOURCEFORMAT = WAV\nTARGETRATE = 100000\nNUMCHANS = 24\nNUMCEPS = 10\nSAVEWITHCRC = F\n"
+        for name, kind in (("source", source), ("target", target)):
+            Path("config").write_text(f"{text}TARGETKIND = {kind}\n")
+            succeed(hri("htk", "copy", "-C", "config", "one.wav", f"{name}.par"))
+        succeed(hri("htk", "copy", "-C", "config", "-F", "HTK", "source.par", "made.par"))
+        made, expected = ParameterFile.read("made.par"), ParameterFile.read("target.par")
+        assert made.kind == expected.kind == ParameterFile.read("target.par").kind
+        np.testing.assert_allclose(made.values, expected.values, rtol=0, atol=1e-4 * np.abs(expected.values).max())
+    Path("config").write_text("TARGETKIND = FBANK\n")
+    refused = hri("htk", "copy", "-C", "config", "target.par", "no.par")
+    assert refused.code != 0 and "cannot become FBANK" in refused.err and not Path("no.par").exists()
+
+
+def test_results_count_keywords_by_their_times(hri, work: Path):
+    """Half an hour: five false alarms an hour. What ranks above each of them, by hand."""
+    hour = 36_000_000_000
+    Path("list").write_text("fire\nhelp\n")
+    said = "0 100 fire\n100 200 other\n1000 2000 fire\n3000 4000 fire\n5000 6000 help\n"
+    Path("said.mlf").write_text(f'#!MLF!#\n"*/a.lab"\n{said}{hour // 2 - 9} {hour // 2} other\n.\n')
+    # By score: hit, false alarm, hit, false alarm (its label is taken), a word that is no keyword, hit of help.
+    found = (
+        "10 90 fire -1\n200 300 fire -2\n900 2000 fire -3\n1100 1900 fire -4\n2000 2500 other 5\n5100 5200 help -9\n"
+    )
+    Path("found.mlf").write_text(f'#!MLF!#\n"*/a.rec"\n{found}.\n')
+    rows = succeed(hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")).splitlines()
+    cells = {row.split(":")[0].strip(): row.split(":")[1].split() for row in rows[2:5]}
+    # N = 5: after one hit of three, then two for good.
+    assert cells["fire"] == ["2", "2", "3", f"{(100 / 3 + 4 * 200 / 3) / 5:.2f}"]
+    assert cells["help"] == ["1", "0", "1", "100.00"]
+    assert cells["Overall"][:3] == ["3", "2", "4"]
+    rows = succeed(hri("htk", "results", "-w", "-u", 2.5, "-I", "said.mlf", "list", "found.mlf")).splitlines()
+    # 2 false alarms in 2.5 hours.
+    assert rows[2].split()[-1] == f"{(100 / 3 + 200 / 3) / 2:.2f}"
+    Path("found.mlf").write_text('#!MLF!#\n"*/a.rec"\n0 100 fire\n.\n')
+    refused = hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")
+    assert refused.code == 3 and "found.mlf: line 3: the keyword 'fire' has no score" in refused.err
+    Path("found.mlf").write_text('#!MLF!#\n"*/a.rec"\nfire -3\n.\n')
+    refused = hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")
+    assert refused.code == 3 and "found.mlf: line 3: the label 'fire' has no times" in refused.err
