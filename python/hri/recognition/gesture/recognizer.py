@@ -76,9 +76,11 @@ class GestureRecognizer(Recognizer):
         return {**super().__getstate__(), "faces": self.faces}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        if not isinstance(state, dict) or not isinstance(faces := state.get("faces", 0), str | None):
+        faces = state.get("faces", 0) if isinstance(state, dict) else None
+        if not isinstance(faces, str | None):
             raise FormatError(f"the state of {type(self).__name__} must have faces, a text or None")
-        super().__setstate__({name: value for name, value in state.items() if name != "faces"})
+        own = {name: value for name, value in state.items() if name != "faces"} if isinstance(state, dict) else state
+        super().__setstate__(own)
         self.faces = faces
 
     def features(self, clip: ClipInput) -> NDArray[np.float32]:
