@@ -33,8 +33,8 @@ TRACK_COLUMNS = 3
 TRACK_SCALE = 10.0
 """A tenth of the picture counts as much as one unit of shape."""
 TOLERANCE = 5
-OPTIONS: dict[str, Any] = {"language_order": 0, "max_variant_frames": 0}
-"""One model a word: with variants a stream names gestures that go on otherwise than those that have ended."""
+ONE_MODEL: dict[str, Any] = {"max_variant_frames": 0}
+"""A word has one model: as in the thesis, and fast enough for a stream of pictures."""
 SEED = 0
 MODELS = ("hmm", "ptbhmm")
 FRAMES, WHOLE = "word models", "word models, then whole gestures"
@@ -139,14 +139,14 @@ def read_gesture_clips(data_dir: Path, progress: Progress) -> list[GestureClip]:
     return clips
 
 
-def train_words(clips: Sequence[GestureClip], shapes: Shapes, model: Any) -> SentenceRecognizer:
+def train_words(clips: Sequence[GestureClip], shapes: Shapes, model: Any, **options: Any) -> SentenceRecognizer:
     """On joined clips of one condition each; the insertion penalty is chosen on conditions held out."""
     sentences, groups = [], []
     for number, condition in enumerate(sorted({clip.condition for clip in clips})):
         made = sentences_of([clip for clip in clips if clip.condition == condition], None, SEED + 1 + number)
         sentences += made
         groups += [condition] * len(made)
-    recognizer = SentenceRecognizer(input="rows", model=model, **OPTIONS)
+    recognizer = SentenceRecognizer(input="rows", model=model, language_order=0, **options)
     return recognizer.fit([shapes(s.rows) for s in sentences], [s.spans for s in sentences], groups=groups)
 
 
@@ -208,7 +208,7 @@ def _run(
     rows = [counted.row(frames_between=gap, model=name, names=names) for (gap, name, names), counted in counts.items()]
     return {
         "seed": SEED,
-        "options": SentenceRecognizer(input="rows", **OPTIONS).options.as_dict(),
+        "options": SentenceRecognizer(input="rows", language_order=0).options.as_dict(),
         "insertion_penalty": penalties,
         "ms_a_frame": {name: 1000 * took_s[name] / num_frames[name] for name in model},
         "rows": rows,

@@ -19,7 +19,7 @@ from hri.language import WordErrors, count_word_errors
 from hri.media import read_frames
 from hri.models import PCA
 from hri.recognition import SentenceRecognizer
-from hri.studies.gesture_sentences import OPTIONS, SEED, GestureClip, sentences_of, train_words
+from hri.studies.gesture_sentences import ONE_MODEL, SEED, GestureClip, sentences_of, train_words
 from hri.studies.hybrid_features import FAMILIES, NUM_FRAMES, NUM_PARTS, SEEDS, moving_frames
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.sign_features import FEATURES as SIGN_FEATURES
@@ -218,7 +218,7 @@ def _run_sentences(
             for done, condition in enumerate(conditions):
                 train = [clip for clip in clips if clip.condition != condition]
                 histograms: Callable[[Rows], Rows] = _Histograms(train)
-                words = train_words(train, histograms, name)  # type: ignore[arg-type]
+                words = train_words(train, histograms, name, **ONE_MODEL)  # type: ignore[arg-type]
                 sentences = sentences_of([clip for clip in clips if clip.condition == condition], GAP, SEED)
                 truth = [s.labels for s in sentences]
                 found = [list(words.recognise(histograms(s.rows)).labels) for s in sentences]
@@ -238,7 +238,7 @@ def _run_sentences(
                     "over_all": {"word_error": total.rate, **vars(total)},
                 }
             )
-    options = SentenceRecognizer(input="rows", **OPTIONS).options.as_dict()
+    options = SentenceRecognizer(input="rows", language_order=0, **ONE_MODEL).options.as_dict()
     return {"seed": SEED, "options": options, "rows": rows, "passed": None}
 
 

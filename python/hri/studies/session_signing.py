@@ -19,6 +19,7 @@ from hri.recognition import GestureRecognizer, SentenceRecognizer, SentenceStrea
 from hri.session import Session
 from hri.studies.counted_words import CountedWords
 from hri.studies.gesture_sentences import (
+    ONE_MODEL,
     GestureClip,
     Shapes,
     clips_together,
@@ -113,7 +114,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         shapes = Shapes(train)
         gestures = GestureRecognizer(source="silhouettes")
         gestures.fit_features([seen_rows(clip.rows) for clip in train], [clip.label for clip in train])
-        words = train_words(train, shapes, "hmm")
+        words = train_words(train, shapes, "hmm", **ONE_MODEL)
         rows = GestureRows(gestures, shapes, names=True, faces="never")
         together = clips_together(test, np.random.default_rng(SEED))
         found: dict[str, list[list[str]]] = {way: [] for way in counts}
