@@ -41,7 +41,7 @@ struct StateDefinition {
   std::string macro;  ///< of a ~s
   int num_mixtures = 1;
   std::vector<WeightedComponent> components;
-  std::string tied;  ///< of <TMix>: its Gaussians are the ~m of this name and a number from 1
+  std::string tied;  ///< of TMix: its Gaussians are the ~m of this name and a number from 1
 };
 
 struct TransitionDefinition {
@@ -74,7 +74,7 @@ struct HRI_API ModelSet {
   /// Adds what a file defines; macros of files before may be used. Throws IoError; FormatError
   /// naming file and line for whatever is no such definition, and for what is not read: binary
   /// files, several streams, full covariances, durations, discrete models. States of tied mixtures
-  /// (<TMix>) have all Gaussians of the set.
+  /// (TMix) have all Gaussians of the set.
   void read(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   void parse(const std::string& text, const std::string& name);
