@@ -58,7 +58,8 @@ def test_a_nao_hears_speaks_and_moves_behind_the_page_until_it_is_switched_off(
         )  # fmt: skip
         with connected(server, cookie) as page:
             page.await_event("motion_start", label="flat")
-            while not any("HeadYaw" in asked for _, asked in nao.motion.sent):
+            # The voice has a thread of its own, which may be later than the motion.
+            while not (nao.voice.said and any("HeadYaw" in asked for _, asked in nao.motion.sent)):
                 time.sleep(0.02)
             nao.close()  # in mid-motion
             ended = page.await_event("motion_end", fault=True)
