@@ -101,6 +101,7 @@ SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
 
 void SentenceRecognizer::check_variants() const {
   int before = 0;
+  Eigen::Index num_transitions = 0;
   for (const SignVariant& variant : *variants_) {
     require(variant.word >= before && static_cast<std::size_t>(variant.word) < labels_.size(),
             "variants are not in the order of the labels");
@@ -109,6 +110,10 @@ void SentenceRecognizer::check_variants() const {
     require(variant.frames.rows() > 0 && variant.frames.cols() == word.dim() &&
                 variant.states.size() == static_cast<std::size_t>(variant.frames.rows()),
             "variants have frames that do not fit the models");
+    const Eigen::Index length = variant.frames.rows();
+    num_transitions += length * length;
+    require(length <= detail::kLongestVariant && num_transitions <= detail::kMostTransitions,
+            "variants are too long");
     require(variant.frames.allFinite(), "variants have frames that are not finite");
     require(std::all_of(variant.states.begin(), variant.states.end(),
                         [&word](int state) { return state >= 0 && state < word.num_states(); }),
@@ -210,22 +215,23 @@ std::vector<DecodedWord> SentenceRecognizer::named(std::vector<DecodedWord> word
   return words;
 }
 
-// Without what lies between the words, and without the margins that reach into it.
+// Without what lies between the words, and without the margins that reach into it. A first and a
+// last word that nothing lies beside have no margin there, and may not have ended.
 RecognisedSentence SentenceRecognizer::sentence_of(double log_score,
                                                    const std::vector<DecodedWord>& words) const {
   RecognisedSentence sentence;
   sentence.log_score = log_score;
-  const auto is_word = [&](std::size_t i) {
-    return i < words.size() && words[i].model < static_cast<int>(labels_.size());
+  const auto lies_between = [&](std::size_t i) {
+    return i < words.size() && words[i].model == static_cast<int>(labels_.size());
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (!is_word(i)) continue;
+    if (lies_between(i)) continue;
     RecognisedSign sign{labels_[static_cast<std::size_t>(words[i].model)], words[i].first_frame,
                         words[i].last_frame, words[i].log_score};
     const std::int64_t spare = std::min<std::int64_t>(options_.margin_frames,
                                                       (sign.last_frame - sign.first_frame - 1) / 2);
-    if (!is_word(i - 1)) sign.first_frame += spare;
-    if (!is_word(i + 1)) sign.last_frame -= spare;
+    if (i > 0 && lies_between(i - 1)) sign.first_frame += spare;
+    if (lies_between(i + 1)) sign.last_frame -= spare;
     sentence.words.push_back(std::move(sign));
   }
   return sentence;

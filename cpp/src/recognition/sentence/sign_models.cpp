@@ -15,12 +15,11 @@ namespace {
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kLeastStay = 0.05;
 constexpr double kMostStay = 0.98;
-constexpr double kPooledFrames = 2;  // that the variances of all words weigh
+constexpr double kPooledShare = 2.0 / 3;  // of a recording: what the variances of all words weigh
 constexpr double kLeastVariance = 1e-8;
 // Of a frame of a recording that is followed.
 constexpr double kVariantStay = 0.33;
 constexpr double kVariantSkip = 0.2;
-constexpr Eigen::Index kLongestVariant = 1000;
 
 // Sums over the frames of the states of a word.
 struct SignSums {
@@ -114,10 +113,12 @@ class ViterbiTrainer {
     stays_.clear();
     for (std::size_t c = 0; c < words_.size(); ++c) {
       const SignSums& sums = sums_[c];
-      MatrixD variances = sums.squares.rowwise() + kPooledFrames * pooled;
-      variances.array().colwise() /= sums.counts.array() + kPooledFrames;
-      variances_.push_back(std::move(variances));
       const auto num_recordings = static_cast<double>(words_[c].size());
+      // Frames of one state are alike, so that it is recordings that count.
+      const double prior = kPooledShare * sums.counts.sum() / (num_recordings * num_states_[c]);
+      MatrixD variances = sums.squares.rowwise() + prior * pooled;
+      variances.array().colwise() /= sums.counts.array() + prior;
+      variances_.push_back(std::move(variances));
       stays_.emplace_back((1 - (sums.counts.array() / num_recordings).max(1.0).inverse())
                               .max(kLeastStay)
                               .min(kMostStay));
@@ -196,9 +197,12 @@ class ViterbiTrainer {
     for (const MatrixF& r : words_[c]) num_frames += static_cast<std::size_t>(r.rows());
     const auto most = static_cast<std::size_t>(options_.max_variant_frames);
     const std::size_t num = std::min(num_recordings, most * num_recordings / num_frames);
+    Eigen::Index left = kMostTransitions / static_cast<Eigen::Index>(words_.size());
     for (std::size_t i = 0; i < num; ++i) {
       const std::size_t r = i * num_recordings / num;
-      if (words_[c][r].rows() > kLongestVariant) continue;
+      const Eigen::Index length = words_[c][r].rows();
+      if (length > kLongestVariant || length * length > left) continue;
+      left -= length * length;
       variants->push_back({static_cast<int>(c), words_[c][r], paths_[c][r]});
     }
   }

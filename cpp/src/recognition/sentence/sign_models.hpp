@@ -15,6 +15,10 @@
 
 namespace hri::detail {
 
+/// Frames of a variant, and transitions between the frames of all variants, at most.
+inline constexpr Eigen::Index kLongestVariant = 1000;
+inline constexpr Eigen::Index kMostTransitions = Eigen::Index{1} << 24;
+
 struct SignModels {
   std::vector<GaussianMixtureHmm> hmms;  ///< of every word, left-right
   VectorD final_stays;                   ///< of every word, to stay in the last state

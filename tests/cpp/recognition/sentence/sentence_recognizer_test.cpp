@@ -318,6 +318,19 @@ TEST(SentenceRecognizer, MarginsReachBeyondWordsAndAreNotPartOfThem) {
   }
 }
 
+TEST(SentenceRecognizer, WordThatGoesOnKeepsItsLastFrame) {
+  SentenceRecognizerOptions options = options_of_ways(1000);
+  options.margin_frames = 3;
+  const SentenceRecognizer recognizer = SentenceRecognizer::train(two_ways(), options);
+  const MatrixF tracks = two_ways()[1].tracks;
+  const RecognisedSentence begun = recognizer.recognise_begun(tracks.topRows(32), 0);
+  ASSERT_EQ(begun.text(), "both middle");
+  EXPECT_EQ(begun.words[1].last_frame, 32);
+  const RecognisedSentence late = recognizer.recognise(tracks.bottomRows(tracks.rows() - 7));
+  ASSERT_EQ(late.text(), "both middle");
+  EXPECT_EQ(late.words[0].first_frame, 0);
+}
+
 TEST(SentenceRecognizer, RefusesVariantsThatDoNotFit) {
   const SentenceRecognizer& r = trained_by_signs();
   const auto refused = [&r](const std::vector<SignVariant>& variants) {
@@ -338,6 +351,17 @@ TEST(SentenceRecognizer, RefusesVariantsThatDoNotFit) {
   refused(changed([](auto& v) { v.front().states.pop_back(); }));
   refused(changed([](auto& v) { v.front().frames.conservativeResize(Eigen::NoChange, 2); }));
   refused(changed([](auto& v) { v.front().frames(0, 0) = std::nanf(""); }));
+  // Chains have a matrix of frames by frames.
+  const auto lengthened = [&changed](int length) {
+    return changed([length](auto& v) {
+      v.back().frames = MatrixF::Zero(length, v.back().frames.cols());
+      v.back().states.assign(static_cast<std::size_t>(length), 0);
+    });
+  };
+  refused(lengthened(1001));
+  std::vector<SignVariant> many = lengthened(1000);
+  many.insert(many.end(), 20, many.back());
+  refused(many);
 }
 
 TEST(SentenceRecognizer, RefusesFilesWhoseVariantsContradictThemselves) {
@@ -370,7 +394,9 @@ TEST(SentenceRecognizer, NBestSentencesDifferInTheirWords) {
   std::set<std::string> texts;
   for (std::size_t i = 0; i < found.size(); ++i) {
     texts.insert(found[i].text());
-    if (i > 0) EXPECT_LE(found[i].log_score, found[i - 1].log_score);
+    if (i > 0) {
+      EXPECT_LE(found[i].log_score, found[i - 1].log_score);
+    }
   }
   EXPECT_EQ(texts.size(), found.size());
   EXPECT_THROW(trained_by_signs().recognise_n_best(sample.tracks, 0), InvalidArgument);
