@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Speed against named peers: the same process, the same input, one thread, medians of runs in turns.
 
-ratio is the peer's time over ours: above 1 we are faster.
+ratio is the peer's time over ours: above 1 we are faster. A bench whose recordings or extra are absent is skipped.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ import bench_person
 import bench_possibility
 import bench_robot
 import bench_signal
+import bench_training
 import bench_vision
 import bench_wavelets
 from hri.core.files import write_text
@@ -41,6 +42,7 @@ MODULES = (
     bench_vision,
     bench_person,
     bench_latency,
+    bench_training,
     bench_connected,
     bench_robot,
 )
@@ -91,7 +93,11 @@ def main() -> None:
     for name in arguments.only or ALL:
         if sys.stderr.isatty():
             print(f"{name} ...", end="\r", file=sys.stderr)
-        entry = measure(ALL[name])
+        try:
+            entry = measure(ALL[name])
+        except timing.Skipped as why:
+            print(f"{name:22} skipped: {why}", flush=True)
+            continue
         entries.append(entry)
         print(
             f"{name:22} {1e3 * entry['ours']:9.3f} ms {1e3 * entry['peer']:9.3f} ms  {entry['ratio']:6.2f}x  "

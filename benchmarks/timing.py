@@ -14,6 +14,9 @@ import statistics
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
+
+from hri.recognition import embedding_weights
 
 Details = dict[str, float | list[float]]
 """Further figures of a bench, by name."""
@@ -42,6 +45,26 @@ class Bench:
     def what(self) -> str:
         """What is timed, in a sentence."""
         return " ".join((self.run.__doc__ or "").split())
+
+
+class Skipped(Exception):
+    """What a bench needs is not here; says what."""
+
+
+def need_embedding() -> None:
+    """Raise Skipped without the extra embedding."""
+    try:
+        embedding_weights()
+    except ImportError as error:
+        raise Skipped(str(error)) from error
+
+
+def need_recordings(folder: str) -> Path:
+    """A folder of recordings below what HRI_DATA names; raises Skipped where there is none."""
+    data = os.environ.get("HRI_DATA")
+    if not data or not (Path(data) / folder).is_dir():
+        raise Skipped(f"HRI_DATA names no folder with {folder}")
+    return Path(data) / folder
 
 
 most_repeats: int | None = None

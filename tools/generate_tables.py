@@ -8,7 +8,7 @@ docs/results/ without its ``.json``. Options, in the syntax of a shell:
 
 rows=AXIS,...       axes along the rows, in this order; all that vary, if not given
 columns=AXIS        the axis along the columns; "measures": one column a measure; if not given, as the study has it
-measures=M,...      what was measured, for columns=measures; all, if not given
+measures=M,...      what was measured, for columns=measures; all, if not given; of other columns the one that they show
 where=AXIS:V,V;...  only the rows of the result with these values
 names=KEY:TEXT;...  what axes, values and measures are called in the table
 spread=no           means only

@@ -26,8 +26,28 @@ def test_every_bench_agrees_with_its_peer_and_is_reported(tmp_path: Path) -> Non
     assert written["machine"] and written["measured"]["version"]
     entries = written["benches"]
     listed = [line.split("\t")[0] for line in run("--list").splitlines()]
-    assert [entry["name"] for entry in entries] == listed
+    skipped = [line.split()[0] for line in table.splitlines() if " skipped: " in line]
+    assert [entry["name"] for entry in entries] == [name for name in listed if name not in skipped]
     for entry in entries:
         assert set(entry) == {"name", "what", "ours", "peer", "unit", "peer_name", "ratio", "details"}
         assert entry["ratio"] == pytest.approx(entry["peer"] / entry["ours"]) and entry["ratio"] > 0
         assert entry["what"].endswith(".") and entry["name"] in table
+
+
+def test_a_bench_without_its_recordings_is_skipped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HRI_DATA", str(tmp_path))
+    report = tmp_path / "bench.json"
+    table = run("--quick", "--only", "train_digits", "train_commands_both", "--json", str(report))
+    assert [line.split()[1] for line in table.splitlines()[1:]] == ["skipped:", "skipped:"]
+    assert "fsdd/recordings" in table and json.loads(report.read_text())["benches"] == []
+
+
+def test_training_is_timed_on_recordings(tmp_path: Path, spoken: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "fsdd").mkdir()
+    (tmp_path / "fsdd" / "recordings").symlink_to(spoken)
+    monkeypatch.setenv("HRI_DATA", str(tmp_path))
+    report = tmp_path / "bench.json"
+    table = run("--quick", "--only", "train_digits", "--json", str(report))
+    (entry,) = json.loads(report.read_text())["benches"]
+    assert "60 s budget" in table and entry["peer"] == 60 and entry["ours"] > 0
+    assert entry["details"]["recordings"] == 6, "one of each word by each speaker"

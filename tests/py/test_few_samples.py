@@ -125,4 +125,7 @@ def test_the_study_compares_with_training(tmp_path: Path) -> None:
     ]
     assert "added_mean" not in rows[0] and set(rows[1]["per_fold"]) == {"a", "b", "c"}
     assert rows[0]["others_mean"] == rows[-1]["others_mean"] == rows[-1]["added_mean"] == 1.0
+    for row in rows[1:]:
+        assert row["added_right_mean"] <= min(row["added_mean"], 1 - row["rejected_mean"])
+        assert row["others_right_mean"] <= row["others_mean"]
     assert rows[2]["added_mean"] >= 0.8 and rows[-2]["added_mean"] >= 0.8  # two of his own, five of others

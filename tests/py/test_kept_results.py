@@ -166,6 +166,11 @@ def test_a_pivot_spreads_an_axis_and_refuses_what_it_cannot_show() -> None:
         pivot(rows, Layout(), Pivot(columns="colour"))
     with pytest.raises(InvalidArgument, match="several rows for one cell"):
         pivot([*rows, *rows], Layout(), Pivot(columns="kind"))
+    more = [{**row, "right_mean": row["accuracy_mean"] / 2} for row in rows]
+    of_right = pivot(more, Layout(), Pivot(columns="kind", measures=("right",), digits=0))
+    assert of_right == [["near", "far"], ["42", "27"]]
+    with pytest.raises(InvalidArgument, match="several measures for one cell: accuracy, right"):
+        pivot(more, Layout(), Pivot(columns="kind", measures=("accuracy", "right")))
 
 
 def test_tables_of_the_documentation_are_those_of_the_results() -> None:

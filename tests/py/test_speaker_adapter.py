@@ -139,5 +139,6 @@ def test_the_study_learns_from_few_words_of_a_speaker(tmp_path: Path) -> None:
     assert set(rows) == {(how, count) for how in ("supervised", "unsupervised") for count in (0, 5, 10, 20)}
     assert rows["supervised", 0]["per_fold"] == rows["unsupervised", 0]["per_fold"]
     assert min(row["accuracy_mean"] for row in rows.values()) >= 0.9
+    assert all(0 < row["right_mean"] <= row["accuracy_mean"] for row in rows.values())
     with pytest.raises(InvalidArgument, match="high has 20 recordings, more than 20 are needed"):
         run_study(study, tmp_path, lambda *progress: None, only, takes=10)

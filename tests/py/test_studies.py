@@ -16,9 +16,12 @@ import pytest
 from conftest import RATE_HZ
 from hri import studies
 from hri.core.errors import InvalidArgument
+from hri.evaluation import EvaluationItem, EvaluationResult, FoldResult
 from hri.io import write_wav_pcm16
-from hri.studies import distance, noise, tables, tempo, training_size
+from hri.recognition import Decision, NBest
+from hri.studies import commands, distance, noise, tables, tempo, training_size
 from hri.studies.registry import Layout
+from hri.studies.sweeps import measured
 from hri.studies.word_classifiers import CLASSIFIERS
 from hri.studies.word_features import FEATURES, approximation, denoised, load_words, read_words
 
@@ -106,6 +109,15 @@ def test_a_study_writes_table_picture_and_json(hri, data_dir: Path, tmp_path: Pa
         if (row["listening"], row["noise"], row["snr_db"]) == ("adapting", "white", 10)
     }
     assert found["passed_by_training"] == {name: white[name] >= target for name, target in noise.TARGETS.items()}
+    alone = {
+        str(row["snr_db"]): row["accuracy_mean"]
+        for row in found["rows"]
+        if (row["training"], row["listening"], row["noise"]) == ("noisy", "alone", "white")
+    }
+    assert found["passed_by_snr_db"] == {str(db): alone[str(db)] >= t for db, t in noise.TARGETS_ALONE.items()}
+    assert found["passed"] is all((*found["passed_by_training"].values(), *found["passed_by_snr_db"].values()))
+    for row in found["rows"]:  # at every level of noise
+        assert row["right_mean"] <= row["recognised_mean"] and 0 <= row["calibration_error_mean"] <= 1
 
 
 def test_a_part_of_a_study_without_its_target_is_no_miss(data_dir: Path) -> None:
@@ -115,6 +127,34 @@ def test_a_part_of_a_study_without_its_target_is_no_miss(data_dir: Path) -> None
     assert first["passed"] is None and first == second
     with pytest.raises(InvalidArgument, match="no axis 'speaker'; there are: front_end, training, noise"):
         studies.run_study(study, data_dir, lambda *progress: None, {"speaker": ["theo"]})
+
+
+def test_targets_in_noise_are_judged_level_by_level() -> None:
+    place = {"front_end": "plain", "training": "noisy", "listening": "alone", "noise": "white"}
+    rows = [{**place, "snr_db": db, "accuracy_mean": 0.7} for db in (noise.CLEAN, 20, 10, 5, 0)]
+    rows += [{**row, "noise": "pink", "accuracy_mean": 0.0} for row in rows]
+    assert noise._met(rows, "plain", noise.TARGETS_ALONE) == {20: False, 10: False, 5: True, 0: True}
+    assert noise._met(rows, "both", noise.TARGETS_BOTH) == {}
+    assert "20, 10, 5, 0 dB: >= 90, 78, 65, 45 %" in studies.get_study("fsdd-noise").target
+
+
+def test_words_are_measured_rejected_or_not() -> None:
+    def decision(label: str, best: str | None, confidence: float, status: str) -> Decision:
+        nbest = () if best is None else (NBest(best, confidence, 0.0),)
+        return Decision("speech", label, status, confidence, nbest=nbest)
+
+    heard = [
+        decision("a", "a", 1.0, "recognised"),
+        decision("unknown", "a", 0.5, "unknown"),
+        decision("b", "b", 0.8, "recognised"),
+        decision("no_input", None, 0.0, "no_input"),
+    ]
+    folds = [FoldResult("ann", tuple(EvaluationItem(i, "a", one) for i, one in enumerate(heard)))]
+    row = measured(EvaluationResult(["a", "b"], folds))
+    assert (row["accuracy_mean"], row["recognised_mean"], row["right_mean"]) == (0.5, 0.5, 0.25)
+    assert row["no_input_mean"] == 0.25 and row["calibration_error_mean"] == pytest.approx((0.0 + 0.5 + 0.8) / 3)
+    silent = EvaluationResult(["a"], [FoldResult("ann", (EvaluationItem(0, "a", heard[-1]),))])
+    assert "calibration_error_mean" not in measured(silent)
 
 
 def run(name: str, data_dir: Path, **only: list[str]) -> dict:
@@ -192,6 +232,34 @@ def test_words_from_across_a_room_are_measured(data_dir: Path, monkeypatch: pyte
     assert len(set(places)) == len(places) == 2 * 2 * 4
     assert [place[2] for place in places[:4]] == ["close", "0.5 m", "3 m", "recorded room"]
     assert result["rows"][0]["accuracy_mean"] >= 0.9
+
+    assert result["passed"] is distance._passed(result["rows"]) is not None
+    assert run("speech-distance", data_dir, data=["fsdd"], training=["close"], ambience=["silent"])["passed"] is None
+
+
+def test_distance_is_judged_row_by_row() -> None:
+    rows = [
+        {"training": training, "distance": place, "accuracy_mean": share}
+        for training, place, share in (
+            ("with rooms", "4 m", 0.93),
+            ("with rooms", distance.RECORDED, 0.70),
+            ("with rooms", "3 m", 0.1),
+            ("close", "4 m", 0.1),
+        )
+    ]
+    assert distance._passed(rows) is True
+    assert distance._passed([*rows, {**rows[1], "accuracy_mean": 0.69}]) is False
+
+
+def test_commands_of_groups_of_speakers(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (data_dir / "commands").symlink_to(data_dir / "fsdd" / "recordings")
+    monkeypatch.setattr(commands, "NUM_FOLDS", 3)
+    result = run("commands", data_dir, front_end=["cepstra"])
+    quiet, noisy = result["rows"]
+    assert (quiet["test"], noisy["test"]) == (commands.QUIET, commands.NOISY) and len(quiet["per_fold"]) == 3
+    for row in result["rows"]:
+        assert row["right_mean"] <= min(row["recognised_mean"], row["accuracy_mean"])
+        assert 0 <= row["calibration_error_mean"] <= 1
 
 
 def test_fewer_takes_are_done_sooner_and_said(hri, data_dir: Path, tmp_path: Path) -> None:

@@ -71,10 +71,28 @@ def test_half_a_vocabulary_is_turned_down(data_dir: Path, monkeypatch: pytest.Mo
     assert row["noise_as_word_mean"] == 0 and row["burst_as_word_mean"] <= 0.25
     for half in result["details"]["fsdd"]["halves"]:
         assert len(set(half)) == 2 and set(half) < set("0123")
+    assert result["passed_by_eer"].keys() == result["passed_by_threshold"].keys() == {"fsdd"}
     rejects = result["curves"]["lines"]["fsdd"]["y"]
     assert rejects == sorted(rejects, reverse=True)
     studies.draw(result, study.layout, tmp_path / "roc.png")
     assert cv2.imread(str(tmp_path / "roc.png")).std() > 5
+
+
+def test_the_own_threshold_is_judged_too() -> None:
+    met = {
+        "data": "fsdd",
+        "eer_mean": 0.12,
+        "false_accepts_mean": 0.15,
+        "false_rejects_mean": 0.05,
+        "noise_no_input_mean": 1,
+    }
+    found = unknown_words._verdict([met], unknown_words.TARGETS)
+    assert found["passed"] and found["passed_by_threshold"] == {"fsdd": True}
+    for measure, value in (("false_accepts_mean", 0.16), ("false_rejects_mean", 0.06)):
+        found = unknown_words._verdict([{**met, measure: value}], unknown_words.TARGETS)
+        assert found["passed_by_eer"]["fsdd"] and not found["passed_by_threshold"]["fsdd"] and not found["passed"]
+    assert not unknown_words._verdict([{**met, "eer_mean": 0.13}], unknown_words.TARGETS)["passed"]
+    assert not unknown_words._verdict([{**met, "noise_no_input_mean": 0.9}], unknown_words.TARGETS)["passed"]
 
 
 def test_a_vocabulary_too_small_to_halve_is_refused() -> None:

@@ -13,7 +13,7 @@ from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import kept_model, load_dataset, pattern_option
+from hri.cli.recognizers import embedding_option, kept_model, load_dataset, load_embedding, pattern_option
 from hri.core.errors import InvalidArgument
 from hri.media import read_audio
 from hri.recognition import SpeakerAdapter, WordRecognizer
@@ -24,6 +24,7 @@ _file = click.Path(exists=True, dir_okay=False)
 @click.command(cls=CheckedCommand)
 @click.argument("files", type=_file, nargs=-1, metavar="[FILE]...")
 @click.option("--model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user.")
+@embedding_option
 @click.option("-o", "--output", required=True, type=OutputFile(replaces=("model",)), help="File of the adapted model.")
 @click.option(
     "--label",
@@ -36,6 +37,7 @@ _file = click.Path(exists=True, dir_okay=False)
 def adapt(
     files: tuple[str, ...],
     model: str | None,
+    embedding_path: str | None,
     output: str,
     label: str | None,
     data: str | None,
@@ -64,7 +66,8 @@ def adapt(
     if data is not None:
         dataset = load_dataset(data, "speech", pattern).select(persons=None if person is None else [person])
         words += [(sample.path, sample.label) for sample in dataset]
-    adapter = SpeakerAdapter(WordRecognizer.load(model or kept_model("speech")))
+    recognizer = WordRecognizer.load(model or kept_model("speech"), embedding=load_embedding(embedding_path))
+    adapter = SpeakerAdapter(recognizer)
     with progress_bars() as progress:
         learned = []
         for done, (path, word) in enumerate(_learned(adapter, words)):

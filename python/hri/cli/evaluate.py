@@ -13,10 +13,19 @@ from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say_table, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import load_dataset, mode_argument, options_option, pattern_option, recognizer_factory
+from hri.cli.recognizers import (
+    embedding_for,
+    embedding_option,
+    load_dataset,
+    mode_argument,
+    options_option,
+    pattern_option,
+    recognizer_factory,
+    with_embedding,
+)
 from hri.core.optional import import_optional
 from hri.datasets import Dataset
-from hri.evaluation import EvaluationResult, cross_validate, evaluate_split
+from hri.evaluation import EvaluationResult, FoldResult, cross_validate, evaluate_split
 
 _folder = click.Path(exists=True, file_okay=False)
 
@@ -35,12 +44,19 @@ _folder = click.Path(exists=True, file_okay=False)
 @click.option("--train-noise", is_flag=True, help="Train on a noisy copy of every clip too.")
 @click.option("--exposure", type=FiniteRange(0.05, 20), help="Factor on the brightness of the test pictures.")
 @options_option("MODE", "num_states=8")
+@embedding_option
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of folds, training and noise.")
 @click.option(
     "--confusion",
     type=OutputFile((".png", ".svg", ".pdf")),
     metavar="FILE",
     help="Draw the confusion matrix as .png, .svg or .pdf.",
+)
+@click.option(
+    "--reliability",
+    type=OutputFile((".png", ".svg", ".pdf")),
+    metavar="FILE",
+    help="Draw accuracy by confidence as .png, .svg or .pdf.",
 )
 @json_option
 def evaluate(
@@ -57,8 +73,10 @@ def evaluate(
     train_noise: bool,
     exposure: float | None,
     options: tuple[str, ...],
+    embedding_path: str | None,
     seed: int,
     confusion: str | None,
+    reliability: str | None,
     json_path: str | None,
 ) -> None:
     """Measure the accuracy of MODE (speech or gesture) on persons who are not in the training data.
@@ -66,7 +84,7 @@ def evaluate(
     \b
     Examples:
       hri evaluate speech --data spoken/
-      hri evaluate gesture --data signed/ --folds 5 --confusion confusion.png
+      hri evaluate gesture --data signed/ --folds 5 --confusion confusion.png --reliability reliability.png
       hri evaluate speech --train ours/ --test theirs/ --json result.json
       hri evaluate speech --data spoken/ --noise white --snr 10 --train-noise
       hri evaluate gesture --data signed/ --exposure 0.5
@@ -86,8 +104,9 @@ def evaluate(
         raise click.UsageError("--folds, --train-persons and --leave-out need --data")
     if leave_out is not None and (folds is not None or train_persons is not None):
         raise click.UsageError("--leave-out goes without --folds and --train-persons")
-    if confusion is not None:
-        import_optional("matplotlib", "plots", "to draw the confusion matrix")
+    if confusion is not None or reliability is not None:
+        import_optional("matplotlib", "plots", "to draw the confusion matrix or the reliability diagram")
+    options = with_embedding(options, embedding_path) if mode == "speech" else options
     make = recognizer_factory(mode, options, seed)
     conditions: dict[str, Any] = {
         "seed": seed,
@@ -95,6 +114,7 @@ def evaluate(
         "snr_db": snr,
         "train_noise": train_noise,
         "exposure": exposure,
+        "embedding": embedding_for(make(), embedding_path),
     }
     with progress_bars() as progress:
         conditions["progress"] = progress
@@ -115,7 +135,15 @@ def evaluate(
         Path(confusion).parent.mkdir(parents=True, exist_ok=True)
         result.plot_confusion(confusion)
         note(f"confusion matrix: {confusion}")
-    write_json(json_path, {"mode": mode, **result.to_dict(), "options": make().options.as_dict()})
+    has_input = result.calibration_error is not None
+    if reliability is not None and has_input:
+        Path(reliability).parent.mkdir(parents=True, exist_ok=True)
+        result.reliability().plot(reliability)
+        note(f"reliability diagram: {reliability}")
+    elif reliability is not None:
+        note("no reliability diagram: no recording has a word or a sign in it")
+    found = {**result.to_dict(), "reliability": result.reliability().to_dict() if has_input else None}
+    write_json(json_path, {"mode": mode, **found, "options": make().options.as_dict()})
 
 
 def _warn_of_shared_persons(train: Dataset, test: Dataset) -> None:
@@ -125,10 +153,18 @@ def _warn_of_shared_persons(train: Dataset, test: Dataset) -> None:
 
 
 def _table(result: EvaluationResult) -> list[tuple[str, ...]]:
-    """A row a fold, then mean and spread."""
-    rows = [("held out", "recordings", "accuracy", "rejected")]
+    """A row a fold, then mean and spread of the accuracy, and the other figures of all recordings."""
+    header = ("held out", "recordings", "accuracy", "rejected", "recognised and right", "calibration error")
+    rows: list[tuple[str, ...]] = [header]
     for fold in result.folds:
-        rows.append((fold.name, str(len(fold.items)), f"{100 * fold.accuracy:.1f} %", f"{100 * fold.rejected:.1f} %"))
+        accuracy = f"{100 * fold.accuracy:.1f} %"
+        rows.append((fold.name, *_cells(len(fold.items), accuracy, fold.rejected, fold)))
     rejected = sum(fold.rejected * len(fold.items) for fold in result.folds) / len(result.items)
     accuracy = f"{100 * result.mean:.1f} % ± {100 * result.std:.1f}"
-    return [*rows, ("all", str(len(result.items)), accuracy, f"{100 * rejected:.1f} %")]
+    return [*rows, ("all", *_cells(len(result.items), accuracy, rejected, result))]
+
+
+def _cells(number: int, accuracy: str, rejected: float, part: FoldResult | EvaluationResult) -> tuple[str, ...]:
+    error = part.calibration_error
+    shares = (f"{100 * rejected:.1f} %", f"{100 * part.recognised_right:.1f} %")
+    return str(number), accuracy, *shares, "" if error is None else f"{100 * error:.1f} %"

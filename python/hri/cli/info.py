@@ -12,10 +12,10 @@ from typing import Any
 import click
 
 from hri import __version__, vision
-from hri.cli.groups import CheckedCommand
+from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.options import KINDS
 from hri.cli.output import json_option, say, write_json
-from hri.cli.recognizers import default_model
+from hri.cli.recognizers import default_model, embedding_option, load_embedding
 from hri.core.errors import Error
 from hri.io import ModelFile
 from hri.media import natural_key
@@ -33,8 +33,9 @@ EXTRAS = {
 
 @click.command(cls=CheckedCommand)
 @click.argument("model", required=False, type=click.Path(exists=True, dir_okay=False))
+@embedding_option
 @json_option
-def info(model: str | None, json_path: str | None) -> None:
+def info(model: str | None, embedding_path: str | None, json_path: str | None) -> None:
     """Show what is installed; with MODEL, what that model file holds.
 
     \b
@@ -42,7 +43,9 @@ def info(model: str | None, json_path: str | None) -> None:
       hri info
       hri info digits.hri
     """
-    found = _installation() if model is None else _model(model)
+    if model is None:
+        refuse_given(("embedding_path",), "goes with MODEL")
+    found = _installation() if model is None else _model(model, embedding_path)
     for line in _lines(found):
         say(line, json_path)
     write_json(json_path, found)
@@ -65,9 +68,11 @@ def _has_vision() -> bool:
         return False
 
 
-def _model(path: str) -> dict[str, Any]:
+def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
     kind = _kind(path)
-    recognizer = load(path) if kind is None else KINDS[kind].load(path)
+    if kind is not None:
+        refuse_given(("embedding_path",), "is for models of single words")
+    recognizer = load(path, embedding=load_embedding(embedding_path)) if kind is None else KINDS[kind].load(path)
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
     found: dict[str, Any] = {"mode": kind or recognizer.mode, "labels": labels}
     if isinstance(recognizer, WordRecognizer) and recognizer.held_out is not None:

@@ -15,7 +15,7 @@ import click
 
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, report, stall_option
-from hri.cli.recognizers import kept_model
+from hri.cli.recognizers import embedding_option, kept_model, load_embedding
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.live import Attention, AudioSource, Event, FileSource, Listener, list_microphones
 from hri.recognition import WordRecognizer
@@ -29,6 +29,7 @@ from hri.recognition import WordRecognizer
     type=click.Path(exists=True, dir_okay=False),
     help="A model from 'hri train speech'; the default is the one kept per user.",
 )
+@embedding_option
 @device_option
 @click.option("--list-devices", is_flag=True, help="List the microphones and end.")
 @events_json_option
@@ -54,6 +55,7 @@ from hri.recognition import WordRecognizer
 def listen(
     files: tuple[str, ...],
     model_path: str | None,
+    embedding_path: str | None,
     device: str | None,
     list_devices: bool,
     as_json: bool,
@@ -88,7 +90,7 @@ def listen(
     else:
         refuse_given(("paced",), "is of recordings: name FILES")
     path = Path(model_path) if model_path else kept_model("speech")
-    words = WordRecognizer.load(path)
+    words = WordRecognizer.load(path, embedding=load_embedding(embedding_path))
     model_id = f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
     attention = Attention(wake, within_s, always, min_score)
     listener = Listener(words, attention=attention, locale=locale, model_id=model_id)

@@ -11,11 +11,11 @@ from typing import Any
 import click
 
 from hri.cli.faces import faces_option, look_for_faces
-from hri.cli.groups import CheckedCommand
+from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import kept_model
+from hri.cli.recognizers import embedding_option, kept_model, load_embedding
 from hri.core.errors import Error, InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.fusion import RULES, FusedDecision, FusionOptions, LearnedFusion, fuse
@@ -35,6 +35,7 @@ _file = click.Path(exists=True, dir_okay=False)
     type=_file,
     help="A model from 'hri train speech' or 'hri train-units'; the default is the one kept per user by the first.",
 )
+@embedding_option
 @click.option("--gesture-model", type=_file, help="The same for gestures.")
 @faces_option("as the model was trained")
 @click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused.")
@@ -61,6 +62,7 @@ def recognise(
     speech: str | None,
     gesture: str | None,
     speech_model: str | None,
+    embedding_path: str | None,
     gesture_model: str | None,
     faces: str | None,
     rule: str,
@@ -92,6 +94,8 @@ def recognise(
             gesture = _only_one(gesture, file, "signs")
     if speech is None and gesture is None:
         raise click.UsageError("give a recording: --speech FILE, --gesture FILE, or both")
+    if speech is None:
+        refuse_given(("embedding_path",), "is of speech, and no recording of a word is given")
     if faces is not None and gesture is None:
         raise click.UsageError("--faces is for signs: --gesture FILE")
     if gui and backend != "pybullet":
@@ -99,7 +103,7 @@ def recognise(
     learned = None if fusion_path is None else LearnedFusion.load(fusion_path)
     heard = seen = None
     if speech is not None:
-        words = load(speech_model or kept_model("speech"), "speech")
+        words = load(speech_model or kept_model("speech"), "speech", embedding=load_embedding(embedding_path))
         heard = words.recognise(speech)
         _describe(heard, speech, top)
     if gesture is not None:

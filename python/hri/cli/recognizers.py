@@ -16,7 +16,7 @@ from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import parse_toml
 from hri.datasets import Dataset
 from hri.io import ModelFile
-from hri.recognition import GestureRecognizer, SentenceRecognizer, WordRecognizer
+from hri.recognition import GestureRecognizer, SentenceRecognizer, SpeechEmbedding, WordRecognizer
 
 CLASSES: dict[str, type[WordRecognizer] | type[GestureRecognizer]] = {
     "speech": WordRecognizer,
@@ -42,6 +42,44 @@ def options_option(kind: str, example: str) -> Callable[[Any], Any]:
         help=f"An option of the recogniser, such as {example}; may be given several times. 'hri options {kind}' lists "
         "them all.",
     )
+
+
+embedding_option = click.option(
+    "--embedding",
+    "embedding_path",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="FILE",
+    help="Weights of the speech embedding (ONNX), for words of the front end both; by default those that the extra "
+    "embedding installs.",
+)
+
+
+def load_embedding(path: str | Path | None) -> SpeechEmbedding | None:
+    """The embedding of the weights that ``--embedding`` names; None where it names none."""
+    return None if path is None else SpeechEmbedding(path)
+
+
+def with_embedding(options: tuple[str, ...], path: str | None) -> tuple[str, ...]:
+    """Options of words; ``--embedding`` asks for the front end both where they name none."""
+    named = any(option.startswith("front_end=") for option in options)
+    return options if path is None or named else (*options, "front_end=both")
+
+
+def embedding_for(recognizer: WordRecognizer | GestureRecognizer, path: str | None) -> SpeechEmbedding | None:
+    """What training takes: None where the front end has no embedding.
+
+    Raises
+    ------
+    click.UsageError
+        For ``--embedding`` where the options ask for another front end.
+    ImportError
+        For the front end both where neither the extra nor ``--embedding`` gives weights: before recordings are read.
+    """
+    if not isinstance(recognizer, WordRecognizer) or recognizer.options.front_end != "both":
+        if path is not None:
+            raise click.UsageError("--embedding is for words of the front end both, and another one is asked for")
+        return None
+    return SpeechEmbedding(path)
 
 
 def default_model(mode: str) -> Path:

@@ -15,9 +15,9 @@ import click
 
 from hri.cli.connected import connected_model
 from hri.cli.faces import faces_option, look_for_faces
-from hri.cli.groups import FiniteRange, is_given
+from hri.cli.groups import FiniteRange, is_given, refuse_given
 from hri.cli.messages import note
-from hri.cli.recognizers import kept_model, load_signs
+from hri.cli.recognizers import embedding_option, kept_model, load_embedding, load_signs
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.fusion import RULES, FusionOptions, LearnedFusion
@@ -51,6 +51,7 @@ _OPTIONS = (
     click.option(
         "--speech-model", type=model_file, help="From 'hri train speech'; the default is the one kept per user."
     ),
+    embedding_option,
     click.option(
         "--grammar",
         "grammar_path",
@@ -150,6 +151,7 @@ class ChosenSession:
     """Values of the common options; `model_ids` are the names and hashes of the files that were loaded."""
 
     speech_model: Path | None
+    embedding_path: str | None
     grammar_path: Path | None
     min_confidence: float
     gesture_model: Path | None
@@ -206,8 +208,8 @@ class ChosenSession:
     def load_words(self) -> WordRecognizer | CommandRecognizer:
         """What recognises words, or commands of several words by a grammar, whose name and hash are part of the id."""
         if self.grammar_path is None:
-            recognizer: WordRecognizer = self._load(WordRecognizer, "speech", self.speech_model)
-            return recognizer
+            embedding = load_embedding(self.embedding_path)
+            return WordRecognizer.load(self._named("speech", self.speech_model), embedding=embedding)
         grammar = Grammar.load(self.grammar_path)
         words = self._load(ConnectedWordRecognizer, "speech", self.speech_model or connected_model())
         try:
@@ -273,6 +275,8 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
             speaks = name == "language" and given.get("speak", False)
             if is_given(name) and given[needed] is None and not speaks:
                 raise click.UsageError(f"{option} goes with {needed_option}")
+        if given["grammar_path"] is not None or given["no_speech"]:
+            refuse_given(("embedding_path",), "is for single words, which --grammar and --no-speech leave out")
         if given["faces"] is not None and given["no_gesture"]:
             raise click.UsageError("--faces and --no-gesture exclude each other")
         if given["imitate"] and given["table"] is not HOAP2:

@@ -16,11 +16,14 @@ from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
     default_model,
+    embedding_for,
+    embedding_option,
     load_dataset,
     mode_argument,
     options_option,
     pattern_option,
     recognizer_factory,
+    with_embedding,
 )
 from hri.evaluation.training import fillers_of
 from hri.evaluation.training import train as train_recognizer
@@ -50,6 +53,7 @@ MANY_PERSONS = 10
     help="Speech only: cepstra alone, or both: with a pretrained speech embedding, which the extra embedding installs. "
     "The default is both where the extra is. The same as --option front_end=...",
 )
+@embedding_option
 @click.option(
     "--network/--no-network",
     default=None,
@@ -80,6 +84,7 @@ def train(
     fillers: str | None,
     no_fillers: bool,
     front_end: str | None,
+    embedding_path: str | None,
     network: bool | None,
     source: str | None,
     hands: str | None,
@@ -95,6 +100,7 @@ def train(
       hri train gesture --data signed/ --pattern '{person}/{label}.jpg'
       hri train speech --data spoken/ --out digits.hri --option model=ptbhmm
       hri train speech --data spoken/ --front-end cepstra
+      hri train speech --data spoken/ --embedding embedding_model.onnx
       hri train speech --data spoken/ --no-network
       hri train gesture --data pairs/ --hands both
       hri train gesture --data room/ --faces auto
@@ -119,6 +125,10 @@ def train(
         if mode != "speech":
             raise click.UsageError("--front-end is for speech")
         options = (*options, f"front_end={front_end}")
+    if embedding_path is not None:
+        if mode != "speech":
+            raise click.UsageError("--embedding is for speech")
+        options = with_embedding(options, embedding_path)
     elif mode == "speech" and _has_embedding() and not any(o.startswith("front_end=") for o in options):
         options = (*options, "front_end=both")
     if network is not None and mode != "speech":
@@ -148,6 +158,7 @@ def train(
     if network is not None:
         options = (*options, f"use_network={str(network).lower()}")
     untrained = recognizer_factory(mode, options, seed)()
+    embedding = embedding_for(untrained, embedding_path)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
         others = fillers_of(load_dataset(fillers, mode, None))
@@ -158,7 +169,7 @@ def train(
         if faces not in (None, "never"):
             face_finder(faces, required=True)  # refused now, not after all recordings
     with progress_bars() as progress:
-        recognizer = train_recognizer(dataset, untrained, fillers=others, progress=progress)
+        recognizer = train_recognizer(dataset, untrained, fillers=others, embedding=embedding, progress=progress)
     recognizer.save(path)
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
@@ -206,6 +217,6 @@ def _front_end(name: str) -> str:
     if name == "both":
         return (
             "both, cepstra and a speech embedding (extra embedding); wherever the model is used it needs the extra "
-            "too, or --front-end cepstra here"
+            "too, or the weights (--embedding), or --front-end cepstra here"
         )
     return "cepstra; --front-end both understands people better whom it has not met (extra embedding)"

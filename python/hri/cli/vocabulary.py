@@ -12,7 +12,7 @@ import click
 from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
-from hri.cli.recognizers import kept_model
+from hri.cli.recognizers import embedding_option, kept_model, load_embedding
 from hri.core.errors import InvalidArgument
 from hri.media import read_audio
 from hri.recognition import GestureRecognizer, SubwordRecognizer, WordRecognizer, load
@@ -49,6 +49,7 @@ def _printable(context: click.Context, param: click.Parameter, label: str) -> st
     "--language", default="en", show_default=True, help="With --spelling: which language, as espeak-ng calls it."
 )
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False), metavar="[FILE]...")
+@embedding_option
 @_out_option
 @json_option
 def add_word(
@@ -57,6 +58,7 @@ def add_word(
     spelling: str | None,
     language: str,
     files: tuple[str, ...],
+    embedding_path: str | None,
     out: str | None,
     json_path: str | None,
 ) -> None:
@@ -75,7 +77,7 @@ def add_word(
         raise click.UsageError("--spelling is empty")
     if not files and spelling is None:
         raise click.UsageError("give recordings of the word, or --spelling")
-    words, target = _open(model_path, out)
+    words, target = _open(model_path, embedding_path, out)
     clips = [read_audio(path) for path in files]
     if isinstance(words, SubwordRecognizer):
         for phone, other in words.add_word(label, spelling, language=language, clips=clips).items():
@@ -90,9 +92,12 @@ def add_word(
 @click.command("remove-word", cls=CheckedCommand)
 @_model_option
 @click.option("--label", required=True, help="The word to remove.")
+@embedding_option
 @_out_option
 @json_option
-def remove_word(model_path: str | None, label: str, out: str | None, json_path: str | None) -> None:
+def remove_word(
+    model_path: str | None, label: str, embedding_path: str | None, out: str | None, json_path: str | None
+) -> None:
     """Remove a word from a trained recogniser.
 
     \b
@@ -100,7 +105,7 @@ def remove_word(model_path: str | None, label: str, out: str | None, json_path: 
       hri remove-word --label dance
       hri remove-word --model more.hri --label dance -o fewer.hri
     """
-    words, target = _open(model_path, out)
+    words, target = _open(model_path, embedding_path, out)
     words.remove_word(label)
     _keep(words, target, json_path)
 
@@ -142,9 +147,11 @@ def add_gesture(
     _keep(signs, source if out is None else Path(out), json_path)
 
 
-def _open(model_path: str | None, out: str | None) -> tuple[WordRecognizer | SubwordRecognizer, Path]:
+def _open(
+    model_path: str | None, embedding_path: str | None, out: str | None
+) -> tuple[WordRecognizer | SubwordRecognizer, Path]:
     source = kept_model("speech") if model_path is None else Path(model_path)
-    return load(source, "speech"), source if out is None else Path(out)
+    return load(source, "speech", embedding=load_embedding(embedding_path)), source if out is None else Path(out)
 
 
 def _keep(

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Accuracy with persons held out, in noise, rooms and other light."""
 
+from hri.evaluation.calibration import Reliability, ReliabilityBin, reliability
 from hri.evaluation.conditions import Condition, FrontEnd, expose, gamma, tint
 from hri.evaluation.evaluate import cross_validate, evaluate_split
 from hri.evaluation.noise import AddNoise, active_power, make_noise, mix_noise
@@ -15,6 +16,8 @@ __all__ = [
     "EvaluationResult",
     "FoldResult",
     "FrontEnd",
+    "Reliability",
+    "ReliabilityBin",
     "active_power",
     "adapting",
     "cross_validate",
@@ -24,5 +27,6 @@ __all__ = [
     "gamma",
     "make_noise",
     "mix_noise",
+    "reliability",
     "tint",
 ]

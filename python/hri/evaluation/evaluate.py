@@ -17,7 +17,7 @@ from hri.evaluation.noise import AddNoise
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.evaluation.speech import SpeechRunner
 from hri.media import read_frames
-from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.recognition import GestureRecognizer, SpeechEmbedding, WordRecognizer
 
 Progress = Callable[[str, int, int], None]
 Recognizer = WordRecognizer | GestureRecognizer
@@ -36,6 +36,7 @@ def cross_validate(
     snr_db: float | None = None,
     train_noise: bool = False,
     exposure: float | None = None,
+    embedding: SpeechEmbedding | None = None,
     progress: Progress | None = None,
 ) -> EvaluationResult:
     """Accuracy on people the recogniser has not met.
@@ -64,6 +65,8 @@ def cross_validate(
         the first half and the test the second.
     exposure : float, optional
         Factor on the pixels of the test pictures.
+    embedding : SpeechEmbedding, optional
+        For words by the front end "both", as of `WordRecognizer.fit`.
     progress : callable, optional
         Called with (what, done, total).
     """
@@ -86,7 +89,7 @@ def cross_validate(
     else:
         folds = dataset.folds_stratified(num_folds or 5, seed)
         conditions["folds"] = "stratified by label: persons are not known, so test people may have been met"
-    run = _runner(dataset, _factory(make_recognizer), conditions, progress)
+    run = _runner(dataset, _factory(make_recognizer), conditions, embedding, progress)
     return EvaluationResult(dataset.labels, [run(fold) for fold in folds[:max_folds]], conditions)
 
 
@@ -100,6 +103,7 @@ def evaluate_split(
     snr_db: float | None = None,
     train_noise: bool = False,
     exposure: float | None = None,
+    embedding: SpeechEmbedding | None = None,
     progress: Progress | None = None,
 ) -> EvaluationResult:
     """Train on one data set, test on another; parameters as for `cross_validate`.
@@ -117,7 +121,7 @@ def evaluate_split(
     conditions = _conditions(train.kind, seed, noise, snr_db, train_noise, exposure)
     both = Dataset(train.root, train.kind, [*train.samples, *test.samples])
     fold = Fold(str(test.root.name), list(range(len(train))), list(range(len(train), len(both))))
-    run = _runner(both, _factory(make_recognizer), conditions, progress)
+    run = _runner(both, _factory(make_recognizer), conditions, embedding, progress)
     return EvaluationResult(train.labels, [run(fold)], conditions)
 
 
@@ -162,15 +166,18 @@ def _runner(
     dataset: Dataset,
     make_recognizer: Callable[[], Recognizer],
     conditions: dict[str, Any],
+    embedding: SpeechEmbedding | None,
     progress: Progress | None,
 ) -> Callable[[Fold], FoldResult]:
     say = progress or (lambda what, done, total: None)
     if dataset.kind == "gesture":
+        if embedding is not None:
+            raise InvalidArgument("embedding is for speech, the data set is gesture")
         return _GestureRunner(dataset, make_recognizer, conditions, say).run
     noise, snr_db, train_noise = conditions["noise"], conditions["snr_db"], conditions["train_noise"]
     test = None if noise is None else AddNoise([noise], [snr_db], "second" if train_noise else "all")
     train = [AddNoise([noise], [snr_db], "first")] if train_noise else []
-    runner = SpeechRunner(dataset, make_recognizer, {"": test}, train, conditions["seed"], None, say)
+    runner = SpeechRunner(dataset, make_recognizer, {"": test}, train, conditions["seed"], None, say, False, embedding)
     return lambda fold: runner.run(fold)[""]
 
 

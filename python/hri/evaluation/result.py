@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from typing import Any
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from hri.core.display import count, html_table, summary
 from hri.core.plotting import new_axes, save_figure
+from hri.evaluation.calibration import NUM_BINS, Reliability, reliability
 from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
 
 
@@ -53,6 +55,16 @@ class FoldResult:
     def rejected(self) -> float:
         """Share of items that were rejected or had no input, 0..1."""
         return float(np.mean([t.decision.status != RECOGNISED for t in self.items]))
+
+    @property
+    def recognised_right(self) -> float:
+        """Share of items that were recognised (not rejected), and rightly, 0..1."""
+        return _recognised_right(self.items)
+
+    @property
+    def calibration_error(self) -> float | None:
+        """Expected calibration error of the items that had input, 0..1; None where none had."""
+        return _calibration_error(self.items)
 
 
 @dataclass(frozen=True)
@@ -98,6 +110,33 @@ class EvaluationResult:
         """Standard deviation over the folds (population)."""
         return float(np.std([fold.accuracy for fold in self.folds]))
 
+    @property
+    def recognised_right(self) -> float:
+        """Share of all items that were recognised (not rejected), and rightly, 0..1."""
+        return _recognised_right(self.items)
+
+    @property
+    def calibration_error(self) -> float | None:
+        """Expected calibration error of all items that had input, 0..1; None where none had."""
+        return _calibration_error(self.items)
+
+    def reliability(self, num_bins: int = NUM_BINS) -> Reliability:
+        """Confidence of the best label, rejected or not, against how often it is right.
+
+        Items without input, which have no best label, are left out.
+
+        Parameters
+        ----------
+        num_bins : int
+            1..1000.
+
+        Raises
+        ------
+        InvalidArgument
+            For a number of bins out of range, or where no item had input.
+        """
+        return _reliability(self.items, num_bins)
+
     def confusion(self) -> NDArray[np.int64]:
         """Counts, shape (num_labels, num_labels + 1): row truth, column best label, last column no input."""
         index = {label: i for i, label in enumerate(self.labels)}
@@ -111,12 +150,16 @@ class EvaluationResult:
         return {
             "accuracy_mean": self.mean,
             "accuracy_std": self.std,
+            "recognised_right": self.recognised_right,
+            "calibration_error": self.calibration_error,
             "num_samples": len(self.items),
             "folds": [
                 {
                     "name": fold.name,
                     "accuracy": fold.accuracy,
                     "rejected": fold.rejected,
+                    "recognised_right": fold.recognised_right,
+                    "calibration_error": fold.calibration_error,
                     "num_samples": len(fold.items),
                 }
                 for fold in self.folds
@@ -158,3 +201,18 @@ class EvaluationResult:
         if path is not None:
             save_figure(axes.figure, path)
         return axes
+
+
+def _recognised_right(items: Sequence[EvaluationItem]) -> float:
+    return float(np.mean([t.decision.label == t.truth for t in items]))
+
+
+def _reliability(items: Sequence[EvaluationItem], num_bins: int) -> Reliability:
+    heard = [t for t in items if t.decision.nbest]
+    return reliability([t.decision.confidence for t in heard], [t.best == t.truth for t in heard], num_bins)
+
+
+def _calibration_error(items: Sequence[EvaluationItem]) -> float | None:
+    if not any(t.decision.nbest for t in items):
+        return None
+    return _reliability(items, NUM_BINS).expected_error

@@ -15,7 +15,7 @@ from hri.datasets import Dataset, Fold
 from hri.evaluation.conditions import Condition, FrontEnd, Samples
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.media import naming_file, naming_files, read_audio
-from hri.recognition import SpeakerAdapter
+from hri.recognition import SpeakerAdapter, SpeechEmbedding
 
 Progress = Callable[[str, int, int], None]
 _TRAIN, _TEST, _ORDER = 0, 1, 2
@@ -46,6 +46,8 @@ class SpeechRunner:
         Called with (what, done, total).
     adapt : bool
         Also run every test in random order with an unsupervised `SpeakerAdapter`.
+    embedding : SpeechEmbedding, optional
+        What `fit` takes for the front end "both".
     """
 
     def __init__(
@@ -58,9 +60,12 @@ class SpeechRunner:
         front_end: FrontEnd | None,
         progress: Progress,
         adapt: bool = False,
+        embedding: SpeechEmbedding | None = None,
     ) -> None:
         self._samples = dataset.samples
         self._adapt = adapt
+        # What has no such front end need not know the word.
+        self._fit_with = {} if embedding is None else {"embedding": embedding}
         self._make = make_recognizer
         self._tests = tests
         self._train = train
@@ -93,6 +98,7 @@ class SpeechRunner:
                 sample_rate_hz=[rate for _, rate in heard],
                 groups=[self._samples[i].person for i in indices],
                 progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
+                **self._fit_with,
             )
         results = {}
         for name, condition in self._tests.items():

@@ -11,7 +11,7 @@ from typing import overload
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
 from hri.media import read_audio, read_frames
-from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
+from hri.recognition import FillerWord, GestureRecognizer, SpeechEmbedding, WordRecognizer
 
 Progress = Callable[[str, int, int], None]
 
@@ -22,6 +22,7 @@ def train(
     recognizer: WordRecognizer,
     *,
     fillers: Sequence[FillerWord] | None = None,
+    embedding: SpeechEmbedding | None = None,
     progress: Progress | None = None,
 ) -> WordRecognizer: ...
 @overload
@@ -34,6 +35,7 @@ def train(
     recognizer: WordRecognizer | GestureRecognizer | None = None,
     *,
     fillers: Sequence[FillerWord] | None = None,
+    embedding: SpeechEmbedding | None = None,
     progress: Progress | None = None,
 ) -> WordRecognizer | GestureRecognizer: ...
 def train(
@@ -41,6 +43,7 @@ def train(
     recognizer: WordRecognizer | GestureRecognizer | None = None,
     *,
     fillers: Sequence[FillerWord] | None = None,
+    embedding: SpeechEmbedding | None = None,
     progress: Progress | None = None,
 ) -> WordRecognizer | GestureRecognizer:
     """Train on every recording of `dataset`.
@@ -54,6 +57,8 @@ def train(
         One with options of its own, trained in place; default options otherwise.
     fillers : sequence of FillerWord, optional
         Words outside the vocabulary, as of `WordRecognizer.fit`.
+    embedding : SpeechEmbedding, optional
+        For words by the front end "both", as of `WordRecognizer.fit`.
     progress : callable, optional
         Called with (what is being done, steps done, steps in all).
 
@@ -64,7 +69,7 @@ def train(
     Raises
     ------
     InvalidArgument
-        When `recognizer` is for the other mode, or training refuses the recordings.
+        When `recognizer` is for the other mode, or training refuses the recordings or the embedding.
     FormatError, IoError
         For a recording that cannot be read; the message names the file.
     """
@@ -78,7 +83,9 @@ def train(
         )
     report = progress or (lambda what, done, total: None)
     if isinstance(recognizer, WordRecognizer):
-        return _train_words(dataset, recognizer, fillers, report)
+        return _train_words(dataset, recognizer, fillers, embedding, report)
+    if embedding is not None:
+        raise InvalidArgument(f"embedding is for speech, the data set is {dataset.kind}")
     return _train_gestures(dataset, recognizer, report)
 
 
@@ -92,7 +99,11 @@ def fillers_of(dataset: Dataset) -> list[FillerWord]:
 
 
 def _train_words(
-    dataset: Dataset, recognizer: WordRecognizer, fillers: Sequence[FillerWord] | None, progress: Progress
+    dataset: Dataset,
+    recognizer: WordRecognizer,
+    fillers: Sequence[FillerWord] | None,
+    embedding: SpeechEmbedding | None,
+    progress: Progress,
 ) -> WordRecognizer:
     clips = []
     for done, sample in enumerate(dataset.samples):
@@ -103,6 +114,7 @@ def _train_words(
         [s.label for s in dataset.samples],
         groups=[s.person for s in dataset.samples],
         fillers=fillers,
+        embedding=embedding,
         progress=lambda done, total: progress("training", done, total),
     )
 

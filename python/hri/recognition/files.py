@@ -7,11 +7,12 @@ from __future__ import annotations
 from os import PathLike, fspath
 from typing import Literal, overload
 
+from hri.core.errors import InvalidArgument
 from hri.io import ModelFile
 from hri.recognition.gesture import GestureRecognizer
 from hri.recognition.loading import another_kind, refuse_recordings
 from hri.recognition.subword import SubwordRecognizer
-from hri.recognition.word import WordRecognizer
+from hri.recognition.word import SpeechEmbedding, WordRecognizer
 
 Mode = Literal["speech", "gesture"]
 _MODES: dict[str, Mode] = {
@@ -28,12 +29,18 @@ _WANTED: dict[Mode | None, str] = {
 
 
 @overload
-def load(path: str | PathLike[str]) -> WordRecognizer | SubwordRecognizer | GestureRecognizer: ...
+def load(
+    path: str | PathLike[str], *, embedding: SpeechEmbedding | None = None
+) -> WordRecognizer | SubwordRecognizer | GestureRecognizer: ...
 @overload
-def load(path: str | PathLike[str], mode: Literal["speech"]) -> WordRecognizer | SubwordRecognizer: ...
+def load(
+    path: str | PathLike[str], mode: Literal["speech"], *, embedding: SpeechEmbedding | None = None
+) -> WordRecognizer | SubwordRecognizer: ...
 @overload
 def load(path: str | PathLike[str], mode: Literal["gesture"]) -> GestureRecognizer: ...
-def load(path: str | PathLike[str], mode: Mode | None = None) -> WordRecognizer | SubwordRecognizer | GestureRecognizer:
+def load(
+    path: str | PathLike[str], mode: Mode | None = None, *, embedding: SpeechEmbedding | None = None
+) -> WordRecognizer | SubwordRecognizer | GestureRecognizer:
     """Read a recogniser of words or of gestures.
 
     Parameters
@@ -42,11 +49,17 @@ def load(path: str | PathLike[str], mode: Mode | None = None) -> WordRecognizer 
         What `save` wrote, in Python or C++.
     mode : {"speech", "gesture"}, optional
         What it has to be.
+    embedding : SpeechEmbedding, optional
+        For words of the front end "both", see `WordRecognizer.load`.
 
     Raises
     ------
     FormatError
-        For a file that holds anything else.
+        For a file that holds anything else, and for other weights of an embedding than those of training.
+    InvalidArgument
+        For an embedding where the model takes none.
+    ImportError
+        For words of the front end "both" without weights; names the extra.
     IoError
         For one that cannot be read.
     """
@@ -57,6 +70,8 @@ def load(path: str | PathLike[str], mode: Mode | None = None) -> WordRecognizer 
     found = _MODES.get(kind)
     if found is None or mode not in (None, found):
         raise another_kind(text, kind, wanted)
-    if found == "gesture":
-        return GestureRecognizer.load(path)
-    return SubwordRecognizer.load(path) if kind == "subword_recognizer" else WordRecognizer.load(path)
+    if kind == "word_recognizer":
+        return WordRecognizer.load(path, embedding=embedding)
+    if embedding is not None:
+        raise InvalidArgument(f"{text} takes no speech embedding: it is no model of words of the front end 'both'")
+    return GestureRecognizer.load(path) if found == "gesture" else SubwordRecognizer.load(path)

@@ -24,6 +24,9 @@ DRAWS = 5
 """Times that the words to learn from are drawn for every speaker."""
 SEED = 0
 
+Shares = dict[str, float]
+"""By measure."""
+
 
 def _draw(clips: Sequence[Clip], rng: np.random.Generator) -> list[int]:
     """Places of the most clips learned from, in random order: one of every label before the second of any."""
@@ -45,30 +48,34 @@ def _adapted(words: WordRecognizer, clips: Sequence[Clip], supervised: bool) -> 
     return adapter.recognizer
 
 
-def _share(words: WordRecognizer, clips: Sequence[Clip]) -> float:
-    """That of the clips whose best label is what was said."""
-    right = 0
+def _shares(words: WordRecognizer, clips: Sequence[Clip]) -> Shares:
+    """Those of the clips whose best label is what was said, and that were recognised as it."""
+    best = right = 0
     for label, _, sound in clips:
         decision = words.recognise(sound.samples, sound.sample_rate_hz)
-        right += bool(decision.nbest) and decision.nbest[0].label == label
-    return right / len(clips)
+        best += bool(decision.nbest) and decision.nbest[0].label == label
+        right += decision.label == label
+    return {"accuracy": best / len(clips), "right": right / len(clips)}
 
 
 def _of_speaker(
     words: WordRecognizer, clips: Sequence[Clip], learning: Sequence[str], number: int
-) -> dict[tuple[str, int], float]:
-    """Accuracy by (learning, words learned from), over the draws; every draw is tested on the clips it leaves."""
-    shares: dict[tuple[str, int], list[float]] = {}
+) -> dict[tuple[str, int], Shares]:
+    """Shares by (learning, words learned from), over the draws; every draw is tested on the clips it leaves."""
+    shares: dict[tuple[str, int], list[Shares]] = {}
     for draw in range(DRAWS):
         order = _draw(clips, np.random.default_rng([SEED, number, draw]))
         rest = [clip for place, clip in enumerate(clips) if place not in order]
-        before = _share(words, rest)
+        before = _shares(words, rest)
         for how in learning:
             shares.setdefault((how, 0), []).append(before)
             for count in WORDS:
                 adapted = _adapted(words, [clips[place] for place in order[:count]], how == "supervised")
-                shares.setdefault((how, count), []).append(_share(adapted, rest))
-    return {key: float(np.mean(found)) for key, found in shares.items()}
+                shares.setdefault((how, count), []).append(_shares(adapted, rest))
+    return {
+        key: {measure: float(np.mean([one[measure] for one in found])) for measure in found[0]}
+        for key, found in shares.items()
+    }
 
 
 def _run(
@@ -85,17 +92,19 @@ def _run(
         say = within(progress, name)
         clips = read_clips(data_dir, name, say, takes)
         persons = sorted({person for _, person, _ in clips})
-        found: dict[tuple[str, int], dict[str, float]] = {}
+        found: dict[tuple[str, int], dict[str, Shares]] = {}
         for number, person in enumerate(persons[:folds]):
             own = [clip for clip in clips if clip[1] == person]
             if len(own) <= max(WORDS):
                 raise InvalidArgument(f"{name}: {person} has {len(own)} recordings, more than {max(WORDS)} are needed")
             words = fit_clips([clip for clip in clips if clip[1] != person], "hmm")
-            for key, share in _of_speaker(words, own, learning, number).items():
-                found.setdefault(key, {})[person] = share
+            for key, shares in _of_speaker(words, own, learning, number).items():
+                found.setdefault(key, {})[person] = shares
             say("speakers", number + 1, len(persons))
-        for (how, count), shares in found.items():
-            rows.append({"data": name, "learning": how, "words": count, **statistics(shares)})
+        for (how, count), by_person in found.items():
+            right = float(np.mean([shares["right"] for shares in by_person.values()]))
+            accuracy = statistics({person: shares["accuracy"] for person, shares in by_person.items()})
+            rows.append({"data": name, "learning": how, "words": count, **accuracy, "right_mean": right})
     return {"seed": SEED, "draws": DRAWS, "rows": rows, "passed": None}
 
 

@@ -9,18 +9,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
 from hri.datasets import Dataset
-from hri.evaluation import AddNoise, EvaluationResult, evaluate_conditions
+from hri.evaluation import AddNoise, evaluate_conditions
 from hri.evaluation.conditions import Condition
 from hri.recognition import WordRecognizer
-from hri.recognition.decision import RECOGNISED
 from hri.recognition.keywords import WordRecognizerKeywords
 from hri.studies.noise import noise_paths
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
-from hri.studies.sweeps import SEED
-from hri.studies.tables import Row, statistics
+from hri.studies.sweeps import SEED, measured
 from hri.studies.word_features import first_takes
 
 FOLDER = "commands"
@@ -47,15 +43,6 @@ def conditions(data_dir: Path) -> dict[str, Condition | None]:
     return {QUIET: None, NOISY: AddNoise([noise_paths(data_dir)["white"]], [NOISE_DB])}
 
 
-def measures(result: EvaluationResult) -> Row:
-    """Accuracy, rejected or not; the shares of clips that were recognised, and rightly so."""
-    row: Row = statistics({fold.name: fold.accuracy for fold in result.folds})
-    items = [item for fold in result.folds for item in fold.items]
-    row["recognised_mean"] = float(np.mean([item.decision.status == RECOGNISED for item in items]))
-    row["right_mean"] = float(np.mean([item.decision.label == item.truth for item in items]))
-    return row
-
-
 def _run(
     data_dir: Path,
     progress: Progress,
@@ -78,7 +65,7 @@ def _run(
             seed=SEED,
             progress=within(progress, name),
         )
-        rows += [{"front_end": name, "test": test, **measures(result)} for test, result in results.items()]
+        rows += [{"front_end": name, "test": test, **measured(result)} for test, result in results.items()]
     return {
         "seed": SEED,
         "options": WordRecognizer().options.as_dict(),
@@ -98,7 +85,7 @@ STUDIES = (
         Layout(columns="test"),
         axes={"front_end": tuple(FRONT_ENDS)},
         thins=True,
-        sources=WORD_SOURCES,
+        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
         folds=True,
         quick={"front_end": ("cepstra",)},
     ),
@@ -111,7 +98,7 @@ STUDIES = (
         Layout(columns="test"),
         axes={"front_end": tuple(WITH_NETWORK)},
         thins=True,
-        sources=WORD_SOURCES,
+        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
         folds=True,
     ),
 )

@@ -18,9 +18,9 @@ from hri.evaluation import EvaluationResult
 from hri.evaluation.speech import SpeechRunner
 from hri.recognition import WordRecognizer
 from hri.recognition.keywords import WordRecognizerKeywords
-from hri.studies.commands import FOLDER, FRONT_ENDS, NUM_FOLDS, WITH_NETWORK, conditions, measures
+from hri.studies.commands import FOLDER, FRONT_ENDS, NUM_FOLDS, WITH_NETWORK, conditions
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
-from hri.studies.sweeps import SEED
+from hri.studies.sweeps import SEED, measured
 from hri.studies.word_features import first_takes
 
 CHOICES: dict[str, WordRecognizerKeywords] = {**FRONT_ENDS, "both-network": WITH_NETWORK["both-network"]}
@@ -56,7 +56,7 @@ def _run(
         found = [runner.run(fewer(fold, dataset, speakers, takes)) for fold in held_out]
         for test in tests:
             result = EvaluationResult(dataset.labels, [one[test] for one in found], {})
-            rows.append({"front_end": name, "takes": takes, "test": test, "speakers": speakers, **measures(result)})
+            rows.append({"front_end": name, "takes": takes, "test": test, "speakers": speakers, **measured(result)})
     return {"seed": SEED, "options": WordRecognizer().options.as_dict(), "rows": rows, "passed": None}
 
 
@@ -70,7 +70,7 @@ STUDIES = (
         _run,
         Layout(columns="speakers", x="speakers", panel="test"),
         axes={"front_end": tuple(CHOICES)},
-        sources=(*WORD_SOURCES, "python/studies/commands.py"),
+        sources=(*WORD_SOURCES, "python/studies/commands.py", "python/studies/sweeps.py"),
         folds=True,
         quick={"front_end": ("cepstra",)},
     ),

@@ -80,17 +80,25 @@ def _by_turns(clips: Sequence[Clip]) -> list[Clip]:
 
 
 def _measure(words: WordRecognizer, clips: Sequence[Clip], label: str) -> Row:
-    """Of the clips of `label` the share recognised and the share rejected, of the others the share recognised."""
+    """Shares of the clips of `label`, and of the others.
+
+    "added" and "others" count the best label, rejected or not; with "_right" what is recognised, and rightly;
+    "rejected" counts clips of `label`.
+    """
+    best: dict[bool, list[bool]] = {True: [], False: []}
     right: dict[bool, list[bool]] = {True: [], False: []}
     rejected = []
     for said, _, sound in clips:
         decision = words.recognise(sound.samples, sound.sample_rate_hz)
-        right[said == label].append(bool(decision.nbest) and decision.nbest[0].label == said)
+        best[said == label].append(bool(decision.nbest) and decision.nbest[0].label == said)
+        right[said == label].append(decision.label == said)
         if said == label:
             rejected.append(decision.status != RECOGNISED)
     return {
-        "added": float(np.mean(right[True])),
-        "others": float(np.mean(right[False])),
+        "added": float(np.mean(best[True])),
+        "others": float(np.mean(best[False])),
+        "added_right": float(np.mean(right[True])),
+        "others_right": float(np.mean(right[False])),
         "rejected": float(np.mean(rejected)),
     }
 
@@ -99,7 +107,7 @@ def _of_word(split: Split, label: str, model: str) -> Iterator[tuple[tuple[str, 
     """What was measured by (source, recordings) when `label` was left out of training and added."""
     known = fit_clips([clip for clip in split.train if clip[0] != label], model)
     before = _measure(known, split.test, label)
-    yield ("not added", 0), {"others": before["others"]}
+    yield ("not added", 0), {measure: before[measure] for measure in ("others", "others_right")}
     pools = {"user": split.own, "others": _by_turns(split.train)}
     for source, clips in pools.items():
         sounds = [sound for said, _, sound in clips if said == label]
@@ -118,7 +126,7 @@ def _rows(found: Mapping[tuple[str, int], Mapping[str, Sequence[Row]]], place: R
     """Means over the words of a speaker, then over speakers."""
     for (source, count), by_person in found.items():
         row = {**place, "source": source, "samples": count}
-        for measure in ("added", "others", "rejected"):
+        for measure in ("added", "others", "added_right", "others_right", "rejected"):
             shares = {
                 person: float(np.mean([one[measure] for one in ones]))
                 for person, ones in by_person.items()

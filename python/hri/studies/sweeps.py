@@ -14,7 +14,7 @@ import numpy as np
 from hri.evaluation import EvaluationResult, evaluate_conditions
 from hri.evaluation.conditions import Condition
 from hri.recognition import WordRecognizer
-from hri.recognition.decision import NO_INPUT
+from hri.recognition.decision import NO_INPUT, RECOGNISED
 from hri.studies.front_ends import CHOICES
 from hri.studies.registry import Progress, within
 from hri.studies.tables import Row, statistics
@@ -26,10 +26,21 @@ Trainings = Mapping[str, Sequence[Condition]]
 
 
 def measured(result: EvaluationResult) -> Row:
-    """Accuracy by person, and the share of clips in which no speech was found."""
+    """What the studies of words say of one test.
+
+    Accuracy by fold (the best label is right, rejected or not), and of all clips the shares that were recognised, that
+    were recognised and rightly, and in which no speech was found, and the expected calibration error.
+    """
     unheard = [np.mean([t.decision.status == NO_INPUT for t in fold.items]) for fold in result.folds]
-    per_fold = {fold.name: fold.accuracy for fold in result.folds}
-    return {**statistics(per_fold), "no_input_mean": float(np.mean(unheard)), "no_input_std": float(np.std(unheard))}
+    row: Row = {
+        **statistics({fold.name: fold.accuracy for fold in result.folds}),
+        "recognised_mean": float(np.mean([t.decision.status == RECOGNISED for t in result.items])),
+        "right_mean": result.recognised_right,
+        "no_input_mean": float(np.mean(unheard)),
+        "no_input_std": float(np.std(unheard)),
+    }
+    error = result.calibration_error
+    return row if error is None else {**row, "calibration_error_mean": error}
 
 
 def sweep(

@@ -127,7 +127,7 @@ class Pivot:
     columns : str
         The axis along the columns; "measures" for one column a measure.
     measures : tuple of str
-        What was measured, for one column a measure; empty for all.
+        What was measured, for one column a measure; empty for all. Of other columns one; empty for the layout's.
     where : mapping of str to sequence of str
         Only the rows of the result with these values.
     names : mapping of str to str
@@ -153,9 +153,11 @@ def pivot(rows: Sequence[Row], layout: Layout, shown: Pivot) -> list[list[str]]:
     Raises
     ------
     InvalidArgument
-        For an axis that the rows have not, no row left, or two rows for one cell.
+        For an axis that the rows have not, no row left, or two rows or measures for one cell.
     """
     axes = axes_of(rows)
+    if shown.columns != "measures" and len(shown.measures) > 1:
+        raise InvalidArgument(f"several measures for one cell: {', '.join(shown.measures)}")
     unknown = {*shown.rows, *shown.where, shown.columns} - {*axes, "measures"}
     if unknown:
         raise InvalidArgument(f"no axis {', '.join(sorted(unknown))}; there are: {', '.join(axes)}")
@@ -171,7 +173,7 @@ def pivot(rows: Sequence[Row], layout: Layout, shown: Pivot) -> list[list[str]]:
         found = (
             {name: show(row, layout, name, shown) for name in shown.measures or measures_of(kept)}
             if by_measure
-            else {_named(row[shown.columns], shown): show(row, layout, "", shown)}
+            else {_named(row[shown.columns], shown): show(row, layout, "".join(shown.measures), shown)}
         )
         if cells.keys() & found.keys():
             raise InvalidArgument(f"several rows for one cell: {row}")

