@@ -76,6 +76,7 @@ def test_files_of_another_kind_are_said_to_be_what_they_are(hri, spoken: Path, s
         ),
         (("recognise", "--speech", sign, "--speech-model", words), 3, "is a picture, and a sound file is needed"),
         (("recognise", word, spoken / "2_low_0.wav"), 2, "are both words: one at a time"),
+        (("recognise", spoken), 2, "is a folder of sounds: give one of them"),
     ):
         result = hri(*arguments)
         assert (result.code, result.out) == (code, ""), arguments
