@@ -23,7 +23,7 @@ from hri.features import (
     SilhouetteCepstrumOptions,
     orientation_histogram,
 )
-from hri.features.hand import hand_features
+from hri.features.hand import hand_column_names, hand_features
 from hri.synthetic.drawing.signer import make_signer
 from hri.synthetic.signer import draw_still
 from hri.vision import SilhouetteExtractor, SilhouetteOptions
@@ -194,6 +194,23 @@ def test_cepstra_of_a_picture_equal_the_formulae(wavelet: str, num_levels: int, 
     averaged = SilhouetteCepstrumOptions(wavelet=wavelet, num_levels=num_levels, average_frames=True, **fields)
     mean = SilhouetteCepstrumComputer(averaged).compute(mask)
     np.testing.assert_allclose(mean, ours.reshape(num_frames, 12).mean(axis=0), atol=1e-3)
+
+
+def test_framed_cepstra_are_those_of_the_thesis_by_default() -> None:
+    mask = SilhouetteExtractor().extract(draw_still(make_signer(0), "3")).mask
+    square = SilhouetteCepstrumComputer(SilhouetteCepstrumOptions(num_levels=0)).picture_signal(mask).reshape(256, 256)
+    approximation = square.astype("f8").reshape(32, 8, 32, 8).mean(axis=(1, 3))  # three levels of "haar", columns first
+    found = hand_features([mask], [mask], "framed-mfcc")
+    assert found.dtype == np.float32 and found.shape == (1, 11 * 12)
+    np.testing.assert_allclose(found.reshape(11, 12), framed(approximation.ravel(), 11, 26, 11), atol=2e-2)
+    names = hand_column_names("framed-mfcc")
+    assert names[0] == "frame0_c0" and names[11:13] == ["frame0_c11", "frame1_c0"] and len(names) == 132
+    outline = hand_features([mask], [mask], "framed-mfcc", signal="contour", num_levels=0)
+    same = {"num_frames": 11, "average_frames": False, "num_filters": 26, "num_cepstra": 11, "num_levels": 0}
+    np.testing.assert_array_equal(outline, hand_features([mask], [mask], "dwt-mfcc", **same))
+    assert hand_features([mask], [mask], "framed-mfcc", num_frames=5, num_cepstra=7).shape == (1, 5 * 8)
+    with pytest.raises(InvalidArgument, match="too small for num_frames"):
+        hand_features([mask], [mask], "framed-mfcc", mask_px=64)
 
 
 def test_picture_signal_is_the_cropped_mask_column_by_column() -> None:

@@ -40,6 +40,7 @@ Kind = Literal[
     "orientation",
     "frame-orientation",
     "dwt-mfcc",
+    "framed-mfcc",
     "wavelet",
     "fourier",
     "chain-code",
@@ -53,6 +54,18 @@ Rows = Callable[[Sequence[Picture] | Picture, Sequence[Picture] | Picture], Any]
 
 FRAME_SIZE = (60, 40)
 """Width and height to which section 4.6.4 of the thesis scales whole pictures."""
+FRAMED_CEPSTRUM: dict[str, Any] = {
+    "signal": "picture",
+    "wavelet": "haar",
+    "num_levels": 3,
+    "num_frames": 11,
+    "average_frames": False,
+    "num_filters": 26,
+    "num_cepstra": 11,
+}
+"""Fields of `SilhouetteCepstrumOptions` as section 3.1.3 of the thesis has them: the approximation of three levels as
+a column vector, blocked into 11 frames of 12 coefficients, c0 to c11 (text at figures 3.5 and 3.6). The text does not
+give the wavelet (table 3.7 has Haar among others), the number of filters and the size of the mask."""
 
 
 def hand_features(
@@ -67,7 +80,8 @@ def hand_features(
     kind : str
         One of `HAND_KINDS`: ``hand``, the concatenated features of `GestureRecognizer`; ``orientation`` histograms of
         the grey picture around the hand; ``frame-orientation``, of the whole grey picture, scaled to 60 x 40 (needs
-        OpenCV); ``dwt-mfcc``, the cepstra of the silhouette; ``wavelet``, moment-invariant wavelet descriptors;
+        OpenCV); ``dwt-mfcc``, the cepstra of the silhouette; ``framed-mfcc``, the same with the defaults of
+        `FRAMED_CEPSTRUM`, 11 frames of 12 coefficients side by side; ``wavelet``, moment-invariant wavelet descriptors;
         ``fourier`` descriptors; ``chain-code`` histograms; ``moments``, Hu's; ``track``, place, size, axis and speed;
         ``hybrid``, the hybrid feature of a whole gesture.
     **options
@@ -180,6 +194,10 @@ def _frame_orientation(options: Any) -> Compute:
     )
 
 
+def _framed_options(**fields: Any) -> SilhouetteCepstrumOptions:
+    return SilhouetteCepstrumOptions(**FRAMED_CEPSTRUM | fields)
+
+
 def _cepstrum_names(options: Any) -> list[str]:
     names = [f"c{i}" for i in range(options.num_cepstra + 1)]
     if options.average_frames:
@@ -216,6 +234,7 @@ HAND_KINDS: dict[str, _Kind] = {
     "orientation": _Kind(_orientation_options, _each(_orientation), _orientation_names),
     "frame-orientation": _Kind(_orientation_options, _each(_frame_orientation), _orientation_names),
     "dwt-mfcc": _Kind(SilhouetteCepstrumOptions, _of_mask(SilhouetteCepstrumComputer), _cepstrum_names),
+    "framed-mfcc": _Kind(_framed_options, _of_mask(SilhouetteCepstrumComputer), _cepstrum_names),
     "wavelet": _Kind(WaveletDescriptorOptions, _of_mask(WaveletDescriptorComputer), _wavelet_names),
     "fourier": _Kind(FourierDescriptorOptions, _of_mask(FourierDescriptorComputer), _fourier_names),
     "chain-code": _Kind(ChainCodeOptions, _of_mask(ChainCodeComputer), _chain_code_names),

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from hri.features.hand import FRAMED_CEPSTRUM
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.sign_shapes import CLASSIFIERS, SignPictures, Vectors, accuracies, read_signs, scaled
 from hri.studies.tables import Row
@@ -18,14 +19,17 @@ from hri.studies.tables import Row
 NUM_FILTERS = 26
 """Room for 20 cepstra and more."""
 SIGNALS: dict[str, dict[str, Any]] = {
-    "picture": {"signal": "picture", "num_frames": 11, "average_frames": False},
-    "outline": {"signal": "contour", "num_frames": 3, "average_frames": True},
+    "picture": FRAMED_CEPSTRUM,
+    "outline": FRAMED_CEPSTRUM | {"signal": "contour"},
+    "averaged outline": {"signal": "contour", "num_frames": 3, "average_frames": True},
 }
-"""What cepstra are taken of: the picture, column by column, in the thesis's 11 frames side by side, or the distance of
-the outline from its middle, averaged over 3 frames."""
-NUM_COEFFICIENTS = {"picture": 12, "outline": 14}
+"""What cepstra are taken of: the picture, column by column, or the distance of the outline from its middle, in the
+thesis's 11 frames side by side; or the latter, averaged over 3 frames."""
+NUM_COEFFICIENTS = {"picture": 12, "outline": 12, "averaged outline": 14}
 """Of a frame, c0 included; 12 are the thesis's (text at figures 3.5 and 3.6)."""
 NUM_BINS = (9, 18, 27, 36)
+TRANSFORMS = {"mfcc": "", "haar+mfcc": "haar", "db2+mfcc": "db2"}
+"""By name, the wavelet of three levels; "": no DWT."""
 
 Feature = tuple[str, dict[str, Any]]
 """A kind of `hand_features` and its options."""
@@ -46,9 +50,11 @@ FEATURES: dict[str, Feature] = {
     "mfcc (32 px)": ("dwt-mfcc", _cepstra("picture", "")[1] | {"mask_px": 32}),
     "haar+mfcc": _cepstra("picture", "haar"),
     "db2+mfcc": _cepstra("picture", "db2"),
-    "mfcc (outline)": _cepstra("outline", ""),
-    "haar+mfcc (outline)": _cepstra("outline", "haar"),
-    "db2+mfcc (outline)": _cepstra("outline", "db2"),
+    **{
+        f"{name} ({of})": _cepstra(of, wavelet)
+        for of in ("outline", "averaged outline")
+        for name, wavelet in TRANSFORMS.items()
+    },
     "wavelet moments": ("wavelet", {}),
     "wavelet moments (outline)": ("wavelet", {"source": "contour"}),
     "fourier": ("fourier", {}),
@@ -62,7 +68,6 @@ FEATURES: dict[str, Feature] = {
 three levels of "haar"."""
 
 COEFFICIENTS = (6, 8, 10, 12, 13, 14, 15, 17, 20, 24)
-TRANSFORMS = {"mfcc": "", "haar+mfcc": "haar", "db2+mfcc": "db2"}
 COEFFICIENT_CLASSIFIERS = ("3-nn", "svm")
 WAVELETS = ("haar", "db2", "db4", "sym8")
 LEVELS = (0, 1, 2, 3, 4)
@@ -72,6 +77,8 @@ DISTANCE_FEATURES = (
     "db2+mfcc",
     "mfcc (outline)",
     "db2+mfcc (outline)",
+    "mfcc (averaged outline)",
+    "db2+mfcc (averaged outline)",
     "orientation 18",
     "wavelet moments",
     "fourier (phase)",

@@ -16,14 +16,16 @@ from numpy.typing import NDArray
 from hri.datasets import Dataset, Fold
 from hri.features.hand import hand_features
 from hri.media import read_image
-from hri.models import PCA, Classifier, DistanceClassifier, GaussianBayes, KnnClassifier, LinearSvm
+from hri.models import LDA, PCA, Classifier, DistanceClassifier, GaussianBayes, KnnClassifier, LinearSvm
 from hri.studies.registry import Progress
 from hri.studies.tables import Row, statistics
 from hri.vision.hands import find_silhouettes
 
 NUM_FOLDS = 5
 NUM_COMPONENTS = 40
-"""Principal components kept of longer vectors, but for the support vector machine."""
+"""Principal components kept of longer vectors, for classifiers that are not in `WIDE`."""
+NUM_DISCRIMINANT_COMPONENTS = 200
+"""The same for LDA, whose covariance needs more rows than columns: shorter vectors are only turned."""
 NUM_NEIGHBOURS = (1, 3, 5, 7)
 """As in the thesis, table 3.7."""
 
@@ -83,6 +85,13 @@ def _fit_svm(rows: Vectors, classes: NDArray[np.int64]) -> Predict:
     return lambda test: trained.predict(scale * test)
 
 
+def _fit_lda(rows: Vectors, classes: NDArray[np.int64]) -> Predict:
+    # Where the covariance within classes is the identity, the nearest mean is the most probable of equal classes.
+    plane = LDA().fit(rows, classes)
+    trained = DistanceClassifier(metric="euclidean").fit(plane.transform(rows), classes)
+    return lambda test: trained.predict(plane.transform(test))
+
+
 def _nearest(metric: Any) -> Fit:
     return partial(_fit, partial(DistanceClassifier, metric=metric))
 
@@ -90,10 +99,13 @@ def _nearest(metric: Any) -> Fit:
 CLASSIFIERS: dict[str, Fit] = {
     **{metric: _nearest(metric) for metric in ("euclidean", "manhattan", "mahalanobis", "bhattacharyya")},
     **{f"{k}-nn": partial(_fit, partial(KnnClassifier, num_neighbours=k)) for k in NUM_NEIGHBOURS},
+    "lda": _fit_lda,
     "bayes": partial(_fit, partial(GaussianBayes, covariance="full")),
     "svm": _fit_svm,
 }
-"""By name; distances are to class means. All but "svm" get principal components."""
+"""By name; distances are to class means."""
+WIDE: dict[str, int | None] = {"lda": NUM_DISCRIMINANT_COMPONENTS, "svm": None}
+"""The classifiers that get other than `NUM_COMPONENTS` principal components; None: the columns as they are."""
 
 
 def scaled(rows: Vectors, by: Vectors) -> Vectors:
@@ -103,21 +115,38 @@ def scaled(rows: Vectors, by: Vectors) -> Vectors:
     return np.where(constant, 0, (rows - by.mean(axis=0)) / np.where(constant, 1, spread)).astype(np.float32)
 
 
+def shares_right(
+    vectors: Vectors,
+    classes: NDArray[np.int64],
+    train: Sequence[int] | NDArray[np.int64],
+    test: Sequence[int] | NDArray[np.int64],
+    classifiers: Sequence[str],
+) -> dict[str, float]:
+    """The share of the rows `test` that every classifier gets right that was trained on the rows `train`.
+
+    What columns are scaled by, and principal components, are of the rows `train` alone.
+    """
+    known, unknown = (scaled(vectors[rows], vectors[train]) for rows in (train, test))
+    found, shown = {}, {}
+    for name in classifiers:
+        kept = WIDE.get(name, NUM_COMPONENTS)
+        if kept not in shown:
+            pca = PCA(min(kept, known.shape[1])).fit(known) if kept else None
+            shown[kept] = (pca.transform(known), pca.transform(unknown)) if pca else (known, unknown)
+        predict = CLASSIFIERS[name](shown[kept][0], classes[train])
+        found[name] = float(np.mean(predict(shown[kept][1]) == classes[test]))
+    return found
+
+
 def accuracies(
     signs: SignPictures, vectors: Vectors, classifiers: Sequence[str], say: Progress, what: str
 ) -> list[Row]:
     """Of every classifier on the signs of persons it was not trained on, as rows of a result."""
-    classes = signs.classes
     per_fold: dict[str, dict[str, float]] = {name: {} for name in classifiers}
     folds = signs.folds()
     for done, fold in enumerate(folds):
-        train = scaled(vectors[fold.train], vectors[fold.train])
-        test = scaled(vectors[fold.test], vectors[fold.train])
-        pca = PCA(min(NUM_COMPONENTS, train.shape[1])).fit(train)
-        shown = (pca.transform(train), pca.transform(test))
-        for name in classifiers:
-            known, unknown = (train, test) if name == "svm" else shown
-            predict = CLASSIFIERS[name](known, classes[fold.train])
-            per_fold[name][fold.name] = float(np.mean(predict(unknown) == classes[fold.test]))
+        found = shares_right(vectors, signs.classes, fold.train, fold.test, classifiers)
+        for name, share in found.items():
+            per_fold[name][fold.name] = share
         say(what, done + 1, len(folds))
     return [{"classifier": name, **statistics(shares)} for name, shares in per_fold.items()]
