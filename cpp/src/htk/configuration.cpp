@@ -55,13 +55,14 @@ class ConfigurationReader {
     const std::size_t equals = line.find('=');
     std::vector<std::string> values;
     if (equals == std::string::npos) lines_.refuse("expected KEY = VALUE");
-    if (!detail::split_fields(line.substr(equals + 1), &values))
-      lines_.refuse("a quotation does not end");
+    if (const char* fault = detail::split_fields(line.substr(equals + 1), &values);
+        fault != nullptr)
+      lines_.refuse(fault);
     std::string key = line.substr(0, equals);
     const std::size_t colon = key.find(':');
     if (colon != std::string::npos) key = key.substr(colon + 1);
     std::vector<std::string> keys;
-    if (!detail::split_fields(key, &keys) || keys.size() != 1 || values.empty())
+    if (detail::split_fields(key, &keys) != nullptr || keys.size() != 1 || values.empty())
       lines_.refuse("expected KEY = VALUE");
     const std::string name = upper(keys.front());
     const std::size_t first = line.find_first_not_of(detail::kBlanks, equals + 1);

@@ -58,9 +58,10 @@ void ModelTokens::read_quoted() {
   std::size_t end = at_ + 1;
   while (end < line_end && text_[end] != text_[at_]) end += text_[end] == '\\' ? 2 : 1;
   std::vector<std::string> fields;
-  if (end >= line_end || !split_fields(text_.substr(at_, end + 1 - at_), &fields) ||
-      fields.size() != 1)
-    refuse("a quotation does not end");
+  if (end >= line_end) refuse("a quotation does not end");
+  if (const char* fault = split_fields(text_.substr(at_, end + 1 - at_), &fields); fault != nullptr)
+    refuse(fault);
+  if (fields.size() != 1) refuse("a quotation does not end");
   now_ = {ModelToken::Kind::name, fields.front()};
   at_ = end + 1;
 }
