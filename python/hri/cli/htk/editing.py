@@ -8,9 +8,16 @@ from pathlib import Path
 
 import click
 
-from hri.cli.htk.options import ModelFiles, load_configuration, models_option
+from hri.cli.htk.options import (
+    ModelFiles,
+    folder_option,
+    listed_models_options,
+    load_configuration,
+    models_option,
+    new_suffix_option,
+)
 from hri.cli.htk.standard import BINARY, INPUT, HtkCommand, refused_options, standard_options
-from hri.cli.htk.training import folder_option
+from hri.cli.output import write_text
 from hri.core.files import make_folder
 from hri.htk import EditScript, read_list
 
@@ -18,10 +25,9 @@ from hri.htk import EditScript, read_list
 @click.command(cls=HtkCommand)
 @standard_options("ACDTV")
 @models_option
-@click.option("-d", "model_folder", metavar="DIR", help="Folder of models that no -H defines, a file for each.")
-@click.option("-x", "model_suffix", metavar="EXT", help="Suffix of these files.")
+@listed_models_options
 @folder_option
-@click.option("-o", "new_suffix", metavar="EXT", help="Suffix of the files that models of -d are written to.")
+@new_suffix_option
 @click.option("-w", "master", metavar="MMF", help="One file for all models, in place of those that were read.")
 @refused_options(
     Q=("lists of models are not written", 1),
