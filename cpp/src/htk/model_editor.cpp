@@ -81,6 +81,7 @@ std::string without_contexts(const std::string& name) {
 }
 
 std::int64_t size_of(const HmmDefinition& hmm) {
+    size += state.discrete.size();
   std::int64_t size = hmm.transitions.values.size();
   for (const StateDefinition& state : hmm.states) {
     for (const WeightedComponent& one : state.components)

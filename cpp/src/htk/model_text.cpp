@@ -15,7 +15,20 @@ constexpr const char* kSpaces = " \t\r\n";
 
 bool is_space(char c) { return std::string(kSpaces).find(c) != std::string::npos; }
 
+constexpr double kScaleOfLogs = -2371.8;
+constexpr int kScaledLogOfZero = 32767;
+
 }  // namespace
+
+int to_scaled_log(double probability) {
+  if (!(probability > 0)) return kScaledLogOfZero;
+  const double value = std::round(kScaleOfLogs * std::log(std::min(probability, 1.0)));
+  return static_cast<int>(std::min(value, double{kScaledLogOfZero}));
+}
+
+double from_scaled_log(int value) {
+  return value == kScaledLogOfZero ? 0 : std::exp(value / kScaleOfLogs);
+}
 
 void ModelTokens::refuse_at(std::int64_t line, const std::string& why) const {
   fail(ErrorKind::format, name_ + ": line " + std::to_string(line) + ": " + why);

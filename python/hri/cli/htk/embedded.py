@@ -36,7 +36,7 @@ from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_text
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import make_folder
-from hri.htk import Configuration, EmbeddedTrainer, EmbeddedTrainerOptions, ModelOccupation, read_list
+from hri.htk import Configuration, EmbeddedTrainer, EmbeddedTrainerOptions, ModelOccupation, ModelSet, read_list
 
 WHY = {
     "too_short": "has fewer frames than the models of its transcript take; left out",
@@ -155,7 +155,7 @@ def erest(
         references = References(masters, label_folder, suffix)
         utterances = [(file, _units(file.name, references, names)) for file in recordings]
         check_headers(recordings, sources.models, configuration)
-        _add_all(trainer, utterances, sources.models.kind, configuration, trace)
+        _add_all(trainer, utterances, sources.models, configuration, trace)
     if not trainer.num_frames:
         raise FormatError("no recording fits its transcript; nothing was trained")
     if part:
@@ -182,13 +182,13 @@ def erest(
 def _add_all(
     trainer: EmbeddedTrainer,
     utterances: Sequence[tuple[DataFile, list[str]]],
-    kind: str,
+    models: ModelSet,
     configuration: Configuration,
     trace: int,
 ) -> None:
     """Add recordings with the models of their transcripts; those that do not fit are named."""
     for file, units in utterances:
-        frames = load_frames(file, kind, configuration)
+        frames = load_frames(file, models, configuration)
         before = trainer.log_likelihood
         outcome = trainer.add(frames, units)
         if outcome != "added":

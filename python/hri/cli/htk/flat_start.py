@@ -73,7 +73,7 @@ def compv(
     period = check_headers(recordings, sources.models, configuration)
     start = FlatStart()
     try:
-        for _, frames in segments(recordings, sources.models.kind, configuration, references, label, period):
+        for _, frames in segments(recordings, sources.models, configuration, references, label, period):
             start.add(frames)
         if not start.num_frames:
             raise click.UsageError(NOTHING)

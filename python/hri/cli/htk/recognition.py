@@ -225,7 +225,7 @@ def vite(
     shared = None if network is None else [recognizer_of(recordings[0], beam) for beam in beams]
     entries = []
     for file in recordings:
-        frames = load_frames(file, sources.models.kind, configuration)
+        frames = load_frames(file, sources.models, configuration)
         path = Path(file.name).with_suffix(f".{out_suffix}")
         target = path if folder is None else Path(folder, path.name)
         lattice_path = None if lattice_suffix is None else target.with_suffix(f".{lattice_suffix}")

@@ -179,7 +179,7 @@ def _train(
     sequences = []
     try:
         least = min_frames_of(sources.models, model)
-        for where, frames in segments(recordings, sources.models.kind, configuration, references, label, period):
+        for where, frames in segments(recordings, sources.models, configuration, references, label, period):
             if len(frames) < max(least, 1):
                 note(f"{where}: {len(frames)} frames are fewer than the {least} that {model} takes; left out")
             else:
@@ -200,7 +200,7 @@ def _train(
 
 def segments(
     files: Sequence[DataFile],
-    kind: str,
+    models: ModelSet,
     configuration: Configuration,
     references: References,
     label: str | None,
@@ -209,7 +209,7 @@ def segments(
     """Names and frames of whole files, or of the parts of them that have the label, one file at a time."""
     for file in files:
         if label is None:
-            yield file.name, load_frames(file, kind, configuration)
+            yield file.name, load_frames(file, models, configuration)
             continue
         transcription, source = references.locate(file.name)
         wanted = [one for one in transcription.labels if one.name == label]
@@ -218,7 +218,7 @@ def segments(
                 raise FormatError(f"{source}: line {one.line}: the label {label!r} has no times")
         if not wanted:
             continue
-        frames = load_frames(file, kind, configuration)
+        frames = load_frames(file, models, configuration)
         for one in wanted:
             assert one.first is not None and one.last is not None
             segment = frames[round(one.first / period) : round(one.last / period)]
