@@ -9347,6 +9347,10 @@ class HtkEditScript:
         """
         The models after all commands; raises FormatError for items that no model has.
         """
+    def apply_with_files(self, models: HtkModelSet) -> tuple[HtkModelSet, list[tuple[str, str]]]:
+        """
+        The same, and (path, text) of the files that CO and ST want written, which are not.
+        """
     @property
     def num_commands(self) -> int:
         """

@@ -30,9 +30,9 @@ from hri.htk import EditScript, read_list
 @new_suffix_option
 @click.option("-w", "master", metavar="MMF", help="One file for all models, in place of those that were read.")
 @refused_options(
-    Q=("lists of models are not written", 1),
+    Q=("CO writes lists of models", 1),
     r=("there are no regression classes", 1),
-    z=("lists of models are not written", 0),
+    z=("CO writes lists of models", 0),
     **BINARY,
 )
 @click.argument("script", type=INPUT)
@@ -49,19 +49,21 @@ def hed(
     script: str,
     model_list: str,
 ) -> None:
-    """Split mixtures, tie parameters and change transitions, as HHEd: commands MU, TI, AT, RT and CL.
+    """Split mixtures, tie parameters, cluster states and change transitions, as HHEd.
 
-    Every file that was read is written again, to the folder of -M; new macros come to the first one with a model.
+    Commands are MU, TI, AT, RT, CL, RO, LS, QS, TB, TC, AU, CO, ST and LT. Every file of models that was read is
+    written again, to the folder of -M; new macros come to the first one with a model.
 
     \b
     Example:
       hri htk hed -H hmm4/macros -H hmm4/hmmdefs -M hmm5 sil.hed list
+      hri htk hed -H hmm12/macros -H hmm12/hmmdefs -M hmm13 tree.hed triphones1
     """
     load_configuration(configs)
     commands = EditScript.read(script)
     sources = ModelFiles(macros)
     listed = sources.add_listed(read_list(model_list).values(), model_folder, model_suffix)
-    made = commands.apply(sources.models)
+    made, files = commands.apply_with_files(sources.models)
     if master is not None:
         target = Path(master) if folder is None else Path(folder, Path(master).name)
         make_folder(target.parent)
@@ -70,5 +72,8 @@ def hed(
     else:
         renamed = {} if new_suffix is None else {path: str(Path(path).with_suffix(f".{new_suffix}")) for path in listed}
         targets = sources.write(sources.follow(made), folder, renamed)
+    for path, text in files:
+        make_folder(Path(path).parent)
+        write_text(Path(path), text)
     if trace:
         click.echo(f"{script}: {commands.num_commands} commands -> {' '.join(map(str, targets))}")
