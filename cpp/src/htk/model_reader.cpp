@@ -112,8 +112,7 @@ class ModelReader {
   // Whether an option for all models stands here; it is read then.
   bool option() {
     if (tokens_.skip("STREAMINFO")) {
-      if (tokens_.take_whole(1, 1000) != 1)
-        tokens_.refuse_taken("models of several streams are not read");
+      if (tokens_.take_whole(1, 1000) != 1) refuse_streams();
       set_size(tokens_.take_whole(1, kMostColumns));
     } else if (tokens_.skip("VECSIZE")) {
       set_size(tokens_.take_whole(1, kMostColumns));
@@ -165,6 +164,10 @@ class ModelReader {
     return definition;
   }
 
+  [[noreturn]] void refuse_streams() const {
+    tokens_.refuse_taken("models of several streams are not read");
+  }
+
   StateDefinition state() {
     if (const MacroDefinition* macro = used('s'); macro != nullptr) {
       StateDefinition shared = macro->state;
@@ -175,12 +178,15 @@ class ModelReader {
       return shared;
     }
     StateDefinition definition;
-    if (tokens_.skip("NUMMIXES")) definition.num_mixtures = tokens_.take_whole(1, kMostMixtures);
-    if (tokens_.skip("SWEIGHTS")) {
-      if (tokens_.take_whole(1, 1000) != 1 || tokens_.take_number() != 1)
-        tokens_.refuse_taken("models of several streams are not read");
+    if (tokens_.skip("NUMMIXES")) {
+      definition.num_mixtures = tokens_.take_whole(1, kMostMixtures);
+      // There is one number for each stream.
+      if (tokens_.now().kind == ModelToken::Kind::word) refuse_streams();
     }
-    if (tokens_.skip("STREAM")) tokens_.take_whole(1, 1);
+    if (tokens_.skip("SWEIGHTS")) {
+      if (tokens_.take_whole(1, 1000) != 1 || tokens_.take_number() != 1) refuse_streams();
+    }
+    if (tokens_.skip("STREAM") && tokens_.take_whole(1, 1000) != 1) refuse_streams();
     if (tokens_.is("DPROB")) {
       discrete_state(&definition);
       return definition;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -163,11 +162,15 @@ class TableReader {
   int num_columns_ = 0;
 };
 
-double distance_to(const VqTable::Node& node, const VectorF& frame) {
-  const VectorD difference = (frame - node.mean).cast<double>();
-  if (node.inverse_variance.size() == 0) return difference.squaredNorm();
-  const VectorD inverse = node.inverse_variance.cast<double>();
-  return difference.cwiseAbs2().dot(inverse) - inverse.array().log().sum();
+// What the distance of a node adds to that of its columns.
+double constant_of(const VqTable::Node& node) {
+  return -node.inverse_variance.cast<double>().array().log().sum();
+}
+
+double distance_to(const VqTable::Node& node, double constant, const VectorF& frame) {
+  const auto squares = (frame - node.mean).cast<double>().array().square();
+  if (node.inverse_variance.size() == 0) return squares.sum();
+  return (squares * node.inverse_variance.cast<double>().array()).sum() + constant;
 }
 
 }  // namespace
@@ -235,28 +238,40 @@ std::vector<std::int32_t> VqTable::quantise(ConstMatrixRefF frames) const {
   require(!nodes.empty() && frames.cols() == dim(),
           "the frames have another number of columns than the table");
   require(frames.allFinite(), "the frames have values that are not finite");
-  std::map<int, const Node*> by_id;
-  for (const Node& node : nodes) by_id.emplace(node.id, &node);
+  std::map<int, std::size_t> places;
+  std::vector<double> constants;
+  constants.reserve(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    places.emplace(nodes[n].id, n);
+    constants.push_back(constant_of(nodes[n]));
+  }
+  const auto distance_of_node = [&](std::size_t n, const VectorF& frame) {
+    return distance_to(nodes[n], constants[n], frame);
+  };
+  const auto place_of = [&](int id) {
+    const auto found = places.find(id);
+    require(found != places.end(), "the nodes are no tree");
+    return found->second;
+  };
   std::vector<std::int32_t> codewords;
+  codewords.reserve(static_cast<std::size_t>(frames.rows()));
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     const VectorF frame = frames.row(t);
-    const Node* nearest = &nodes.front();
-    if (is_tree) {
-      while (nearest->codeword == 0) {
-        const Node* left = by_id.at(nearest->left);
-        const Node* right = by_id.at(nearest->right);
-        nearest = distance_to(*right, frame) < distance_to(*left, frame) ? right : left;
-      }
-    } else {
-      double best = std::numeric_limits<double>::infinity();
-      for (const Node& node : nodes) {
-        const double found = distance_to(node, frame);
-        if (!(found < best)) continue;
-        best = found;
-        nearest = &node;
-      }
+    std::size_t nearest = 0;
+    for (std::size_t steps = 0; is_tree && nodes[nearest].codeword == 0; ++steps) {
+      require(steps < nodes.size(), "the nodes are no tree");
+      const std::size_t left = place_of(nodes[nearest].left);
+      const std::size_t right = place_of(nodes[nearest].right);
+      nearest = distance_of_node(right, frame) < distance_of_node(left, frame) ? right : left;
     }
-    codewords.push_back(nearest->codeword);
+    double best = is_tree ? 0 : distance_of_node(nearest, frame);
+    for (std::size_t n = 1; n < nodes.size() && !is_tree; ++n) {
+      const double found = distance_of_node(n, frame);
+      if (!(found < best)) continue;
+      best = found;
+      nearest = n;
+    }
+    codewords.push_back(nodes[nearest].codeword);
   }
   return codewords;
 }

@@ -99,6 +99,11 @@ TEST(DiscreteModels, RefuseDamageWithFileAndLine) {
             "models: line 1: models of several streams are not read");
   EXPECT_EQ(refusal_of_discrete("~h a <BEGINHMM> <NUMSTATES> 3 <STATE> 2\n<SWEIGHTS> 2 1 1"),
             "models: line 2: models of several streams are not read");
+  for (const char* streams : {"<NUMMIXES> 4 4", "<STREAM> 2 <DPROB> 0", "<SWEIGHTS> 1 0.5"}) {
+    EXPECT_EQ(
+        refusal_of_discrete("~h a <BEGINHMM> <NUMSTATES> 3 <STATE> 2\n" + std::string(streams)),
+        "models: line 2: models of several streams are not read");
+  }
 }
 
 TEST(DiscreteModels, TwoFilesMustAgree) {

@@ -57,8 +57,8 @@ struct HRI_API VqTable {
   [[nodiscard]] int dim() const;
 
   /// The nearest codeword of every row, from 1; in a tree, the way goes to the nearer node at every
-  /// fork. The first of those as near. Throws InvalidArgument for another number of columns, and
-  /// values not finite.
+  /// fork. The first of those as near. Throws InvalidArgument for another number of columns, values
+  /// not finite, and nodes that are no tree.
   [[nodiscard]] std::vector<std::int32_t> quantise(ConstMatrixRefF frames) const;
 };
 

@@ -113,7 +113,8 @@ def copy(
     """Convert recordings to parameter files, as HCopy; FILES are sources and targets: `a.wav a.mfc`.
 
     Several sources become one target: `a.wav + b.wav both.mfc`. With -s, -e, -n or -x a part is copied, and its labels
-    with it where -i or -l asks for them.
+    with it where -i or -l asks for them. Where a configuration sets VQTABLE, SAVEASVQ and _V in TARGETKIND, codewords
+    of the table are written.
 
     \b
     Example:
