@@ -61,6 +61,7 @@ class TreeGrower {
       : states_(states), threshold_(threshold), least_occupation_(least_occupation) {
     for (const ContextQuestion& question : questions) {
       std::vector<bool> answers;
+      answers.reserve(states.size());
       for (const StateStatistics& state : states)
         answers.push_back(is_answered_yes(question, state.model));
       answers_.push_back(std::move(answers));

@@ -24,6 +24,10 @@ int rank(char type) { return type == 'h' ? 3 : type == 's' ? 2 : type == 'm' ? 1
   fail(ErrorKind::format, where + ": " + why);
 }
 
+std::string both(const std::string& first, const std::string& second) {
+  return "'" + first + "' and '" + second + "'";
+}
+
 StateDefinition& state_at(const StatePlace& place, ModelSet* set) {
   return set->macros[place.macro].hmm.states[place.state];
 }
@@ -126,8 +130,7 @@ void StateTying::tie_by_tree(const std::string& where, const EditCommand& comman
   for (const StatePlace& place : places) {
     const std::string& name = set->macros[place.macro].name;
     if (without_contexts(name) != unit || place.state != places.front().state)
-      refuse_command(
-          where, "a tree is of one state of one unit, not of '" + unit + "' and '" + name + "'");
+      refuse_command(where, "a tree is of one state of one unit: not of " + both(unit, name));
   }
   const std::vector<StateStatistics> states = statistics_of(where, places, *set);
   TiedByTree made =
@@ -200,7 +203,7 @@ void StateTying::add_unseen(const std::string& where, const std::string& list,
     const std::string unit = without_contexts(name);
     const auto found = of_unit.find(unit);
     if (found == of_unit.end())
-      lines.refuse("there is no model of the unit '" + unit + "', of which '" + name + "' is");
+      lines.refuse("there is no model of the same unit: of " + both(unit, name));
     MacroDefinition made = set->macros[found->second];
     made.name = name;
     for (std::size_t s = 0; s < made.hmm.states.size(); ++s) {

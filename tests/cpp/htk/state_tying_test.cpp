@@ -198,7 +198,7 @@ TEST_F(StateTying, RefusesWithFileAndLine) {
   const std::string list = tying_file("wrong");
   write_words(list, "p-b+k\n");
   EXPECT_EQ(refusal(tree + "AU " + list),
-            list + ": line 1: there is no model of the unit 'b', of which 'p-b+k' is");
+            list + ": line 1: there is no model of the same unit: of 'b' and 'p-b+k'");
   write_words(list, "m-a\n");
   EXPECT_EQ(refusal("AU " + list), list + ": line 1: there is no tree for state 2 of 'a'");
   write_words(list, "a b\n");
