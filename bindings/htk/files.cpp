@@ -16,6 +16,7 @@
 #include "hri/htk/feature_extractor.hpp"
 #include "hri/htk/labels.hpp"
 #include "hri/htk/parameter_file.hpp"
+#include "hri/htk/vq_table.hpp"
 
 namespace py = pybind11;
 using hri::htk::Configuration;
@@ -26,6 +27,7 @@ using hri::htk::MasterLabelFile;
 using hri::htk::ParameterFile;
 using hri::htk::ParameterKind;
 using hri::htk::Transcription;
+using hri::htk::VqTable;
 using hri_bind::FloatArray;
 using hri_bind::Path;
 
@@ -141,10 +143,59 @@ void bind_features(py::module_& m) {
           "SOURCEFORMAT: HTK or WAV.")
       .def_readonly("has_target_rate", &Configuration::has_target_rate,
                     "Whether TARGETRATE is set.")
+      .def_readonly("has_codewords", &Configuration::has_codewords, "Whether TARGETKIND has _V.")
+      .def_readonly("save_codewords", &Configuration::save_codewords, "SAVEASVQ.")
+      .def_readonly("vq_table", &Configuration::vq_table, "VQTABLE; empty: not set.")
       .def_readonly("features", &Configuration::features, "As HtkFeatureOptions.")
       .def_readonly("settings", &Configuration::settings,
                     "Pairs of a key and a value, as they came.")
       .def_readonly("ignored", &Configuration::ignored, "Keys that set nothing here.");
+}
+
+void bind_tables(py::module_& m) {
+  py::class_<VqTable>(m, "HtkVqTable", "Codewords that frames become for discrete models.")
+      .def(
+          py::init([](const FloatArray& codewords, const std::string& kind,
+                      const std::optional<FloatArray>& deviation) {
+            hri::VectorF deviations;
+            if (deviation.has_value()) {
+              const auto values = hri_bind::as_span(*deviation, "deviation");
+              deviations = Eigen::Map<const hri::VectorF>(values.data(),
+                                                          static_cast<Eigen::Index>(values.size()));
+            }
+            const hri::Codebook codebook(hri::MatrixF(hri_bind::as_matrix(codewords, "codewords")));
+            return VqTable::of_codebook(codebook, ParameterKind::parse(kind), deviations);
+          }),
+          py::arg("codewords"), py::arg("kind") = "ANON", py::arg("deviation") = py::none(),
+          "`codewords` (num_codewords, num_columns), of frames of this kind; `deviation` "
+          "(num_columns,): these were divided by it, and distances are by variances. Raises "
+          "InvalidArgument for more than 4096 codewords, and a deviation that is not above 0.")
+      .def_static(
+          "read", [](const Path& path) { return VqTable::read(path.text); }, py::arg("path"),
+          "Raises FormatError naming file and line.")
+      .def_static("parse", &VqTable::parse, py::arg("text"), py::arg("name"),
+                  "The same of a text; `name` is what errors call it.")
+      .def("to_text", &VqTable::to_text, "The text of the file.")
+      .def(
+          "write", [](const VqTable& self, const Path& path) { self.write(path.text); },
+          py::arg("path"), "Writes the file.")
+      .def(
+          "quantise",
+          [](const VqTable& self, const FloatArray& frames) {
+            const hri::MatrixF rows = hri_bind::as_matrix(frames, "frames");
+            std::vector<std::int32_t> codewords;
+            {
+              const py::gil_scoped_release release;
+              codewords = self.quantise(rows);
+            }
+            return hri_bind::to_array(codewords);
+          },
+          py::arg("frames"),
+          "The nearest codeword of every row, from 1, int32, shape (num_frames,).")
+      .def_property_readonly(
+          "kind", [](const VqTable& self) { return self.kind.text(); }, "Of the frames; ANON: any.")
+      .def_property_readonly("num_codewords", &VqTable::num_codewords, "Codewords.")
+      .def_property_readonly("dim", &VqTable::dim, "Columns of a frame.");
 }
 
 void bind_labels(py::module_& m) {
@@ -273,5 +324,6 @@ void bind_htk_files(py::module_& m) {
   hri_bind::bind_options<HtkFeatureOptions>(m, "How HTK computes parameters; defaults are HTK's.");
   bind_parameters(m);
   bind_features(m);
+  bind_tables(m);
   bind_labels(m);
 }

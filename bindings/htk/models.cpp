@@ -85,6 +85,26 @@ void bind_models(py::module_& m) {
             return hri_bind::to_array(macro->hmm.transitions.values);
           },
           py::arg("name"), "Its transitions with entry and exit, float64.")
+      .def_property_readonly("num_codewords", &ModelSet::num_codewords,
+                             "Of discrete models, whose frames have one column of them, from 1; "
+                             "0: the models are of Gaussians.")
+      .def(
+          "discrete",
+          [](const ModelSet& self, const std::string& name) {
+            const auto* macro = self.find('h', name);
+            if (macro == nullptr)
+              hri::fail(hri::ErrorKind::invalid_argument, "there is no model '" + name + "'");
+            const auto& states = macro->hmm.states;
+            hri::require(!states.empty() && states.front().discrete.size() > 0,
+                         "the model is of Gaussians");
+            hri::MatrixD values(static_cast<Eigen::Index>(states.size()),
+                                states.front().discrete.size());
+            for (std::size_t s = 0; s < states.size(); ++s)
+              values.row(static_cast<Eigen::Index>(s)) = states[s].discrete;
+            return hri_bind::to_array(values);
+          },
+          py::arg("name"),
+          "Probabilities of a discrete model, float64, shape (num_states, num_codewords).")
       .def_property_readonly("hmm_names", &ModelSet::hmm_names, "Names of the HMMs.")
       .def_property_readonly(
           "num_definitions", [](const ModelSet& self) { return self.macros.size(); },

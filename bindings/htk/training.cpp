@@ -119,8 +119,23 @@ void bind_htk_training(py::module_& m) {
           "Raises FormatError naming file and line.")
       .def_static("parse", &EditScript::parse, py::arg("text"), py::arg("name"),
                   "The same of a text; `name` is what errors call it.")
-      .def("apply", &EditScript::apply, py::arg("models"),
-           "The models after all commands; raises FormatError for items that no model has.")
+      .def(
+          "apply",
+          [](const EditScript& self, const ModelSet& models) { return self.apply(models); },
+          py::arg("models"),
+          "The models after all commands; raises FormatError for items that no model has.")
+      .def(
+          "apply_with_files",
+          [](const EditScript& self, const ModelSet& models) {
+            std::vector<hri::htk::EditedFile> files;
+            ModelSet made = self.apply(models, &files);
+            std::vector<std::pair<std::string, std::string>> texts;
+            texts.reserve(files.size());
+            for (auto& file : files) texts.emplace_back(std::move(file.path), std::move(file.text));
+            return std::make_pair(std::move(made), std::move(texts));
+          },
+          py::arg("models"),
+          "The same, and (path, text) of the files that CO and ST want written, which are not.")
       .def_property_readonly(
           "num_commands", [](const EditScript& self) { return self.commands.size(); }, "Commands.");
 }

@@ -97,6 +97,7 @@ __all__: list[str] = [
     "HtkRecognizer",
     "HtkTranscription",
     "HtkViterbiTraining",
+    "HtkVqTable",
     "HtkWordLattice",
     "HybridFeatureComputer",
     "HybridFeatureOptions",
@@ -8343,6 +8344,11 @@ class HtkConfiguration:
         As HtkFeatureOptions.
         """
     @property
+    def has_codewords(self) -> bool:
+        """
+        Whether TARGETKIND has _V.
+        """
+    @property
     def has_target_rate(self) -> bool:
         """
         Whether TARGETRATE is set.
@@ -8351,6 +8357,11 @@ class HtkConfiguration:
     def ignored(self) -> list[str]:
         """
         Keys that set nothing here.
+        """
+    @property
+    def save_codewords(self) -> bool:
+        """
+        SAVEASVQ.
         """
     @property
     def settings(self) -> list[tuple[str, str]]:
@@ -8366,6 +8377,64 @@ class HtkConfiguration:
     def target(self) -> str:
         """
         TARGETKIND.
+        """
+    @property
+    def vq_table(self) -> str:
+        """
+        VQTABLE; empty: not set.
+        """
+
+class HtkVqTable:
+    """
+    Codewords that frames become for discrete models.
+    """
+    @staticmethod
+    def parse(text: str, name: str) -> HtkVqTable:
+        """
+        The same of a text; `name` is what errors call it.
+        """
+    @staticmethod
+    def read(path: str | bytes | os.PathLike[str]) -> HtkVqTable:
+        """
+        Raises FormatError naming file and line.
+        """
+    def __init__(
+        self,
+        codewords: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        kind: str = "ANON",
+        deviation: typing.Annotated[numpy.typing.ArrayLike, numpy.float32] | None = None,
+    ) -> None:
+        """
+        `codewords` (num_codewords, num_columns), of frames of this kind; `deviation` (num_columns,): these were divided by it, and distances are by variances. Raises InvalidArgument for more than 4096 codewords, and a deviation that is not above 0.
+        """
+    def quantise(
+        self, frames: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.int32]:
+        """
+        The nearest codeword of every row, from 1, int32, shape (num_frames,).
+        """
+    def to_text(self) -> str:
+        """
+        The text of the file.
+        """
+    def write(self, path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Writes the file.
+        """
+    @property
+    def dim(self) -> int:
+        """
+        Columns of a frame.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        Of the frames; ANON: any.
+        """
+    @property
+    def num_codewords(self) -> int:
+        """
+        Codewords.
         """
 
 class HtkLabel:
@@ -8500,6 +8569,10 @@ class HtkModelSet:
         """
         Adds a left-right HMM, whose last state is left with 1 - final_stay.
         """
+    def discrete(self, name: str) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Probabilities of a discrete model, float64, shape (num_states, num_codewords).
+        """
     def hmm(self, name: str) -> GaussianMixtureHmm:
         """
         Its Gaussians, and its chain without entry and exit.
@@ -8555,6 +8628,11 @@ class HtkModelSet:
     def kind(self) -> str:
         """
         Of the frames.
+        """
+    @property
+    def num_codewords(self) -> int:
+        """
+        Of discrete models, whose frames have one column of them, from 1; 0: the models are of Gaussians.
         """
     @property
     def num_definitions(self) -> int:
@@ -9268,6 +9346,10 @@ class HtkEditScript:
     def apply(self, models: HtkModelSet) -> HtkModelSet:
         """
         The models after all commands; raises FormatError for items that no model has.
+        """
+    def apply_with_files(self, models: HtkModelSet) -> tuple[HtkModelSet, list[tuple[str, str]]]:
+        """
+        The same, and (path, text) of the files that CO and ST want written, which are not.
         """
     @property
     def num_commands(self) -> int:

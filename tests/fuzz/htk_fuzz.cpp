@@ -8,6 +8,7 @@
 #include "hri/htk/edit_script.hpp"
 #include "hri/htk/labels.hpp"
 #include "hri/htk/recognizer.hpp"
+#include "hri/htk/vq_table.hpp"
 
 namespace {
 
@@ -35,7 +36,7 @@ void read_models(const std::string& text) {
   for (const std::string& name : set.hmm_names()) {
     double log_skip = 0;
     hri::htk::to_chain(set.find('h', name)->hmm, &log_skip);
-    hri::htk::to_hmm(set.find('h', name)->hmm);
+    if (set.num_codewords() == 0) hri::htk::to_hmm(set.find('h', name)->hmm);
   }
 }
 
@@ -54,6 +55,22 @@ const hri::htk::ModelSet& edited_models() {
   return models;
 }
 
+void read_table(const std::string& text) {
+  const auto table = hri::htk::VqTable::parse(text, "input");
+  check_text(table);
+  const hri::MatrixF frame = hri::MatrixF::Zero(1, table.dim());
+  const int codeword = table.quantise(frame).front();
+  if (codeword < 1 || codeword > table.num_codewords()) std::abort();
+}
+
+void read_trees(const std::string& text) {
+  const auto trees = hri::htk::DecisionTrees::parse(text, "input");
+  check_text(trees);
+  for (const auto& tree : trees.trees) {
+    if (trees.leaf_of(tree, "a-b+c").empty()) std::abort();
+  }
+}
+
 void run_script(const std::string& text) {
   const auto script = hri::htk::EditScript::parse(text, "input");
   const hri::htk::ModelSet made = script.apply(edited_models());
@@ -67,7 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   hri::fuzzing::expect_typed_errors([&] {
     const std::string text(data + 1, data + size);
-    switch ((data[0] + 6) % 9) {
+    switch ((data[0] + 7) % 11) {
       case 0:
         read_parameters(data + 1, size - 1);
         break;
@@ -92,8 +109,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 7:
         hri::htk::Configuration().parse(text, "input");
         break;
-      default:
+      case 8:
         run_script(text);
+        break;
+      case 9:
+        read_table(text);
+        break;
+      default:
+        read_trees(text);
         break;
     }
   });

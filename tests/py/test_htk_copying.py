@@ -12,20 +12,9 @@ import pytest
 from conftest import RATE_HZ, tone_word
 from hri.htk import MasterLabelFile, ParameterFile, Transcription
 from hri.io import write_wav_pcm16
-from htk_toys import make_words, make_work, succeed
+from htk_toys import succeed
 
-
-@pytest.fixture
-def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    make_work(tmp_path)
-    return tmp_path
-
-
-@pytest.fixture
-def words(work: Path) -> Path:
-    make_words(work)
-    return work
+pytest_plugins = ("htk_folders",)
 
 
 def test_sgen_and_parse_take_their_options(hri, words: Path):

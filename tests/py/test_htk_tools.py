@@ -13,20 +13,9 @@ import pytest
 
 from hri.cli.htk import htk
 from hri.htk import ModelSet, ParameterFile
-from htk_toys import FILES, STEPS, clip, make_words, make_work, model_text, succeed
+from htk_toys import FILES, STEPS, clip, model_text, succeed
 
-
-@pytest.fixture
-def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    make_work(tmp_path)
-    return tmp_path
-
-
-@pytest.fixture
-def words(work: Path) -> Path:
-    make_words(work)
-    return work
+pytest_plugins = ("htk_folders",)
 
 
 def test_init_and_rest_keep_topology_mixtures_and_floors(hri, work: Path):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from conftest import RATE_HZ, CommandResult, tone_word
-from hri.htk import MasterLabelFile, ModelSet
+from hri.htk import MasterLabelFile, ModelSet, read_list
 from hri.io import write_wav_pcm16
 
 CODING = """TARGETKIND = MFCC_0_D_A
@@ -82,7 +82,7 @@ def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_tutorial_of_the_book_runs_as_written(hri, work: Path):
-    """Steps 1 to 8 and 11 of chapter 3: from a grammar to scores of a recogniser of units."""
+    """Steps 1 to 11 of chapter 3: from a grammar to scores of a recogniser of units in context."""
     Path("gram").write_text("$word = RISE | CALL | BACK;\n( SENT-START < $word > SENT-END )\n".replace("\n(", "\n\n("))
     succeed(hri("htk", "parse", "gram", "wdnet"))
     dictionary = "".join(f"{word:<12} {' '.join(units)} sp\n" for word, units in sorted(WORDS.items()))
@@ -164,6 +164,43 @@ def test_the_tutorial_of_the_book_runs_as_written(hri, work: Path):
     macros = ("-H", "hmm10/macros", "-H", "hmm10/hmmdefs", "-M", "hmm11", "-s", "stats")
     succeed(hri("htk", "erest", "-I", "wintri.mlf", *common, *macros, "triphones1"))
     assert len(Path("stats").read_text().splitlines()) == len(triphones)
+
+    # Step 10: states that are alike are tied by questions, and units of words that nobody said follow them.
+    states = "".join(
+        f'TB 0.1 "{unit}_s{n}_" {{({unit},*-{unit},{unit}+*,*-{unit}+*).state[{n}]}}\n'
+        for unit in ("hi", "lo", "up")
+        for n in (2, 3, 4)
+    )
+    unseen = ["up-hi+lo", "lo-up", "hi-lo+hi"]
+    Path("fulllist").write_text("\n".join([*triphones, *unseen]) + "\n")
+    Path("tree.hed").write_text(
+        'RO 1.0 stats\nTR 0\nQS "L_hi" { hi-* }\nQS "L_lo" { lo-* }\nQS "R_lo" { *+lo }\nQS "R_hi" { *+hi }\n'
+        f'TR 2\n{states}TR 1\nAU "fulllist"\nCO "tiedlist"\nST "trees"\n'
+    )
+    macros = ("-H", "hmm11/macros", "-H", "hmm11/hmmdefs")
+    succeed(hri("htk", "hed", *macros, "-M", "hmm12", "tree.hed", "triphones1"))
+    tied = ModelSet()
+    tied.read("hmm12/macros")
+    tied.read("hmm12/hmmdefs")
+    physical = read_list("tiedlist")
+    assert set(physical) == {*triphones, *unseen} and set(physical.values()) == set(tied.hmm_names)
+    states_of_hi = {name for kind, name in tied.definitions if kind == "s" and name.startswith("hi_s2_")}
+    assert states_of_hi == {"hi_s2_1", "hi_s2_2"}
+    assert Path("trees").read_text().startswith("QS 'L_hi' { \"hi-*\" }\n")
+    for number in (12, 13):
+        macros = ("-H", f"hmm{number}/macros", "-H", f"hmm{number}/hmmdefs", "-M", f"hmm{number + 1}")
+        succeed(hri("htk", "erest", "-I", "wintri.mlf", *common, *macros, "tiedlist"))
+
+    # Step 11 with the new units, one of which is of a word that training never had.
+    words = {"CALL": "hi+lo hi-lo sp", "BACK": "lo+hi lo-hi sp", "RISE": "up sp", "NEVER": "lo-up up-hi+lo hi-lo+hi sp"}
+    marks = "SENT-END [] sil\nSENT-START [] sil\n"
+    Path("dict3").write_text("".join(f"{word} {units}\n" for word, units in words.items()) + marks)
+    Path("gram3").write_text(f"$word = {' | '.join(words)};\n( SENT-START < $word > SENT-END )\n")
+    succeed(hri("htk", "parse", "gram3", "wdnet3"))
+    recognise = ("-H", "hmm14/macros", "-H", "hmm14/hmmdefs", "-S", "train.scp", "-C", "config", "-l", "*")
+    succeed(hri("htk", "vite", *recognise, "-i", "rec3.mlf", "-w", "wdnet3", "-s", 5.0, "dict3", "tiedlist"))
+    out = succeed(hri("htk", "results", "-e", "???", "SENT-START", "-I", "words.mlf", "wordlist", "rec3.mlf"))
+    assert "WORD: %Corr=100.00, Acc=100.00" in out
 
 
 def test_whole_words_as_in_the_thesis(hri, work: Path):

@@ -10,20 +10,9 @@ import numpy as np
 import pytest
 
 from hri.htk import Label, MasterLabelFile, ModelSet, ParameterFile
-from htk_toys import clip, make_words, make_work, model_text, succeed
+from htk_toys import clip, model_text, succeed
 
-
-@pytest.fixture
-def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    make_work(tmp_path)
-    return tmp_path
-
-
-@pytest.fixture
-def words(work: Path) -> Path:
-    make_words(work)
-    return work
+pytest_plugins = ("htk_folders",)
 
 
 def test_scripts_name_parts_of_files(hri, work: Path):

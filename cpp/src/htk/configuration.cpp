@@ -55,13 +55,14 @@ class ConfigurationReader {
     const std::size_t equals = line.find('=');
     std::vector<std::string> values;
     if (equals == std::string::npos) lines_.refuse("expected KEY = VALUE");
-    if (!detail::split_fields(line.substr(equals + 1), &values))
-      lines_.refuse("a quotation does not end");
+    if (const char* fault = detail::split_fields(line.substr(equals + 1), &values);
+        fault != nullptr)
+      lines_.refuse(fault);
     std::string key = line.substr(0, equals);
     const std::size_t colon = key.find(':');
     if (colon != std::string::npos) key = key.substr(colon + 1);
     std::vector<std::string> keys;
-    if (!detail::split_fields(key, &keys) || keys.size() != 1 || values.empty())
+    if (detail::split_fields(key, &keys) != nullptr || keys.size() != 1 || values.empty())
       lines_.refuse("expected KEY = VALUE");
     const std::string name = upper(keys.front());
     const std::size_t first = line.find_first_not_of(detail::kBlanks, equals + 1);
@@ -156,8 +157,9 @@ class ConfigurationReader {
     add_whole("THIRDWINDOW", &f.third_window);
     add_flag("SAVECOMPRESSED", &out_->save_compressed);
     add_flag("SAVEWITHCRC", &out_->save_with_checksum);
-    for (const char* key : {"SIMPLEDIFFS", "V1COMPAT", "ADDDITHER", "DOUBLEFFT", "SAVEASVQ"})
-      add_fixed(key, 0);
+    add_flag("SAVEASVQ", &out_->save_codewords);
+    setters_["VQTABLE"] = [this](const std::string& value) { out_->vq_table = value; };
+    for (const char* key : {"SIMPLEDIFFS", "V1COMPAT", "ADDDITHER", "DOUBLEFFT"}) add_fixed(key, 0);
     for (const char* key : {"CEPSCALE", "MELFLOOR"}) add_fixed(key, 1);
     add_refusals();
   }
@@ -177,13 +179,13 @@ class ConfigurationReader {
     for (const char* key : {"LABELFORMAT", "SOURCELABEL", "TARGETLABEL"}) add_word(key, {"HTK"});
     for (const char* key : {"TRANSLEVEL", "REFLEVEL", "TESTLEVEL"}) add_fixed(key, 0);
     for (const char* key :
-         {"CMEANDIR",         "CMEANMASK",     "CMEANPATHMASK", "VARSCALEDIR",   "VARSCALEMASK",
-          "VARSCALEPATHMASK", "VARSCALEFN",    "MATTRANFN",     "MATTRAN",       "SIDEXFORMMASK",
-          "SIDEXFORMEXT",     "STEREOMODE",    "VQTABLE",       "LABFILEMASK",   "LABOFILEMASK",
-          "LATFILEMASK",      "LATOFILEMASK",  "RECOUTPREFIX",  "RECOUTSUFFIX",  "HPARMFILTER",
-          "HWAVEFILTER",      "HLABELFILTER",  "HMMDEFFILTER",  "HMMLISTFILTER", "HNETFILTER",
-          "HDICTFILTER",      "LANGMODFILTER", "PRONSCALE",     "INPUTXFORM",    "PAXFORMMASK",
-          "INXFORMMASK",      "SPEAKERMASK",   "PHRASELABEL",   "PHONELABEL"})
+         {"CMEANDIR",         "CMEANMASK",    "CMEANPATHMASK", "VARSCALEDIR",  "VARSCALEMASK",
+          "VARSCALEPATHMASK", "VARSCALEFN",   "MATTRANFN",     "MATTRAN",      "SIDEXFORMMASK",
+          "SIDEXFORMEXT",     "STEREOMODE",   "LABFILEMASK",   "LABOFILEMASK", "LATFILEMASK",
+          "LATOFILEMASK",     "RECOUTPREFIX", "RECOUTSUFFIX",  "HPARMFILTER",  "HWAVEFILTER",
+          "HLABELFILTER",     "HMMDEFFILTER", "HMMLISTFILTER", "HNETFILTER",   "HDICTFILTER",
+          "LANGMODFILTER",    "PRONSCALE",    "INPUTXFORM",    "PAXFORMMASK",  "INXFORMMASK",
+          "SPEAKERMASK",      "PHRASELABEL",  "PHONELABEL"})
       setters_[key] = [this, key](const std::string& value) {
         lines_.refuse(std::string(key) + " = " + value + " is not supported");
       };
@@ -191,11 +193,17 @@ class ConfigurationReader {
 
   void set_target(const std::string& value) {
     ParameterKind kind;
-    const std::string fault = ParameterKind::try_parse(value, &kind);
+    // Not one of `kind`: no file has it.
+    const std::string name = upper(value);
+    const std::size_t at = name.find("_V");
+    const bool has_codewords = at != std::string::npos;
+    const std::string fault = ParameterKind::try_parse(
+        has_codewords ? value.substr(0, at) + value.substr(at + 2) : value, &kind);
     if (!fault.empty()) lines_.refuse(fault);
     if (kind != kind.plain())
       lines_.refuse("TARGETKIND takes no _C and _K: SAVECOMPRESSED and SAVEWITHCRC set them");
     out_->target = kind;
+    out_->has_codewords = has_codewords;
   }
 
   void set_format(const std::string& value) {

@@ -18,7 +18,8 @@ bool in_brackets(const std::string& field) {
 std::string read_entry(const std::string& line, Pronunciation* entry) {
   std::vector<std::string> fields;
   std::vector<bool> marked;
-  if (!detail::split_fields(line, &fields, &marked)) return "a quotation does not end";
+  if (const char* fault = detail::split_fields(line, &fields, &marked); fault != nullptr)
+    return fault;
   entry->word = fields[0];
   if (entry->word.empty()) return "a word is empty";
   std::size_t at = 1;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "hri/core/error.hpp"
 #include "htk/model_text.hpp"
@@ -102,23 +103,62 @@ class ScriptReader {
       if (name == "AT") made.probability = number_of(word("{"));
       if (made.probability < 0 || made.probability > 1 || (name == "AT" && made.probability == 0))
         refuse("a probability is above 0, and at most 1");
-    } else if (name == "CL") {
-      made.kind = EditCommand::Kind::clone;
-      made.list = quotable("the path of a list");
+    } else if (name == "TB" || name == "TC") {
+      made.kind = name == "TB" ? EditCommand::Kind::tie_by_tree : EditCommand::Kind::tie_clusters;
+      made.threshold = not_negative();
+      made.macro = quotable("the name of a macro");
+    } else if (without_items(name, &made)) {
       return made;
     } else {
-      refuse("there is no command '" + name + "' but MU, TI, AT, RT and CL");
+      refuse("there is no command '" + name +
+             "' but MU, TI, AT, RT, CL, RO, LS, QS, TB, TC, AU, CO, ST and LT");
     }
     made.items = items();
     for (const EditItem& item : made.items) check(made, item);
     return made;
   }
 
-  // A name that may stand in quotation marks.
-  std::string quotable(const std::string& what) {
+  double not_negative() {
+    const double value = number_of(word("{"));
+    if (value < 0 || value > 1e15) refuse("a threshold is not negative");
+    return value;
+  }
+
+  // Whether it is a command without items; it is read then.
+  bool without_items(const std::string& name, EditCommand* made) {
+    using Kind = EditCommand::Kind;
+    static const std::map<std::string, Kind> kinds{
+        {"CL", Kind::clone},      {"QS", Kind::question},   {"RO", Kind::statistics},
+        {"LS", Kind::statistics}, {"AU", Kind::add_unseen}, {"CO", Kind::merge_equal},
+        {"ST", Kind::save_trees}, {"LT", Kind::load_trees}};
+    const auto found = kinds.find(name);
+    if (found == kinds.end()) return false;
+    made->kind = found->second;
+    if (name == "QS") {
+      made->question.name = quotable("the name of a question");
+      expect('{');
+      do {
+        made->question.patterns.push_back(quotable("a pattern", ",}"));
+        if (++num_items_ > kMostItems) refuse("there are too many items");
+      } while (skip(','));
+      expect('}');
+      return true;
+    }
+    if (name == "RO") {
+      made->least_occupation = not_negative();
+      // A path may follow in the line.
+      at_ = std::min(text_.find_first_not_of(" \t\r", at_), text_.size());
+      if (now() == '\n' || now() == '\0' || now() == '#') return true;
+    }
+    made->path = quotable("the path of a file");
+    return true;
+  }
+
+  // A name that may stand in quotation marks; else it ends at a blank or one of `ends`.
+  std::string quotable(const std::string& what, const std::string& ends = "{") {
     skip_blanks();
-    if (now() != '"') return nonempty(word("{"), what);
-    const std::size_t end = text_.find('"', at_ + 1);
+    if (now() != '"' && now() != '\'') return nonempty(word(ends), what);
+    const std::size_t end = text_.find(now(), at_ + 1);
     if (end == std::string::npos || text_.substr(at_, end - at_).find('\n') != std::string::npos)
       refuse("a quotation does not end");
     const std::string name = text_.substr(at_ + 1, end - at_ - 1);
@@ -139,6 +179,9 @@ class ScriptReader {
     } else if (made.kind == EditCommand::Kind::tie) {
       if (item.kind == Kind::mixtures) refuse("TI takes a mixture by its number, as in mix[1]");
       if (item.kind != made.items.front().kind) refuse("TI takes items of one kind");
+    } else if (made.kind == EditCommand::Kind::tie_by_tree ||
+               made.kind == EditCommand::Kind::tie_clusters) {
+      if (item.kind != Kind::state) refuse("TB and TC take items such as {(a,*-a+*).state[2]}");
     } else if (!transitions) {
       refuse("AT and RT take items such as {a.transP}");
     }

@@ -62,6 +62,11 @@ SharedDensities::SharedDensities(const SharedParameters& parameters) {
 
 double SharedDensities::state(int number, const VectorD& frame) {
   const std::vector<int>& components = states_[place(number)];
+  if (components.empty()) {
+    first_slot_ = static_cast<std::size_t>(frame[0]) - 1;
+    logs_.assign(1, log_weights_[place(number)][first_slot_]);
+    return logs_.front();
+  }
   logs_.resize(components.size());
   double top = kImpossible;
   for (std::size_t c = 0; c < components.size(); ++c) {
@@ -79,8 +84,7 @@ double SharedDensities::state(int number, const VectorD& frame) {
 SharedSums::SharedSums(const SharedParameters& parameters) : before_(parameters) {
   for (const MatrixD& one : parameters.transitions)
     transitions.emplace_back(MatrixD::Zero(one.rows(), one.cols()));
-  for (const SharedState& state : parameters.states)
-    slots_.emplace_back(state.components.size(), 0.0);
+  for (const SharedState& state : parameters.states) slots_.emplace_back(state.weights.size(), 0.0);
   const auto count = static_cast<Eigen::Index>(parameters.components.size());
   const Eigen::Index dim = parameters.means.empty() ? 0 : parameters.means.front().size();
   counts_ = VectorD::Zero(count);
@@ -90,6 +94,7 @@ SharedSums::SharedSums(const SharedParameters& parameters) : before_(parameters)
 
 void SharedSums::add(int state, std::size_t slot, const VectorD& frame, double probability) {
   slots_[place(state)][slot] += probability;
+  if (before_.states[place(state)].components.empty()) return;
   const int component = before_.states[place(state)].components[slot];
   const VectorD& mean = before_.means[place(before_.components[place(component)].mean)];
   counts_[component] += probability;
@@ -211,8 +216,8 @@ void SharedSums::add(const ModelFile& file) {
   }
   if (steps.minCoeff() < 0) refuse("transitions", "one is below 0");
   if (weights.minCoeff() < 0) refuse("weights", "one is below 0");
-  if (counts.minCoeff() < 0) refuse("counts", "one is below 0");
-  if (seconds.minCoeff() < 0) refuse("seconds", "one is below 0");
+  if (counts.size() > 0 && counts.minCoeff() < 0) refuse("counts", "one is below 0");
+  if (seconds.size() > 0 && seconds.minCoeff() < 0) refuse("seconds", "one is below 0");
   Eigen::Index at = 0;
   for (MatrixD& one : transitions) {
     one += Eigen::Map<const MatrixD>(steps.data() + at, one.rows(), one.cols());

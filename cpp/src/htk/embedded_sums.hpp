@@ -20,6 +20,8 @@ class SharedDensities {
   /// The log density of a state; those of its components with their weights are in components().
   double state(int number, const VectorD& frame);
   [[nodiscard]] const std::vector<double>& components() const { return logs_; }
+  /// The slot of the first of them; of a discrete state, which has one, that of its codeword.
+  [[nodiscard]] std::size_t first_slot() const { return first_slot_; }
 
  private:
   struct Gaussian {
@@ -31,6 +33,7 @@ class SharedDensities {
   std::vector<std::vector<int>> states_;
   std::vector<std::vector<double>> log_weights_;
   std::vector<double> logs_;
+  std::size_t first_slot_ = 0;
 };
 
 /// Expected counts, and moments about the means before estimation.
@@ -38,7 +41,7 @@ class SharedSums {
  public:
   explicit SharedSums(const SharedParameters& parameters);
 
-  /// Adds a frame to component `slot` of a state.
+  /// Adds a frame to component `slot`, or codeword `slot` from 0, of a state.
   void add(int state, std::size_t slot, const VectorD& frame, double probability);
 
   [[nodiscard]] double occupation(int state) const;

@@ -58,7 +58,7 @@ class EmbeddedTrainer::Sums {
     require(!units.empty(), "the transcript of an utterance is empty");
     require(frames.cols() == models_.vector_size,
             "the frames have another number of columns than the models");
-    require(frames.allFinite(), "the frames have values that are not finite");
+    parameters_.require_frames(frames, "the utterance");
     if (begin(units) > frames.rows() || frames.rows() == 0) return EmbeddedOutcome::too_short;
     const double log_likelihood = backward(frames);
     if (!std::isfinite(log_likelihood)) return EmbeddedOutcome::impossible;
@@ -212,7 +212,8 @@ class EmbeddedTrainer::Sums {
         const double score = densities_.state(state, frame_);
         for (std::size_t c = 0; c < densities_.components().size(); ++c) {
           const double share = gamma[s - first] * std::exp(densities_.components()[c] - score);
-          if (share >= kLeastPosterior) sums_.add(state, c, frame_, share);
+          if (share >= kLeastPosterior)
+            sums_.add(state, densities_.first_slot() + c, frame_, share);
         }
       }
     });

@@ -53,6 +53,7 @@ ModelSet FlatStart::apply(const ModelSet& models, bool update_means, double min_
   const VectorD all_variances = variance().cwiseMax(min_variance);
   require(models.vector_size == all_means.size(),
           "the models have another number of columns than the frames");
+  require(models.num_codewords() == 0, "discrete models have no means and variances");
   require_positive(all_variances);
   detail::SharedParameters parameters(models);
   // The floors of a file that was read beside the prototype stay as they are.

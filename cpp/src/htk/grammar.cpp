@@ -94,9 +94,9 @@ class GrammarReader {
       end = std::min(end, text_.size());
     }
     std::vector<std::string> fields;
-    if (!detail::split_fields(text_.substr(at_, end - at_), &fields) || fields.size() != 1 ||
-        fields.front().empty())
-      refuse("a name is empty, or its quotation does not end");
+    const char* fault = detail::split_fields(text_.substr(at_, end - at_), &fields);
+    if (fault != nullptr) refuse(fault);
+    if (fields.size() != 1 || fields.front().empty()) refuse("a name is empty");
     now_.name = fields.front();
     at_ = end;
   }
@@ -108,12 +108,12 @@ class GrammarReader {
 
   void read_definition() {
     const std::string name = now_.name;
+    if (variables_.count(name) > 0) refuse("'" + name + "' is defined twice");
     advance();
     expect('=');
     Part value = choice(1);
     expect(';');
-    if (!variables_.emplace(name, std::move(value)).second)
-      refuse("'" + name + "' is defined twice");
+    variables_.emplace(name, std::move(value));
   }
 
   Part choice(int depth) {
@@ -193,6 +193,7 @@ class GrammarReader {
     Part made = hri::detail::make_part(kind, std::move(parts), may_be_empty);
     if (made->depth > hri::detail::kMostGrammarDepth)
       refuse("the definitions stand in each other too deep");
+    if (const char* fault = hri::detail::size_fault(*made); fault != nullptr) refuse(fault);
     return made;
   }
 
@@ -209,7 +210,7 @@ class GrammarReader {
 
 WordLattice WordLattice::of_grammar(const std::string& text, const std::string& name) {
   detail::require_text(text, name);
-  const auto graph = hri::detail::GrammarGraph::of(GrammarReader(text, name).read(), name);
+  const auto graph = hri::detail::GrammarGraph::of(GrammarReader(text, name).read());
   WordLattice lattice;
   for (const auto& node : graph.nodes)
     lattice.words.push_back(node.word.empty() ? kNull : node.word);

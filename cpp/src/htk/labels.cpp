@@ -37,7 +37,8 @@ bool same(const Label& a, const Label& b) {
 class LabelLine {
  public:
   explicit LabelLine(const std::string& line) {
-    if (!detail::split_fields(line, &fields_, &marked_)) fault_ = "a quotation does not end";
+    if (const char* fault = detail::split_fields(line, &fields_, &marked_); fault != nullptr)
+      fault_ = fault;
   }
 
   // "", or what is wrong with the line.
@@ -207,8 +208,8 @@ MasterLabelFile MasterLabelFile::parse(const std::string& text, const std::strin
     if (lines.line().empty()) continue;
     std::vector<std::string> fields;
     std::vector<bool> marked;
-    if (!detail::split_fields(lines.line(), &fields, &marked))
-      lines.refuse("a quotation does not end");
+    if (const char* fault = detail::split_fields(lines.line(), &fields, &marked); fault != nullptr)
+      lines.refuse(fault);
     if (!marked.front() || fields.front().empty())
       lines.refuse("expected the name of a label file in quotation marks");
     Entry entry;

@@ -14,6 +14,7 @@
 #include "hri/htk/labels.hpp"
 #include "htk/model_text.hpp"
 #include "htk/shared_parameters.hpp"
+#include "htk/state_tying.hpp"
 #include "htk/text_lines.hpp"
 
 namespace hri::htk {
@@ -72,36 +73,27 @@ double breadth(const StateDefinition& state) {
   return sum;
 }
 
+using detail::without_contexts;
 constexpr std::int64_t kMostCloned = std::int64_t{1} << 24U;  // values of all copies
-
-std::string without_contexts(const std::string& name) {
-  const std::size_t minus = name.rfind('-');
-  const std::string rest = minus == std::string::npos ? name : name.substr(minus + 1);
-  return rest.substr(0, rest.find('+'));
-}
 
 std::int64_t size_of(const HmmDefinition& hmm) {
   std::int64_t size = hmm.transitions.values.size();
   for (const StateDefinition& state : hmm.states) {
     for (const WeightedComponent& one : state.components)
       size += 2 * one.component.mean.values.size();
+    size += state.discrete.size();
   }
   return size;
 }
 
-// What a definition uses stands before it.
-int rank(char type) { return type == 'h' ? 3 : type == 's' ? 2 : type == 'm' ? 1 : 0; }
-
 class Editor {
  public:
-  Editor(ModelSet* set, const std::string& name) : set_(set), name_(name) {}
+  Editor(ModelSet* set, const std::string& name, std::vector<EditedFile>* files)
+      : set_(set), name_(name), files_(files) {}
 
   void run(const EditCommand& command) {
     line_ = command.line;
-    if (command.kind == EditCommand::Kind::clone) {
-      clone(command.list);
-      return;
-    }
+    if (run_without_items(command)) return;
     const std::vector<Place> places = find(command.items);
     if (places.empty()) refuse("no model has what the items name");
     switch (command.kind) {
@@ -111,6 +103,12 @@ class Editor {
       case EditCommand::Kind::tie:
         tie(command.macro, command.items.front().kind, places);
         break;
+      case EditCommand::Kind::tie_by_tree:
+        tying_.tie_by_tree(where(), command, states_of(places), set_);
+        break;
+      case EditCommand::Kind::tie_clusters:
+        tying_.tie_clusters(where(), command, states_of(places), set_);
+        break;
       default:
         change_transitions(command, places);
         break;
@@ -118,6 +116,47 @@ class Editor {
   }
 
  private:
+  // Whether it was a command of this kind.
+  bool run_without_items(const EditCommand& command) {
+    switch (command.kind) {
+      case EditCommand::Kind::clone:
+        clone(command.path);
+        return true;
+      case EditCommand::Kind::question:
+        tying_.add_question(where(), command.question);
+        return true;
+      case EditCommand::Kind::statistics:
+        if (command.least_occupation >= 0) tying_.set_least_occupation(command.least_occupation);
+        if (!command.path.empty()) tying_.read_statistics(command.path);
+        return true;
+      case EditCommand::Kind::add_unseen:
+        tying_.add_unseen(where(), command.path, set_);
+        return true;
+      case EditCommand::Kind::merge_equal:
+        write(command.path, detail::merge_equal_models(set_));
+        return true;
+      case EditCommand::Kind::save_trees:
+        write(command.path, tying_.trees_text());
+        return true;
+      case EditCommand::Kind::load_trees:
+        tying_.read_trees(where(), command.path);
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  void write(const std::string& path, std::string text) {
+    if (files_ != nullptr) files_->push_back({path, std::move(text)});
+  }
+
+  static std::vector<detail::StatePlace> states_of(const std::vector<Place>& places) {
+    std::vector<detail::StatePlace> states;
+    states.reserve(places.size());
+    for (const Place& place : places) states.push_back({place.macro, place.state});
+    return states;
+  }
+
   // Models of a list in place of those that there are: these, or copies of those without contexts.
   void clone(const std::string& list) {
     std::map<std::string, const MacroDefinition*> known;
@@ -152,8 +191,9 @@ class Editor {
   }
 
   [[noreturn]] void refuse(const std::string& why) const {
-    fail(ErrorKind::format, name_ + ": line " + std::to_string(line_) + ": " + why);
+    fail(ErrorKind::format, where() + ": " + why);
   }
+  [[nodiscard]] std::string where() const { return name_ + ": line " + std::to_string(line_); }
 
   [[nodiscard]] HmmDefinition& hmm(const Place& place) { return set_->macros[place.macro].hmm; }
   [[nodiscard]] StateDefinition& state(const Place& place) {
@@ -284,10 +324,7 @@ class Editor {
     if (set_->find(made.type, name) != nullptr)
       refuse(std::string("~") + made.type + " \"" + name + "\" is defined already");
     set_->macros.push_back(std::move(made));
-    std::stable_sort(set_->macros.begin(), set_->macros.end(),
-                     [](const MacroDefinition& a, const MacroDefinition& b) {
-                       return rank(a.type) < rank(b.type);
-                     });
+    detail::sort_macros(set_);
   }
 
   void tie_transitions(const std::vector<Place>& places, MacroDefinition* made) {
@@ -382,13 +419,15 @@ class Editor {
 
   ModelSet* set_;
   const std::string& name_;
+  std::vector<EditedFile>* files_;
   std::int64_t line_ = 0;
+  detail::StateTying tying_;
 };
 
 }  // namespace
 
-ModelSet EditScript::apply(ModelSet models) const {
-  Editor editor(&models, name);
+ModelSet EditScript::apply(ModelSet models, std::vector<EditedFile>* files) const {
+  Editor editor(&models, name, files);
   for (const EditCommand& command : commands) editor.run(command);
   return detail::SharedParameters(models).applied_to(models);
 }

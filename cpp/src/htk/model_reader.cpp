@@ -29,8 +29,12 @@ class ModelReader {
  public:
   ModelReader(const std::string& text, const std::string& name, ModelSet* set)
       : tokens_(text, name), set_(set) {
-    for (std::size_t i = 0; i < set->macros.size(); ++i)
-      index_.emplace(key(set->macros[i].type, set->macros[i].name), i);
+    num_codewords_ = set->num_codewords();
+    for (std::size_t i = 0; i < set->macros.size(); ++i) {
+      const char type = set->macros[i].type;
+      has_gaussians_ = has_gaussians_ || (type != 't' && num_codewords_ == 0);
+      index_.emplace(key(type, set->macros[i].name), i);
+    }
   }
 
   void read() {
@@ -108,8 +112,7 @@ class ModelReader {
   // Whether an option for all models stands here; it is read then.
   bool option() {
     if (tokens_.skip("STREAMINFO")) {
-      if (tokens_.take_whole(1, 1000) != 1)
-        tokens_.refuse_taken("models of several streams are not read");
+      if (tokens_.take_whole(1, 1000) != 1) refuse_streams();
       set_size(tokens_.take_whole(1, kMostColumns));
     } else if (tokens_.skip("VECSIZE")) {
       set_size(tokens_.take_whole(1, kMostColumns));
@@ -161,22 +164,33 @@ class ModelReader {
     return definition;
   }
 
+  [[noreturn]] void refuse_streams() const {
+    tokens_.refuse_taken("models of several streams are not read");
+  }
+
   StateDefinition state() {
     if (const MacroDefinition* macro = used('s'); macro != nullptr) {
       StateDefinition shared = macro->state;
       shared.macro = macro->name;
       for (const WeightedComponent& c : shared.components)
         count_values(2 * c.component.mean.values.size());
+      count_values(shared.discrete.size());
       return shared;
     }
     StateDefinition definition;
-    if (tokens_.skip("NUMMIXES")) definition.num_mixtures = tokens_.take_whole(1, kMostMixtures);
-    if (tokens_.skip("SWEIGHTS")) {
-      if (tokens_.take_whole(1, 1000) != 1 || tokens_.take_number() != 1)
-        tokens_.refuse_taken("models of several streams are not read");
+    if (tokens_.skip("NUMMIXES")) {
+      definition.num_mixtures = tokens_.take_whole(1, kMostMixtures);
+      // There is one number for each stream.
+      if (tokens_.now().kind == ModelToken::Kind::word) refuse_streams();
     }
-    if (tokens_.skip("STREAM")) tokens_.take_whole(1, 1);
-    if (tokens_.is("DPROB")) tokens_.refuse("discrete models are not read");
+    if (tokens_.skip("SWEIGHTS")) {
+      if (tokens_.take_whole(1, 1000) != 1 || tokens_.take_number() != 1) refuse_streams();
+    }
+    if (tokens_.skip("STREAM") && tokens_.take_whole(1, 1000) != 1) refuse_streams();
+    if (tokens_.is("DPROB")) {
+      discrete_state(&definition);
+      return definition;
+    }
     if (tokens_.skip("TMIX")) {
       tied_mixture(&definition);
       return definition;
@@ -202,25 +216,57 @@ class ModelReader {
     return definition;
   }
 
+  // A value, or value*n for n of them, at most `left`; gives n, and leaves the token.
+  int repeated(int left, double* value) {
+    const std::string& text = tokens_.now().text;
+    const std::size_t star = text.find('*');
+    double count = 1;
+    if (tokens_.now().kind != ModelToken::Kind::word ||
+        !detail::parse_number(text.substr(0, star), value) ||
+        (star != std::string::npos && !detail::parse_number(text.substr(star + 1), &count)))
+      tokens_.refuse("expected a value, or value*times");
+    if (count != std::floor(count) || count < 1 || count > left)
+      tokens_.refuse("there are more values than <NUMMIXES> says");
+    return static_cast<int>(count);
+  }
+
+  // The probabilities of codewords, in scaled logs.
+  void discrete_state(StateDefinition* definition) {
+    if (has_gaussians_) tokens_.refuse("a discrete state, where the others have Gaussians");
+    if (set_->kind.base != BaseKind::discrete && set_->kind.base != BaseKind::anon)
+      tokens_.refuse("a discrete state, where the parameter kind is " + set_->kind.text());
+    if (num_codewords_ != 0 && num_codewords_ != definition->num_mixtures)
+      tokens_.refuse("the states above have " + std::to_string(num_codewords_) +
+                     " codewords, not " + std::to_string(definition->num_mixtures));
+    tokens_.advance();
+    num_codewords_ = definition->num_mixtures;
+    set_size(1);
+    count_values(num_codewords_);
+    definition->discrete.resize(num_codewords_);
+    for (int at = 0; at < num_codewords_;) {
+      double value = 0;
+      const int count = repeated(num_codewords_ - at, &value);
+      if (value != std::floor(value) || value < 0 || value > 32767)
+        tokens_.refuse("a scaled log probability is no whole number in 0..32767");
+      definition->discrete.segment(at, count).setConstant(
+          detail::from_scaled_log(static_cast<int>(value)));
+      at += count;
+      tokens_.advance();
+    }
+    if (!(std::fabs(definition->discrete.sum() - 1) <= kSumTolerance))
+      tokens_.refuse_taken("the probabilities of a state do not sum to 1");
+  }
+
   // The weights of Gaussians that are macros of one name and a number: w, or w*n for n of them.
   void tied_mixture(StateDefinition* definition) {
     definition->tied = tokens_.take_name();
     double sum = 0;
     while (static_cast<int>(definition->components.size()) < definition->num_mixtures) {
-      const std::string text = tokens_.now().text;
-      const std::size_t star = text.find('*');
       double weight = 0;
-      double count = 1;
-      if (tokens_.now().kind != ModelToken::Kind::word ||
-          !detail::parse_number(text.substr(0, star), &weight) ||
-          (star != std::string::npos && !detail::parse_number(text.substr(star + 1), &count)))
-        tokens_.refuse("expected a weight, or weight*times");
+      const int count = repeated(
+          definition->num_mixtures - static_cast<int>(definition->components.size()), &weight);
       if (weight < 0 || weight > 1) tokens_.refuse("a weight is outside 0..1");
-      const auto left = static_cast<double>(definition->num_mixtures) -
-                        static_cast<double>(definition->components.size());
-      if (count != std::floor(count) || count < 1 || count > left)
-        tokens_.refuse("there are more weights than <NUMMIXES> says");
-      for (int n = 0; n < static_cast<int>(count); ++n) {
+      for (int n = 0; n < count; ++n) {
         WeightedComponent one;
         one.number = static_cast<int>(definition->components.size()) + 1;
         one.weight = weight;
@@ -263,6 +309,9 @@ class ModelReader {
       return {macro->name, macro->vector.values};
     }
     tokens_.expect(keyword);
+    if (num_codewords_ != 0 || set_->kind.base == BaseKind::discrete)
+      tokens_.refuse_taken("a Gaussian, where the models are discrete");
+    has_gaussians_ = true;
     const int size = tokens_.take_whole(1, kMostColumns);
     set_size(size);
     VectorDefinition definition;
@@ -312,6 +361,8 @@ class ModelReader {
   ModelSet* set_;
   std::map<std::string, std::size_t> index_;
   std::int64_t num_values_ = 0;
+  int num_codewords_ = 0;       // of the discrete states above
+  bool has_gaussians_ = false;  // or macros for them
 };
 
 }  // namespace

@@ -69,11 +69,21 @@ std::vector<std::string> ModelSet::hmm_names() const {
   return names;
 }
 
+int ModelSet::num_codewords() const {
+  for (const MacroDefinition& macro : macros) {
+    if (macro.type == 's') return static_cast<int>(macro.state.discrete.size());
+    if (macro.type == 'h' && !macro.hmm.states.empty())
+      return static_cast<int>(macro.hmm.states.front().discrete.size());
+  }
+  return 0;
+}
+
 void ModelSet::add(const std::string& name, const GaussianMixtureHmm& model, double final_stay) {
   require(model.chain().topology().kind == Topology::Kind::left_right,
           "a model with an exit needs a left-right chain");
   require(final_stay >= 0 && final_stay < 1, "final_stay must lie in 0..1, 1 excluded");
   require(vector_size == 0 || vector_size == model.dim(), "the model has another dimension");
+  require(num_codewords() == 0, "the other models are discrete");
   if (find('h', name) != nullptr)
     fail(ErrorKind::invalid_argument, "there is a model '" + name + "' already");
   MacroDefinition macro;
@@ -132,8 +142,10 @@ GaussianMixtureHmm to_hmm(const HmmDefinition& definition) {
     }
   }
   std::size_t num_mixtures = 1;
-  for (const StateDefinition& state : definition.states)
+  for (const StateDefinition& state : definition.states) {
+    require(!state.components.empty(), "a discrete model has no Gaussians");
     num_mixtures = std::max(num_mixtures, state.components.size());
+  }
   const Eigen::Index dim =
       definition.states.front().components.front().component.mean.values.size();
   const auto width = static_cast<Eigen::Index>(num_mixtures);

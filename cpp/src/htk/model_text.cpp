@@ -15,7 +15,20 @@ constexpr const char* kSpaces = " \t\r\n";
 
 bool is_space(char c) { return std::string(kSpaces).find(c) != std::string::npos; }
 
+constexpr double kScaleOfLogs = -2371.8;
+constexpr int kScaledLogOfZero = 32767;
+
 }  // namespace
+
+int to_scaled_log(double probability) {
+  if (!(probability > 0)) return kScaledLogOfZero;
+  const double value = std::round(kScaleOfLogs * std::log(std::min(probability, 1.0)));
+  return static_cast<int>(std::min(value, double{kScaledLogOfZero}));
+}
+
+double from_scaled_log(int value) {
+  return value == kScaledLogOfZero ? 0 : std::exp(value / kScaleOfLogs);
+}
 
 void ModelTokens::refuse_at(std::int64_t line, const std::string& why) const {
   fail(ErrorKind::format, name_ + ": line " + std::to_string(line) + ": " + why);
@@ -58,9 +71,10 @@ void ModelTokens::read_quoted() {
   std::size_t end = at_ + 1;
   while (end < line_end && text_[end] != text_[at_]) end += text_[end] == '\\' ? 2 : 1;
   std::vector<std::string> fields;
-  if (end >= line_end || !split_fields(text_.substr(at_, end + 1 - at_), &fields) ||
-      fields.size() != 1)
-    refuse("a quotation does not end");
+  if (end >= line_end) refuse("a quotation does not end");
+  if (const char* fault = split_fields(text_.substr(at_, end + 1 - at_), &fields); fault != nullptr)
+    refuse(fault);
+  if (fields.size() != 1) refuse("a quotation does not end");
   now_ = {ModelToken::Kind::name, fields.front()};
   at_ = end + 1;
 }

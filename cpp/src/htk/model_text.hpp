@@ -11,7 +11,12 @@ namespace hri::htk::detail {
 
 // Of what is read: far above anything in use.
 constexpr int kMostStates = 4098;
-constexpr int kMostMixtures = 4096;
+constexpr int kMostMixtures = 4096;  // codewords, too
+
+/// What discrete models have in a file for a probability within 0..1, and the same back: -2371.8 ln
+/// of it, rounded, 0..32767; 32767 stands for 0.
+int to_scaled_log(double probability);
+double from_scaled_log(int value);
 
 /// <KEYWORD>, ~o and the like, "name", a number or a word.
 struct ModelToken {

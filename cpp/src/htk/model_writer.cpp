@@ -8,6 +8,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/htk/model_set.hpp"
+#include "htk/model_text.hpp"
 #include "htk/text_lines.hpp"
 
 namespace hri::htk {
@@ -99,6 +100,10 @@ class ModelWriter {
       add_use('s', state.macro);
       return;
     }
+    if (state.discrete.size() > 0) {
+      add_discrete(state);
+      return;
+    }
     require(!state.components.empty(), "a state of a model has no Gaussian");
     if (is_tied(state)) {
       add_tied(state);
@@ -111,6 +116,22 @@ class ModelWriter {
         text_ += "<MIXTURE> " + std::to_string(one.number) + " " + number(one.weight) + "\n";
       add_component(one.component);
     }
+  }
+
+  void add_discrete(const StateDefinition& state) {
+    text_ += "<NUMMIXES> " + std::to_string(state.discrete.size()) + "\n<DPROB>";
+    for (Eigen::Index c = 0; c < state.discrete.size();) {
+      const double probability = state.discrete[c];
+      require(probability >= 0 && probability <= 1, "a probability of a codeword is outside 0..1");
+      const int value = detail::to_scaled_log(probability);
+      Eigen::Index end = c + 1;
+      while (end < state.discrete.size() && detail::to_scaled_log(state.discrete[end]) == value)
+        ++end;
+      text_ += " " + std::to_string(value);
+      if (end - c > 1) text_ += "*" + std::to_string(end - c);
+      c = end;
+    }
+    text_ += '\n';
   }
 
   // Whether its Gaussians are still those that <TMix> names.

@@ -73,7 +73,9 @@ int ParameterKind::num_blocks() const {
 }
 
 const char* ParameterKind::fault() const {
-  if (has(kCodeword)) return "has codewords beside the frames (_V), which are not read";
+  if (has(kCodeword))
+    return "has codewords beside the frames (_V), which no file or model has here: see VQTABLE, "
+           "SAVEASVQ";
   if (has(kAcceleration) && !has(kDelta)) return "has _A without _D";
   if (has(kThird) && !has(kAcceleration)) return "has _T without _A";
   if (has(kNoEnergy) && !(has(kDelta) && (has(kEnergy) || has(kC0))))

@@ -254,17 +254,32 @@ class UnitTable {
     Unit unit;
     unit.chain = to_chain(macro->hmm, &unit.log_skip);
     unit.first_column = num_columns_;
-    hmms_.push_back(to_hmm(macro->hmm));
-    num_columns_ += hmms_.back().num_states();
+    num_columns_ += static_cast<int>(macro->hmm.states.size());
+    if (models_.num_codewords() > 0) {
+      states_.insert(states_.end(), macro->hmm.states.begin(), macro->hmm.states.end());
+    } else {
+      hmms_.push_back(to_hmm(macro->hmm));
+    }
     return &units_.emplace(name, std::move(unit)).first->second;
   }
 
   std::vector<GaussianMixtureHmm> take_hmms() { return std::move(hmms_); }
+  // Of discrete models: log probabilities by codeword and state.
+  [[nodiscard]] MatrixF discrete() const {
+    MatrixF logs(models_.num_codewords(), static_cast<Eigen::Index>(states_.size()));
+    for (std::size_t s = 0; s < states_.size(); ++s) {
+      require(states_[s].discrete.size() == logs.rows(),
+              "a model has another number of codewords than the others");
+      logs.col(static_cast<Eigen::Index>(s)) = states_[s].discrete.array().log().cast<float>();
+    }
+    return logs;
+  }
 
  private:
   const ModelSet& models_;
   std::map<std::string, Unit> units_;
   std::vector<GaussianMixtureHmm> hmms_;
+  std::vector<StateDefinition> states_;  // of discrete models
   int num_columns_ = 0;
 };
 
@@ -301,21 +316,42 @@ Recognizer::Recognizer(const ModelSet& models, const Dictionary& dictionary,
     }
   }
   require(!chains_.empty(), "the network has no word");
-  emissions_.emplace_back(table.take_hmms());
+  if (models.num_codewords() > 0) {
+    discrete_ = table.discrete();
+  } else {
+    emissions_.emplace_back(table.take_hmms());
+  }
   network_ = NetworkBuilder(lattice, numbers).build();
 }
 
 // By states of the chains.
 MatrixF Recognizer::scores(ConstMatrixRefF observations) const {
-  const GaussianEmissions& emissions = emissions_.front();
   require(observations.cols() == dim(),
           "the frames have another number of columns than the models");
+  if (emissions_.empty()) return discrete_scores(observations);
+  const GaussianEmissions& emissions = emissions_.front();
   MatrixF of_hmms(observations.rows(), emissions.num_states());
   emissions.compute(observations, of_hmms);
   MatrixF result(observations.rows(), static_cast<Eigen::Index>(columns_.size()));
   for (Eigen::Index t = 0; t < result.rows(); ++t) {
     for (Eigen::Index c = 0; c < result.cols(); ++c)
       result(t, c) = of_hmms(t, columns_[static_cast<std::size_t>(c)]);
+  }
+  return result;
+}
+
+MatrixF Recognizer::discrete_scores(ConstMatrixRefF observations) const {
+  MatrixF result(observations.rows(), static_cast<Eigen::Index>(columns_.size()));
+  for (Eigen::Index t = 0; t < result.rows(); ++t) {
+    const float value = observations(t, 0);
+    if (!(value >= 1 && value <= static_cast<float>(discrete_.rows()) &&
+          value == std::floor(value)))
+      fail(ErrorKind::invalid_argument, "row " + std::to_string(t) +
+                                            " is no codeword of the models, which have 1.." +
+                                            std::to_string(discrete_.rows()));
+    const auto codeword = static_cast<Eigen::Index>(value) - 1;
+    for (Eigen::Index c = 0; c < result.cols(); ++c)
+      result(t, c) = discrete_(codeword, columns_[static_cast<std::size_t>(c)]);
   }
   return result;
 }

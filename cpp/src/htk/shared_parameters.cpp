@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "htk/shared_parameters.hpp"
 
+#include <cmath>
+
 #include "core/numbers.hpp"
 #include "hri/core/error.hpp"
 
@@ -85,10 +87,18 @@ int SharedParameters::add(const std::string& macro, const StateDefinition& defin
       state.components.push_back(add(one.component.macro, one.component));
       state.weights.push_back(one.weight);
     }
+    state.weights.insert(state.weights.end(), definition.discrete.begin(),
+                         definition.discrete.end());
     states.push_back(std::move(state));
   }
-  const std::size_t known = states[static_cast<std::size_t>(number)].components.size();
-  require(known > 0 && known == definition.components.size(), "the uses of a macro differ");
+  const SharedState& known = states[static_cast<std::size_t>(number)];
+  const auto discrete = static_cast<std::size_t>(definition.discrete.size());
+  require(!known.weights.empty() && known.components.size() == definition.components.size() &&
+              known.weights.size() == definition.components.size() + discrete,
+          "the uses of a macro differ");
+  require(discrete == 0 || (definition.components.empty() &&
+                            known.weights.size() == states.front().weights.size()),
+          "a state has Gaussians and codewords, or another number of codewords");
   return number;
 }
 
@@ -99,6 +109,21 @@ int SharedParameters::add(const std::string& macro, const TransitionDefinition& 
   require(known.rows() == definition.values.rows() && known == definition.values,
           "the uses of a macro differ");
   return number;
+}
+
+void SharedParameters::require_frames(ConstMatrixRefF frames, const std::string& what) const {
+  if (!frames.allFinite())
+    fail(ErrorKind::invalid_argument, what + " has values that are not finite");
+  if (states.empty() || !states.front().components.empty()) return;
+  const std::size_t num_codewords = states.front().weights.size();
+  for (Eigen::Index t = 0; t < frames.rows(); ++t) {
+    const auto value = static_cast<double>(frames(t, 0));
+    if (value == std::floor(value) && value >= 1 && value <= static_cast<double>(num_codewords))
+      continue;
+    fail(ErrorKind::invalid_argument, what + ": row " + std::to_string(t) +
+                                          " is no codeword of the models, which have 1.." +
+                                          std::to_string(num_codewords));
+  }
 }
 
 ModelSet SharedParameters::applied_to(ModelSet set) const {
@@ -147,6 +172,10 @@ void SharedParameters::put(int number, ComponentDefinition* definition) const {
 
 void SharedParameters::put(int number, StateDefinition* definition) const {
   const SharedState& shared = states[static_cast<std::size_t>(number)];
+  if (shared.components.empty()) {
+    definition->discrete = Eigen::Map<const VectorD>(
+        shared.weights.data(), static_cast<Eigen::Index>(shared.weights.size()));
+  }
   for (std::size_t c = 0; c < definition->components.size(); ++c) {
     definition->components[c].weight = shared.weights[c];
     put(shared.components[c], &definition->components[c].component);

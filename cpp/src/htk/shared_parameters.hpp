@@ -20,8 +20,8 @@ struct SharedComponent {
 };
 
 struct SharedState {
-  std::vector<int> components;
-  std::vector<double> weights;
+  std::vector<int> components;  ///< none of a discrete state
+  std::vector<double> weights;  ///< of these, or the probabilities of codewords
 };
 
 struct SharedHmm {
@@ -44,6 +44,10 @@ class SharedParameters {
 
   /// The place of an HMM; -1 where there is none.
   [[nodiscard]] int find(const std::string& hmm) const;
+
+  /// Throws InvalidArgument naming row and column for values not finite, and where the models are
+  /// discrete for those that are no codeword, a whole number from 1. `what`: of the frames.
+  void require_frames(ConstMatrixRefF frames, const std::string& what) const;
 
   /// The set that this was made of, with these values; constants of the Gaussians are computed.
   [[nodiscard]] ModelSet applied_to(ModelSet set) const;

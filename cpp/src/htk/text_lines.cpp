@@ -33,6 +33,12 @@ char escaped(const std::string& line, std::size_t* at) {
   return line[(*at)++];
 }
 
+// What a backslash and octal digits say can be anything.
+bool is_one_line(const std::string& name) {
+  return name.find_first_of(std::string("\r\n\0", 3)) == std::string::npos &&
+         hri::detail::bad_line(name) == 0;
+}
+
 template <class T>
 std::string shortest_text(T value, int digits) {
   for (; digits < 18; ++digits) {
@@ -68,12 +74,13 @@ bool TextLines::next() {
 
 std::vector<std::string> TextLines::fields() const {
   std::vector<std::string> result;
-  if (!split_fields(line_, &result)) refuse("a quotation does not end");
+  if (const char* fault = split_fields(line_, &result); fault != nullptr) refuse(fault);
   return result;
 }
 
 void TextLines::refuse(const std::string& why) const {
-  fail(ErrorKind::format, name_ + ": line " + std::to_string(number_) + ": " + why);
+  fail(ErrorKind::format,
+       name_ + ": line " + std::to_string(std::max(number_, std::int64_t{1})) + ": " + why);
 }
 
 double TextLines::number_of(const std::string& field, double largest) const {
@@ -93,8 +100,8 @@ std::int64_t TextLines::whole_of(const std::string& field, std::int64_t low,
   return static_cast<std::int64_t>(value);
 }
 
-bool split_fields(const std::string& line, std::vector<std::string>* fields,
-                  std::vector<bool>* marked) {
+const char* split_fields(const std::string& line, std::vector<std::string>* fields,
+                         std::vector<bool>* marked) {
   fields->clear();
   if (marked != nullptr) marked->clear();
   std::size_t at = line.find_first_not_of(kBlanks);
@@ -116,12 +123,13 @@ bool split_fields(const std::string& line, std::vector<std::string>* fields,
       }
       field += c;
     }
-    if (!ended) return false;
+    if (!ended) return "a quotation does not end";
+    if (!is_one_line(field)) return "a name is not UTF-8 text of one line";
     fields->push_back(std::move(field));
     if (marked != nullptr) marked->push_back(quote != '\0');
     at = std::min(line.find_first_not_of(kBlanks, at), line.size());
   }
-  return true;
+  return nullptr;
 }
 
 std::string in_quotes(const std::string& name) {
@@ -161,22 +169,8 @@ void require_name(const std::string& name, const std::string& what) {
 }
 
 void require_text(const std::string& text, const std::string& name) {
-  std::int64_t number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    ++number;
-    const auto is_ascii = [](char c) { return c > 0 && static_cast<unsigned char>(c) < 128; };
-    const auto first = text.begin() + static_cast<std::ptrdiff_t>(at);
-    const auto last = text.begin() + static_cast<std::ptrdiff_t>(end);
-    if (!std::all_of(first, last, is_ascii)) {
-      std::string visible(first, last);
-      for (const char blank : {' ', '\t', '\r', '\v', '\f'})
-        std::replace(visible.begin(), visible.end(), blank, '_');
-      if (hri::detail::word_fault(visible) != nullptr)
-        fail(ErrorKind::format, name + ": line " + std::to_string(number) + ": is not UTF-8 text");
-    }
-    at = end + 1;
-  }
+  if (const std::int64_t line = hri::detail::bad_line(text); line != 0)
+    fail(ErrorKind::format, name + ": line " + std::to_string(line) + ": is not UTF-8 text");
 }
 
 std::string read_text(const std::string& path) {

@@ -41,10 +41,10 @@ class TextLines {
 };
 
 /// Fields between blanks; one may stand in "" or '', and a backslash takes the next character, or
-/// three octal digits, as it is. False where a quotation does not end. `marked`, if wanted: which
-/// fields stood in quotation marks.
-bool split_fields(const std::string& line, std::vector<std::string>* fields,
-                  std::vector<bool>* marked = nullptr);
+/// three octal digits, as it is. Gives nullptr, or what is wrong: a quotation does not end, or a
+/// field is not UTF-8 text of one line. `marked`, if wanted: which fields stood in quotation marks.
+const char* split_fields(const std::string& line, std::vector<std::string>* fields,
+                         std::vector<bool>* marked = nullptr);
 
 /// A name in quotation marks, as split_fields() reads it.
 std::string in_quotes(const std::string& name);

@@ -93,8 +93,7 @@ class ViterbiTrainer {
       const std::string name = "recordings[" + std::to_string(r) + "]";
       if (recordings[r].cols() != models.vector_size)
         fail(ErrorKind::invalid_argument, name + " has another number of columns than the models");
-      if (!recordings[r].allFinite())
-        fail(ErrorKind::invalid_argument, name + " has values that are not finite");
+      parameters_.require_frames(recordings[r], name);
       if (recordings[r].rows() < std::max(least, 1))
         fail(ErrorKind::invalid_argument, name + " is shorter than the model");
     }
@@ -145,7 +144,10 @@ class ViterbiTrainer {
       rows.row(static_cast<Eigen::Index>(i)) = recordings_[frames[i].first].row(frames[i].second);
     const std::size_t slots = parameters_.states[index_of(state)].components.size();
     std::vector<std::int32_t> clusters(frames.size(), 0);
-    if (slots > 1 && frames.size() > 1) {
+    if (slots == 0) {
+      for (std::size_t i = 0; i < frames.size(); ++i)
+        clusters[i] = static_cast<std::int32_t>(rows(static_cast<Eigen::Index>(i), 0)) - 1;
+    } else if (slots > 1 && frames.size() > 1) {
       CodebookOptions options;
       options.num_codewords = static_cast<int>(std::min(slots, frames.size()));
       // Distances in units of the deviation of each column.
@@ -190,7 +192,8 @@ class ViterbiTrainer {
         densities.state(hmm_.states[index_of(state)], frames.row(t));
         const auto& all = densities.components();
         const auto best = std::max_element(all.begin(), all.end()) - all.begin();
-        sums.add(hmm_.states[index_of(state)], static_cast<std::size_t>(best), frames.row(t), 1);
+        sums.add(hmm_.states[index_of(state)],
+                 densities.first_slot() + static_cast<std::size_t>(best), frames.row(t), 1);
       }
       counts(before, counts.cols() - 1) += 1;
     }

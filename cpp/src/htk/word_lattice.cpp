@@ -68,7 +68,8 @@ class LatticeReader {
         line += ' ';
       }
     }
-    if (!detail::split_fields(line, &parts)) lines_.refuse("a quotation does not end");
+    if (const char* fault = detail::split_fields(line, &parts); fault != nullptr)
+      lines_.refuse(fault);
     for (std::size_t i = 0; i < parts.size(); i += 2) {
       const std::string& part = parts[i];
       if (part.size() < 2 || part.back() != '=' || i + 1 >= parts.size())

@@ -155,8 +155,8 @@ class SentenceList {
 Grammar Grammar::parse(const std::string& text, const std::string& name) {
   Grammar grammar;
   grammar.text_ = text;
-  grammar.graph_ = std::make_shared<const GrammarGraph>(
-      GrammarGraph::of(detail::JsgfReader(text, name).read(), name));
+  grammar.graph_ =
+      std::make_shared<const GrammarGraph>(GrammarGraph::of(detail::JsgfReader(text, name).read()));
   std::set<std::string> words;
   for (const GrammarGraph::Node& node : grammar.graph_->nodes) {
     if (!node.word.empty()) words.insert(node.word);

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "hri/core/error.hpp"
-
 namespace hri::detail {
 namespace {
 
@@ -15,8 +13,6 @@ constexpr std::size_t kMostCharacters = 16000000;  // of words and tags, each wh
 
 class GraphBuilder {
  public:
-  explicit GraphBuilder(const std::string& name) : name_(name) {}
-
   GrammarGraph build(const GrammarExpression& sentence) {
     const int first = add({});
     const Ends ends = expand(sentence);
@@ -33,16 +29,8 @@ class GraphBuilder {
   };
 
   int add(const GrammarGraph::Node& node) {
-    if (graph_.nodes.size() >= kMostNodes)
-      fail(ErrorKind::format, name_ + ": the grammar has more than a million nodes");
-    count(node.word.size());
     graph_.nodes.push_back(node);
     return static_cast<int>(graph_.nodes.size()) - 1;
-  }
-  void count(std::size_t num_characters) {
-    num_characters_ += num_characters;
-    if (num_characters_ > kMostCharacters)
-      fail(ErrorKind::format, name_ + ": the grammar is too large where its rules are written out");
   }
   void connect(int from, int to, double log_weight = 0) {
     graph_.arcs.push_back({from, to, log_weight});
@@ -82,7 +70,6 @@ class GraphBuilder {
       }
       case Kind::tag: {
         const auto tag = static_cast<int>(graph_.tags.size());
-        count(e.slot.size() + e.value.size());
         graph_.tags.push_back({e.slot, e.value});
         const int entry = add({"", GrammarGraph::Mark::opens, tag});
         const Ends inside = expand(*e.parts.front());
@@ -105,9 +92,7 @@ class GraphBuilder {
     }
   }
 
-  const std::string& name_;
   GrammarGraph graph_;
-  std::size_t num_characters_ = 0;
 };
 
 }  // namespace
@@ -117,13 +102,29 @@ GrammarPart make_part(GrammarExpression::Kind kind, std::vector<GrammarPart> par
   GrammarExpression made;
   made.kind = kind;
   made.may_be_empty = may_be_empty;
-  for (const GrammarPart& part : parts) made.depth = std::max(made.depth, part->depth + 1);
+  // Beside those of its parts.
+  made.num_nodes = kind == GrammarExpression::Kind::sequence       ? 0
+                   : kind == GrammarExpression::Kind::none_or_more ? 1
+                                                                   : 2;
+  for (const GrammarPart& part : parts) {
+    made.depth = std::max(made.depth, part->depth + 1);
+    made.num_nodes += part->num_nodes;
+    made.num_characters +=
+        part->num_characters + part->word.size() + part->slot.size() + part->value.size();
+  }
   made.parts = std::move(parts);
   return std::make_shared<const GrammarExpression>(std::move(made));
 }
 
-GrammarGraph GrammarGraph::of(const GrammarPart& sentence, const std::string& name) {
-  return GraphBuilder(name).build(*sentence);
+const char* size_fault(const GrammarExpression& expression) {
+  if (expression.num_nodes + 2 > kMostNodes) return "the grammar has more than a million nodes";
+  if (expression.num_characters > kMostCharacters)
+    return "the grammar is too large where its rules are written out";
+  return nullptr;
+}
+
+GrammarGraph GrammarGraph::of(const GrammarPart& sentence) {
+  return GraphBuilder().build(*sentence);
 }
 
 }  // namespace hri::detail

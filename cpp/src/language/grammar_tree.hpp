@@ -4,6 +4,7 @@
 // What a grammar says, whatever it is written in: a tree, which becomes nodes and arcs.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -23,12 +24,18 @@ struct GrammarExpression {
   std::string value;                ///< of a tag; empty: the words inside
   bool may_be_empty = false;
   int depth = 1;
+  std::size_t num_nodes = 1;       ///< that it becomes
+  std::size_t num_characters = 0;  ///< of the words and tags of its parts, each where it stands
 };
 using GrammarPart = std::shared_ptr<const GrammarExpression>;
 
-/// An expression of parts; its depth is set.
+/// An expression of parts; its depth and size are set.
 GrammarPart make_part(GrammarExpression::Kind kind, std::vector<GrammarPart> parts,
                       bool may_be_empty);
+
+/// nullptr, or why a graph cannot be made of it: more than a million nodes, or 16 million
+/// characters of words and tags.
+const char* size_fault(const GrammarExpression& expression);
 
 struct GrammarGraph {
   enum class Mark : std::uint8_t { none, opens, closes };
@@ -50,9 +57,8 @@ struct GrammarGraph {
   std::vector<Arc> arcs;
   std::vector<Tag> tags;
 
-  /// Throws FormatError that begins with `name` for more than a million nodes, or 16 million
-  /// characters of words and tags.
-  static GrammarGraph of(const GrammarPart& sentence, const std::string& name);
+  /// Of an expression without size_fault().
+  static GrammarGraph of(const GrammarPart& sentence);
 };
 
 }  // namespace hri::detail

@@ -51,6 +51,7 @@ void JsgfReader::refuse(std::int64_t line, const std::string& why) const {
 }
 
 GrammarPart JsgfReader::read() {
+  if (const std::int64_t line = bad_line(text_); line != 0) refuse(line, "is not UTF-8 text");
   read_header();
   split();
   read_rules();
@@ -181,6 +182,7 @@ GrammarPart JsgfReader::joined(Kind kind, std::vector<GrammarPart> parts, bool m
   GrammarPart made = make_part(kind, std::move(parts), may_be_empty);
   if (made->depth > kMostGrammarDepth)
     refuse(line, "rules, tags and repetitions stand in each other too deep");
+  if (const char* fault = size_fault(*made); fault != nullptr) refuse(line, fault);
   return made;
 }
 

@@ -22,8 +22,18 @@ from hri._native import HtkRecognisedWord as RecognisedWord
 from hri._native import HtkRecognizer as Recognizer
 from hri._native import HtkTranscription as Transcription
 from hri._native import HtkViterbiTraining as ViterbiTraining
+from hri._native import HtkVqTable as VqTable
 from hri._native import HtkWordLattice as WordLattice
-from hri.htk.coding import ParameterHeader, Source, code_file, code_sources, load_observations, read_header
+from hri.htk.coding import (
+    DISCRETE,
+    ParameterHeader,
+    Source,
+    code_file,
+    code_sources,
+    load_observations,
+    observed,
+    read_header,
+)
 from hri.htk.listing import list_parameters, observation_names
 from hri.htk.lists import read_list, read_script
 from hri.htk.results import HTK_COSTS, Results, compare
@@ -38,6 +48,7 @@ from hri.htk.training import retrain_by_baum_welch, train_by_viterbi, train_mode
 from hri.htk.word_spotting import WordSpotting
 
 __all__ = [
+    "DISCRETE",
     "HTK_COSTS",
     "AlignedModel",
     "AlignedState",
@@ -65,6 +76,7 @@ __all__ = [
     "Transcription",
     "ViterbiTrainerOptions",
     "ViterbiTraining",
+    "VqTable",
     "WordLattice",
     "WordSpotting",
     "code_file",
@@ -75,6 +87,7 @@ __all__ = [
     "load_observations",
     "network_statistics",
     "observation_names",
+    "observed",
     "random_sentence",
     "read_header",
     "read_list",

@@ -11,13 +11,15 @@ from os import PathLike, fspath
 import numpy as np
 from numpy.typing import NDArray
 
-from hri._native import HtkConfiguration, HtkFeatureExtractor, HtkParameterFile
+from hri._native import HtkConfiguration, HtkFeatureExtractor, HtkParameterFile, HtkVqTable
 from hri.core.errors import FormatError
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.io import read_wav
 
 UNITS_PER_S = 10_000_000
 FULL_SCALE = 32768
+DISCRETE = "DISCRETE"
+"""The kind of codewords."""
 
 
 @dataclass(frozen=True)
@@ -79,11 +81,29 @@ def code_file(source: str | PathLike[str], configuration: HtkConfiguration) -> H
 def code_sources(sources: Sequence[Source], configuration: HtkConfiguration) -> HtkParameterFile:
     """What HCopy makes of recordings, or parts of them, one behind the other; errors as of `code_file`.
 
+    Where TARGETKIND has _V these are codewords of VQTABLE, kind DISCRETE; parameters that are codewords stay so.
+
     Raises
     ------
     FormatError
-        Also for recordings of several rates, or parameters of several kinds or periods.
+        Also for recordings of several rates, or parameters of several kinds or periods; for _V without SAVEASVQ, which
+        would put codewords beside frames, and SAVEASVQ without _V.
     """
+    if configuration.has_codewords != configuration.save_codewords:
+        raise FormatError(
+            "files of codewords take both _V in TARGETKIND and SAVEASVQ = T; there are none beside frames"
+        )
+    file = _code(sources, configuration)
+    if not configuration.has_codewords or _is_discrete(file):
+        return file
+    name = fspath(sources[0].path)
+    codewords = _quantised(file, configuration, name)
+    kind = f"{DISCRETE}_K" if "_K" in file.kind else DISCRETE
+    return HtkParameterFile(codewords, kind, file.sample_period)
+
+
+def _code(sources: Sequence[Source], configuration: HtkConfiguration) -> HtkParameterFile:
+    """Parameters of sources one behind the other."""
     clips: list[tuple[NDArray[np.float32], int]] = []
     files: list[HtkParameterFile] = []
     for source in sources:
@@ -108,7 +128,54 @@ def code_sources(sources: Sequence[Source], configuration: HtkConfiguration) -> 
     if len(files) > 1:
         together = np.concatenate([file.values for file in files])
         files = [HtkParameterFile(together, _uncompressed(files[0].kind), files[0].sample_period)]
-    return files[0].convert(configuration.written_kind(files[0].kind), configuration.features)
+    return _converted(files[0], configuration)
+
+
+def _converted(file: HtkParameterFile, configuration: HtkConfiguration) -> HtkParameterFile:
+    """A file as the configuration wants it; codewords for which it wants codewords stay as they are."""
+    if configuration.has_codewords and _is_discrete(file):
+        return file
+    return file.convert(configuration.written_kind(file.kind), configuration.features)
+
+
+def _is_discrete(file: HtkParameterFile) -> bool:
+    return _uncompressed(file.kind) == DISCRETE
+
+
+def _quantised(file: HtkParameterFile, configuration: HtkConfiguration, name: str) -> NDArray[np.float32]:
+    """Codewords of frames, shape (num_frames, 1)."""
+    if not configuration.vq_table:
+        raise FormatError(
+            f"{name}: VQTABLE is not set in any configuration file, by which {file.kind} becomes codewords"
+        )
+    table = HtkVqTable.read(configuration.vq_table)
+    kind = _uncompressed(file.kind)
+    if table.kind not in ("ANON", kind):
+        raise FormatError(f"{name}: its frames are {kind}, and the table {configuration.vq_table} is of {table.kind}")
+    frames = file.observations(kind, configuration.features)
+    if frames.shape[1] != table.dim:
+        raise FormatError(
+            f"{name}: frames of {frames.shape[1]} columns, and the table {configuration.vq_table} is of {table.dim}"
+        )
+    return table.quantise(frames)[:, np.newaxis].astype(np.float32)
+
+
+def observed(file: HtkParameterFile, kind: str, configuration: HtkConfiguration, name: str) -> NDArray[np.float32]:
+    """Frames of a file as models of this kind see them, shape (num_frames, num_columns).
+
+    Discrete models see codewords: those of the file, or of its frames where TARGETKIND has _V.
+
+    Raises
+    ------
+    FormatError
+        Where frames have to become codewords and no table, or one of other frames, is named; `name` is in its message.
+    InvalidArgument
+        For a kind that the frames cannot become.
+    """
+    file = _converted(file, configuration)
+    if kind == DISCRETE and configuration.has_codewords and not _is_discrete(file):
+        return _quantised(file, configuration, name)
+    return file.observations(file.kind if kind == "ANON" else kind, configuration.features)
 
 
 def _part_of(file: HtkParameterFile, source: Source) -> HtkParameterFile:
@@ -171,8 +238,8 @@ def load_observations(
 
     Of a recording they are computed; errors as of `code_file`.
     """
-    file = code_file(source, configuration)
-    return file.observations(file.kind if kind == "ANON" else kind, configuration.features), file.sample_period
+    file = _code([Source(source)], configuration)
+    return observed(file, kind, configuration, fspath(source)), file.sample_period
 
 
 def _code_audio(

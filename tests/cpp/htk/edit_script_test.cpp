@@ -95,7 +95,7 @@ TEST(EditScript, RefusesListsByNameAndLine) {
   const TriphoneList list("\n");
   EXPECT_EQ(refusal("CL " + TriphoneList::path() + "\n"),
             "script: line 1: the list '" + TriphoneList::path() + "' has no model");
-  EXPECT_EQ(refusal("CL"), "script: line 1: expected the path of a list");
+  EXPECT_EQ(refusal("CL"), "script: line 1: expected the path of a file");
   EXPECT_THROW(edited("CL nowhere\n"), IoError);
 }
 
@@ -198,7 +198,9 @@ TEST(EditScript, RefusesWithFileAndLine) {
   const auto expect = [](const std::string& script, const std::string& why) {
     EXPECT_EQ(refusal(script), "script: line " + why);
   };
-  expect("MU 2 {*.state[2].mix}\nXX 1", "2: there is no command 'XX' but MU, TI, AT, RT and CL");
+  expect(
+      "MU 2 {*.state[2].mix}\nXX 1",
+      "2: there is no command 'XX' but MU, TI, AT, RT, CL, RO, LS, QS, TB, TC, AU, CO, ST and LT");
   expect("MU 2 *.state[2].mix}", "1: expected {");
   expect("\nMU 2 {*.state[2].mix", "2: expected }");
   expect("MU 0 {*.state[2].mix}", "1: expected a whole number in 1..4096");

@@ -113,7 +113,7 @@ TEST(Matches, TakesStarsAndQuestionMarks) {
 
 TEST(MasterLabelFile, RefusesDamagedFilesByNameAndLine) {
   const std::string head = "#!MLF!#\n";
-  EXPECT_EQ(refusal_of_labels(""), "words.mlf: line 0: a master label file begins with #!MLF!#");
+  EXPECT_EQ(refusal_of_labels(""), "words.mlf: line 1: a master label file begins with #!MLF!#");
   EXPECT_EQ(refusal_of_labels(head + "\"a.lab\"\none\n"),
             "words.mlf: line 3: the transcription does not end with a full stop");
   EXPECT_EQ(refusal_of_labels(head + "a.lab\n.\n"),

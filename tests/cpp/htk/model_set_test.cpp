@@ -90,16 +90,16 @@ TEST(ModelSet, RefusesDamagedTiedMixturesByNameAndLine) {
     return refusal_of_definitions(tied_mixture(weights));
   };
   EXPECT_EQ(refusal("0.5 0.25 0.25"), "nothing thrown");
-  EXPECT_EQ(refusal("0.5 0.25*3"), "models: line 25: there are more weights than <NUMMIXES> says");
-  EXPECT_EQ(refusal("0.5*1.5 0.5"), "models: line 25: there are more weights than <NUMMIXES> says");
-  EXPECT_EQ(refusal("0.5 0.5"), "models: line 26: expected a weight, or weight*times");
+  EXPECT_EQ(refusal("0.5 0.25*3"), "models: line 25: there are more values than <NUMMIXES> says");
+  EXPECT_EQ(refusal("0.5*1.5 0.5"), "models: line 25: there are more values than <NUMMIXES> says");
+  EXPECT_EQ(refusal("0.5 0.5"), "models: line 26: expected a value, or value*times");
   EXPECT_EQ(refusal("0.5 2 0.5"), "models: line 25: a weight is outside 0..1");
   EXPECT_EQ(refusal("0.5*3"), "models: line 25: the weights of a state do not sum to 1");
   EXPECT_EQ(refusal_of_definitions(replaced(tied_mixture("0.5 0.25*2"), "mix3", "mix4")),
             "models: line 25: ~m \"mix3\" is not defined above");
   EXPECT_EQ(
       refusal_of_definitions(replaced(tied_mixture("0.5 0.25*2"), "<TMIX> \"mix\"", "<DPROB>")),
-      "models: line 24: discrete models are not read");
+      "models: line 24: a discrete state, where the others have Gaussians");
 }
 
 TEST(ModelSet, WritesFilesOfHtkByteForByte) {

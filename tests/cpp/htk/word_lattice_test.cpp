@@ -106,7 +106,7 @@ TEST(WordLattice, RefusesGrammarsByNameAndLine) {
   EXPECT_EQ(grammar_refusal("$a = b | $a;\n( $a )"), "file: line 1: '$a' is not defined above");
   EXPECT_EQ(grammar_refusal("$a = x $b;\n$b = y [ $a ];\n( $a )"),
             "file: line 1: '$b' is not defined above");
-  EXPECT_EQ(grammar_refusal("$a = b;\n$a = c;\n( $a )"), "file: line 3: '$a' is defined twice");
+  EXPECT_EQ(grammar_refusal("$a = b;\n$a = c;\n( $a )"), "file: line 2: '$a' is defined twice");
   EXPECT_EQ(grammar_refusal("( a\n"), "file: line 2: expected )");
   EXPECT_EQ(grammar_refusal("( a ) b"), "file: line 1: nothing stands behind the sentence");
   EXPECT_EQ(grammar_refusal("( a | )"), "file: line 1: expected a word, a $name or a bracket");
@@ -115,6 +115,12 @@ TEST(WordLattice, RefusesGrammarsByNameAndLine) {
   EXPECT_EQ(grammar_refusal("( << a >> )"), "file: line 1: loops << >> in context are not read");
   EXPECT_EQ(grammar_refusal("( a /* b )"), "file: line 1: a comment does not end");
   EXPECT_EQ(grammar_refusal("( \"a )"), "file: line 1: a quotation does not end");
+  // What stands behind a backslash is taken as it is, the end of a line and bytes among it.
+  EXPECT_EQ(grammar_refusal("( a |\nb\\\nc )"),
+            "file: line 2: a name is not UTF-8 text of one line");
+  EXPECT_EQ(grammar_refusal("\n( \"\\377\" )"),
+            "file: line 2: a name is not UTF-8 text of one line");
+  EXPECT_EQ(grammar_refusal("( \"\" )"), "file: line 1: a name is empty");
   EXPECT_EQ(grammar_refusal(std::string(100000, '(')),
             "file: line 1: brackets stand in brackets, too deep");
   std::string doubling = "$a0 = a;\n";
@@ -123,7 +129,7 @@ TEST(WordLattice, RefusesGrammarsByNameAndLine) {
     doubling += "$a" + std::to_string(i) + " = " + before + " " + before + ";\n";
   }
   EXPECT_EQ(grammar_refusal(doubling + "( $a39 )"),
-            "file: the grammar has more than a million nodes");
+            "file: line 21: the grammar has more than a million nodes");
 }
 
 TEST(WordLattice, IsReadAsItWasWritten) {
@@ -215,7 +221,7 @@ TEST(WordLattice, WeighsSentencesAsTheBigramDoes) {
 TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
   const std::string good = "N=3 L=2\nI=0\nI=1 W=a\nI=2\nJ=0 S=0 E=1\nJ=1 S=1 E=2\n";
   EXPECT_EQ(lattice_refusal(good), "nothing thrown");
-  EXPECT_EQ(lattice_refusal(""), "file: line 0: the lattice has no line with N= and L=");
+  EXPECT_EQ(lattice_refusal(""), "file: line 1: the lattice has no line with N= and L=");
   EXPECT_EQ(lattice_refusal("I=0\n"), "file: line 1: nodes and arcs stand behind N= and L=");
   EXPECT_EQ(lattice_refusal(good + "J=1 S=0 E=2\n"),
             "file: line 7: there are more arcs than L= says");
@@ -226,6 +232,8 @@ TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
   EXPECT_EQ(lattice_refusal("N=3 L=2\nI=3\n"), "file: line 2: '3' is no whole number in 0..2");
   EXPECT_EQ(lattice_refusal("N=99999999999 L=2\n"),
             "file: line 1: '99999999999' is no whole number in 1..10000000");
+  EXPECT_EQ(lattice_refusal("N=3 L=2\nI=0 W=\\377\n"),
+            "file: line 2: a name is not UTF-8 text of one line");
   EXPECT_EQ(lattice_refusal("N=3 L=2\nSUBLAT=x\n"),
             "file: line 2: lattices in lattices are not read");
   EXPECT_EQ(lattice_refusal("N=2 L=1\nI=0\nI=1 W=b\nJ=0 S=0 E=1 W=a\n"),
@@ -278,6 +286,9 @@ TEST(Dictionary, RefusesByNameAndLine) {
   EXPECT_EQ(of("one \"w\n"), "file: line 1: a quotation does not end");
   EXPECT_EQ(of("one \"\" w\n"), "file: line 1: the name of a model is empty");
   EXPECT_EQ(of("\xff w\n"), "file: line 1: is not UTF-8 text");
+  for (const char* wrong : {"one\\377 w\n", "one [\\377] w\n", "one w\\012x\n", "one w\\000\n"})
+    EXPECT_EQ(of(wrong), "file: line 1: a name is not UTF-8 text of one line");
+  EXPECT_EQ(Dictionary::parse("\\303\\244 w\n", "d").entries[0].word, "\xc3\xa4");
 }
 
 }  // namespace

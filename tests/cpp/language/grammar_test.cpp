@@ -121,7 +121,7 @@ TEST(Grammar, RefusesWhatGrowsBeyondBounds) {
     copies += ";";
   }
   EXPECT_EQ(refusal(copies + "public <s> = <c5>;"),
-            "file: the grammar is too large where its rules are written out");
+            "file: line 3: the grammar is too large where its rules are written out");
 }
 
 TEST(Grammar, MakesANetworkOfItsSentencesAlone) {
@@ -189,6 +189,9 @@ TEST(Grammar, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_EQ(refusal("public <NULL> = b;"), "file: line 3: <NULL> cannot be defined");
   EXPECT_EQ(refusal("public <a> = > b;"), "file: line 3: '>' has no meaning here");
   EXPECT_EQ(refusal("public <a> = b <VOID>;"), "file: line 3: <VOID> is not read");
+  EXPECT_EQ(refusal("// \xff\npublic <a> = b;"), "file: line 3: is not UTF-8 text");
+  EXPECT_EQ(refusal("public <a> = b\n{c=\xff};"), "file: line 4: is not UTF-8 text");
+  EXPECT_EQ(refusal(std::string("public <a> = b {c=\0d};", 22)), "file: line 3: is not UTF-8 text");
   EXPECT_THROW(Grammar::parse("", "file"), FormatError);
   EXPECT_THROW(Grammar::parse("#JSGF V1.0;", "file"), FormatError);
   EXPECT_THROW(Grammar::parse("#JSGF V1.0;\ngrammar a", "file"), FormatError);
@@ -206,7 +209,7 @@ TEST(Grammar, BoundsWhatItIsGiven) {
     doubling += "<r" + std::to_string(i) + "> = " + before + " " + before + ";\n";
   }
   EXPECT_EQ(refusal(doubling + "public <s> = <r39>;"),
-            "file: the grammar has more than a million nodes");
+            "file: line 22: the grammar has more than a million nodes");
 }
 
 }  // namespace

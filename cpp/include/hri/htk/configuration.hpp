@@ -26,6 +26,11 @@ struct HRI_API Configuration {
   bool has_target_rate = false;  ///< else features.frame_shift_ms is no one's choice
   bool save_compressed = false;
   bool save_with_checksum = true;
+  /// _V of TARGETKIND, which `target` has not: frames become codewords of the table for models that
+  /// are discrete, and in files where `save_codewords` says so.
+  bool has_codewords = false;
+  bool save_codewords = false;  ///< SAVEASVQ
+  std::string vq_table;         ///< VQTABLE, a path
   HtkFeatureOptions features;
   std::vector<std::string> ignored;  ///< keys that are read by other tools only, or by none
   std::vector<std::pair<std::string, std::string>> settings;  ///< keys and values, as they came

@@ -83,7 +83,7 @@ class HRI_API EmbeddedTrainer {
 
   /// Adds an utterance, `frames` (num_frames, vector_size), by the names of its models in order;
   /// what does not fit changes nothing. Throws InvalidArgument for no model, one that there is not,
-  /// another number of columns, and values not finite.
+  /// another number of columns, and values not finite or, of discrete models, no codeword.
   EmbeddedOutcome add(ConstMatrixRefF frames, const std::vector<std::string>& units);
 
   /// The sums over the utterances added, for add_sums() of a trainer of the same models: passes

@@ -27,8 +27,9 @@ class HRI_API FlatStart {
   [[nodiscard]] VectorD variance() const;
 
   /// The models with the variance in every Gaussian, at least `min_variance` each, and with
-  /// `update_means` the mean. Throws InvalidArgument for models of another number of columns, a
-  /// `min_variance` that is negative, and a column that is constant where that is 0.
+  /// `update_means` the mean. Throws InvalidArgument for models of another number of columns or
+  /// discrete ones, a `min_variance` that is negative, and a column that is constant where that is
+  /// 0.
   [[nodiscard]] ModelSet apply(const ModelSet& models, bool update_means,
                                double min_variance = 0) const;
 

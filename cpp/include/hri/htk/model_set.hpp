@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// HTK's model definitions in text form: HMMs of Gaussian mixtures with diagonal covariance in one
-// stream, and macros that they share (HTK Book, chapter 7).
+// HTK's model definitions in text form: HMMs of Gaussian mixtures with diagonal covariance, or of
+// codewords, in one stream, and macros that they share (HTK Book, chapter 7).
 #pragma once
 
 #include <string>
@@ -42,6 +42,9 @@ struct StateDefinition {
   int num_mixtures = 1;
   std::vector<WeightedComponent> components;
   std::string tied;  ///< of TMix: its Gaussians are the ~m of this name and a number from 1
+  /// Of a discrete state, which has no Gaussian: the probability of every codeword. Files hold
+  /// -2371.8 ln of them, rounded, where 32767 stands for 0.
+  VectorD discrete;
 };
 
 struct TransitionDefinition {
@@ -72,9 +75,9 @@ struct HRI_API ModelSet {
   std::vector<MacroDefinition> macros;
 
   /// Adds what a file defines; macros of files before may be used. Throws IoError; FormatError
-  /// naming file and line for whatever is no such definition, and for what is not read: binary
-  /// files, several streams, full covariances, durations, discrete models. States of tied mixtures
-  /// (TMix) have all Gaussians of the set.
+  /// naming file and line for whatever is no such definition, for discrete states beside Gaussians
+  /// or of another number of codewords, and for what is not read: binary files, several streams,
+  /// full covariances, durations. States of tied mixtures (TMix) have all Gaussians of the set.
   void read(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   void parse(const std::string& text, const std::string& name);
@@ -92,6 +95,10 @@ struct HRI_API ModelSet {
   [[nodiscard]] const MacroDefinition* find(char type, const std::string& name) const;
   [[nodiscard]] std::vector<std::string> hmm_names() const;
 
+  /// Codewords of its discrete states, which count from 1 in frames of one column; 0: its states,
+  /// if any, are of Gaussians.
+  [[nodiscard]] int num_codewords() const;
+
   /// Adds an HMM whose left-right chain is left from its last state with probability
   /// 1 - final_stay. Throws InvalidArgument for other topologies, another dimension, a name that
   /// there is already, and final_stay outside 0..1, 1 excluded.
@@ -107,7 +114,7 @@ struct HRI_API ModelSet {
 
 /// The Gaussians of an HMM, and a chain without its entry and exit: what leaves a state for the
 /// exit is shared by its other steps, and by none where it has none. States with fewer Gaussians
-/// than others have some of weight 0.
+/// than others have some of weight 0. Throws InvalidArgument for a discrete model.
 HRI_API GaussianMixtureHmm to_hmm(const HmmDefinition& definition);
 
 /// The chain with entry and exit, as decoders pass it. `log_skip`: the log probability to pass from

@@ -75,13 +75,13 @@ struct RecognisedSentence {
 class HRI_API Recognizer {
  public:
   /// Throws InvalidArgument naming the word that the dictionary has not, the model that the set has
-  /// not, and words whose models could all be passed without a frame; for lattices with a fault,
-  /// and options out of range.
+  /// not, words whose models could all be passed without a frame, and discrete models beside
+  /// Gaussian ones; for lattices with a fault, and options out of range.
   Recognizer(const ModelSet& models, const Dictionary& dictionary, const WordLattice& lattice,
              const ConnectedDecoderOptions& options = {});
 
   /// The best sentence of `observations` (num_frames, dim()). Throws InvalidArgument for another
-  /// number of columns, and values not finite.
+  /// number of columns, and values not finite or, of discrete models, no codeword.
   [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF observations) const;
 
   /// The models of every word of a sentence of `observations`, and their states, on the best path
@@ -101,14 +101,16 @@ class HRI_API Recognizer {
   /// Of every pronunciation.
   [[nodiscard]] std::vector<std::string> words() const;
 
-  [[nodiscard]] int dim() const { return emissions_.front().dim(); }
+  [[nodiscard]] int dim() const { return emissions_.empty() ? 1 : emissions_.front().dim(); }
 
  private:
+  [[nodiscard]] MatrixF discrete_scores(ConstMatrixRefF observations) const;
   [[nodiscard]] MatrixF scores(ConstMatrixRefF observations) const;
   [[nodiscard]] std::vector<RecognisedWord> words_of(const std::vector<DecodedWord>& words) const;
 
   ConnectedDecoderOptions options_;
-  std::vector<GaussianEmissions> emissions_;  // one
+  std::vector<GaussianEmissions> emissions_;  // one; none of discrete models
+  MatrixF discrete_;  // log probabilities by codeword and state, -inf for 0; of Gaussians empty
   std::vector<Pronunciation> pronunciations_;
   std::vector<int> entries_;               // of the dictionary, by pronunciation
   std::map<int, int> of_entry_;            // the same back

@@ -56,9 +56,10 @@ struct ViterbiTraining {
 
 /// Trains the model `hmm` on `recordings`, each (num_frames, vector_size). Its topology, number of
 /// Gaussians and macros stay; steps of probability 0 stay impossible. Gaussians of a state begin at
-/// the clusters of its frames. Throws InvalidArgument for no recording, one that is shorter than
-/// the model (names its number), values not finite, a model that there is not or that no path leads
-/// through, and options out of range.
+/// the clusters of its frames; of discrete models, codewords of the equal parts are counted. Throws
+/// InvalidArgument for no recording, one that is shorter than the model (names its number), values
+/// not finite or no codeword, a model that there is not or that no path leads through, and options
+/// out of range.
 HRI_API ViterbiTraining train_by_viterbi(const ModelSet& models, const std::string& hmm,
                                          const std::vector<MatrixF>& recordings,
                                          const ViterbiTrainerOptions& options = {});

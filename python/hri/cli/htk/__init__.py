@@ -12,6 +12,7 @@ from hri.cli.htk.embedded import erest
 from hri.cli.htk.flat_start import compv
 from hri.cli.htk.networks import build, parse, sgen
 from hri.cli.htk.parameters import copy, list_files
+from hri.cli.htk.quantisation import quant
 from hri.cli.htk.recognition import vite
 from hri.cli.htk.scoring import results
 from hri.cli.htk.training import init, rest
@@ -25,6 +26,7 @@ def htk() -> None:
     Examples:
       hri htk copy -C config -S copy.scp
       hri htk list -h -e 9 a.mfc
+      hri htk quant -C config -n 1 64 -S train.scp codebook
       hri htk compv -m -M hmm0 -S train.scp proto
       hri htk erest -H hmm0/models -M hmm1 -I words.mlf -S train.scp list
       hri htk parse grammar wdnet
@@ -33,5 +35,5 @@ def htk() -> None:
     """
 
 
-for _command in (copy, list_files, results, parse, build, sgen, vite, compv, init, rest, erest, hed):
+for _command in (copy, list_files, quant, results, parse, build, sgen, vite, compv, init, rest, erest, hed):
     htk.add_command(_command)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hri.cli.htk.options import all_arguments
 from hri.core.errors import FormatError, InvalidArgument
-from hri.htk import Configuration, ModelSet, ParameterFile, load_observations, read_header
+from hri.htk import DISCRETE, Configuration, ModelSet, ParameterFile, load_observations, observed, read_header
 
 UNITS_PER_MS = 10_000
 _EXTENDED = re.compile(r"(?:(?P<name>[^=]+)=)?(?P<path>[^=\[\]]+)(?:\[(?P<first>\d{1,12}),(?P<last>\d{1,12})\])?")
@@ -124,14 +124,14 @@ def _check_kind(path: str, kind: str, columns: int | None, models: ModelSet, con
     """Whether frames of this kind can become what models take; of as many columns, if they are known."""
     wanted = models.kind
     if columns is None:
-        if wanted != "ANON" and kind.split("_")[0] != wanted.split("_")[0]:
+        is_quantised = configuration.has_codewords and wanted == DISCRETE
+        if wanted != "ANON" and not is_quantised and kind.split("_")[0] != wanted.split("_")[0]:
             raise FormatError(f"{path}: becomes {kind} by the configuration, and the models take {wanted}")
         return
     try:
         # One frame of zeros goes the way that all will go.
         frame = ParameterFile(np.zeros((1, columns), np.float32), kind, UNITS_PER_MS)
-        file = frame.convert(configuration.written_kind(kind), configuration.features)
-        seen = file.observations(file.kind if wanted == "ANON" else wanted, configuration.features)
+        seen = observed(frame, wanted, configuration, path)
     except InvalidArgument as error:
         raise FormatError(f"{path}: its frames are {kind}, and the models take {wanted}: {error}") from error
     if models.vector_size and seen.shape[1] != models.vector_size:
@@ -140,10 +140,23 @@ def _check_kind(path: str, kind: str, columns: int | None, models: ModelSet, con
         )
 
 
-def load_frames(file: DataFile, kind: str, configuration: Configuration) -> NDArray[np.float32]:
-    """Frames as models of this kind see them; errors as of `load_observations`, with the file."""
+def load_frames(file: DataFile, models: ModelSet, configuration: Configuration) -> NDArray[np.float32]:
+    """Frames as models see them; errors as of `load_observations`, with the file.
+
+    Raises
+    ------
+    FormatError
+        Also for a codeword that discrete models have not: names file and frame.
+    """
     try:
-        frames, _ = load_observations(file.path, kind, configuration)
+        frames, _ = load_observations(file.path, models.kind, configuration)
     except InvalidArgument as error:
         raise FormatError(f"{file.path}: {error}") from error
+    if models.num_codewords:
+        outside = np.flatnonzero((frames[:, 0] < 1) | (frames[:, 0] > models.num_codewords))
+        if outside.size:
+            raise FormatError(
+                f"{file.path}: frame {outside[0]} has the codeword {frames[outside[0], 0]:g}, and the models have 1 to "
+                f"{models.num_codewords}"
+            )
     return file.cut(frames)

@@ -15,11 +15,12 @@ from hri.cli.htk.options import (
     ModelFiles,
     References,
     all_arguments,
-    label_folder_option,
-    label_suffix_option,
-    labels_option,
+    folder_option,
+    listed_models_options,
     load_configuration,
     models_option,
+    new_suffix_option,
+    recording_options,
 )
 from hri.cli.htk.standard import (
     ADAPTATION,
@@ -28,17 +29,14 @@ from hri.cli.htk.standard import (
     HtkCommand,
     NumbersOption,
     is_number,
-    label_format_option,
     refused_options,
-    source_format_option,
-    standard_options,
 )
-from hri.cli.htk.training import NOTHING, folder_option, updates_option, weight_floor_option
+from hri.cli.htk.training import NOTHING, updates_option, weight_floor_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_text
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import make_folder
-from hri.htk import Configuration, EmbeddedTrainer, EmbeddedTrainerOptions, ModelOccupation, read_list
+from hri.htk import Configuration, EmbeddedTrainer, EmbeddedTrainerOptions, ModelOccupation, ModelSet, read_list
 
 WHY = {
     "too_short": "has fewer frames than the models of its transcript take; left out",
@@ -57,17 +55,11 @@ _TWO_KINDS = "a single pass over two kinds of parameters (HERest -r) is not made
 
 
 @click.command(cls=HtkCommand)
-@standard_options("ACDSTV")
+@recording_options
 @models_option
-@labels_option
-@label_folder_option
-@label_suffix_option
-@source_format_option
-@label_format_option
-@click.option("-d", "model_folder", metavar="DIR", help="Folder of models that no -H defines, a file for each.")
-@click.option("-x", "model_suffix", metavar="EXT", help="Suffix of these files.")
+@listed_models_options
 @folder_option
-@click.option("-o", "new_suffix", metavar="EXT", help="Suffix of the files that models of -d are written to.")
+@new_suffix_option
 @click.option("-c", "pruning", type=FiniteRange(0), help="Not needed: all Gaussians are summed.")
 @click.option("-m", "min_examples", type=click.IntRange(0), default=3, help="Leave models that occur less often.")
 @click.option(
@@ -163,7 +155,7 @@ def erest(
         references = References(masters, label_folder, suffix)
         utterances = [(file, _units(file.name, references, names)) for file in recordings]
         check_headers(recordings, sources.models, configuration)
-        _add_all(trainer, utterances, sources.models.kind, configuration, trace)
+        _add_all(trainer, utterances, sources.models, configuration, trace)
     if not trainer.num_frames:
         raise FormatError("no recording fits its transcript; nothing was trained")
     if part:
@@ -190,13 +182,13 @@ def erest(
 def _add_all(
     trainer: EmbeddedTrainer,
     utterances: Sequence[tuple[DataFile, list[str]]],
-    kind: str,
+    models: ModelSet,
     configuration: Configuration,
     trace: int,
 ) -> None:
     """Add recordings with the models of their transcripts; those that do not fit are named."""
     for file, units in utterances:
-        frames = load_frames(file, kind, configuration)
+        frames = load_frames(file, models, configuration)
         before = trainer.log_likelihood
         outcome = trainer.add(frames, units)
         if outcome != "added":

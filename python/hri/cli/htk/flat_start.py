@@ -13,21 +13,14 @@ from hri.cli.htk.data import check_headers, data_files
 from hri.cli.htk.options import (
     ModelFiles,
     References,
-    label_folder_option,
-    label_suffix_option,
-    labels_option,
+    folder_option,
     load_configuration,
     models_option,
+    name_option,
+    recording_options,
 )
-from hri.cli.htk.standard import (
-    BINARY,
-    HtkCommand,
-    label_format_option,
-    refused_options,
-    source_format_option,
-    standard_options,
-)
-from hri.cli.htk.training import NOTHING, folder_option, label_option, segments
+from hri.cli.htk.standard import BINARY, HtkCommand, refused_options
+from hri.cli.htk.training import NOTHING, label_option, segments
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import make_folder
 from hri.htk import FlatStart
@@ -36,19 +29,14 @@ _OF_SPEAKERS = "means and variances of speakers (CMEANDIR) are not computed"
 
 
 @click.command(cls=HtkCommand)
-@standard_options("ACDSTV")
+@recording_options
 @models_option
-@labels_option
-@label_folder_option
-@label_suffix_option
-@source_format_option
-@label_format_option
 @label_option
 @folder_option
 @click.option("-m", "means", is_flag=True, help="Set the means, too.")
 @click.option("-f", "share", type=FiniteRange(0, min_open=True), help="Write vFloors: this share of the variance.")
 @click.option("-v", "min_variance", type=FiniteRange(0), default=0.0, help="Least variance.")
-@click.option("-o", "name", metavar="NAME", help="Name of the model and its file; that of the prototype else.")
+@name_option
 @refused_options(c=(_OF_SPEAKERS, 1), k=(_OF_SPEAKERS, 1), p=(_OF_SPEAKERS, 1), q=(_OF_SPEAKERS, 1), **BINARY)
 @click.argument("prototype")
 @click.argument("files", nargs=-1)
@@ -85,7 +73,7 @@ def compv(
     period = check_headers(recordings, sources.models, configuration)
     start = FlatStart()
     try:
-        for _, frames in segments(recordings, sources.models.kind, configuration, references, label, period):
+        for _, frames in segments(recordings, sources.models, configuration, references, label, period):
             start.add(frames)
         if not start.num_frames:
             raise click.UsageError(NOTHING)

@@ -4,21 +4,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any, TypeVar
 
 import click
 
-from hri.cli.htk.standard import INPUT, given_format, settings_are_shown
+from hri.cli.htk.standard import (
+    INPUT,
+    given_format,
+    label_format_option,
+    settings_are_shown,
+    source_format_option,
+    standard_options,
+)
 from hri.cli.messages import note
 from hri.core.errors import FormatError
 from hri.core.files import make_folder
 from hri.htk import Configuration, MasterLabelFile, ModelSet, Transcription, read_script
 
+F = TypeVar("F", bound=Callable[..., Any])
 models_option = click.option("-H", "macros", multiple=True, type=INPUT, metavar="MMF", help="A file of models.")
 labels_option = click.option("-I", "masters", multiple=True, type=INPUT, metavar="MLF", help="A master label file.")
 label_folder_option = click.option("-L", "label_folder", metavar="DIR", help="The folder of label files.")
 label_suffix_option = click.option("-X", "suffix", default="lab", show_default=True, help="Suffix of label files.")
+
+
+def stacked(*options: Callable[[Any], Any]) -> Callable[[F], F]:
+    """One decorator of several options, in this order in the help."""
+
+    def add(command: F) -> F:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return add
+
+
+recording_options = stacked(
+    standard_options("ACDSTV"),
+    labels_option,
+    label_folder_option,
+    label_suffix_option,
+    source_format_option,
+    label_format_option,
+)
+"""Of tools that read recordings and their labels: configs, scripts, trace, masters, label_folder and suffix."""
+listed_models_options = stacked(
+    click.option("-d", "model_folder", metavar="DIR", help="Folder of models that no -H defines, a file for each."),
+    click.option("-x", "model_suffix", metavar="EXT", help="Suffix of these files."),
+)
+"""Of tools that take a list of models."""
+folder_option = click.option("-M", "folder", metavar="DIR", help="Where models go; over those that were read else.")
+new_suffix_option = click.option(
+    "-o", "new_suffix", metavar="EXT", help="Suffix of the files that models of -d are written to."
+)
+name_option = click.option(
+    "-o", "name", metavar="NAME", help="Name of the model and its file; that of the prototype else."
+)
 
 
 def load_configuration(paths: Iterable[str]) -> Configuration:

@@ -12,15 +12,12 @@ from hri.cli.groups import FiniteRange
 from hri.cli.htk.options import (
     References,
     all_arguments,
-    label_folder_option,
-    label_suffix_option,
-    labels_option,
     load_configuration,
+    recording_options,
 )
 from hri.cli.htk.standard import (
     HtkCommand,
     NumbersOption,
-    label_format_option,
     only_format,
     refused_options,
     source_format_option,
@@ -65,12 +62,7 @@ def _named_label(ctx: click.Context, param: click.Parameter, value: str | None) 
 
 
 @click.command(cls=HtkCommand)
-@standard_options("ACDSTV")
-@labels_option
-@label_folder_option
-@label_suffix_option
-@source_format_option
-@label_format_option
+@recording_options
 @only_format("-O", "parameter files")
 @only_format("-P", "label files")
 @click.option("-s", "start", type=FiniteRange(0), default=0.0, metavar="T", help="Begin here, in 100 ns.")
@@ -121,7 +113,8 @@ def copy(
     """Convert recordings to parameter files, as HCopy; FILES are sources and targets: `a.wav a.mfc`.
 
     Several sources become one target: `a.wav + b.wav both.mfc`. With -s, -e, -n or -x a part is copied, and its labels
-    with it where -i or -l asks for them.
+    with it where -i or -l asks for them. Where a configuration sets VQTABLE, SAVEASVQ and _V in TARGETKIND, codewords
+    of the table are written.
 
     \b
     Example:

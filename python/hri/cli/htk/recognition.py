@@ -17,11 +17,10 @@ from hri.cli.htk.formatting import LabelFormat
 from hri.cli.htk.options import (
     ModelFiles,
     References,
-    label_folder_option,
-    label_suffix_option,
-    labels_option,
+    listed_models_options,
     load_configuration,
     models_option,
+    recording_options,
 )
 from hri.cli.htk.standard import (
     ADAPTATION,
@@ -30,11 +29,8 @@ from hri.cli.htk.standard import (
     HtkCommand,
     NumbersOption,
     is_number,
-    label_format_option,
     only_format,
     refused_options,
-    source_format_option,
-    standard_options,
 )
 from hri.cli.htk.vocabulary import Vocabulary, transcripts_of
 from hri.cli.messages import note
@@ -91,20 +87,14 @@ def _beams(context: click.Context, option: click.Parameter, value: str) -> list[
 
 
 @click.command(cls=HtkCommand)
-@standard_options("ACDSTV")
+@recording_options
 @models_option
-@labels_option
-@label_folder_option
-@label_suffix_option
-@source_format_option
-@label_format_option
 @only_format("-P", "results")
 @click.option("-w", "network", type=INPUT, metavar="SLF", help="Recognise by this word network.")
 @click.option("-a", "align", is_flag=True, help="Align the transcriptions of the recordings.")
 @click.option("-b", "boundary", metavar="WORD", help="With -a: the word before and after every transcription.")
 @click.option("-c", "mixture_pruning", type=FiniteRange(0), help="Not needed: all Gaussians are summed.")
-@click.option("-d", "model_folder", metavar="DIR", help="Folder of models that no -H defines, a file for each.")
-@click.option("-x", "model_suffix", metavar="EXT", help="Suffix of these files.")
+@listed_models_options
 @click.option("-f", "states", is_flag=True, help="A label for every state.")
 @click.option("-m", "models", is_flag=True, help="A label for every model.")
 @click.option("-i", "master", type=OutputFile(), metavar="MLF", help="Write results to one master label file.")
@@ -235,7 +225,7 @@ def vite(
     shared = None if network is None else [recognizer_of(recordings[0], beam) for beam in beams]
     entries = []
     for file in recordings:
-        frames = load_frames(file, sources.models.kind, configuration)
+        frames = load_frames(file, sources.models, configuration)
         path = Path(file.name).with_suffix(f".{out_suffix}")
         target = path if folder is None else Path(folder, path.name)
         lattice_path = None if lattice_suffix is None else target.with_suffix(f".{lattice_suffix}")

@@ -16,20 +16,14 @@ from hri.cli.htk.data import DataFile, check_headers, data_files, load_frames
 from hri.cli.htk.options import (
     ModelFiles,
     References,
-    label_folder_option,
-    label_suffix_option,
-    labels_option,
+    folder_option,
     load_configuration,
     models_option,
+    name_option,
+    recording_options,
+    stacked,
 )
-from hri.cli.htk.standard import (
-    BINARY,
-    HtkCommand,
-    label_format_option,
-    refused_options,
-    source_format_option,
-    standard_options,
-)
+from hri.cli.htk.standard import BINARY, HtkCommand, refused_options
 from hri.cli.messages import note
 from hri.core.errors import FormatError, InvalidArgument
 from hri.htk import (
@@ -48,7 +42,6 @@ FLAGS = {"t": "update_transitions", "m": "update_means", "v": "update_variances"
 label_option = click.option(
     "-l", "label", metavar="NAME", help="Train on segments with this label, not on whole files."
 )
-folder_option = click.option("-M", "folder", metavar="DIR", help="Where models go; over those that were read else.")
 
 
 def _updates(ctx: click.Context, param: click.Parameter, value: str) -> dict[str, bool]:
@@ -67,14 +60,9 @@ weight_floor_option = click.option(
 
 def _training_options(min_variance: float) -> Callable[[F], F]:
     """Options that HInit and HRest share."""
-    options = [
-        standard_options("ACDSTV"),
+    return stacked(
+        recording_options,
         models_option,
-        labels_option,
-        label_folder_option,
-        label_suffix_option,
-        source_format_option,
-        label_format_option,
         label_option,
         folder_option,
         updates_option,
@@ -106,16 +94,9 @@ def _training_options(min_variance: float) -> Callable[[F], F]:
             show_default=True,
             help="Least variance; varFloor1 of a -H holds beside it.",
         ),
-        click.option("-o", "name", metavar="NAME", help="Name of the model and its file; that of the prototype else."),
+        name_option,
         refused_options(**BINARY),
-    ]
-
-    def add(command: F) -> F:
-        for option in reversed(options):
-            command = option(command)
-        return command
-
-    return add
+    )
 
 
 @click.command(cls=HtkCommand)
@@ -198,7 +179,7 @@ def _train(
     sequences = []
     try:
         least = min_frames_of(sources.models, model)
-        for where, frames in segments(recordings, sources.models.kind, configuration, references, label, period):
+        for where, frames in segments(recordings, sources.models, configuration, references, label, period):
             if len(frames) < max(least, 1):
                 note(f"{where}: {len(frames)} frames are fewer than the {least} that {model} takes; left out")
             else:
@@ -219,7 +200,7 @@ def _train(
 
 def segments(
     files: Sequence[DataFile],
-    kind: str,
+    models: ModelSet,
     configuration: Configuration,
     references: References,
     label: str | None,
@@ -228,7 +209,7 @@ def segments(
     """Names and frames of whole files, or of the parts of them that have the label, one file at a time."""
     for file in files:
         if label is None:
-            yield file.name, load_frames(file, kind, configuration)
+            yield file.name, load_frames(file, models, configuration)
             continue
         transcription, source = references.locate(file.name)
         wanted = [one for one in transcription.labels if one.name == label]
@@ -237,7 +218,7 @@ def segments(
                 raise FormatError(f"{source}: line {one.line}: the label {label!r} has no times")
         if not wanted:
             continue
-        frames = load_frames(file, kind, configuration)
+        frames = load_frames(file, models, configuration)
         for one in wanted:
             assert one.first is not None and one.last is not None
             segment = frames[round(one.first / period) : round(one.last / period)]
