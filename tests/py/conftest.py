@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +22,17 @@ from hri.synthetic.signer import make_gesture_corpus
 pytest.register_assert_rewrite("serving", "browsing")  # plugins of some test files, which import them, too
 
 RATE_HZ = 16000
+WAIT_S = 60.0
+"""For what another thread does: also on a machine that is much slower than usual, where any thread may be late."""
 PERSONS = {"low": 500.0, "middle": 550.0, "high": 600.0}
+
+
+def until(holds: Callable[[], Any]) -> None:
+    """Wait for what another thread does."""
+    until_s = time.monotonic() + WAIT_S
+    while not holds():
+        assert time.monotonic() < until_s, "it did not come"
+        time.sleep(0.01)
 
 
 def tone_word(base_hz: float, slope_hz_per_s: float, seed: int) -> NDArray[np.float32]:

@@ -42,6 +42,7 @@ class Motion:
         self.posture_s = 0.2
         self.silent = threading.Event()  # set: calls are not answered
         self.killed = threading.Event()
+        self.standing_up = threading.Event()  # or resting: on the way
         self._lock = threading.Lock()
         self._at_s = time.monotonic()
 
@@ -111,6 +112,7 @@ class Motion:
 
     def _posture(self, name, stiffness):
         self.killed.clear()
+        self.standing_up.set()
         if not self.killed.wait(self.posture_s):
             self.postures.append(name)
             with self._lock:

@@ -7,19 +7,25 @@ from __future__ import annotations
 import http.client
 import json
 import struct
+import threading
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from itertools import count
 from typing import Any
 
 import cv2
 import numpy as np
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
+from conftest import WAIT_S
 from drawn_hands import FPS, Frame
 from hri.serve import PageServer
 
 SOUND, PICTURE = 1, 2
+_TAKEN = 4409
 RATE_HZ = 16000
 
 
@@ -27,7 +33,7 @@ def request(
     server: PageServer, path: str, cookie: str = "", method: str = "GET", body: bytes | None = None, **headers: str
 ) -> tuple[int, dict[str, str], bytes]:
     """Status, headers and body of one request."""
-    link = http.client.HTTPConnection("127.0.0.1", server.port, timeout=20)
+    link = http.client.HTTPConnection("127.0.0.1", server.port, timeout=WAIT_S)
     try:
         link.request(method, path, body, {"Cookie": cookie, **{k.replace("_", "-"): v for k, v in headers.items()}})
         answer = link.getresponse()
@@ -73,7 +79,7 @@ class Page:
     def say(self, **command: Any) -> None:
         self.socket.send(json.dumps(command))
 
-    def await_message(self, fits: Callable[[dict[str, Any]], bool], timeout_s: float = 30.0) -> dict[str, Any]:
+    def await_message(self, fits: Callable[[dict[str, Any]], bool], timeout_s: float = WAIT_S) -> dict[str, Any]:
         """The next message that fits; those before it are kept, too."""
         until_s = time.monotonic() + timeout_s
         while True:
@@ -82,7 +88,7 @@ class Page:
             if fits(message):
                 return message
 
-    def await_event(self, kind: str, timeout_s: float = 30.0, **fields: Any) -> dict[str, Any]:
+    def await_event(self, kind: str, timeout_s: float = WAIT_S, **fields: Any) -> dict[str, Any]:
         return self.await_message(
             lambda m: m.get("event") == kind and all(m.get(name) == value for name, value in fields.items()), timeout_s
         )
@@ -97,6 +103,15 @@ class Page:
                 return self.await_event(kind, **fields, timeout_s=10.0)
         self.perform(samples, frames)
         return self.await_event(kind, **fields)
+
+    @contextmanager
+    def microphone(self) -> Iterator[Microphone]:
+        """One that goes on, as a browser's does."""
+        made = Microphone(self.socket)
+        try:
+            yield made
+        finally:
+            made.close()
 
     def await_stopped(self) -> None:
         """Until the session has stopped, unless it has since the page came."""
@@ -119,14 +134,51 @@ class Page:
             self.socket.send(message)
 
 
+class Microphone:
+    """Sends what is said, and silence, without a gap: late blocks are sent later, so that times stay true."""
+
+    def __init__(self, socket: ClientConnection) -> None:
+        self._socket = socket
+        self._said: deque[bytes] = deque()
+        self._over = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def say(self, samples: np.ndarray) -> None:
+        """Say something, after what is being said."""
+        self._said.extend(sound_messages(samples))
+
+    def close(self) -> None:
+        self._over.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        silence = next(sound_messages(np.zeros(RATE_HZ // 25, np.float32)))
+        begun_s = time.monotonic()
+        with suppress(ConnectionClosed):
+            for number in count(1):
+                if self._over.wait(max(0.0, begun_s + number / 25 - time.monotonic())):
+                    return
+                self._socket.send(self._said.popleft() if self._said else silence)
+
+
 @contextmanager
 def connected(server: PageServer, cookie: str, page: str = "a", rate: int = RATE_HZ) -> Iterator[Page]:
-    """A page that has been welcomed."""
-    with open_socket(server, cookie) as socket:
-        made = Page(socket)
-        made.say(type="hello", page=page, rate=rate)
-        made.await_message(lambda m: m["type"] == "welcome")
-        yield made
+    """A page that has been welcomed; the place of one that has just gone may be free a little later."""
+    until_s = time.monotonic() + WAIT_S
+    while True:
+        with open_socket(server, cookie) as socket:
+            made = Page(socket)
+            made.say(type="hello", page=page, rate=rate)
+            try:
+                made.await_message(lambda m: m["type"] == "welcome")
+            except ConnectionClosed:
+                if socket.close_code != _TAKEN or time.monotonic() > until_s:
+                    raise
+                time.sleep(0.05)
+                continue
+            yield made
+            return
 
 
 def open_socket(server: PageServer, cookie: str, origin: str | None = None) -> ClientConnection:

@@ -26,7 +26,7 @@ from hri.serve import PageServer, ServeLimits, Stage
 from page_people import Page, enter, request
 from session_people import train_signs, train_words
 
-LIMITS = ServeLimits(stall_s=2.0, hello_s=1.0)
+LIMITS = ServeLimits(stall_s=2.0, hello_s=60.0)
 Serving = Callable[..., tuple[PageServer, str]]
 
 

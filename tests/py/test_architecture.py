@@ -58,7 +58,7 @@ WITHIN = {
     "robot/model": set(),
     "robot/motion": {"model"},
     "robot/control": {"model", "motion"},
-    "robot/nao": {"model", "motion", "control"},
+    "robot/nao": {"model", "motion", "control", "imitation"},
     "robot/simulation": {"model", "motion", "control"},
     "robot/imitation": {"model", "motion", "control", "simulation"},
 }

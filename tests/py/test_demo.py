@@ -50,11 +50,8 @@ def test_result_tells_decisions_and_stop_wins(made: Path) -> None:
     assert result["synthetic"] is True
     assert [scene["title"] for scene in result["scenes"]] == [script.title for script in SCRIPTS]
     stop = result["scenes"][2]
-    heard = stop["decision"]["speech"]
-    if heard["label"] == "stop":  # "ask" where it is unsure and the sign is sure; never the sign
-        assert stop["decision"]["label"] == "stop" or (
-            stop["decision"]["label"] == "ask" and heard["confidence"] < heard["class_threshold"]
-        )
+    assert stop["title"] == "STOP wins" and stop["signed"] == "5"
+    assert stop["succeeded"] and stop["decision"]["rule"] == "stop: recognised in speech"
     assert result["words"]["accuracy_mean"] >= 0.7 and result["signs"]["accuracy_mean"] >= 0.7
     for name, kind in (("spoken", "speech"), ("signed", "gesture")):
         dataset = Dataset.load(made / "corpus" / name, kind)

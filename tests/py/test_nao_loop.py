@@ -47,14 +47,14 @@ def nao() -> Iterator[SimulatedNao]:
 
 def test_the_simulated_nao_moves_within_its_limits_and_sees_its_screen(nao: SimulatedNao) -> None:
     nao.video.frames = [np.full((60, 80, 3), (10 * i, 0, 250), dtype=np.uint8) for i in range(4)]
-    source = NaoCamera(nao.url, stall_s=5.0)
+    source = NaoCamera(nao.url, stall_s=20.0)
     frames = [source.read()[0] for _ in range(3)]  # type: ignore[index]
     source.close()
     for number, frame in enumerate(frames, start=1):
         assert tuple(frame[240, 320]) == (10 * number, 0, 250), "the middle of the screen"
         shown = np.abs(frame.astype(int) - (10 * number, 0, 250)).max(axis=2) < 3
         assert 0.5 < shown.mean() < 0.9
-    with NaoqiRobot(nao.url, timeout_s=5.0) as robot:
+    with NaoqiRobot(nao.url, timeout_s=20.0) as robot:
         assert robot.perform(Trajectory(["HeadYaw", "RElbowRoll"], 0.5, [[0.0, 0.4], [0.4, 0.9], [0.4, 0.9]]))
         for _ in range(10):
             there = robot.joint_positions_rad()
@@ -81,7 +81,7 @@ def drawn_signs() -> hri.GestureRecognizer:
 def test_nao_sees_a_sentence_says_it_and_answers_by_gestures(nao: SimulatedNao, drawn_signs: Any) -> None:
     nao.video.frames = signer_shows("3", BEGIN, "1", "2", END)
     options = SessionOptions(sentence_begin_labels=(BEGIN,), sentence_end_labels=(END,), confirm_below=0.0)
-    with NaoqiRobot(nao.url, timeout_s=10.0) as robot:
+    with NaoqiRobot(nao.url, timeout_s=20.0) as robot:
         session = Session(
             signs=drawn_signs, robot=robot, options=options, on_say=robot.say_later, knowledge=KNOWLEDGE,
             motions={label: hri.robot.nao_gesture_trajectory(label) for label in ("namaste", "2")},
@@ -108,9 +108,9 @@ def test_a_nao_switched_off_in_mid_motion_leaves_the_session_alive_until_it_is_b
     first = Nao()
     first.video.frames, first.video.paced = frames, True
     url = first.url
-    sway = Trajectory(["HeadYaw"], 0.8, [[0.0], [0.4], [0.0]])
+    sway = Trajectory(["HeadYaw"], 3.0, [[0.0], [0.4], [0.0]])
     stall, texts, moved, later = [], [], [], None
-    with NaoqiRobot(url, timeout_s=3.0) as robot:
+    with NaoqiRobot(url, timeout_s=20.0) as robot:
         session = Session(signs=train_signs(), robot=robot, motions={"flat": sway}, on_say=robot.say_later)
         assert "flat" in session.motions
         thread = in_mid_motion(first, first.close)
@@ -120,11 +120,11 @@ def test_a_nao_switched_off_in_mid_motion_leaves_the_session_alive_until_it_is_b
             moved += [event.fields] if event.event == "motion_end" else []
             if (event.event, event.fields.get("state")) == ("state", "stopped"):
                 thread.join()
-                assert robot.stopped and len(first.motion.sent) < 80
+                assert robot.stopped and len(first.motion.sent) < 300
                 later = Nao(url=url)
                 later.video.frames, later.video.paced = frames, True
                 session.resume()
-            assert event.time < 60.0
+            assert event.time < 150.0
             if len(moved) == 2:
                 break
         assert not robot.stopped

@@ -85,9 +85,9 @@ def test_nao_hears_a_word_says_so_and_answers_by_a_motion(nao):
 
     nao.audio.samples = (32767 * speech([("tall", 1.0)], 3.0)).astype("<i2")
     assert RATE_HZ == 16000
-    with NaoqiRobot(nao.url) as robot:
+    with NaoqiRobot(nao.url, timeout_s=20.0) as robot:
         session = Session(train_words(), robot=robot, motions={"tall": NOD}, on_say=robot.say_later)
-        events = list(session.run(sound=NaoMicrophone(nao.url, stall_s=1.0)))
+        events = list(session.run(sound=NaoMicrophone(nao.url, stall_s=4.0)))
         robot.say("the end")  # after what was to be said before
     finals = [event.fields["final"] for event in events if event.event == "fused"]
     done = [event.fields["completed"] for event in events if event.event == "motion_end"]

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ import pytest
 
 pytest.importorskip("qi")
 
+from conftest import until
 from hri.core.errors import Error, InvalidArgument, IoError
 from hri.robot import NAO, NaoqiRobot, Trajectory, TrajectoryError
 from hri.robot.nao.link import NaoqiLink, require_nao_url
@@ -34,7 +36,7 @@ def nao():
 
 @pytest.fixture
 def robot(nao):
-    with NaoqiRobot(nao.url, timeout_s=5.0) as opened:
+    with NaoqiRobot(nao.url, timeout_s=30.0) as opened:
         yield opened
 
 
@@ -61,7 +63,7 @@ def test_a_motion_is_carried_out_within_the_limits(nao, robot):
     assert robot.perform(wave) and robot.events == []
     stiff = {name for name, value in nao.motion.stiffness.items() if value > 0}
     assert stiff == {*wave.joint_names}, "only what moves is switched on"
-    time.sleep(0.05)
+    until(lambda: abs(robot.joint_positions_rad()["HeadYaw"] - 0.3) < 1e-3)  # the last step is on its way
     found = robot.joint_positions_rad()
     assert [found[name] for name in wave.joint_names] == pytest.approx([0.8, 0.8, 0.3], abs=1e-3)
     assert found.keys() == set(NAO.names) and robot.state().positions_rad.keys() == found.keys()
@@ -109,7 +111,7 @@ def test_the_way_to_the_first_row_respects_the_shell(nao, robot):
 
 def test_the_robots_own_limits_count_where_they_are_stricter(nao):
     nao.motion.limits["HeadYaw"] = [-0.5, 3.0, 2.0, 1.0]
-    with NaoqiRobot(nao.url) as robot:
+    with NaoqiRobot(nao.url, timeout_s=20.0) as robot:
         assert (robot.table["HeadYaw"].lower_rad, robot.table["HeadYaw"].upper_rad) == (-0.5, NAO["HeadYaw"].upper_rad)
         assert robot.table.max_speed_rad_s == 2.0
         with pytest.raises(TrajectoryError, match=r"-28\.6"):
@@ -118,14 +120,14 @@ def test_the_robots_own_limits_count_where_they_are_stricter(nao):
 
 def test_stop_in_mid_motion_brakes_and_latches(nao, robot):
     asked_s = []
-    thread = in_mid_motion(nao, lambda: (asked_s.append(time.monotonic()), robot.stop()))
+    thread = in_mid_motion(nao, lambda: (robot.stop(), asked_s.append(time.monotonic())))
     assert robot.perform(LONG) is False and robot.stopped
     thread.join()
     count = len(nao.motion.sent)
     assert sum(at_s > asked_s[0] for at_s, _ in nao.motion.sent) <= 12, "a few steps, and the 0.13 s of braking"
     way = sent(nao)
     speeds = np.diff(way) / robot.step_s
-    assert abs(speeds[-1]) < 1e-6 and count < 60
+    assert abs(speeds[-1]) < 1e-6 and count < 0.9 * LONG.duration_s / robot.step_s
     assert np.abs(np.diff(speeds)).max() / robot.step_s <= NAO.max_acceleration_rad_s2 * 1.001
     assert robot.perform(TURN) is False and robot.wake_up() is False and robot.rest() is False
     assert len(nao.motion.sent) == count and nao.motion.postures == []
@@ -143,9 +145,11 @@ def test_it_stands_up_and_rests_by_itself(nao, robot):
     assert robot.wake_up() and robot.perform(TURN) and robot.rest()
     assert nao.motion.postures == ["wakeUp", "rest"] and not any(nao.motion.stiffness.values())
     nao.motion.posture_s = 30.0
-    timer = threading.Timer(0.1, robot.stop)
-    timer.start()
+    nao.motion.standing_up.clear()
+    thread = threading.Thread(target=lambda: (nao.motion.standing_up.wait(60.0), robot.stop()))
+    thread.start()
     assert robot.wake_up() is False and nao.motion.killed.is_set()
+    thread.join()
     assert nao.motion.postures == ["wakeUp", "rest"] and robot.events[-1].kind == "stop"
 
 
@@ -166,16 +170,17 @@ def test_it_speaks(nao, robot):
     robot.say_later("eight")
     with pytest.raises(Error, match="refuses"):
         robot.say("nine")
+    until(lambda: robot.events)  # by a thread of qi
     assert [event.kind for event in robot.events] == ["fault"] and "hoarse" in robot.events[0].message
 
 
 def test_a_robot_that_falls_silent_in_mid_motion_is_an_error(nao):
-    with NaoqiRobot(nao.url, timeout_s=0.8) as robot:
+    with NaoqiRobot(nao.url, timeout_s=4.0) as robot:
         thread = in_mid_motion(nao, nao.motion.silent.set)
         begun_s = time.monotonic()
-        with pytest.raises(IoError, match=r"does not answer ALMotion\.setAngles within 0\.8 s"):
+        with pytest.raises(IoError, match=r"does not answer ALMotion\.setAngles within 4 s"):
             robot.perform(LONG)
-        assert time.monotonic() - begun_s < 10.0 and robot.stopped and robot.events[-1].kind == "fault"
+        assert time.monotonic() - begun_s < 60.0 and robot.stopped and robot.events[-1].kind == "fault"
         thread.join()
         count = len(nao.motion.sent)
         assert robot.perform(TURN) is False
@@ -183,7 +188,7 @@ def test_a_robot_that_falls_silent_in_mid_motion_is_an_error(nao):
         with pytest.raises(IoError):
             robot.perform(TURN)
         nao.motion.silent.clear()
-        time.sleep(0.2)  # the call that hung is carried out
+        until(lambda: len(nao.motion.sent) > count)  # the call that hung is carried out
         nao.motion.positions["HeadYaw"] = nao.motion.targets["HeadYaw"] = 0.3  # turned by hand meanwhile
         robot.resume()
         assert robot.perform(TURN), "it is connected to again"
@@ -191,7 +196,7 @@ def test_a_robot_that_falls_silent_in_mid_motion_is_an_error(nao):
 
 
 def test_a_robot_that_is_switched_off_in_mid_motion_leaves_the_session_alive(nao):
-    with NaoqiRobot(nao.url, timeout_s=1.0) as robot:
+    with NaoqiRobot(nao.url, timeout_s=20.0) as robot:
         mover = Mover(robot, {"long": LONG})
         try:
             mover.begin("long", Cause(0.0, 0.0, 0.0))
@@ -216,9 +221,9 @@ def test_a_robot_whose_process_dies_in_mid_motion_is_an_error():
         [sys.executable, program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:
         url = process.stdout.readline().strip()
-        with NaoqiRobot(url, timeout_s=5.0) as robot:
-            timer = threading.Timer(0.3, process.kill)
-            timer.start()
+        with NaoqiRobot(url, timeout_s=20.0) as robot:
+            steps = count()
+            robot.on_command = lambda *_: process.kill() if next(steps) == 10 else None
             with pytest.raises(IoError, match=f"NAO at {url}"):
                 robot.perform(LONG)
             assert robot.stopped and robot.events[-1].kind == "fault"
@@ -228,12 +233,11 @@ def test_a_robot_whose_process_dies_in_mid_motion_is_an_error():
 
 def test_a_program_that_dies_in_mid_motion_leaves_the_joints_where_they_were_sent_last(nao):
     program = "import sys; from hri.robot import *; robot = NaoqiRobot(sys.argv[1]);" \
-        "robot.perform(Trajectory(['HeadYaw'], 2.0, [[0.0], [1.0], [0.0]]))"  # fmt: skip
+        "robot.perform(Trajectory(['HeadYaw'], 20.0, [[0.0], [1.0], [0.0]]))"  # fmt: skip
     with subprocess.Popen([sys.executable, "-c", program, nao.url]) as process:
         in_mid_motion(nao, process.kill).join()
-    time.sleep(0.1)
-    last = sent(nao)[-1]
-    assert 0.0 < last < 0.5 and nao.motion.getAngles("HeadYaw", True) == [last]
+    until(lambda: nao.motion.getAngles("HeadYaw", True) == [sent(nao)[-1]])  # the last step is on its way
+    assert 0.0 < sent(nao)[-1] < 0.9
 
 
 @pytest.mark.parametrize(
@@ -265,7 +269,7 @@ def test_nothing_at_the_address():
 
 def test_services_that_are_missing_are_named():
     nao = Nao(services=["ALMotion"])
-    with NaoqiRobot(nao.url) as robot, pytest.raises(Error, match="has no service ALTextToSpeech"):
+    with NaoqiRobot(nao.url, timeout_s=20.0) as robot, pytest.raises(Error, match="has no service ALTextToSpeech"):
         robot.say("hello")
     nao.close()
     nao = Nao(services=["ALTextToSpeech"])

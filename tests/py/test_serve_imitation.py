@@ -18,6 +18,7 @@ pytest.importorskip("serving")
 
 from websockets.exceptions import ConnectionClosed
 
+from conftest import until
 from drawn_hands import FPS, Frame
 from hri.fusion import FusionOptions
 from hri.robot import Robot
@@ -146,7 +147,7 @@ def test_a_word_begins_imitation_and_a_sign_stops_it(serving: Serving, words: An
 
 
 def test_a_fault_and_a_page_that_goes_end_imitation(
-    server: PageServer, cookie: str, robot: Robot, monkeypatch: pytest.MonkeyPatch
+    server: PageServer, cookie: str, stage: Stage, robot: Robot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     follow = robot.follow
 
@@ -171,10 +172,7 @@ def test_a_fault_and_a_page_that_goes_end_imitation(
         page.say(type="resume")
         page.await_event("resumed")
         imitate(page)
-    until_s = time.monotonic() + 20
-    while not robot.stopped and time.monotonic() < until_s:
-        time.sleep(0.01)
-    assert robot.stopped
+    until(lambda: robot.stopped and stage.welcome()["state"] == "stopped")
     with connected(server, cookie, "b") as page:
         assert page.messages[0]["state"] == "stopped" and page.messages[0]["imitating"] is False
 

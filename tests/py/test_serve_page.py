@@ -14,8 +14,8 @@ pytest.importorskip("browsing")
 
 from browsing import MARKS, NARROW, await_motion, expect, serious_faults
 from hri.io import model_as_cpp, model_as_json
-from hri.serve import Stage
-from session_people import signing, speech
+from hri.serve import PageServer, Stage
+from session_people import MOTIONS, signing, speech
 
 pytest_plugins = ("serving", "browsing")
 pytestmark = MARKS
@@ -84,6 +84,34 @@ def test_the_robot_speaks_in_the_language_of_the_page(visit: Any, stage: Any, ro
     page.reload()
     expect(page, "#voice").not_to_be_checked()
     assert page.failures == []
+
+
+def test_stop_that_is_said_while_the_page_speaks_is_heeded_and_another_word_is_not(
+    visit: Any, words: Any, robot: Any
+) -> None:
+    long = VOICES.replace("1500", 'words.text.startsWith("flat") ? 14000 : 100')
+    asked = """
+      const media = navigator.mediaDevices, ask = media.getUserMedia.bind(media);
+      media.getUserMedia = (wanted) => {
+        if (wanted.audio) document.documentElement.dataset.echo = wanted.audio.echoCancellation;
+        return ask(wanted);
+      };
+    """
+    said = speech([("flat", 1.6), ("tall", 5.2), ("stop", 8.4)], 14.0)
+    stage = Stage(words, None, robot, motions=MOTIONS)  # without a camera, which a word may have to wait for
+    try:
+        with PageServer(stage) as server:
+            page = visit(said, at=server, script=long + asked)
+            page.click("#start")
+            await_motion(page, "flat")
+            expect(page, "html").to_have_attribute("data-said", re.compile(r"en-GB flat\.;"))
+            expect(page, "html").to_have_attribute("data-echo", "true")
+            expect(page, "#log").to_contain_text("Ignored tall: heard while the robot speaks.")
+            expect(page, "#log").to_contain_text("STOP stop: stop: recognised in speech.")
+            expect(page, "#state").to_have_text("stopped")
+            assert robot.stopped and page.failures == []
+    finally:
+        stage.close()
 
 
 def test_a_browser_without_a_voice_has_the_switch_off(visit: Any) -> None:

@@ -14,7 +14,7 @@ import pytest
 pytest.importorskip("serving")
 
 
-from conftest import RATE_HZ, tone_word
+from conftest import RATE_HZ, WAIT_S, tone_word
 from hri.live import Stalled
 from hri.robot import Robot
 from hri.serve import Stage
@@ -47,9 +47,9 @@ def test_resume_ends_a_stop_that_came_while_a_session_began(
     stage.publish = published.put
     try:
         stage.arrive()
-        while published.get(timeout=20).get("event") != "resumed":
+        while published.get(timeout=WAIT_S).get("event") != "resumed":
             pass
-        while published.get(timeout=20).get("state") != "idle":
+        while published.get(timeout=WAIT_S).get("state") != "idle":
             pass
         assert not robot.stopped
     finally:
@@ -62,14 +62,14 @@ def test_stop_after_resume_is_held_when_the_page_comes_again(words: Any, robot: 
     stage.publish = published.put
     try:
         stage.arrive()
-        while published.get(timeout=20).get("state") != "idle":
+        while published.get(timeout=WAIT_S).get("state") != "idle":
             pass
         stage.stop()
         stage.resume()
         stage.stop()  # before the session has heeded the others
         heeded: list[str] = []
         while heeded[-1:] != ["stop"] or len(heeded) < 2:
-            event = published.get(timeout=20).get("event")
+            event = published.get(timeout=WAIT_S).get("event")
             heeded += [event] if event in ("stop", "resumed") else []
         assert stage._held, "a page that comes again resumes only what was not held"
         stage.leave()

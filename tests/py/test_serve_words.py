@@ -7,7 +7,6 @@ from __future__ import annotations
 import json
 import queue
 import threading
-import time
 from collections.abc import Iterator
 from copy import copy
 from typing import Any
@@ -19,7 +18,7 @@ pytest.importorskip("serving")
 
 
 import hri
-from conftest import tone_word
+from conftest import WAIT_S, tone_word
 from hri.media import Audio
 from hri.robot import Robot
 from hri.serve import PageServer, Stage
@@ -51,7 +50,6 @@ def test_a_word_is_added_by_three_samples_and_undone(
         ):
             page.say(**command, mode="speech")
             answer(page, text)
-            time.sleep(0.1)
         for number in range(4):
             page.say(type="sample", mode="speech")
             answer(page, "Speak now")
@@ -62,7 +60,6 @@ def test_a_word_is_added_by_three_samples_and_undone(
                 said[at] += 0.2 * np.sin(2 * np.pi * (1500 + 20 * number) * np.arange(RATE_HZ // 2) / RATE_HZ)
             page.perform(said)
             answer(page, ("I heard nothing", "Sample 1 of 3", "Sample 2 of 3", "is added")[number])
-            time.sleep(0.1)
         assert "hum" in [m for m in page.messages if m["type"] == "welcome"][-1]["words"]
         happened = {m.get("event") for m in page.messages}
         assert "ignored" in happened and "motion_start" not in happened  # what is recorded is no command
@@ -126,9 +123,9 @@ def test_what_is_learned_counts_as_soon_as_the_robot_rests(stage: Stage, monkeyp
     moving.set()  # as by a command that was heard after the last sample
     adding = threading.Thread(target=lambda: teacher._keep(Audio(tone_word(1500.0, 0.0, 2), RATE_HZ)))
     adding.start()
-    while "as soon as the robot rests" not in published.get(timeout=20).get("text", ""):
+    while "as soon as the robot rests" not in published.get(timeout=WAIT_S).get("text", ""):
         pass
     assert "hum" not in [str(label) for label in stage.session._labels]
     moving.clear()
-    adding.join(20)
+    adding.join(WAIT_S)
     assert "hum" in [str(label) for label in stage.session._labels]

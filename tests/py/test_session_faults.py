@@ -19,7 +19,7 @@ from hri.fusion import FusionOptions
 from hri.live import ArraySource, Event, Listener, Stalled
 from hri.live.events import STALL
 from hri.recognition.decision import Decision, NBest
-from hri.robot import Robot, open_robot
+from hri.robot import Robot, Trajectory, open_robot
 from hri.robot.imitation import LiveImitation, SeenPerson
 from hri.session import EventQueue, Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE
@@ -66,12 +66,13 @@ class Broken:
         """It stays open."""
 
 
-def run_live(error: Exception, for_s: float) -> tuple[Broken, list[Event], float]:
+def run_live(error: Exception) -> tuple[Broken, list[Event], float]:
     broken = Broken(error)
     begin_s = time.monotonic()
     feeds = LiveFeeds([Feed("speech", broken, broken.watch, lambda: time.monotonic() - begin_s)], RETRY_S)
     feeds.start()
-    time.sleep(for_s)
+    while broken.num_opened < 4 and time.monotonic() < begin_s + 60.0:
+        time.sleep(RETRY_S / 4)
     feeds.close()
     passed_s = time.monotonic() - begin_s
     events = []
@@ -84,8 +85,8 @@ def run_live(error: Exception, for_s: float) -> tuple[Broken, list[Event], float
 def test_a_source_that_fails_as_soon_as_it_is_open_is_opened_again_at_the_rate_that_is_asked_for(
     error: Exception,
 ) -> None:
-    broken, events, passed_s = run_live(error, 5 * RETRY_S)
-    assert 2 <= broken.num_opened <= 1 + passed_s / RETRY_S
+    broken, events, passed_s = run_live(error)
+    assert 4 <= broken.num_opened <= 1 + passed_s / RETRY_S
     stalls = [event.fields["message"] for event in events if event.event == STALL]
     if isinstance(error, Stalled):
         assert stalls == []
@@ -191,9 +192,9 @@ def test_a_new_session_does_not_imitate_what_was_seen_in_the_one_before() -> Non
 
 
 def test_a_caller_that_leaves_in_mid_motion_stops_the_robot(words: Any, robot: Robot) -> None:
-    session = Session(words, None, robot, motions={**MOTIONS, "flat": MOTIONS["tall"]})
+    slow = Trajectory(["head_joint_1"], 20.0, [[0.0], [0.5], [0.0]])
+    session = Session(words, None, robot, motions={**MOTIONS, "flat": slow})
     source = ArraySource(speech([("flat", 0.5)], 3.0), RATE_HZ)
-    lasts_s = MOTIONS["tall"].duration_s
     events: Any = session.run(lambda: source, live=True)
     moves = False
     for event in events:
@@ -204,7 +205,7 @@ def test_a_caller_that_leaves_in_mid_motion_stops_the_robot(words: Any, robot: R
     begin_s = time.monotonic()
     events.close()
     ended = [event for event in robot.events if event.ended_motion]
-    assert ended and time.monotonic() - begin_s < lasts_s / 2
+    assert ended and time.monotonic() - begin_s < slow.duration_s / 2
 
 
 def test_a_signal_may_ask_while_its_thread_does(words: Any) -> None:
@@ -216,7 +217,7 @@ def test_a_signal_may_ask_while_its_thread_does(words: Any) -> None:
 
     thread = threading.Thread(target=interrupted, daemon=True)
     thread.start()
-    thread.join(5.0)
+    thread.join(60.0)
     assert not thread.is_alive()
 
 

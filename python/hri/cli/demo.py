@@ -38,7 +38,7 @@ MADE = ("index.html", "result.json", "signer_and_robot.webm", "corpus", "models"
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed of voices, signers and noise.")
 @click.option("--backend", type=click.Choice(["pybullet", "kinematic"]), default="pybullet", show_default=True)
 @click.option("--keep-corpus/--no-keep-corpus", default=True, show_default=True, help="Keep the training data.")
-@click.option("--quick", is_flag=True, help="A very small corpus: faster, less accurate.")
+@click.option("--quick", is_flag=True, help="A small corpus: faster, less accurate.")
 def demo(out: Path, seed: int, backend: str, keep_corpus: bool, quick: bool) -> None:
     """Show everything at once, on recordings that the demo makes itself; prints the page to open.
 

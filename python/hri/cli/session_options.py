@@ -31,7 +31,7 @@ from hri.recognition import (
     WordRecognizer,
 )
 from hri.recognition.sentence.commands import MIN_CONFIDENCE
-from hri.robot import BACKENDS, HOAP2, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot
+from hri.robot import BACKENDS, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot
 from hri.session import SessionOptions
 from hri.vision.faces import face_finder
 
@@ -279,11 +279,6 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
             refuse_given(("embedding_path",), "is for single words, which --grammar and --no-speech leave out")
         if given["faces"] is not None and given["no_gesture"]:
             raise click.UsageError("--faces and --no-gesture exclude each other")
-        if given["imitate"] and given["table"] is not HOAP2:
-            raise click.UsageError(
-                f"--imitate needs HOAP-2's arms: {given['table'].name}'s are built otherwise, leave out one of "
-                "--imitate and --robot"
-            )
         command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
 
     for option in reversed(_OPTIONS):

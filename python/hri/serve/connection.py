@@ -13,6 +13,7 @@ from collections import deque
 from contextlib import suppress
 from typing import Any
 
+import numpy as np
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from hri.core.errors import FormatError
@@ -22,7 +23,6 @@ from hri.serve.limits import RateLimit
 from hri.serve.messages import SOUND, read_command, read_media, with_phrases
 from hri.serve.stage import Stage
 from hri.serve.teaching import Teaching
-from hri.serve.voice import RobotVoice
 from hri.session.logic import MOTION_END
 from hri.session.voice import VOICE_END
 
@@ -165,7 +165,6 @@ class Connection:
         self._messages = RateLimit(limits.messages_per_s, burst_s=2.0)
         self._rate_hz = int(hello.get("rate", 16000))
         self._sound = RateLimit(2.0 * self._rate_hz, burst_s=2.0)
-        self._voice = RobotVoice(stage)
         self._complained: dict[str, float] = {}
         self._tasks: list[asyncio.Task[None]] = []
 
@@ -182,7 +181,7 @@ class Connection:
 
     async def end(self) -> None:
         """Send and heed nothing more."""
-        self._voice.ends()
+        self._stage.page_voice.ends()
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
@@ -237,7 +236,8 @@ class Connection:
         elif command["type"] == "rest":
             self._stage.session.rest()
         elif command["type"] == "voice":
-            self._voice.speaks(command["text"]) if command["text"] else self._voice.ends()
+            voice = self._stage.page_voice
+            voice.begins(command["text"]) if command["text"] else voice.ends()
         elif command["type"] != "hello":
             self._teaching.obey(command)
 
@@ -252,9 +252,9 @@ class Connection:
             if self._stage.words is None:
                 return
             if self._sound.take(len(samples)):
-                samples = self._voice.filtered(samples)
                 self._stage.microphone.put(samples)
-                self._teaching.words.hear(samples, self._rate_hz)
+                own = self._stage.page_voice.may_be_heard  # which is no sample of a word
+                self._teaching.words.hear(np.zeros_like(samples) if own else samples, self._rate_hz)
             else:
                 self.complain(phrase("too_much_sound"))
         elif self._stage.signs is not None:

@@ -33,7 +33,7 @@ class ServeLimits:
     pictures_per_s, messages_per_s : float
         For longer than a second; twice as many messages end the connection.
     voice_s : float
-        Longest time for which the page may say that the robot speaks: commands by voice do not count meanwhile.
+        Longest time for which the page may say one text aloud: no spoken command but STOP counts meanwhile.
     stall_s : float
         Without sound or pictures for so long, a device counts as vanished.
     hello_s : float

@@ -30,15 +30,16 @@ from hri.serve.limits import ServeLimits
 from hri.serve.messages import with_phrases
 from hri.serve.recordings import Recording, Spoken, require_recordings_of
 from hri.serve.seen import SeenHands
+from hri.serve.voice import PageVoice
+from hri.serve.welcome import sentences_of
 from hri.session import Session, SessionOptions, SessionRecorder, Voice
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
-from hri.session.logic import BY_BUTTON, MOTION_END, MOTION_START, REST, SENTENCE, STOP
+from hri.session.logic import BY_BUTTON, MOTION_END, MOTION_START, REST, SAY, SENTENCE, STOP
 from hri.session.mover import Motion
 from hri.vision.persons import Faces
 
 _MOST_KEPT = 60
-_MOST_STORED = 50
 _CLOSE_S = 8.0
 _LOGGED = frozenset(
     ("fused", "sentence", "say", "ignored", "stop", "rest", "resumed", "motion_start", "motion_end", "halt", "stall")
@@ -97,6 +98,8 @@ class Stage:
         Gets messages for the page, by several threads; it must not wait.
     on_stop : callable
         Called on STOP by whatever way, by several threads; it must not wait.
+    page_voice : PageVoice
+        What the page says aloud.
     """
 
     def __init__(
@@ -131,6 +134,7 @@ class Stage:
         self.limits = limits or ServeLimits()
         self.microphone = PageMicrophone(self.limits.stall_s)
         self.camera = PageCamera(self.limits.stall_s, self._refused)
+        self.page_voice = PageVoice(self.limits.voice_s)
         self.publish: Publish = lambda message: None
         self.on_stop: Callable[[], None] = lambda: None
         self._robot = robot
@@ -260,7 +264,7 @@ class Stage:
             "made_of": [str(label) for label in self.words.words.classes_]
             if isinstance(self.words, CommandRecognizer)
             else [],
-            "sentences": self._sentences(),
+            "sentences": sentences_of(self._options, self.signs, self._knowledge),
             "imitate": list(self._imitated),
             "imitating": self._imitating,
             "robot": self._robot.table.name if self._robot is not None else "",
@@ -275,17 +279,6 @@ class Stage:
     def _imitated(self) -> tuple[str, ...]:
         """Labels from which on the robot imitates."""
         return self._options.imitate_labels if self._robot is not None else ()
-
-    def _sentences(self) -> dict[str, Any] | None:
-        if not self._options.sentence_labels and not isinstance(self.signs, SentenceRecognizer):
-            return None
-        stored = () if self._knowledge is None else self._knowledge.sentences
-        return {
-            "begin": list(self._options.sentence_begin_labels),
-            "end": list(self._options.sentence_end_labels),
-            "stored": [" ".join(sentence.words) for sentence in stored[:_MOST_STORED]],
-            "more": max(0, len(stored) - _MOST_STORED),
-        }
 
     def figure(self) -> dict[str, Any] | None:
         """The robot as a page draws it, the same object while it rests; None without one."""
@@ -402,6 +395,7 @@ class Stage:
             self._begun_s = time.monotonic()
             with self._asking:  # what a session was asked for before it runs is lost
                 self._heard = session
+                self.page_voice.attach(session)
                 if self._imitate_first and not (self._held or self._paused):
                     session.imitate()
                 self._imitate_first = False
@@ -440,6 +434,8 @@ class Stage:
             sent_ms = self.camera.sent_ms(self._begun_s + event.time)
             if sent_ms is not None:
                 message["sent_ms"] = sent_ms
+        if event.event == SAY:
+            message["aloud"] = self._session.aloud(event.fields["text"])
         if event.event == SENTENCE and self._knowledge is not None:
             message["max_distance"] = self._knowledge.max_distance
         if event.event in _LOGGED:

@@ -110,11 +110,6 @@ class Dialogue:
         self._answers: list[str] = []
         self._only_stop_until_s = -math.inf
 
-    @property
-    def stop_labels(self) -> tuple[str, ...]:
-        """Of the options."""
-        return self._options.fusion.stop_labels
-
     def only_stop(self, until_s: float) -> None:
         """Ignore what begins before that time, except STOP; the last call counts."""
         self._only_stop_until_s = until_s

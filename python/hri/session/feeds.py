@@ -267,7 +267,7 @@ class Feed(Generic[Source]):
             return recorded
         if self._clock is None:
             return Alignment(self.time_s)
-        return Alignment(math.inf if self._num_streams else self._clock(), self._clock)
+        return Alignment(math.inf, self._clock)  # a page's microphone may begin long after its source was opened
 
     def _shifted(self, event: Event, offset_s: float) -> Event:
         """The event in the session's time, which never falls."""

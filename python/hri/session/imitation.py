@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.robot import HOAP2, JointTable
-from hri.robot.imitation import LiveImitation, SeenPerson
+from hri.robot.imitation import SeenPerson
+from hri.robot.nao.imitation import live_imitation
 from hri.session.feeds import Recorder
 from hri.vision.persons import Faces, PersonTracker
 
@@ -27,7 +28,7 @@ class Imitator:
     Parameters
     ----------
     table : JointTable
-        Of a robot with HOAP-2's arms.
+        Of a HOAP-2 or a NAO.
     faces : Faces, optional
         See `hri.vision.PersonTracker`.
 
@@ -40,7 +41,7 @@ class Imitator:
     def __init__(self, table: JointTable = HOAP2, faces: Faces | None = None) -> None:
         self._faces = faces
         self._person = PersonTracker(faces)
-        self._arms = LiveImitation(table)
+        self._arms = live_imitation(table)
 
     @property
     def joint_names(self) -> tuple[str, ...]:

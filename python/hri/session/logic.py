@@ -39,7 +39,7 @@ MOTION_START = "motion_start"
 MOTION_END = "motion_end"
 HALT = "halt"
 
-_OWN_VOICE = "heard while the robot speaks"
+_OWN_VOICE = phrase("own_voice")
 
 _BEGINS = frozenset((kinds.SPEECH_START, kinds.GESTURE_START))
 _DROPS = frozenset((kinds.SPEECH_DROPPED, kinds.GESTURE_DROPPED))
@@ -194,8 +194,8 @@ class SessionLogic:
         if event.mode != "speech" or event.decision is None:
             return False
         span = event.fields["first_s"], event.fields["last_s"]
-        stops = self.dialogue.stop_labels
-        return self._own_voice.may_be(event.decision, *span, stops, self.dialogue.state == ACTING)
+        sure_stop = self.pairer.is_sure_stop(event.decision)
+        return self._own_voice.may_be(event.decision, *span, sure_stop, self.dialogue.state == ACTING)
 
     def _heed_signs(self, event: Event, cause: Cause, out: list[Event]) -> None:
         """Heed an event of a stream of signed sentences."""
@@ -225,7 +225,7 @@ class SessionLogic:
         if event.event == VOICE_START:
             self._own_voice.begin(event.fields["text"], event.time)
         elif event.event == VOICE_END:
-            self._own_voice.end(event.time)
+            self._own_voice.end(event.fields["text"], event.time)
         command = event.fields["command"] if event.event == ASKED else ""
         if command == STOP:
             self._do(self.dialogue.halt(BY_BUTTON), cause, out)

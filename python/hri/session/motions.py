@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from typing import Any
 
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.phrases import phrase, phrase_of
@@ -63,3 +64,8 @@ def _own_motion(label: str, robot: Robot, slots: Mapping[str, Mapping[str, str]]
     own = nao_gesture_trajectory if robot.table.name == NAO.name else gesture_trajectory
     filled = slots.get(label)
     return command_trajectory(filled, robot.table, own) if filled else own(label)
+
+
+def vocabulary_of(*recognisers: Any) -> set[str]:
+    """The labels of all recognisers that are there."""
+    return {str(label) for one in recognisers if one is not None for label in one.classes_}

@@ -146,6 +146,12 @@ class Pairer:
         self._pass(mode, time_s)
         return list(self._resolve())
 
+    def is_sure_stop(self, decision: Decision) -> bool:
+        """Whether a decision is STOP, and as sure of it as `SessionOptions` ask."""
+        threshold = self._options.fusion.stop_threshold
+        sure = self._strict(decision).class_threshold if threshold is None else threshold
+        return self._is_stop(decision) and decision.confidence >= sure
+
     def observe(self, observation: Observation, time_s: float) -> list[Pair]:
         """A word or sign was decided on."""
         self._pass(observation.mode, time_s)
@@ -153,7 +159,7 @@ class Pairer:
         stream.begun_s = None
         decision = self._strict(observation.decision)
         observation = replace(observation, decision=decision)
-        if self._is_sure_stop(decision):
+        if self.is_sure_stop(decision):
             return [self._alone(observation, "STOP waits for nothing")]
         if decision.status == RECOGNISED and decision.label in self._options.control_labels:
             before = self._flushed(stream) if decision.label in self._options.sentence_labels else self._resolve()
@@ -186,11 +192,6 @@ class Pairer:
 
     def _is_stop(self, decision: Decision) -> bool:
         return decision.status == RECOGNISED and decision.label in self._options.fusion.stop_labels
-
-    def _is_sure_stop(self, decision: Decision) -> bool:
-        threshold = self._options.fusion.stop_threshold
-        sure = decision.class_threshold if threshold is None else threshold
-        return self._is_stop(decision) and decision.confidence >= sure
 
     def _resolve(self) -> Iterator[Pair]:
         while True:

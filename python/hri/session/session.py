@@ -31,10 +31,10 @@ from hri.session.feeds import Arrival, Clock, Feed, SessionRecorder, merge
 from hri.session.imitation import ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
-from hri.session.motions import prepared_motions
+from hri.session.motions import prepared_motions, vocabulary_of
 from hri.session.mover import Guided, Motion, Mover
 from hri.session.options import SessionOptions
-from hri.session.voice import Voice
+from hri.session.voice import Voice, aloud
 from hri.session.watching import OnResult, watcher_of
 from hri.signal import EndpointerOptions
 from hri.vision.persons import Faces
@@ -73,7 +73,8 @@ class Session:
     on_say : callable of str, optional
         Gets what the robot says, in the thread that decides; it must not wait.
     voice : Voice, optional
-        Says it, and is left open. While it speaks in a live session, nothing spoken counts but STOP.
+        Says it, STOP in other words, and is left open. While it speaks in a live session nothing spoken counts but a
+        sure STOP.
     model_ids : mapping of mode to str, optional
         Which models decide, which learned fusion ("fusion") and stored sentences ("knowledge"); passed on with
         decisions.
@@ -122,18 +123,14 @@ class Session:
         self.options = options or SessionOptions()
         self._robot = robot
         self._on_say, self._voice = on_say, voice
-        self._labels = {str(label) for one in (words, signs) if one is not None for label in one.classes_}
+        self._labels = vocabulary_of(words, signs)
         # Words of a signed sentence are no commands.
-        self._command_labels = {
-            str(label)
-            for one in (words, signs)
-            if one is not None and not isinstance(one, SentenceRecognizer)
-            for label in one.classes_
-        }
+        self._command_labels = vocabulary_of(words, None if isinstance(signs, SentenceRecognizer) else signs)
         chosen = self.options
         for label in (*chosen.wake_labels, *chosen.resume_labels, *chosen.imitate_labels, *chosen.sentence_labels):
             if label not in self._labels:
                 raise InvalidArgument(f"{label!r} is in no vocabulary: {', '.join(sorted(self._labels))}")
+        self._heard_stops = vocabulary_of(words).intersection(chosen.fusion.stop_labels)
         self._fusion = fusion
         self._model_ids = ids = dict(model_ids or {})
         if fusion is not None:
@@ -235,9 +232,16 @@ class Session:
     def _ask(self, command: str, **fields: float) -> None:
         self._put(session_event(0.0, ASKED, command=command, **fields))
 
-    def _voiced(self, kind: str, text: str, message: str) -> None:
-        """The voice has begun or ended to say something."""
+    def voiced(self, kind: str, text: str, message: str = "") -> None:
+        """A voice begins or ends ("voice_start", "voice_end") to say a text, as `Voice.attach` has it; from any thread.
+
+        For voices other than `voice`, such as a page's. Their texts should be as `aloud` gives them.
+        """
         self._put(session_event(0.0, kind, text=text, message=message))
+
+    def aloud(self, text: str) -> str:
+        """What a voice is to say of what the robot says: no word of it is one that stops the robot when it is heard."""
+        return aloud(text, self._heard_stops)
 
     def _put(self, event: Event) -> None:
         with self._asking:
@@ -313,7 +317,7 @@ class Session:
         if self._on_say is not None:
             self._on_say(text)
         if self._voice is not None:
-            self._voice.say(text)
+            self._voice.say(self.aloud(text))
 
     @contextmanager
     def _begun(self, clock: Clock | None, recorder: SessionRecorder | None) -> Iterator[Body]:
@@ -373,7 +377,7 @@ class Session:
             stack.callback(live.close)
             self._deliver_to(live.queue)  # a STOP of before the first word stops what that word asks for
             if self._voice is not None:  # over files it is not heard
-                self._voice.attach(self._voiced)
+                self._voice.attach(self.voiced)
                 stack.callback(self._voice.detach)
             live.start()
 
@@ -422,8 +426,9 @@ class Session:
                 last_s = clock()
                 if arrival is None:
                     arrival = Arrival(session_event(last_s, TICK), time.perf_counter())
-                elif arrival.event.mode == "session":
-                    arrival = replace(arrival, event=replace(arrival.event, time=last_s))
+                elif arrival.event.mode == "session":  # when it was asked for: this thread may be late
+                    asked_s = max(0.0, last_s - (time.perf_counter() - arrival.at_s))
+                    arrival = replace(arrival, event=replace(arrival.event, time=asked_s))
                 happened = logic.process(arrival)
             for event in self._kept(happened, recorder):
                 output.put(event)

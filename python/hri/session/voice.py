@@ -1,17 +1,19 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The robot's voice: texts are said one after the other, and when each is being said is known."""
+"""The robot's voice: texts are said one after the other, when each is being said is known, and none names STOP."""
 
 from __future__ import annotations
 
-import re
+import math
 import threading
+import unicodedata
 from collections import deque
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
 from hri.core.errors import InvalidArgument
-from hri.recognition.decision import RECOGNISED, Decision
+from hri.core.phrases import LANGUAGES, Phrase, in_language, phrase
+from hri.recognition.decision import Decision
 from hri.session.feeds import what_failed
 
 VOICE_START = "voice_start"
@@ -21,7 +23,6 @@ TAIL_S = 0.5
 _MOST_WAITING = 8
 _MOST_KEPT = 32
 _CLOSE_S = 2.0
-_WORDS = re.compile(r"\w+")
 
 OnVoice = Callable[[str, str, str], None]
 
@@ -105,8 +106,9 @@ class _Saying:
 class OwnVoice:
     """What of the words that are heard may be the robot's own; without clocks and threads.
 
-    While it speaks, and for `TAIL_S` after, nothing spoken counts but STOP: the robot's voice, misrecognised, may be
-    any word. STOP counts unless the robot says that label itself while nothing moves that could be stopped.
+    While it speaks, and for `TAIL_S` after, nothing spoken counts but a sure STOP: the robot's voice, misrecognised,
+    may be any word. That STOP counts unless the text being said has it (`aloud` gives texts that have not) and nothing
+    moves that could be stopped.
     """
 
     def __init__(self) -> None:
@@ -116,19 +118,52 @@ class OwnVoice:
         """The robot begins to say a text."""
         self._sayings.append(_Saying(text, time_s, float("inf")))
 
-    def end(self, time_s: float) -> None:
-        """It has said it."""
+    def end(self, text: str, time_s: float) -> None:
+        """It has said it; where it is being said twice, by two voices, the one that began first has."""
         for saying in self._sayings:
-            saying.end_s = min(saying.end_s, time_s + TAIL_S)
+            if saying.text == text and math.isinf(saying.end_s):
+                saying.end_s = time_s + TAIL_S
+                return
 
-    def may_be(
-        self, decision: Decision, first_s: float, last_s: float, stop_labels: Collection[str], moving: bool
-    ) -> bool:
+    def may_be(self, decision: Decision, first_s: float, last_s: float, sure_stop: bool, moving: bool) -> bool:
         """Whether a word of this time may be the robot's own, and does not count."""
         texts = [one.text for one in self._sayings if first_s < one.end_s and one.begin_s < last_s]
         if not texts:
             return False
-        if decision.status != RECOGNISED or decision.label not in stop_labels:
-            return True
-        said = {word for text in texts for word in _WORDS.findall(text.casefold())}
-        return not moving and said.issuperset(_WORDS.findall(decision.label.casefold()))
+        return not sure_stop or (not moving and any(_names(text, decision.label) for text in texts))
+
+
+def aloud(text: str, stop_labels: Collection[str]) -> str:
+    """What a voice says of a text where a microphone may take its words for a person's.
+
+    Parameters
+    ----------
+    text : str
+        A `Phrase` is looked at in every language.
+    stop_labels : collection of str
+        Which none of the words said is: a question about STOP is asked in other words, and of another text is said that
+        it is there to read.
+    """
+    tried = [text]
+    if isinstance(text, Phrase) and text.code == "did_you_mean":
+        others = tuple(label for label in text.values["labels"] if label not in stop_labels)
+        tried.append(phrase("or_freeze", labels=others) if others else phrase("shall_i_freeze"))
+    tried.append(phrase("read_it"))
+    return next((one for one in tried if not any(_names(one, label) for label in stop_labels)), "")
+
+
+def _names(text: str, label: str) -> bool:
+    """Whether a text has all words of a label, in any language."""
+    said = [str(text)]
+    if isinstance(text, Phrase) and text.code:
+        said += [in_language(text.code, language, text.values) for language in LANGUAGES]
+        said += [str(one) for value in text.values.values() if isinstance(value, Mapping) for one in value.values()]
+    words = {word for one in said for word in _words(one)}
+    named = _words(label)
+    return bool(named) and words.issuperset(named)
+
+
+def _words(text: str) -> list[str]:
+    """Letters with their marks, as the vowel signs of Hindi are, and numbers; in one case and form."""
+    one_form = unicodedata.normalize("NFC", text.casefold())
+    return "".join(c if unicodedata.category(c)[0] in "LMN" else " " for c in one_form).split()

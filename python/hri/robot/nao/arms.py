@@ -31,8 +31,11 @@ _HOAP2_MIRROR = np.array([1.0, -1.0, -1.0, 1.0, -1.0])
 # What weighs as much as what: 1 cm of the hand, 0.25 of the forearm's direction, 1 of the upper arm's.
 _SCALES = np.array([0.01] * 3 + [0.25] * 3 + [1.0] * 3)
 _PALM_WEIGHT, _DETOUR_WEIGHT = 8.0, 2.0
+LEAST_APART_M = 0.1
+"""Between the middles of the hands while they move as is not known in advance: they are 4 cm thick."""
 _NUM_BEGINNINGS = 12
 _ITERATIONS = 30
+_LIVE_ITERATIONS = 10  # from a pose that is near
 _STEP = 1e-6
 
 
@@ -109,6 +112,35 @@ def solved(gestures: Sequence[Floats]) -> list[Floats]:
     return chosen
 
 
+def nearest(poses_rad: Floats, before_rad: Floats) -> Floats:
+    """Angles of NAO's shoulders and elbows for one pose of HOAP-2's arms, near those before.
+
+    Parameters
+    ----------
+    poses_rad : ndarray, shape (2, 4)
+        Of HOAP-2, both as left arms.
+    before_rad : ndarray, shape (2, 4)
+        Of NAO, both as left arms.
+
+    Returns
+    -------
+    ndarray of float64, shape (2, 4)
+        Within NAO's limits.
+    """
+    rest = load_gestures()["rest"].poses_rad[0, 4]
+    wanted = _wanted(np.column_stack((poses_rad, np.full(2, rest))))
+    rests = _resting(wanted)
+    wanted = apart(wanted[:, np.newaxis], LEAST_APART_M)[:, 0]
+    limits = _limits()[:4]
+    alike = np.clip(wanted[:, 12:], limits[:, 0], limits[:, 1])
+    begin = np.stack((np.clip(before_rad, limits[:, 0], limits[:, 1]), alike), axis=1)
+    found, costs = _least_squares(begin, wanted[:, np.newaxis, :9], limits, _LIVE_ITERATIONS)
+    costs = costs + _DETOUR_WEIGHT * np.abs(found - before_rad[:, np.newaxis]).max(axis=-1)
+    chosen = found[np.arange(2), costs.argmin(axis=1)]
+    chosen[rests] = [NAO[name].rest_rad for name in NAO_LEFT_ARM[:4]]
+    return chosen
+
+
 def _shortest(rows: NDArray[np.intp], arms: Floats, costs: Floats) -> Floats:
     """Of the choices for each key those of the least cost that lie near one another (Viterbi); shape (keys, 5).
 
@@ -139,7 +171,9 @@ def _points(angles: Floats) -> tuple[Floats, Floats]:
     return np.concatenate((hand, fore[..., 0], elbow / np.linalg.norm(elbow, axis=-1, keepdims=True)), axis=-1), fore
 
 
-def _least_squares(begin: Floats, wanted: Floats, limits: Floats) -> tuple[Floats, Floats]:
+def _least_squares(
+    begin: Floats, wanted: Floats, limits: Floats, iterations: int = _ITERATIONS
+) -> tuple[Floats, Floats]:
     """Damped least squares within limits; angles of shape (keys, beginnings, 4), costs (keys, beginnings)."""
     low, high = limits[:, 0], limits[:, 1]
 
@@ -149,7 +183,7 @@ def _least_squares(begin: Floats, wanted: Floats, limits: Floats) -> tuple[Float
     found, damping = begin.copy(), np.full(begin.shape[:2], 1e-2)
     errors = residuals(found)
     costs = (errors**2).sum(axis=-1)
-    for _ in range(_ITERATIONS):
+    for _ in range(iterations):
         slopes = np.stack([(residuals(found + _STEP * unit) - errors) / _STEP for unit in np.eye(4)], axis=-1)
         normal = np.swapaxes(slopes, -1, -2) @ slopes + damping[..., np.newaxis, np.newaxis] * np.eye(4)
         gradient = (np.swapaxes(slopes, -1, -2) @ errors[..., np.newaxis])[..., 0]

@@ -203,11 +203,14 @@ class NaoqiRobot(Robot):
         if future.hasError(0):
             self._event("fault", f"not said: {future.error(0)}", None)
 
-    def _checked(self, trajectory: Trajectory) -> tuple[NDArray[np.float64], Trajectory | None]:
+    def _positions_sent(self, names: tuple[str, ...]) -> NDArray[np.float64]:
         if not self._stiff.issuperset(self.table.names):
             # A joint without power hangs, or was turned by hand.
             there = self._joint_positions()
             self._commanded.update((name, there[name]) for name in there if name not in self._stiff)
+        return super()._positions_sent(names)
+
+    def _checked(self, trajectory: Trajectory) -> tuple[NDArray[np.float64], Trajectory | None]:
         begin, approach = super()._checked(trajectory)
         for part in (approach, trajectory):
             findings = [] if part is None else coupling_findings(part, self._commanded)

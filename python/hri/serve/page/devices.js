@@ -28,7 +28,8 @@ async function media(constraints) {
 // The rate at which samples will come; onSamples gets an ArrayBuffer of 16-bit samples, onEnd is called when the
 // microphone is unplugged.
 export async function openMicrophone(onSamples, onEnd) {
-  const processing = { echoCancellation: false, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
+  // The page's own voice is taken out of the sound where the browser can: else a STOP over it is lost.
+  const processing = { echoCancellation: true, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
   const stream = await media({ audio: processing });
   let context = new AudioContext({ sampleRate: RATE_HZ });
   let source;

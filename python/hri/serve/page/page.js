@@ -94,7 +94,7 @@ function heedEvent(event) {
   }
   if (event.event === "say") {
     put(at("said"), phraseOf(event, "text"));
-    voice.say(phraseOf(event, "text"));
+    voice.say(phraseOf(event, "aloud"));
   }
   if (event.nbest && event.event !== "fused") {
     showBars(at(`bars-${event.mode}`), event.nbest);

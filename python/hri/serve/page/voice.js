@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-// The robot's voice. The server is asked to heed no words meanwhile, and shortly after, as rooms echo.
+// The robot's voice. The server learns when it speaks: the microphone goes on, and of what it hears only STOP counts.
 import { inWords, spokenLanguage } from "./phrases.js";
 
-const ECHO_MS = 400;
 const LONGEST_MS = 15000; // some browsers never report the end
 
 export class RobotVoice {
@@ -49,7 +48,7 @@ export class RobotVoice {
     if (words !== this.speaking) return;
     this.speaking = null;
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.link.say({ type: "voice", text: "" }), ECHO_MS);
+    this.link.say({ type: "voice", text: "" });
   }
 
   hush() {
