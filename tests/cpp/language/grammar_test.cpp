@@ -73,7 +73,7 @@ TEST(Grammar, ListsItsSentences) {
   for (const auto& sentence : sentences) EXPECT_TRUE(grammar.slots_of(sentence));
   EXPECT_THROW((void)grammar.sentences(31), InvalidArgument);
   EXPECT_EQ(Grammar::parse(kHead + "public <s> = a | [b] a | b a;", "file").sentences().size(), 2U);
-  for (const std::string& endless : {"a+", "[a] b*"}) {
+  for (const std::string endless : {"a+", "[a] b*"}) {
     EXPECT_THROW((void)Grammar::parse(kHead + "public <s> = " + endless + ";", "f").sentences(),
                  InvalidArgument);
   }
