@@ -129,7 +129,9 @@ def _is_sound(file: str) -> bool:
     if kind == "a model":
         raise click.UsageError(f"{file} is a model, not a recording: give it as --speech-model or --gesture-model")
     if kind == "a folder" and any(kind_of_file(inside) == "a sound file" for inside in Path(file).iterdir()):
-        raise click.UsageError(f"{file} is a folder of sounds: give one of them, or 'hri evaluate speech --data {file}'")
+        raise click.UsageError(
+            f"{file} is a folder of sounds: give one of them, or 'hri evaluate speech --data {file}'"
+        )
     if not kind:
         raise click.UsageError(f"{file} is neither sound, picture nor video by its suffix: say --speech or --gesture")
     return kind == "a sound file"
