@@ -164,6 +164,16 @@ def test_a_fault_in_an_earlier_motion_stops_the_newest() -> None:
     assert logic.dialogue.state == "stopped" and "stop" in [event.event for event in out]
 
 
+@pytest.mark.parametrize(("moving", "confidence", "own"), [(False, 0.4, True), (True, 0.4, False), (False, 0.9, False)])
+def test_while_the_robot_speaks_stop_has_to_be_sure_unless_it_moves(moving: bool, confidence: float, own: bool) -> None:
+    logic = SessionLogic(SessionOptions(), NoRobot(reports=False), ("flat", "tall"))
+    logic._own_voice.begin("flat.", 1.0)
+    if moving:
+        begun(logic, "flat")
+    heard = Decision("speech", "stop", "recognised", confidence, nbest=())
+    assert logic._is_own(Event(2.5, "decision", {"first_s": 1.5, "last_s": 2.0}, heard, "speech")) is own
+
+
 def test_stop_drops_a_motion_that_waits(robot: Robot) -> None:
     mover = Mover(robot, MOTIONS)
     try:

@@ -41,7 +41,7 @@ def decided(label: str, status: str = "recognised") -> Decision:
 
 
 @pytest.mark.parametrize(
-    ("heard", "sure_stop", "text", "moving", "own"),
+    ("heard", "stops", "text", "moving", "own"),
     [
         (decided("flat"), False, "flat.", False, True),
         (decided("tall"), False, "flat.", False, True),  # misrecognised
@@ -57,20 +57,18 @@ def decided(label: str, status: str = "recognised") -> Decision:
         (decided("unknown", "unknown"), False, "stop", False, True),
     ],
 )
-def test_which_words_may_be_the_robots_own(
-    heard: Decision, sure_stop: bool, text: str, moving: bool, own: bool
-) -> None:
+def test_which_words_may_be_the_robots_own(heard: Decision, stops: bool, text: str, moving: bool, own: bool) -> None:
     voice = OwnVoice()
-    assert not voice.may_be(heard, 1.0, 2.0, sure_stop, moving)
+    assert not voice.may_be(heard, 1.0, 2.0, stops, moving)
     voice.begin(text, 2.0)
-    assert voice.may_be(heard, 1.0, 2.1, sure_stop, moving) is own
-    assert not voice.may_be(heard, 1.0, 1.9, sure_stop, moving), "before it spoke"
-    assert voice.may_be(heard, 60.0, 61.0, sure_stop, moving) is own, "it speaks still"
+    assert voice.may_be(heard, 1.0, 2.1, stops, moving) is own
+    assert not voice.may_be(heard, 1.0, 1.9, stops, moving), "before it spoke"
+    assert voice.may_be(heard, 60.0, 61.0, stops, moving) is own, "it speaks still"
     voice.end("another text", 2.5)
-    assert voice.may_be(heard, 60.0, 61.0, sure_stop, moving) is own, "it speaks still"
+    assert voice.may_be(heard, 60.0, 61.0, stops, moving) is own, "it speaks still"
     voice.end(text, 3.0)
-    assert voice.may_be(heard, 2.9 + TAIL_S, 5.0, sure_stop, moving) is own
-    assert not voice.may_be(heard, 3.1 + TAIL_S, 5.0, sure_stop, moving)
+    assert voice.may_be(heard, 2.9 + TAIL_S, 5.0, stops, moving) is own
+    assert not voice.may_be(heard, 3.1 + TAIL_S, 5.0, stops, moving)
 
 
 def test_of_two_voices_that_say_the_same_one_may_go_on() -> None:

@@ -194,8 +194,9 @@ class SessionLogic:
         if event.mode != "speech" or event.decision is None:
             return False
         span = event.fields["first_s"], event.fields["last_s"]
-        sure_stop = self.pairer.is_sure_stop(event.decision)
-        return self._own_voice.may_be(event.decision, *span, sure_stop, self.dialogue.state == ACTING)
+        moving = self.dialogue.state == ACTING
+        stops = self.pairer.is_stop(event.decision) if moving else self.pairer.is_sure_stop(event.decision)
+        return self._own_voice.may_be(event.decision, *span, stops, moving)
 
     def _heed_signs(self, event: Event, cause: Cause, out: list[Event]) -> None:
         """Heed an event of a stream of signed sentences."""

@@ -146,11 +146,15 @@ class Pairer:
         self._pass(mode, time_s)
         return list(self._resolve())
 
+    def is_stop(self, decision: Decision) -> bool:
+        """Whether a decision is STOP, sure or not."""
+        return decision.status == RECOGNISED and decision.label in self._options.fusion.stop_labels
+
     def is_sure_stop(self, decision: Decision) -> bool:
         """Whether a decision is STOP, and as sure of it as `SessionOptions` ask."""
         threshold = self._options.fusion.stop_threshold
         sure = self._strict(decision).class_threshold if threshold is None else threshold
-        return self._is_stop(decision) and decision.confidence >= sure
+        return self.is_stop(decision) and decision.confidence >= sure
 
     def observe(self, observation: Observation, time_s: float) -> list[Pair]:
         """A word or sign was decided on."""
@@ -189,9 +193,6 @@ class Pairer:
     def _strict(self, decision: Decision) -> Decision:
         stop = decision.label in self._options.fusion.stop_labels
         return replace(decision, class_threshold=max(CHANCE, decision.class_threshold)) if stop else decision
-
-    def _is_stop(self, decision: Decision) -> bool:
-        return decision.status == RECOGNISED and decision.label in self._options.fusion.stop_labels
 
     def _resolve(self) -> Iterator[Pair]:
         while True:
@@ -242,7 +243,7 @@ class Pairer:
                 continue
             if other.now_s >= until_s + self._options.onset_s:
                 return observation, phrase("why_nothing_else", seconds=f"{self._options.window_s:g}")
-            if self.hurried and self._is_stop(observation.decision) and not other.waiting:
+            if self.hurried and self.is_stop(observation.decision) and not other.waiting:
                 return observation, phrase("why_hurried")
         return None
 

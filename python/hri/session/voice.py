@@ -106,9 +106,9 @@ class _Saying:
 class OwnVoice:
     """What of the words that are heard may be the robot's own; without clocks and threads.
 
-    While it speaks, and for `TAIL_S` after, nothing spoken counts but a sure STOP: the robot's voice, misrecognised,
-    may be any word. That STOP counts unless the text being said has it (`aloud` gives texts that have not) and nothing
-    moves that could be stopped.
+    While it speaks, and for `TAIL_S` after, nothing spoken counts but STOP: the robot's voice, misrecognised, may be
+    any word. STOP has to be sure where nothing moves that could be stopped, and does not count there if the text being
+    said has it (`aloud` gives texts that have not).
     """
 
     def __init__(self) -> None:
@@ -125,12 +125,12 @@ class OwnVoice:
                 saying.end_s = time_s + TAIL_S
                 return
 
-    def may_be(self, decision: Decision, first_s: float, last_s: float, sure_stop: bool, moving: bool) -> bool:
-        """Whether a word of this time may be the robot's own, and does not count."""
+    def may_be(self, decision: Decision, first_s: float, last_s: float, stops: bool, moving: bool) -> bool:
+        """Whether a word of this time may be the robot's own, and does not count; `stops`: it is STOP, sure enough."""
         texts = [one.text for one in self._sayings if first_s < one.end_s and one.begin_s < last_s]
         if not texts:
             return False
-        return not sure_stop or (not moving and any(_names(text, decision.label) for text in texts))
+        return not stops or (not moving and any(_names(text, decision.label) for text in texts))
 
 
 def aloud(text: str, stop_labels: Collection[str]) -> str:
