@@ -165,7 +165,7 @@ def test_the_tutorial_of_the_book_runs_as_written(hri, work: Path):
     succeed(hri("htk", "erest", "-I", "wintri.mlf", *common, *macros, "triphones1"))
     assert len(Path("stats").read_text().splitlines()) == len(triphones)
 
-    # Step 10: states that are alike are tied by questions, and units of words that nobody said follow them.
+    # Step 10: states that are alike are tied by questions, and units of words never said follow them.
     states = "".join(
         f'TB 0.1 "{unit}_s{n}_" {{({unit},*-{unit},{unit}+*,*-{unit}+*).state[{n}]}}\n'
         for unit in ("hi", "lo", "up")

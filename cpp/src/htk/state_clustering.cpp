@@ -191,7 +191,7 @@ double distance_of(const StateStatistics& a, const StateStatistics& b) {
   return std::sqrt(((a.mean - b.mean).array().square() / deviations).mean());
 }
 
-// Groups by their distances, that of their farthest states; merged ones are empty.
+// Groups by their distances, that of their furthest states; merged ones are empty.
 class Clusters {
  public:
   explicit Clusters(const std::vector<StateStatistics>& states)

@@ -37,7 +37,7 @@ TiedByTree tie_by_tree(const std::vector<StateStatistics>& states,
                        const std::vector<ContextQuestion>& questions, double threshold,
                        double least_occupation);
 
-/// Merges the groups that are nearest by their farthest states, up to the distance `threshold`;
+/// Merges the groups that are nearest by their furthest states, up to the distance `threshold`;
 /// then groups with fewer than `least_occupation` frames with what is nearest. The distance of two
 /// states is the root of the mean over columns of (difference of means)^2 / (product of
 /// deviations).

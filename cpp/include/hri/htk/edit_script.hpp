@@ -99,7 +99,7 @@ struct HRI_API EditScript {
   /// are not, by trees. CO keeps one of those that share all they have and writes the list of all.
   /// ST writes the trees, LT reads them.
   ///
-  /// What CO and ST write is added to `files`, and written by nobody here; nullptr: not wanted.
+  /// What CO and ST write is added to `files`, and not written here; nullptr: not wanted.
   /// Throws IoError for a list that cannot be read; FormatError naming file and line for items that
   /// no model has, a macro that there is already, parameters of different sizes, a row that would
   /// be left empty, states without statistics and units without a tree.
