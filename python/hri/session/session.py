@@ -74,7 +74,7 @@ class Session:
         Gets what the robot says, in the thread that decides; it must not wait.
     voice : Voice, optional
         Says it, STOP in other words, and is left open. While it speaks in a live session nothing spoken counts but a
-        sure STOP.
+        sure STOP, and while the robot moves any STOP.
     model_ids : mapping of mode to str, optional
         Which models decide, which learned fusion ("fusion") and stored sentences ("knowledge"); passed on with
         decisions.
