@@ -5,7 +5,6 @@
 // nothing half-written, and the next attempt works.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <new>
 #include <string>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "recognition/tone_words.hpp"
+#include "test_folder.hpp"
 
 namespace hri {
 namespace {
@@ -62,19 +62,11 @@ std::string model(const char* name) { return std::string(HRI_MODELS_DIR) + "/" +
 // A folder of its own, empty at first.
 class Faults : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directory(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   // `write` replaces a file: whatever fails, the file holds what it held or what it shall hold, and
   // nothing else is left in the folder.
   template <class Write>
   void expect_whole_file(const Write& write) {
-    const std::string path = (folder_ / "file").string();
+    const std::string path = folder_ / "file";
     write(path);
     const std::vector<std::uint8_t> wanted = read_file(path);
     const std::vector<std::uint8_t> old = {1, 2, 3};
@@ -87,15 +79,14 @@ class Faults : public ::testing::Test {
             failed += outcome == Outcome::worked ? 0 : 1;
             const std::vector<std::uint8_t> now = read_file(path);
             EXPECT_TRUE(now == wanted || (outcome != Outcome::worked && now == old)) << n;
-            const std::filesystem::directory_iterator entries(folder_);
-            EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << n;
+            EXPECT_EQ(folder_.names(), std::vector<std::string>{"file"}) << n;
             write_file_atomically(path, {old.data(), old.size()});
           });
       EXPECT_GT(failed, 1);
     }
   }
 
-  std::filesystem::path folder_;
+  TestFolder folder_;
 };
 
 TEST_F(Faults, LoadingLeavesNothing) {

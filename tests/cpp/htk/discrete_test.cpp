@@ -11,6 +11,7 @@
 #include "hri/htk/flat_start.hpp"
 #include "hri/htk/recognizer.hpp"
 #include "hri/htk/viterbi_trainer.hpp"
+#include "test_folder.hpp"
 
 namespace hri::htk {
 namespace {
@@ -164,7 +165,8 @@ TEST(DiscreteModels, SumsOfPartsAddUp) {
   whole.add(other, {"a"});
   first.add(one, {"a"});
   second.add(other, {"a"});
-  const std::string path = testing::TempDir() + "discrete_sums";
+  const TestFolder folder;
+  const std::string path = folder / "sums";
   first.write_sums(path);
   second.add_sums(path);
   EXPECT_TRUE(

@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "hri/core/error.hpp"
-#include "hri/io/file.hpp"
+#include "test_folder.hpp"
 
 namespace hri::htk {
 namespace {
@@ -59,21 +58,11 @@ TEST(EditScript, PassesOverCommentsAndTrace) {
   EXPECT_EQ(refusal("TR x\n"), "script: line 1: expected a number, not 'x'");
 }
 
-class TriphoneList {
- public:
-  explicit TriphoneList(const std::string& text) {
-    write_file_atomically(path(), std::vector<std::uint8_t>(text.begin(), text.end()));
-  }
-  TriphoneList(const TriphoneList&) = delete;
-  TriphoneList& operator=(const TriphoneList&) = delete;
-  ~TriphoneList() { (void)std::remove(path().c_str()); }
-  static std::string path() { return testing::TempDir() + "triphones"; }
-};
-
 TEST(EditScript, ClonesModelsForTheirContexts) {
-  const TriphoneList list("sp\nx-aa+y\n\naa+b\nb-ab\n");
-  const ModelSet made = edited("TI steps {(aa,ab).transP}\nCL \"" + TriphoneList::path() +
-                               "\"\nTI T_aa {(*-aa+*,aa+*).state[3]}\n");
+  const TestFolder folder;
+  const std::string list = folder.write("list", "sp\nx-aa+y\n\naa+b\nb-ab\n");
+  const ModelSet made =
+      edited("TI steps {(aa,ab).transP}\nCL \"" + list + "\"\nTI T_aa {(*-aa+*,aa+*).state[3]}\n");
   EXPECT_EQ(made.hmm_names(), (std::vector<std::string>{"sp", "x-aa+y", "aa+b", "b-ab"}));
   EXPECT_EQ(state_of(made, "x-aa+y", 1).macro, "T_aa");
   EXPECT_EQ(state_of(made, "aa+b", 1).macro, "T_aa");
@@ -84,17 +73,17 @@ TEST(EditScript, ClonesModelsForTheirContexts) {
 }
 
 TEST(EditScript, RefusesListsByNameAndLine) {
+  const TestFolder folder;
   for (const auto& [text, message] :
        {std::pair<const char*, const char*>{"aa\nx-oo+y\n",
                                             ": line 2: there is no model 'x-oo+y', and no 'oo'"},
         {"aa\naa\n", ": line 2: 'aa' stands here again"},
         {"aa ab\n", ": line 1: expected the name of a model"}}) {
-    const TriphoneList list(text);
-    EXPECT_EQ(refusal("CL " + TriphoneList::path() + "\n"), TriphoneList::path() + message);
+    const std::string list = folder.write("list", text);
+    EXPECT_EQ(refusal("CL " + list + "\n"), list + message);
   }
-  const TriphoneList list("\n");
-  EXPECT_EQ(refusal("CL " + TriphoneList::path() + "\n"),
-            "script: line 1: the list '" + TriphoneList::path() + "' has no model");
+  const std::string list = folder.write("list", "\n");
+  EXPECT_EQ(refusal("CL " + list + "\n"), "script: line 1: the list '" + list + "' has no model");
   EXPECT_EQ(refusal("CL"), "script: line 1: expected the path of a file");
   EXPECT_THROW(edited("CL nowhere\n"), IoError);
 }

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <random>
 
 #include "hri/core/error.hpp"
 #include "hri/io/model_file.hpp"
+#include "test_folder.hpp"
 
 namespace hri::htk {
 namespace {
@@ -97,17 +97,9 @@ TEST(EmbeddedTrainer, NeverMakesTheUtterancesLessLikely) {
   }
 }
 
-class SumsFile {
- public:
-  SumsFile() = default;
-  SumsFile(const SumsFile&) = delete;
-  SumsFile& operator=(const SumsFile&) = delete;
-  ~SumsFile() { (void)std::remove(path.c_str()); }
-  const std::string path = testing::TempDir() + "HER1.acc";
-};
-
 TEST(EmbeddedTrainer, AddsSumsOfPartsOfTheUtterances) {
-  const SumsFile file;
+  const TestFolder folder;
+  const std::string path = folder / "HER1.acc";
   EmbeddedTrainer whole(models_to_train(), rare());
   EmbeddedTrainer part(models_to_train(), rare());
   EmbeddedTrainer rest(models_to_train(), rare());
@@ -115,8 +107,8 @@ TEST(EmbeddedTrainer, AddsSumsOfPartsOfTheUtterances) {
     for (EmbeddedTrainer* trainer : {&whole, seed % 2 == 0 ? &part : &rest})
       trainer->add(frames({1, 4, 9, 6, 3}, seed), {"a", "sp", "b", "sp"});
   }
-  part.write_sums(file.path);
-  rest.add_sums(file.path);
+  part.write_sums(path);
+  rest.add_sums(path);
   EXPECT_EQ(rest.num_frames(), whole.num_frames());
   EXPECT_NEAR(rest.log_likelihood(), whole.log_likelihood(), 1e-9);
   EXPECT_EQ(rest.occupations()[0].num_examples, 6);
@@ -136,18 +128,19 @@ TEST(EmbeddedTrainer, AddsSumsOfPartsOfTheUtterances) {
 }
 
 TEST(EmbeddedTrainer, RefusesSumsOfOtherModelsAndDamagedOnes) {
-  const SumsFile file;
-  const auto refusal = [&file](const EmbeddedTrainer& written, const auto& change) {
-    written.write_sums(file.path);
-    ModelFile changed = ModelFile::read(file.path);
+  const TestFolder folder;
+  const std::string path = folder / "HER1.acc";
+  const auto refusal = [&path](const EmbeddedTrainer& written, const auto& change) {
+    written.write_sums(path);
+    ModelFile changed = ModelFile::read(path);
     change(&changed);
-    changed.write(file.path);
+    changed.write(path);
     EmbeddedTrainer trainer(models_to_train(), rare());
     try {
-      trainer.add_sums(file.path);
+      trainer.add_sums(path);
     } catch (const FormatError& error) {
       EXPECT_EQ(trainer.num_frames(), 0);
-      return std::string(error.what()).substr(file.path.size());
+      return std::string(error.what()).substr(path.size());
     }
     return std::string("nothing thrown");
   };

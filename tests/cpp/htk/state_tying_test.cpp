@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "hri/core/error.hpp"
 #include "hri/htk/edit_script.hpp"
-#include "hri/io/file.hpp"
+#include "test_folder.hpp"
 
 namespace hri::htk {
 namespace {
@@ -26,12 +25,6 @@ const std::vector<ContextModel> kUnits{{"p-a+k", 0, 50},  {"t-a+k", 0.2, 30}, {"
                                        {"k-a+k", 12, 40}, {"k-a+t", 10, 25},  {"m-a+t", 10.5, 35}};
 const std::string kContextQuestions =
     "QS \"L_stop\" { p-*,t-* }\nQS 'R_k' { \"*+k\" }\nQS \"L_k\" { \"k-*\" }\n";
-
-void write_words(const std::string& path, const std::string& text) {
-  write_file_atomically(path, std::vector<std::uint8_t>(text.begin(), text.end()));
-}
-
-std::string tying_file(const std::string& name) { return testing::TempDir() + "tying_" + name; }
 
 ModelSet context_models() {
   std::string text = "~o <VECSIZE> 1 <USER>\n~t \"T_a\" <TRANSP> 3 0 1 0 0 0.5 0.5 0 0 0\n";
@@ -52,8 +45,6 @@ std::string context_statistics() {
 
 class StateTying : public testing::Test {
  protected:
-  void SetUp() override { write_words(statistics_, context_statistics()); }
-
   [[nodiscard]] ModelSet edited(const std::string& script,
                                 std::vector<EditedFile>* files = nullptr) const {
     ModelSet made =
@@ -74,7 +65,8 @@ class StateTying : public testing::Test {
     return set.find('h', model)->hmm.states.front().macro;
   }
 
-  std::string statistics_ = tying_file("statistics");
+  TestFolder folder_;
+  std::string statistics_ = folder_.write("statistics", context_statistics());
   std::string outliers_ = "10";
 };
 
@@ -144,8 +136,7 @@ TEST_F(StateTying, ClustersGrowUpToADistance) {
 }
 
 TEST_F(StateTying, UnseenModelsFollowTheTrees) {
-  const std::string list = tying_file("list");
-  write_words(list, "p-a+k\nt-a+m\nk-a\nm-a+k\n");
+  const std::string list = folder_.write("list", "p-a+k\nt-a+m\nk-a\nm-a+k\n");
   std::vector<EditedFile> files;
   const ModelSet set = edited(
       kContextQuestions + "TB 5 a2_ {*.state[2]}\nAU \"" + list + "\"\nCO \"tied\"\nST \"trees\"\n",
@@ -165,9 +156,8 @@ TEST_F(StateTying, UnseenModelsFollowTheTrees) {
       << files[1].text;
 
   // The trees of the file serve another script.
-  const std::string trees = tying_file("trees");
-  write_words(trees, files[1].text);
-  write_words(list, "t-a+p\n");
+  const std::string trees = folder_.write("trees", files[1].text);
+  (void)folder_.write("list", "t-a+p\n");
   const ModelSet later = EditScript::parse("LT " + trees + "\nAU " + list, "later").apply(set);
   EXPECT_EQ(state_of(later, "t-a+p"), state_of(set, "p-a+k"));
 }
@@ -195,13 +185,12 @@ TEST_F(StateTying, RefusesWithFileAndLine) {
   EXPECT_EQ(refusal("QS x {}"), "script: line 2: expected a pattern");
   EXPECT_EQ(refusal("MU 2 {*.state[2].mix}\nTB 1 x {*.state[2]}"),
             "script: line 3: state 2 of 'p-a+k' is not of one Gaussian");
-  const std::string list = tying_file("wrong");
-  write_words(list, "p-b+k\n");
+  const std::string list = folder_.write("list", "p-b+k\n");
   EXPECT_EQ(refusal(tree + "AU " + list),
             list + ": line 1: there is no model of the same unit: of 'b' and 'p-b+k'");
-  write_words(list, "m-a\n");
+  (void)folder_.write("list", "m-a\n");
   EXPECT_EQ(refusal("AU " + list), list + ": line 1: there is no tree for state 2 of 'a'");
-  write_words(list, "a b\n");
+  (void)folder_.write("list", "a b\n");
   EXPECT_EQ(refusal(tree + "AU " + list), list + ": line 1: expected the name of a model");
   EXPECT_THROW((void)edited("AU /nowhere/at/all"), IoError);
 }
@@ -218,7 +207,7 @@ TEST_F(StateTying, RefusesStatisticsThatDoNotFit) {
         {"\n1 p-a+k 3 -1\n", "{}: line 2: a number of frames is below 0"},
         {"1 p-a+k 3 x\n", "{}: line 1: 'x' is no number that can stand here"},
         {"1 a 3 1\n1 a 3 1\n", "{}: line 2: 'a' stands here again"}}) {
-    write_words(statistics_, text);
+    (void)folder_.write("statistics", text);
     std::string expected = message;
     const std::size_t at = expected.find("{}");
     EXPECT_EQ(refusal(tree), expected.replace(at, 2, statistics_)) << text;
@@ -231,7 +220,7 @@ TEST_F(StateTying, StatesWithoutFramesCountAlike) {
     const std::string frames = std::to_string(unit.frames);
     text.replace(text.find(frames), frames.size(), "0");
   }
-  write_words(statistics_, text);
+  (void)folder_.write("statistics", text);
   outliers_ = "0";
   const ModelSet set = edited(kContextQuestions + "TB 0.5 a2_ {*.state[2]}");
   const auto& state = set.find('s', "a2_1")->state.components[0].component;

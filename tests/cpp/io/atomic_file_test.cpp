@@ -14,12 +14,12 @@
 #include "hri/core/error.hpp"
 #include "hri/io/file.hpp"
 #include "io/io_testing.hpp"
+#include "test_folder.hpp"
 
 namespace hri {
 namespace {
 
 namespace fs = std::filesystem;
-using io_testing::Folder;
 using io_testing::message_of;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -31,7 +31,7 @@ unsigned mode_of(const std::string& path) {
 }
 
 TEST(AtomicFile, KeepsThePermissionsOfWhatItReplaces) {
-  const Folder folder;
+  const TestFolder folder;
   for (const unsigned mode : {0600U, 0640U, 0666U, 0755U}) {
     write_file_atomically(folder / "a", kOld);
     fs::permissions(folder / "a", static_cast<fs::perms>(mode));
@@ -41,7 +41,7 @@ TEST(AtomicFile, KeepsThePermissionsOfWhatItReplaces) {
 }
 
 TEST(AtomicFile, HasWhatTheUmaskLeavesWhereItIsNew) {
-  const Folder folder;
+  const TestFolder folder;
   const mode_t before = ::umask(027);
   write_file_atomically(folder / "a", kNew);
   ::umask(before);
@@ -49,7 +49,7 @@ TEST(AtomicFile, HasWhatTheUmaskLeavesWhereItIsNew) {
 }
 
 TEST(AtomicFile, OfWhatMayBeReadByFewIsNotReadByOthersMeanwhile) {
-  const Folder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "a", kOld);
   fs::permissions(folder / "a", static_cast<fs::perms>(0600));
   const AtomicFile file(folder / "a");
@@ -57,7 +57,7 @@ TEST(AtomicFile, OfWhatMayBeReadByFewIsNotReadByOthersMeanwhile) {
 }
 
 TEST(AtomicFile, ReplacesWhatALinkPointsTo) {
-  const Folder folder;
+  const TestFolder folder;
   fs::create_directory(folder / "store");
   write_file_atomically(folder / "store/a", kOld);
   fs::create_symlink("store/a", folder / "link");
@@ -76,7 +76,7 @@ TEST(AtomicFile, ReplacesWhatALinkPointsTo) {
 }
 
 TEST(AtomicFile, DoesNotReplaceAPipeOrAFolder) {
-  const Folder folder;
+  const TestFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_THROW(write_file_atomically(folder / "pipe", kNew), IoError);
   EXPECT_THROW(write_file_atomically("/dev/null", kNew), IoError);
@@ -86,7 +86,7 @@ TEST(AtomicFile, DoesNotReplaceAPipeOrAFolder) {
 }
 
 TEST(AtomicFile, EndsInItsSuffixAndCanBeWrittenByName) {
-  const Folder folder;
+  const TestFolder folder;
   AtomicFile file(folder / "clip.webm");
   EXPECT_EQ(fs::path(file.temporary_path()).extension(), ".webm");
   fs::copy_file("/proc/self/exe", file.temporary_path(), fs::copy_options::overwrite_existing);
@@ -97,7 +97,7 @@ TEST(AtomicFile, EndsInItsSuffixAndCanBeWrittenByName) {
 }
 
 TEST(AtomicFile, LeavesTheOldFileWhereItIsNotCommitted) {
-  const Folder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "a", kOld);
   {
     AtomicFile file(folder / "a");
@@ -111,7 +111,7 @@ TEST(AtomicFile, LeavesTheOldFileWhereItIsNotCommitted) {
 }
 
 TEST(AtomicFile, MayHaveANameAsLongAsTheSystemTakes) {
-  const Folder folder;
+  const TestFolder folder;
   std::string name;
   while (name.size() < 250) name += "हा";
   name = name.substr(0, 246) + ".webm";
@@ -132,7 +132,7 @@ bool in_another_process(const Action& action) {
 }
 
 TEST(AtomicFile, OfAKilledProcessIsRemovedByTheNextAndOfALivingOneIsNot) {
-  const Folder folder;
+  const TestFolder folder;
   std::set<std::string> kept{"notes", ".hri-parts"};
   for (const std::string& name : kept) std::ofstream(folder / name) << "a user's own";
   for (int i = 0; i < 3; ++i) {
@@ -153,7 +153,7 @@ TEST(AtomicFile, OfAKilledProcessIsRemovedByTheNextAndOfALivingOneIsNot) {
 }
 
 TEST(AtomicFile, OfManyThreadsHasManyNames) {
-  const Folder folder;
+  const TestFolder folder;
   std::vector<std::thread> threads;
   std::vector<std::string> names(60);
   threads.reserve(names.size());
@@ -173,7 +173,7 @@ TEST(AtomicFile, OfManyThreadsHasManyNames) {
 }
 
 TEST(ReadFile, RefusesAtOnceWhatIsNoFile) {
-  const Folder folder;
+  const TestFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_NE(message_of<IoError>([&] { read_file(folder / "pipe"); }).find("not a regular file"),
             std::string::npos);
@@ -183,7 +183,7 @@ TEST(ReadFile, RefusesAtOnceWhatIsNoFile) {
 }
 
 TEST(ReadFile, RefusesAPathThatTheSystemWouldCut) {
-  const Folder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "a", kOld);
   const std::string path = (folder / "a") + std::string("\0.txt", 5);
   EXPECT_NE(message_of<InvalidArgument>([&] { read_file(path); }).find(folder / "a"),

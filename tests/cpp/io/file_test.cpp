@@ -8,6 +8,7 @@
 #include "hri/core/error.hpp"
 #include "hri/io/crc32.hpp"
 #include "io/io_testing.hpp"
+#include "test_folder.hpp"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <sys/resource.h>
@@ -17,7 +18,6 @@
 namespace hri {
 namespace {
 
-using io_testing::Folder;
 using io_testing::message_of;
 
 const std::vector<std::uint8_t> kBytes{'1', '2', '3', '4', '5', '6', '7', '8', '9'};
@@ -30,7 +30,7 @@ TEST(Crc32, HasTheCheckValueAndContinues) {
 }
 
 TEST(File, ComesBackAndLeavesNothingBeside) {
-  const Folder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "a", kBytes);
   write_file_atomically(folder / "a", Span<const std::uint8_t>(kBytes).subspan(0, 3));
   EXPECT_EQ(read_file(folder / "a"), (std::vector<std::uint8_t>{'1', '2', '3'}));
@@ -38,7 +38,7 @@ TEST(File, ComesBackAndLeavesNothingBeside) {
 }
 
 TEST(File, IsRefusedWithItsPath) {
-  const Folder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "a", kBytes);
   EXPECT_NE(message_of<FormatError>([&] { read_file(folder / "a", 8); }).find(folder / "a"),
             std::string::npos);
@@ -49,7 +49,7 @@ TEST(File, IsRefusedWithItsPath) {
 }
 
 TEST(File, ThatCannotBeReplacedStays) {
-  const Folder folder;
+  const TestFolder folder;
   std::filesystem::create_directory(folder / "taken");
   write_file_atomically(folder / "taken/inside", kBytes);
   EXPECT_THROW(write_file_atomically(folder / "taken", kBytes), IoError);
@@ -58,7 +58,7 @@ TEST(File, ThatCannotBeReplacedStays) {
 }
 
 TEST(File, IsReadUpToItsLimit) {
-  const Folder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "nine", kBytes);
   EXPECT_EQ(read_file(folder / "nine", 9), kBytes);
   EXPECT_THROW(read_file(folder / "nine", 8), FormatError);
@@ -67,7 +67,7 @@ TEST(File, IsReadUpToItsLimit) {
 }
 
 TEST(File, OfManyWritersIsWholeAndOneOfTheirs) {
-  const Folder folder;
+  const TestFolder folder;
   std::vector<std::thread> writers;
   for (int w = 0; w < 4; ++w) {
     writers.emplace_back([&folder, w] {
@@ -85,7 +85,7 @@ TEST(File, OfManyWritersIsWholeAndOneOfTheirs) {
 #if defined(__unix__) || defined(__APPLE__)
 // As on a full disk: the operating system takes the first bytes and no more.
 TEST(File, StaysWholeWhenTheDiskTakesNoMore) {
-  const Folder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "model", kBytes);
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -108,7 +108,7 @@ TEST(File, StaysWholeWhenTheDiskTakesNoMore) {
 
 TEST(File, StaysWholeInAFolderThatMayNotBeWritten) {
   if (geteuid() == 0) GTEST_SKIP() << "the superuser may write everywhere";
-  const Folder folder;
+  const TestFolder folder;
   write_file_atomically(folder / "model", kBytes);
   namespace fs = std::filesystem;
   fs::permissions(folder / ".", fs::perms::owner_write, fs::perm_options::remove);

@@ -11,11 +11,11 @@
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 #include "io/io_testing.hpp"
+#include "test_folder.hpp"
 
 namespace hri {
 namespace {
 
-using io_testing::Folder;
 using io_testing::message_of;
 
 ModelFile sample() {
@@ -32,7 +32,7 @@ ModelFile sample() {
 }
 
 TEST(ModelFile, ComesBackToTheBit) {
-  const Folder folder;
+  const TestFolder folder;
   const ModelFile written = sample();
   written.write(folder / "m.hri");
   const ModelFile read = ModelFile::read(folder / "m.hri");

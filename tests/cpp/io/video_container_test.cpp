@@ -6,12 +6,11 @@
 
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
-#include "io/io_testing.hpp"
+#include "test_folder.hpp"
 
 namespace hri {
 namespace {
 
-using io_testing::Folder;
 using Bytes = std::vector<std::uint8_t>;
 
 Bytes operator+(Bytes a, const Bytes& b) {
@@ -42,7 +41,7 @@ Bytes matroska(const Bytes& size) {
 }
 
 // "" for a file taken as whole, else the message.
-std::string verdict(const Folder& folder, const Bytes& content) {
+std::string verdict(const TestFolder& folder, const Bytes& content) {
   std::filesystem::remove(folder / "clip");  // to be cut and written anew takes some systems long
   std::ofstream(folder / "clip", std::ios::binary)
       .write(reinterpret_cast<const char*>(content.data()),
@@ -56,7 +55,7 @@ std::string verdict(const Folder& folder, const Bytes& content) {
 }
 
 TEST(VideoContainer, IsWholeWhenItIsAsLongAsItSays) {
-  const Folder folder;
+  const TestFolder folder;
   EXPECT_EQ(verdict(folder, avi(100)), "");
   EXPECT_EQ(verdict(folder, avi(100) + avi(100)), "");
   EXPECT_EQ(verdict(folder, avi(108)), "") << "as programs write that count the head";
@@ -74,7 +73,7 @@ TEST(VideoContainer, IsWholeWhenItIsAsLongAsItSays) {
 }
 
 TEST(VideoContainer, ThatWasCutSaysByHowMuch) {
-  const Folder folder;
+  const TestFolder folder;
   EXPECT_NE(verdict(folder, avi(200)).find("108 of 208 bytes are there"), std::string::npos);
   EXPECT_NE(verdict(folder, avi(100) + avi(300)), "");
   EXPECT_NE(verdict(folder, box("ftyp", 100) + box("mdat", 101)).find("200 of 201 "),
@@ -89,7 +88,7 @@ TEST(VideoContainer, ThatWasCutSaysByHowMuch) {
 }
 
 TEST(VideoContainer, OfAnyLengthEndsWell) {
-  const Folder folder;
+  const TestFolder folder;
   for (const Bytes& whole : {avi(100), box("ftyp", 16) + box("moov", 8), matroska({0x40, 100}),
                              matroska({0}), box("free", 9)}) {
     for (std::size_t length = 0; length <= whole.size(); ++length)
@@ -98,7 +97,7 @@ TEST(VideoContainer, OfAnyLengthEndsWell) {
 }
 
 TEST(VideoContainer, WithAnyHeadEndsWell) {
-  const Folder folder;
+  const TestFolder folder;
   Random random(1);
   const std::vector<Bytes> seeds = {avi(100) + avi(60), box("ftyp", 100) + box("mdat", 60),
                                     matroska({0x40, 100}), matroska({0xFF})};

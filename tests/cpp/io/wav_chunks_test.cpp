@@ -12,11 +12,11 @@
 #include "hri/io/file.hpp"
 #include "hri/io/wav.hpp"
 #include "io/io_testing.hpp"
+#include "test_folder.hpp"
 
 namespace hri {
 namespace {
 
-using io_testing::Folder;
 using io_testing::message_of;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -214,7 +214,7 @@ TEST(WavChunks, MutatedFilesThrowFormatErrorsOnly) {
 }
 
 TEST(WavChunks, WritingRefusesWhatNoFileHolds) {
-  const Folder folder;
+  const TestFolder folder;
   const std::string path = folder / "a.wav";
   write_wav_pcm16(path, std::vector<float>{0.5F}, 16000);
   const Bytes before = read_file(path);

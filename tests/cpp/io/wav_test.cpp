@@ -8,11 +8,11 @@
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
 #include "io/io_testing.hpp"
+#include "test_folder.hpp"
 
 namespace hri {
 namespace {
 
-using io_testing::Folder;
 using io_testing::message_of;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -112,7 +112,7 @@ TEST(Wav, SkipsChunksItDoesNotKnow) {
 }
 
 TEST(Wav, WrittenIsReadAndClips) {
-  const Folder folder;
+  const TestFolder folder;
   const std::vector<float> samples{0, 0.5F, -0.5F, 2.0F, -2.0F};
   write_wav_pcm16(folder / "a.wav", samples, 8000);
   const Wav w = read_wav(folder / "a.wav");

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "features/hand_testing.hpp"
 #include "hri/core/error.hpp"
 #include "hri/core/random.hpp"
+#include "test_folder.hpp"
 
 namespace hri {
 namespace {
@@ -151,11 +151,11 @@ TEST(PersonHands, RefusesBadInput) {
 
 TEST(FaceFinder, RefusesWhatIsNoCascade) {
   EXPECT_THROW(FaceFinder("/nonexistent/cascade.xml"), IoError);
-  const std::string path = ::testing::TempDir() + "no_cascade.xml";
-  std::ofstream(path) << "<?xml version=\"1.0\"?><opencv_storage><other/></opencv_storage>";
-  EXPECT_THROW(FaceFinder{path}, FormatError);
-  std::ofstream(path) << "not XML";
-  EXPECT_THROW(FaceFinder{path}, FormatError);
+  const TestFolder folder;
+  for (const char* text :
+       {"<?xml version=\"1.0\"?><opencv_storage><other/></opencv_storage>", "not XML"}) {
+    EXPECT_THROW(FaceFinder{folder.write("cascade.xml", text)}, FormatError);
+  }
 }
 
 }  // namespace

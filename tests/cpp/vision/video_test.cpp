@@ -9,15 +9,15 @@
 
 #include "hri/core/error.hpp"
 #include "io/io_testing.hpp"
+#include "test_folder.hpp"
 
 namespace hri {
 namespace {
 
-using io_testing::Folder;
 using io_testing::message_of;
 
 TEST(VideoReader, RefusesAVideoThatEndsBeforeItsContainer) {
-  const Folder folder;
+  const TestFolder folder;
   std::ofstream(folder / "cut.avi", std::ios::binary)
       << std::string("RIFF\x10\x27\0\0AVI LIST", 16);
   const auto message = message_of<FormatError>([&] { VideoReader reader(folder / "cut.avi"); });
@@ -25,7 +25,7 @@ TEST(VideoReader, RefusesAVideoThatEndsBeforeItsContainer) {
 }
 
 TEST(VideoReader, RefusesWhatIsNoFileWithoutWaiting) {
-  const Folder folder;
+  const TestFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe.avi").c_str(), 0600), 0);
   EXPECT_THROW(VideoReader reader(folder / "pipe.avi"), IoError);
   EXPECT_THROW(VideoReader reader("/dev/zero"), IoError);
