@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Words by both front ends in use: streams, speakers adapted to, words added, silence, rates, and truncated files."""
+"""Words by a speech embedding in use, beside cepstra and alone: streams, speakers, new words, silence, rates, files."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def extra() -> None:
     pytest.importorskip("livekit.wakeword")
 
 
-@pytest.fixture(scope="module")
-def words() -> hri.WordRecognizer:
+@pytest.fixture(scope="module", params=["both", "embedding"])
+def words(request: pytest.FixtureRequest) -> hri.WordRecognizer:
     rows = [
         (tone_word(base_hz, slope, 7 * take + number), label, person)
         for number, (person, base_hz) in enumerate(PERSONS.items())
@@ -38,7 +38,7 @@ def words() -> hri.WordRecognizer:
         for label, slope in SLOPES.items()
     ]
     x, y, persons = map(list, zip(*rows, strict=True))
-    made = hri.WordRecognizer(front_end="both", max_iterations=4, embedding_max_false_reject_rate=0.0)
+    made = hri.WordRecognizer(front_end=request.param, max_iterations=4, embedding_max_false_reject_rate=0.0)
     return made.fit(x, y, sample_rate_hz=RATE_HZ, groups=persons)
 
 

@@ -111,6 +111,10 @@ def test_commands_that_train_take_weights(
     wrong = hri(*arguments, "--embedding", folder / "right.onnx", "--option", "front_end=cepstra")
     assert wrong.code == 2 and "--embedding" in wrong.err
     assert hri(command, "gesture", "--data", spoken, "--embedding", folder / "right.onnx").code == 2
+    alone = hri(*arguments, "--embedding", folder / "right.onnx", "--option", "front_end=embedding")
+    assert alone.code == 0, alone.err
+    if command == "train":
+        assert package.load(out, embedding=SpeechEmbedding(folder / "right.onnx")).options.front_end == "embedding"
     done = hri(*arguments, "--embedding", folder / "other.onnx")
     assert done.code == 0, done.err
     if command == "train":

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Word recognisers by cepstra and the pretrained speech embedding, from Python and from the command line."""
+"""Word recognisers by cepstra, the pretrained speech embedding or both, from Python and from the command line."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def extra() -> None:
     pytest.importorskip("livekit.wakeword")
 
 
-@pytest.fixture(scope="module")
-def words() -> package.WordRecognizer:
+@pytest.fixture(scope="module", params=["both", "embedding"])
+def words(request: pytest.FixtureRequest) -> package.WordRecognizer:
     clips = [
         (tone_word(base_hz, slope, 7 * take + number), label, person)
         for number, (person, base_hz) in enumerate(PERSONS.items())
@@ -35,7 +35,7 @@ def words() -> package.WordRecognizer:
         for label, slope in SLOPES.items()
     ]
     x, y, persons = map(list, zip(*clips, strict=True))
-    made = package.WordRecognizer(front_end="both", max_iterations=4)
+    made = package.WordRecognizer(front_end=request.param, max_iterations=4)
     return made.fit(x, y, sample_rate_hz=RATE_HZ, groups=persons)
 
 
@@ -60,7 +60,7 @@ def test_a_model_is_the_same_from_its_file_and_its_pickle(words: package.WordRec
     expected = words.recognise(clip, RATE_HZ)
     assert expected.label == "1"
     for again in (package.load(saved), package.WordRecognizer.load(saved), pickle.loads(pickle.dumps(words))):
-        assert again.options.front_end == "both"
+        assert again.options.front_end == words.options.front_end
         assert again.recognise(clip, RATE_HZ) == expected
 
 
@@ -89,7 +89,9 @@ def test_a_model_without_the_extra_names_it(
     with pytest.raises(ImportError, match=r"libhri\[embedding\]"):
         package.load(saved)
     with pytest.raises(ImportError, match=r"libhri\[embedding\]"):
-        package.WordRecognizer(front_end="both").fit([tone_word(500.0, 0.0, 0)], ["1"], sample_rate_hz=RATE_HZ)
+        package.WordRecognizer(front_end=words.options.front_end).fit(
+            [tone_word(500.0, 0.0, 0)], ["1"], sample_rate_hz=RATE_HZ
+        )
     given = hri("recognise", next(spoken.glob("*.wav")), "--speech-model", saved)
     assert given.code != 0 and "libhri[embedding]" in given.err
 
@@ -132,9 +134,16 @@ def test_the_command_line_trains_with_either(
     both = hri(*command)
     assert both.code == 0 and "front end: both" in both.err, both.err
     assert package.load(model).options.front_end == "both"
+    alone = hri(*command, "--front-end", "embedding")
+    assert alone.code == 0 and "front end: embedding, a speech embedding alone" in alone.err, alone.err
+    assert package.load(model).options.front_end == "embedding"
+    heard = hri("recognise", "--speech", spoken / "1_low_0.wav", "--speech-model", model)
+    assert heard.code == 0 and heard.out.splitlines()[0].split()[-1] == "1", heard.out
     monkeypatch.setattr("hri.recognition.word.embedding.PACKAGE", "no.such.package")
     without = hri(*command)
     assert without.code == 0 and "front end: cepstra" in without.err, without.err
+    absent = hri(*command, "--front-end", "embedding")
+    assert absent.code == 3 and "libhri[embedding]" in absent.err, absent.err
     refused = hri("train", "gesture", "--data", spoken, "--front-end", "both")
     assert refused.code == 2 and "--front-end" in refused.err
 

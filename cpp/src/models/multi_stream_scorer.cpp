@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/models/multi_stream_scorer.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -48,9 +49,9 @@ std::size_t num_streams_of(const ClassStreams& sequences) {
 MultiStreamScorer::MultiStreamScorer(Streams streams, std::shared_ptr<const VectorScorer> vectors,
                                      std::shared_ptr<const WeightedNetwork> network)
     : streams_(std::move(streams)), vectors_(std::move(vectors)), network_(std::move(network)) {
-  require(!streams_.empty(), "a scorer needs at least one stream");
+  require(!streams_.empty() || vectors_ != nullptr, "a scorer needs a stream or vectors");
   for (const auto& stream : streams_) {
-    require(stream->kind() == kind() && stream->num_classes() == num_classes(),
+    require(stream->kind() == streams_.front()->kind() && stream->num_classes() == num_classes(),
             "streams differ in their models");
     require(stream->num_fillers() == num_fillers(), "streams differ in their filler words");
   }
@@ -113,6 +114,7 @@ VectorF MultiStreamScorer::network_scores(const StreamFrames& frames) const {
 }
 
 VectorF MultiStreamScorer::stream_scores(const StreamFrames& frames) const {
+  if (streams_.empty()) return VectorF::Zero(num_classes());
   VectorF sum = streams_.front()->scores(frames.front());
   for (std::size_t s = 1; s < streams_.size(); ++s) sum += streams_[s]->scores(frames[s]);
   return sum;
@@ -126,9 +128,24 @@ double MultiStreamScorer::garbage_score(const StreamFrames& frames) const {
 }
 
 VectorF MultiStreamScorer::filler_scores(const StreamFrames& frames) const {
+  if (streams_.empty()) return {};
   VectorF sum = streams_.front()->filler_scores(frames.front());
   for (std::size_t s = 1; s < streams_.size(); ++s) sum += streams_[s]->filler_scores(frames[s]);
   return sum;
+}
+
+bool MultiStreamScorer::adapts() const {
+  return std::none_of(streams_.begin(), streams_.end(), [](const auto& stream) {
+    return stream->kind() == SequenceModelKind::ptbhmm;
+  });
+}
+
+int MultiStreamScorer::num_classes() const {
+  return streams_.empty() ? vectors_->num_classes() : streams_.front()->num_classes();
+}
+
+int MultiStreamScorer::num_fillers() const {
+  return streams_.empty() ? vectors_->num_fillers() : streams_.front()->num_fillers();
 }
 
 MultiStreamScorer MultiStreamScorer::adapted(const ClassStreams& sequences,

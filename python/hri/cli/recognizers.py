@@ -49,8 +49,8 @@ embedding_option = click.option(
     "embedding_path",
     type=click.Path(exists=True, dir_okay=False),
     metavar="FILE",
-    help="Weights of the speech embedding (ONNX), for words of the front end both; by default those that the extra "
-    "embedding installs.",
+    help="Weights of the speech embedding (ONNX), for words of the front ends both and embedding; by default those "
+    "that the extra embedding installs.",
 )
 
 
@@ -73,11 +73,12 @@ def embedding_for(recognizer: WordRecognizer | GestureRecognizer, path: str | No
     click.UsageError
         For ``--embedding`` where the options ask for another front end.
     ImportError
-        For the front end both where neither the extra nor ``--embedding`` gives weights: before recordings are read.
+        For a front end with an embedding where neither the extra nor ``--embedding`` gives weights: before recordings
+        are read.
     """
-    if not isinstance(recognizer, WordRecognizer) or recognizer.options.front_end != "both":
+    if not isinstance(recognizer, WordRecognizer) or recognizer.options.front_end == "cepstra":
         if path is not None:
-            raise click.UsageError("--embedding is for words of the front end both, and another one is asked for")
+            raise click.UsageError("--embedding is for words of the front ends both and embedding, not of cepstra")
         return None
     return SpeechEmbedding(path)
 

@@ -49,9 +49,10 @@ MANY_PERSONS = 10
 @click.option("--no-fillers", is_flag=True, help="Speech only: no filler words; training and recognition are faster.")
 @click.option(
     "--front-end",
-    type=click.Choice(["cepstra", "both"]),
-    help="Speech only: cepstra alone, or both: with a pretrained speech embedding, which the extra embedding installs. "
-    "The default is both where the extra is. The same as --option front_end=...",
+    type=click.Choice(["cepstra", "both", "embedding"]),
+    help="Speech only: cepstra alone, both: with a pretrained speech embedding, which the extra embedding installs, or "
+    "that embedding alone, which trains fastest. The default is both where the extra is. The same as --option "
+    "front_end=...",
 )
 @embedding_option
 @click.option(
@@ -214,9 +215,10 @@ def _has_embedding() -> bool:
 
 def _front_end(name: str) -> str:
     """What a model was trained on, and what else there is."""
-    if name == "both":
+    if name != "cepstra":
+        parts = "both, cepstra and a speech embedding" if name == "both" else "embedding, a speech embedding alone"
         return (
-            "both, cepstra and a speech embedding (extra embedding); wherever the model is used it needs the extra "
-            "too, or the weights (--embedding), or --front-end cepstra here"
+            f"{parts} (extra embedding); wherever the model is used it needs the extra too, or the weights "
+            "(--embedding), or --front-end cepstra here"
         )
     return "cepstra; --front-end both understands people better whom it has not met (extra embedding)"

@@ -50,7 +50,7 @@ def load(
     mode : {"speech", "gesture"}, optional
         What it has to be.
     embedding : SpeechEmbedding, optional
-        For words of the front end "both", see `WordRecognizer.load`.
+        For words of the front end "both" or "embedding", see `WordRecognizer.load`.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def load(
     InvalidArgument
         For an embedding where the model takes none.
     ImportError
-        For words of the front end "both" without weights; names the extra.
+        For words of the front end "both" or "embedding" without weights; names the extra.
     IoError
         For one that cannot be read.
     """

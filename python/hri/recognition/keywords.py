@@ -89,7 +89,7 @@ class WordRecognizerKeywords(TypedDict, total=False):
     garbage_mixtures: int
     max_iterations: int
     seed: int
-    front_end: Literal["cepstra", "both"]
+    front_end: Literal["cepstra", "both", "embedding"]
     cepstra: _native.CepstraOptions | CepstraKeywords
     activity: _native.ActivityOptions | ActivityKeywords
     trim: bool

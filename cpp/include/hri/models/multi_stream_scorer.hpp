@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Streams of features that vote: one SequenceScorer a stream, whose log scores add up, and where
-// there are such a VectorScorer of a vector for the whole sequence and a SequenceNetwork.
+// there are such a VectorScorer of a vector for the whole sequence and a SequenceNetwork. Where
+// there are vectors there may be no stream.
 #pragma once
 
 #include <functional>
@@ -48,7 +49,8 @@ struct WeightedNetwork {
 /// Immutable; const calls are safe from several threads. Copies share their models.
 class HRI_API MultiStreamScorer {
  public:
-  /// Throws InvalidArgument for no stream, and for streams that differ in kind, classes or fillers.
+  /// Throws InvalidArgument for neither a stream nor vectors, and for streams that differ in kind,
+  /// classes or fillers.
   explicit MultiStreamScorer(std::vector<std::shared_ptr<const SequenceScorer>> streams,
                              std::shared_ptr<const VectorScorer> vectors = nullptr,
                              std::shared_ptr<const WeightedNetwork> network = nullptr);
@@ -64,16 +66,18 @@ class HRI_API MultiStreamScorer {
 
   /// The sums over streams of what SequenceScorer gives, and VectorScorer and the network.
   [[nodiscard]] VectorF scores(const StreamFrames& frames) const;
-  /// Those of streams alone.
+  /// Those of streams alone; zeros where there are none.
   [[nodiscard]] VectorF stream_scores(const StreamFrames& frames) const;
   /// Those of vectors alone, and of the network alone, for sequences that have them.
   [[nodiscard]] VectorF vector_scores(const StreamFrames& frames) const;
   [[nodiscard]] VectorF network_scores(const StreamFrames& frames) const;
   /// The vector of a sequence that has one.
   [[nodiscard]] const MatrixF& vector_of(const StreamFrames& frames) const;
+  /// Of streams alone: 0 and no filler where there are none.
   [[nodiscard]] double garbage_score(const StreamFrames& frames) const;
   [[nodiscard]] VectorF filler_scores(const StreamFrames& frames) const;
 
+  /// Throws InvalidArgument where the models do not adapt, see adapts().
   [[nodiscard]] MultiStreamScorer adapted(const ClassStreams& sequences,
                                           const AdaptationOptions& options) const;
   [[nodiscard]] MultiStreamScorer with_class(int index,
@@ -95,9 +99,11 @@ class HRI_API MultiStreamScorer {
   [[nodiscard]] const std::shared_ptr<const VectorScorer>& vectors() const { return vectors_; }
   /// nullptr: there is none.
   [[nodiscard]] const std::shared_ptr<const WeightedNetwork>& network() const { return network_; }
-  [[nodiscard]] SequenceModelKind kind() const { return streams_.front()->kind(); }
-  [[nodiscard]] int num_classes() const { return streams_.front()->num_classes(); }
-  [[nodiscard]] int num_fillers() const { return streams_.front()->num_fillers(); }
+  /// Whether the models of all streams adapt, which those of kind ptbhmm do not.
+  [[nodiscard]] bool adapts() const;
+  [[nodiscard]] int num_classes() const;
+  /// Of streams; of vectors, which may have more of them, where there is no stream.
+  [[nodiscard]] int num_fillers() const;
 
   void write(ModelFile& file) const;
   /// Throws FormatError as read_sequence_scorer() does, and for streams that differ.

@@ -65,7 +65,7 @@ Judgement HeldOutWords::judge(const WordRecognizerOptions& options,
     others.push_back(result.verifier.verification_score(features));
   RejectionRates rates;
   rates.false_reject = options.false_reject_rate;
-  if (options.front_end == FrontEndKind::both) {
+  if (has_embedding(options.front_end)) {
     rates.max_false_reject = options.embedding_max_false_reject_rate;
     rates.false_accept = options.embedding_false_accept_rate;
   } else {

@@ -28,8 +28,7 @@ float margin_of(const VectorF& scores, Eigen::Index best) {
 
 SpeakerAdapter::SpeakerAdapter(WordRecognizer recognizer, const SpeakerAdapterOptions& options)
     : options_(validated(options)), base_(std::move(recognizer)), adapted_(base_) {
-  require(base_.scorer().kind() == SequenceModelKind::hmm,
-          "only recognisers of the model hmm adapt, this one is ptbhmm");
+  require(base_.scorer().adapts(), "only recognisers of the model hmm adapt, this one is ptbhmm");
 }
 
 Decision SpeakerAdapter::recognise(Span<const float> audio, int sample_rate_hz) {
@@ -59,8 +58,8 @@ bool SpeakerAdapter::update_due() const {
   return num_new_ * kUpdateShare >= std::max(1, num_words());
 }
 
-// The adapted recogniser's label of a word without one, and its margin a frame; no label where it
-// is rejected.
+// The adapted recogniser's label of a word without one, and its margin a frame (of the embedding
+// alone, whose only row is a vector, the margin itself); no label where it is rejected.
 SpeakerAdapter::Guess SpeakerAdapter::guess(const Word& word) const {
   const VectorF scores = adapted_.scorer().scores(word.frames);
   Eigen::Index best = 0;

@@ -138,7 +138,7 @@ VectorF SpeechEmbedding::vector_of(Span<const float> word, int sample_rate_hz) c
   const std::vector<float> samples = prepared(word);
   const MatrixF rows = compute({samples.data(), samples.size()}, kSampleRateHz);
   const int pieces = options_.num_pieces;
-  VectorF result(static_cast<Eigen::Index>(pieces) * num_outputs());
+  VectorF result(vector_size());
   for (int p = 0; p < pieces; ++p) {
     const Eigen::Index first = rows.rows() * p / pieces;
     const Eigen::Index last = std::max(first + 1, rows.rows() * (p + 1) / pieces);

@@ -61,16 +61,19 @@ WordAugmentation::WordAugmentation(const WordRecognizerOptions& options,
     : options_(validated(options)), front_end_(options, 1, embedding) {
   // The embedding has no filters to warp, and the network's training warps by itself: warped copies
   // have neither of their own.
-  WordRecognizerOptions cepstra_only = options;
-  cepstra_only.front_end = FrontEndKind::cepstra;
-  cepstra_only.use_network = false;
-  for (const double factor : warp_factors(options)) cepstra_.emplace_back(cepstra_only, factor);
+  if (has_cepstra(options.front_end)) {
+    WordRecognizerOptions cepstra_only = options;
+    cepstra_only.front_end = FrontEndKind::cepstra;
+    cepstra_only.use_network = false;
+    for (const double factor : warp_factors(options)) cepstra_.emplace_back(cepstra_only, factor);
+  }
   if (const WordSpectrogram* spectrogram = front_end().spectrogram().get())
     spectrograms_ = std::make_shared<const SpectrogramAugmentation>(*spectrogram, options.seed);
 }
 
 TrainingWord WordAugmentation::read(const WordSample& sample, const std::string& name) const {
-  check(sample, name, std::max(options_.activity.frame_ms, options_.cepstra.frame_length_ms));
+  const double of_cepstra_ms = cepstra_.empty() ? 0.0 : options_.cepstra.frame_length_ms;
+  check(sample, name, std::max(options_.activity.frame_ms, of_cepstra_ms));
   TrainingWord result;
   result.word = front_end().trim(sample.samples, sample.sample_rate_hz);
   if (!result.has_speech()) return result;
@@ -128,8 +131,11 @@ std::vector<StreamFrames> WordAugmentation::copies(const TrainingWord& word,
   for (int copy = 0; copy < options_.num_noisy_copies; ++copy) {
     const double snr_db = random_snr_db(&random);
     const TrimmedWord in_noise = noisy(word.clip, word.word, noise_power(word, snr_db), &random);
-    const std::size_t warp = (index + static_cast<std::size_t>(copy)) % cepstra_.size();
-    result.push_back(cepstra_[warp].frames(in_noise));
+    result.emplace_back();
+    if (!cepstra_.empty()) {
+      const std::size_t warp = (index + static_cast<std::size_t>(copy)) % cepstra_.size();
+      result.back() = cepstra_[warp].frames(in_noise);
+    }
     if (embedded) result.back().push_back(vector_of(in_noise));
     if (spectrograms_ != nullptr)
       result.back().push_back(spectrograms_->noisy_input(word.word.window, snr_db, &random));

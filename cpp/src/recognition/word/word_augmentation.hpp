@@ -58,7 +58,7 @@ class WordAugmentation {
 
   WordRecognizerOptions options_;
   WordFrontEnd front_end_;
-  std::vector<WordFrontEnd> cepstra_;  // at every warp, the first of 1
+  std::vector<WordFrontEnd> cepstra_;  // at every warp, the first of 1; none: there are no cepstra
   std::shared_ptr<const SpectrogramAugmentation> spectrograms_;
 };
 

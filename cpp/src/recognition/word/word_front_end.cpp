@@ -42,14 +42,17 @@ WordFrontEnd::WordFrontEnd(const WordRecognizerOptions& options, double warp_fac
       trim_(options.trim),
       noise_floor_db_(options.noise_floor_db),
       embedding_(std::move(embedding)) {
-  require(options.front_end == FrontEndKind::cepstra || embedding_ != nullptr,
-          "front_end both needs the weights of a speech embedding");
-  require(options.front_end == FrontEndKind::both || embedding_ == nullptr,
+  if (has_embedding(options.front_end) && embedding_ == nullptr) {
+    fail(ErrorKind::invalid_argument, std::string("front_end ") + enum_name(options.front_end) +
+                                          " needs the weights of a speech embedding");
+  }
+  require(has_embedding(options.front_end) || embedding_ == nullptr,
           "front_end cepstra takes no speech embedding");
+  if (options.use_network) spectrogram_ = std::make_shared<const WordSpectrogram>(sample_rate_hz_);
+  if (!has_cepstra(options.front_end)) return;
   CepstraOptions cepstra = options.cepstra;
   cepstra.warp *= warp_factor;
   streams_.emplace_back(cepstra);
-  if (options.use_network) spectrogram_ = std::make_shared<const WordSpectrogram>(sample_rate_hz_);
   if (!options.level_stream) return;
   cepstra.normalisation = Normalisation::level;
   streams_.emplace_back(cepstra);
@@ -117,8 +120,8 @@ StreamFrames WordFrontEnd::frames(const TrimmedWord& word) const {
   return result;
 }
 
-int WordFrontEnd::num_frames(std::size_t num_samples) const {
-  return static_cast<int>(streams_.front().num_frames(num_samples));
+bool WordFrontEnd::is_long_enough(std::size_t num_samples) const {
+  return num_samples > 0 && (streams_.empty() || streams_.front().num_frames(num_samples) > 0);
 }
 
 }  // namespace hri

@@ -68,7 +68,7 @@ WordRecognizer WordRecognizer::read(const ModelFile& file,
   std::vector<std::string> labels = sorted_labels(file.text_list("labels"));
   if (labels != file.text_list("labels"))
     fail(ErrorKind::format, file.name() + ": labels are not sorted");
-  embedding = options.front_end == FrontEndKind::both ? as_trained(file, embedding.get()) : nullptr;
+  embedding = has_embedding(options.front_end) ? as_trained(file, embedding.get()) : nullptr;
   const WordFrontEnd front_end(options, 1, embedding);
   MultiStreamScorer scorer =
       MultiStreamScorer::read(file, options, front_end.num_streams(),

@@ -33,6 +33,9 @@ WordRecognizer::WordRecognizer(const WordRecognizerOptions& options,
           "the scorer and the front end differ in their streams");
   require((scorer_.vectors() != nullptr) == (front_end_.embedding() != nullptr),
           "the scorer and the front end differ in their embedding");
+  require(scorer_.vectors() == nullptr ||
+              scorer_.vectors()->dim() == front_end_.embedding()->vector_size(),
+          "the scorer and the embedding differ in the size of their vectors");
   require((scorer_.network() != nullptr) == options_.use_network,
           "the scorer and the options differ in their network");
 }

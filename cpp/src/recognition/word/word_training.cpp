@@ -82,7 +82,7 @@ class WordTrainer {
     // Fillers, features, every fold, and the models that are kept, and of each of these the epochs
     // of its network. Samples without speech may leave fewer folds than all would make.
     const int num_folds_of_all = num_folds_of(samples);
-    const bool has_fillers = options_.model != SequenceModelKind::ptbhmm && !fillers.empty();
+    const bool has_fillers = takes_fillers() && !fillers.empty();
     const int num_steps = (has_fillers ? 1 : 0) + num_folds_of_all + 2 +
                           num_folds_of_all * num_epochs(0) + num_epochs(kNoFold);
     int step = 0;
@@ -214,7 +214,7 @@ class WordTrainer {
                      std::vector<NonWord>* to) const {
     const WordFrontEnd& front_end = augmentation_.front_end();
     for (const std::vector<float>& a : audio) {
-      if (front_end.num_frames(a.size()) > 0)
+      if (front_end.is_long_enough(a.size()))
         to->push_back({kind, front_end.frames(front_end.untrimmed(a))});
     }
   }
@@ -259,8 +259,13 @@ class WordTrainer {
     return augmentation_.front_end().embedding() != nullptr;
   }
   [[nodiscard]] bool has_network() const { return augmentation_.spectrograms() != nullptr; }
+  // Of streams of cepstra models of kind hmm alone compare with fillers.
+  [[nodiscard]] bool takes_fillers() const {
+    return !has_cepstra(options_.front_end) || options_.model != SequenceModelKind::ptbhmm;
+  }
 
-  // Of vectors beside the streams, then of the network beside both, by the scorers of the folds.
+  // Of vectors beside the streams (1 where there are none), then of the network beside both, by the
+  // scorers of the folds.
   void weigh(const std::vector<int>& folds, std::vector<MultiStreamScorer>* scorers) {
     if (has_vectors()) {
       vector_weight_ = options_.embedding_weight;

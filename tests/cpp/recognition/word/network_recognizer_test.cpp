@@ -37,7 +37,7 @@ WordRecognizerOptions with_network(FrontEndKind front_end = FrontEndKind::cepstr
 
 WordRecognizer trained_with_network(FrontEndKind front_end = FrontEndKind::cepstra) {
   std::shared_ptr<const SpeechEmbedding> embedding;
-  if (front_end == FrontEndKind::both)
+  if (has_embedding(front_end))
     embedding = std::make_shared<const SpeechEmbedding>(small_embedding({}));
   return WordRecognizer::train(tone_clips().samples, with_network(front_end), {}, {}, {},
                                embedding);
@@ -54,7 +54,7 @@ TEST_P(NetworkRecognizer, TheNetworkVotes) {
     EXPECT_EQ(recognizer.recognise(s.samples, kRateHz).nbest.front().label, s.label);
     const StreamFrames frames = recognizer.front_end().process(s.samples, kRateHz).streams;
     VectorF rest = recognizer.scorer().stream_scores(frames);
-    if (GetParam() == FrontEndKind::both) rest += recognizer.scorer().vector_scores(frames);
+    if (has_embedding(GetParam())) rest += recognizer.scorer().vector_scores(frames);
     const VectorF network = recognizer.scorer().network_scores(frames);
     EXPECT_EQ(network[0] > network[1], s.label == "fall") << s.label;
     EXPECT_TRUE(recognizer.scores(s.samples, kRateHz).isApprox(rest + network, 1e-5F));
@@ -73,7 +73,8 @@ TEST_P(NetworkRecognizer, LoadsWhatItSavedToTheBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, NetworkRecognizer,
-                         ::testing::Values(FrontEndKind::cepstra, FrontEndKind::both));
+                         ::testing::Values(FrontEndKind::cepstra, FrontEndKind::both,
+                                           FrontEndKind::embedding));
 
 TEST(NetworkWords, EveryEpochIsAStepOfTraining) {
   std::vector<int> steps;
@@ -89,8 +90,8 @@ TEST(NetworkWords, EveryEpochIsAStepOfTraining) {
   for (int i = 0; i <= total; ++i) EXPECT_EQ(steps[static_cast<std::size_t>(i)], i);
 }
 
-TEST(NetworkWords, WordsAreAddedAndRemoved) {
-  const WordRecognizer recognizer = trained_with_network();
+TEST_P(NetworkRecognizer, WordsAreAddedAndRemoved) {
+  const WordRecognizer recognizer = trained_with_network(GetParam());
   const std::vector<float> flat = tone(700, 0, 90);
   const WordRecognizer more = recognizer.with_word({{flat, kRateHz, "flat", ""}});
   EXPECT_EQ(more.recognise(tone(700, 0, 91), kRateHz).nbest.front().label, "flat");
@@ -102,8 +103,8 @@ TEST(NetworkWords, WordsAreAddedAndRemoved) {
   EXPECT_EQ(more.without_word("flat").scores(rise, kRateHz), before);
 }
 
-TEST(NetworkWords, TheNetworkStaysWhereTheRestAdapts) {
-  const WordRecognizer recognizer = trained_with_network();
+TEST_P(NetworkRecognizer, TheNetworkStaysWhereTheRestAdapts) {
+  const WordRecognizer recognizer = trained_with_network(GetParam());
   SpeakerAdapter adapter(recognizer);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     adapter.learn(tone(700, 800, seed), kRateHz, "rise");

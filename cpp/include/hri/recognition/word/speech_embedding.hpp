@@ -72,6 +72,8 @@ class HRI_API SpeechEmbedding {
   [[nodiscard]] SpeechEmbedding with_options(const SpeechEmbeddingOptions& options) const;
   /// Values of an embedding: 96 of the published network.
   [[nodiscard]] int num_outputs() const { return network_.num_outputs(); }
+  /// Values of a word's vector.
+  [[nodiscard]] int vector_size() const { return options_.num_pieces * num_outputs(); }
   /// The audio that one embedding is computed from: 0.775 s of the published network.
   [[nodiscard]] double window_s() const;
   /// From one embedding to the next: 0.04 s of the published network, by default.
@@ -84,7 +86,7 @@ class HRI_API SpeechEmbedding {
   /// InvalidArgument for audio that is not finite and for rates out of range.
   [[nodiscard]] MatrixF compute(Span<const float> audio, int sample_rate_hz) const;
 
-  /// One vector of num_pieces * num_outputs values for a word in a recording: trimmed, brought to
+  /// One vector of vector_size() values for a word in a recording: trimmed, brought to
   /// one level, padded, and its embeddings averaged piece by piece. Empty without speech. Throws
   /// InvalidArgument as compute() does.
   [[nodiscard]] VectorF word(Span<const float> audio, int sample_rate_hz) const;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a recording of one word to the frames of every stream: resampling, endpointing, trimming to
-// the word over a noise floor, cepstra (thesis section 6.2).
+// From a recording of one word to what is scored: resampling, endpointing, trimming to the word
+// over a noise floor, cepstra (thesis section 6.2), and where asked for the vector of a speech
+// embedding beside them or in their place.
 #pragma once
 
 #include <memory>
@@ -33,7 +34,7 @@ struct TrimmedWord {
 
 /// What a recogniser scores.
 struct WordFeatures {
-  StreamFrames streams;            ///< frames of every stream; empty without speech
+  StreamFrames streams;            ///< WordFrontEnd::frames(); empty without speech
   std::vector<std::string> notes;  ///< as of TrimmedWord
 
   [[nodiscard]] bool has_speech() const { return !streams.empty(); }
@@ -57,13 +58,13 @@ class HRI_API WordFrontEnd {
   /// reads the word with padding of its own: that of SpeechEmbeddingOptions::activity.
   [[nodiscard]] TrimmedWord trim(Span<const float> audio, int sample_rate_hz) const;
 
-  /// The cepstra of every stream of a trimmed word, and behind them, where they are used, its
-  /// embedding, one row, and WordSpectrogram::input().
+  /// The cepstra of every stream of a trimmed word, where there are such, and behind them, where
+  /// they are used, its embedding, one row, and WordSpectrogram::input().
   [[nodiscard]] StreamFrames frames(const TrimmedWord& word) const;
   /// `audio` as it is, as if it were trimmed, in the middle of silence.
   [[nodiscard]] TrimmedWord untrimmed(std::vector<float> audio) const;
-  /// How many frames a word of so many samples has.
-  [[nodiscard]] int num_frames(std::size_t num_samples) const;
+  /// Whether a word of so many samples is long enough for frames(): the embedding takes any.
+  [[nodiscard]] bool is_long_enough(std::size_t num_samples) const;
 
   /// nullptr: there is none.
   [[nodiscard]] const std::shared_ptr<const SpeechEmbedding>& embedding() const {
@@ -74,9 +75,12 @@ class HRI_API WordFrontEnd {
     return spectrogram_;
   }
   [[nodiscard]] int sample_rate_hz() const { return sample_rate_hz_; }
-  /// Of cepstra.
+  /// Of cepstra; 0: the embedding is alone.
   [[nodiscard]] int num_streams() const { return static_cast<int>(streams_.size()); }
-  [[nodiscard]] int num_features() const { return streams_.front().num_features(); }
+  /// Of a frame of every stream; 0 where there are none.
+  [[nodiscard]] int num_features() const {
+    return streams_.empty() ? 0 : streams_.front().num_features();
+  }
 
  private:
   [[nodiscard]] std::vector<float> cut(Span<const float> audio, const SpeechBounds& speech,

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Isolated words: audio -> endpointing -> cepstra -> one sequence model a word -> rejection ->
-// Decision (thesis section 6.2).
+// Decision (thesis section 6.2). A speech embedding votes beside the models of cepstra, or decides
+// in their place.
 #pragma once
 
 #include <array>
@@ -29,12 +30,15 @@
 namespace hri {
 
 enum class FrontEndKind : std::uint8_t {
-  cepstra,  ///< streams of cepstra alone
-  both,     ///< and a pretrained speech embedding, which votes too (speech_embedding.hpp)
+  cepstra,    ///< streams of cepstra alone
+  both,       ///< and a pretrained speech embedding, which votes too (speech_embedding.hpp)
+  embedding,  ///< the embedding alone
 };
-constexpr auto enum_names(FrontEndKind) { return std::array{"cepstra", "both"}; }
+constexpr auto enum_names(FrontEndKind) { return std::array{"cepstra", "both", "embedding"}; }
+constexpr bool has_cepstra(FrontEndKind kind) { return kind != FrontEndKind::embedding; }
+constexpr bool has_embedding(FrontEndKind kind) { return kind != FrontEndKind::cepstra; }
 
-/// The fields of SequenceModelOptions are those of the models trained on each stream.
+/// The fields of SequenceModelOptions are those of the models trained on each stream of cepstra.
 struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   WordRecognizerOptions() {
     num_mixtures = 0;
@@ -69,8 +73,10 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   static void visit(Self& o, Visitor&& v) {
     SequenceModelOptions::visit(o, v);
     v("front_end", o.front_end, any_value,
-      "cepstra, or both: with a pretrained speech embedding, whose weights are an extra");
-    v("cepstra", o.cepstra, any_value, "features of the speech");
+      "cepstra, both: with a pretrained speech embedding, whose weights are an extra, or that "
+      "embedding alone, without models of cepstra");
+    v("cepstra", o.cepstra, any_value,
+      "features of the speech; sample_rate_hz is the rate of the model whatever the front end");
     v("activity", o.activity, any_value, "how the word is found in the clip");
     v("trim", o.trim, any_value,
       "trim the clip to the word, and activity.padding_ms before and after it");
@@ -96,19 +102,23 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
     v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
       "share of correct held-out words, noisy ones included, that the threshold may reject");
     v("num_embedding_copies", o.num_embedding_copies, within(0, 20),
-      "front_end both: training copies of every word for the embedding alone, with noise added and "
-      "faster or slower by up to 15 %");
+      "front_end both or embedding: training copies of every word for the embedding alone, with "
+      "noise added and faster or slower by up to 15 %");
     v("embedding_weight", o.embedding_weight, within(0, 1000000),
-      "front_end both: factor on the log posteriors by the speech embedding, which join the scores "
-      "of the cepstra; 0: chosen on words of speakers held out");
+      "front_end both or embedding: factor on the log posteriors by the speech embedding, which "
+      "join the scores of the cepstra; 0: chosen on words of speakers held out, 1 without cepstra");
     v("embedding_penalty", o.embedding_penalty, above(0, 1e12),
-      "front_end both: of half the squared weights of the embedding's softmax regression");
+      "front_end both or embedding: of half the squared weights of the embedding's softmax "
+      "regression");
     v("embedding_shrinkage", o.embedding_shrinkage, within(0, 1),
-      "front_end both: of the embedding's linear discriminants, by which words are rejected");
+      "front_end both or embedding: of the embedding's linear discriminants, by which words are "
+      "rejected");
     v("embedding_false_accept_rate", o.embedding_false_accept_rate, within(0, 1),
-      "front_end both: share of other words that the threshold may accept, if it can be met");
+      "front_end both or embedding: share of other words that the threshold may accept, if it can "
+      "be met");
     v("embedding_max_false_reject_rate", o.embedding_max_false_reject_rate, within(0, 0.5),
-      "front_end both: share of correct held-out words that the threshold may reject to that end");
+      "front_end both or embedding: share of correct held-out words that the threshold may reject "
+      "to that end");
     v("use_network", o.use_network, any_value,
       "a small network of log mel energies, trained on the same words, votes too: for many "
       "speakers");
@@ -149,13 +159,13 @@ class HRI_API WordRecognizer {
                  std::shared_ptr<const SpeechEmbedding> embedding = nullptr,
                  HeldOutReport held_out = {});
 
-  /// Trains one model a label. `fillers` are words outside the vocabulary, of any speakers: their
-  /// models serve rejection alone (kind hmm; ptbhmm leaves them aside). `embedding_fillers` are
-  /// more of them without models, which the embedding alone compares with, so that hundreds cost
-  /// next to nothing. Throws InvalidArgument for a recording that is not finite (with its index) or
-  /// too short, naming it, for a label without a recording that holds speech, and for
-  /// `embedding_fillers` without an embedding or other fillers; Interrupted when `should_stop` says
-  /// so. Labels are kept in sorted order.
+  /// Trains one model a label. `fillers` are words outside the vocabulary, of any speakers: they
+  /// serve rejection alone (where there are models of cepstra only by those of kind hmm; ptbhmm
+  /// leaves them aside). `embedding_fillers` are more of them without such models, which the
+  /// embedding alone compares with, so that hundreds cost next to nothing. Throws InvalidArgument
+  /// for a recording that is not finite (with its index) or too short, naming it, for a label
+  /// without a recording that holds speech, and for `embedding_fillers` without an embedding or
+  /// other fillers; Interrupted when `should_stop` says so. Labels are kept in sorted order.
   static WordRecognizer train(const std::vector<WordSample>& samples,
                               const WordRecognizerOptions& options,
                               const TrainingProgress& progress = {},
@@ -177,7 +187,7 @@ class HRI_API WordRecognizer {
   /// The same with another scorer of the same labels, such as an adapted one.
   [[nodiscard]] WordRecognizer with_scorer(MultiStreamScorer scorer) const;
 
-  /// One of the front end `both` needs the embedding that it was trained with: throws
+  /// One whose front end has an embedding needs the one that it was trained with: throws
   /// InvalidArgument without one, and FormatError for one of other weights.
   static WordRecognizer load(const std::string& path,
                              std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
@@ -197,8 +207,9 @@ class HRI_API WordRecognizer {
   /// The decision for what front_end() made of an utterance.
   [[nodiscard]] Decision decide(const WordFeatures& word) const;
 
-  /// Raw score of every label for one utterance (log-likelihood or log-possibility), without
-  /// rejection. Throws InvalidArgument as recognise() does, and for audio without speech.
+  /// Raw score of every label for one utterance (log-likelihood or log-possibility, of the
+  /// embedding alone log posterior but for a constant), without rejection. Throws InvalidArgument
+  /// as recognise() does, and for audio without speech.
   [[nodiscard]] VectorF scores(Span<const float> audio, int sample_rate_hz) const;
   /// The score for rejection of an utterance whose raw scores are `scores`.
   [[nodiscard]] float verification_score(const StreamFrames& frames, const VectorF& scores) const;

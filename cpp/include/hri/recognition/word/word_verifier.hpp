@@ -34,7 +34,7 @@ struct VerifierExample {
 /// What the features of a word are made from, whichever class is left out.
 struct WordEvidence {
   VectorF scores;      ///< of all parts of the scorer together
-  VectorF of_streams;  ///< by the streams alone
+  VectorF of_streams;  ///< by the streams alone; of vectors where there is no stream
   VectorF nearness;    ///< of vectors, where they are scored: minus the squared distances
   VectorF of_network;  ///< where there is one
   double garbage = 0;
@@ -48,10 +48,11 @@ class HRI_API WordVerifier {
  public:
   WordVerifier() = default;
 
-  /// The features, in their order: "ratio", "rivals"; of hidden Markov models also "states",
-  /// "length" and "pace"; of vectors "vector_rivals"; of a network "network_rivals"; where there
-  /// are filler words, "fillers" and of vectors "vector_fillers". Those of vectors are logs of
-  /// ratios of squared distances.
+  /// The features, in their order: of streams "ratio"; "rivals"; of hidden Markov models also
+  /// "states", "length" and "pace"; of vectors "vector_rivals"; of a network "network_rivals";
+  /// where there are filler words, of streams "fillers" and of vectors "vector_fillers". Those of
+  /// vectors are logs of ratios of squared distances; without streams "rivals" compares their log
+  /// posteriors.
   static std::vector<std::string> feature_names(const MultiStreamScorer& scorer);
 
   /// `scores` are what `scorer` gives the frames.
