@@ -6460,10 +6460,10 @@ class WordRecognizerOptions:
         iterations of Baum-Welch at most; 1..1000
     seed : int, default 0
         of everything random in training; 0..2^64 - 1
-    front_end : {'cepstra', 'both'}, default 'cepstra'
-        cepstra, or both: with a pretrained speech embedding, whose weights are an extra
+    front_end : {'cepstra', 'both', 'embedding'}, default 'cepstra'
+        cepstra, both: with a pretrained speech embedding, whose weights are an extra, or that embedding alone, without models of cepstra
     cepstra : CepstraOptions or dict
-        features of the speech
+        features of the speech; sample_rate_hz is the rate of the model whatever the front end
     activity : ActivityOptions or dict
         how the word is found in the clip
     trim : bool, default True
@@ -6485,17 +6485,17 @@ class WordRecognizerOptions:
     false_reject_rate : float, default 0.05
         share of correct held-out words, noisy ones included, that the threshold may reject; 0..0.5
     num_embedding_copies : int, default 4
-        front_end both: training copies of every word for the embedding alone, with noise added and faster or slower by up to 15 %; 0..20
+        front_end both or embedding: training copies of every word for the embedding alone, with noise added and faster or slower by up to 15 %; 0..20
     embedding_weight : float, default 0.0
-        front_end both: factor on the log posteriors by the speech embedding, which join the scores of the cepstra; 0: chosen on words of speakers held out; 0..1000000
+        front_end both or embedding: factor on the log posteriors by the speech embedding, which join the scores of the cepstra; 0: chosen on words of speakers held out, 1 without cepstra; 0..1000000
     embedding_penalty : float, default 100.0
-        front_end both: of half the squared weights of the embedding's softmax regression; 0..1e+12, 0 excluded
+        front_end both or embedding: of half the squared weights of the embedding's softmax regression; 0..1e+12, 0 excluded
     embedding_shrinkage : float, default 0.8
-        front_end both: of the embedding's linear discriminants, by which words are rejected; 0..1
+        front_end both or embedding: of the embedding's linear discriminants, by which words are rejected; 0..1
     embedding_false_accept_rate : float, default 0.1
-        front_end both: share of other words that the threshold may accept, if it can be met; 0..1
+        front_end both or embedding: share of other words that the threshold may accept, if it can be met; 0..1
     embedding_max_false_reject_rate : float, default 0.2
-        front_end both: share of correct held-out words that the threshold may reject to that end; 0..0.5
+        front_end both or embedding: share of correct held-out words that the threshold may reject to that end; 0..0.5
     use_network : bool, default False
         a small network of log mel energies, trained on the same words, votes too: for many speakers
     network : SequenceNetworkOptions or dict
@@ -6522,7 +6522,7 @@ class WordRecognizerOptions:
         garbage_mixtures: int = 16,
         max_iterations: int = 12,
         seed: int = 0,
-        front_end: typing.Literal["cepstra", "both"] = "cepstra",
+        front_end: typing.Literal["cepstra", "both", "embedding"] = "cepstra",
         cepstra: CepstraOptions | collections.abc.Mapping[str, typing.Any] = ...,
         activity: ActivityOptions | collections.abc.Mapping[str, typing.Any] = ...,
         trim: bool = True,
@@ -6560,42 +6560,42 @@ class WordRecognizerOptions:
     @property
     def cepstra(self) -> CepstraOptions:
         """
-        features of the speech
+        features of the speech; sample_rate_hz is the rate of the model whatever the front end
         """
     @cepstra.setter
     def cepstra(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_false_accept_rate(self) -> float:
         """
-        front_end both: share of other words that the threshold may accept, if it can be met
+        front_end both or embedding: share of other words that the threshold may accept, if it can be met
         """
     @embedding_false_accept_rate.setter
     def embedding_false_accept_rate(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_max_false_reject_rate(self) -> float:
         """
-        front_end both: share of correct held-out words that the threshold may reject to that end
+        front_end both or embedding: share of correct held-out words that the threshold may reject to that end
         """
     @embedding_max_false_reject_rate.setter
     def embedding_max_false_reject_rate(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_penalty(self) -> float:
         """
-        front_end both: of half the squared weights of the embedding's softmax regression
+        front_end both or embedding: of half the squared weights of the embedding's softmax regression
         """
     @embedding_penalty.setter
     def embedding_penalty(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_shrinkage(self) -> float:
         """
-        front_end both: of the embedding's linear discriminants, by which words are rejected
+        front_end both or embedding: of the embedding's linear discriminants, by which words are rejected
         """
     @embedding_shrinkage.setter
     def embedding_shrinkage(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_weight(self) -> float:
         """
-        front_end both: factor on the log posteriors by the speech embedding, which join the scores of the cepstra; 0: chosen on words of speakers held out
+        front_end both or embedding: factor on the log posteriors by the speech embedding, which join the scores of the cepstra; 0: chosen on words of speakers held out, 1 without cepstra
         """
     @embedding_weight.setter
     def embedding_weight(self, arg1: typing.Any) -> None: ...
@@ -6607,9 +6607,9 @@ class WordRecognizerOptions:
     @false_reject_rate.setter
     def false_reject_rate(self, arg1: typing.Any) -> None: ...
     @property
-    def front_end(self) -> typing.Literal["cepstra", "both"]:
+    def front_end(self) -> typing.Literal["cepstra", "both", "embedding"]:
         """
-        cepstra, or both: with a pretrained speech embedding, whose weights are an extra
+        cepstra, both: with a pretrained speech embedding, whose weights are an extra, or that embedding alone, without models of cepstra
         """
     @front_end.setter
     def front_end(self, arg1: typing.Any) -> None: ...
@@ -6686,7 +6686,7 @@ class WordRecognizerOptions:
     @property
     def num_embedding_copies(self) -> int:
         """
-        front_end both: training copies of every word for the embedding alone, with noise added and faster or slower by up to 15 %
+        front_end both or embedding: training copies of every word for the embedding alone, with noise added and faster or slower by up to 15 %
         """
     @num_embedding_copies.setter
     def num_embedding_copies(self, arg1: typing.Any) -> None: ...
