@@ -51,8 +51,7 @@ MANY_PERSONS = 10
     "--front-end",
     type=click.Choice(["cepstra", "both", "embedding"]),
     help="Speech only: cepstra alone, both: with a pretrained speech embedding, which the extra embedding installs, or "
-    "that embedding alone, which trains fastest. The default is both where the extra is. The same as --option "
-    "front_end=...",
+    "that embedding alone. The default is both where the extra is. The same as --option front_end=...",
 )
 @embedding_option
 @click.option(

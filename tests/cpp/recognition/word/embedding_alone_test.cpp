@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Word recognisers that tell words apart by a speech embedding alone.
+// Word recognisers that distinguish words by a speech embedding alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
