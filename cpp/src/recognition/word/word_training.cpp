@@ -259,7 +259,7 @@ class WordTrainer {
     return augmentation_.front_end().embedding() != nullptr;
   }
   [[nodiscard]] bool has_network() const { return augmentation_.spectrograms() != nullptr; }
-  // Of streams of cepstra models of kind hmm alone compare with fillers.
+  // Vectors compare with fillers, but beside cepstra only where the models of these do.
   [[nodiscard]] bool takes_fillers() const {
     return !has_cepstra(options_.front_end) || options_.model != SequenceModelKind::ptbhmm;
   }
