@@ -9,6 +9,7 @@ by default, "noisy" on copies with other parts of the recorded noises beside the
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from typing import Any
 from hri.evaluation import AddNoise, adapting
 from hri.evaluation.conditions import Condition
 from hri.recognition import WordRecognizer
-from hri.studies.front_ends import EMBEDDING, FRONT_ENDS
+from hri.studies.front_ends import EMBEDDING, FRONT_ENDS, PLAIN
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.sweeps import result_of, sweep
 from hri.studies.tables import Row
@@ -31,6 +32,8 @@ SNRS_DB = (20, 10, 5, 0)
 TRAINING_SNRS_DB = (20.0, 15.0, 10.0, 5.0, 0.0)
 TRAINING = ("clean", "random", "noisy")
 TRAINING_BOTH = ("random", "noisy")
+WITH_NETWORK = {"cepstra": PLAIN, "both": EMBEDDING}
+"""What a network is measured beside, as `sweep` calls it."""
 OPTIONS = {"clean": {"num_noisy_copies": 0}}
 LISTENING = ("alone", "adapting")
 TARGETS = {"clean": 0.78, "noisy": 0.85}
@@ -56,6 +59,7 @@ def _run(
     noise: Sequence[str] = tuple(NOISES),
     takes: int | None = None,
     folds: int | None = None,
+    network: bool = False,
 ) -> dict[str, Any]:
     paths = noise_paths(data_dir)
     tests: dict[str, Condition | None] = {CLEAN: None}
@@ -63,8 +67,9 @@ def _run(
         tests |= {f"{name} {snr_db} dB": AddNoise([paths[name]], [snr_db], "second") for snr_db in SNRS_DB}
     added = {"clean": [], "random": [], "noisy": [AddNoise(list(paths.values()), TRAINING_SNRS_DB, "first")]}
     trainings = {name: added[name] for name in training}
+    options = {name: {**OPTIONS.get(name, {}), **({"use_network": True} if network else {})} for name in training}
     found = sweep(
-        data_dir, "fsdd", tests, trainings, progress, front_end, takes, options=OPTIONS, adapt=True, folds=folds
+        data_dir, "fsdd", tests, trainings, progress, front_end, takes, options=options, adapt=True, folds=folds
     )
     rows = []
     for (variant, trained), measured in found.items():
@@ -76,10 +81,10 @@ def _run(
     met = {
         row["training"]: row["accuracy_mean"] >= TARGETS[row["training"]]
         for row in rows
-        if (row["front_end"], row["listening"], row["noise"], row["snr_db"]) == ("plain", "adapting", "white", 10)
+        if (row["front_end"], row["listening"], row["noise"], row["snr_db"]) == (PLAIN, "adapting", "white", 10)
         and row["training"] in TARGETS
     }
-    alone = _met(rows, "plain", TARGETS_ALONE)
+    alone = _met(rows, PLAIN, TARGETS_ALONE)
     verdict = all((*met.values(), *alone.values())) if met or alone else None
     return result_of(rows, verdict, passed_by_training=met, passed_by_snr_db=alone, training_snrs_db=TRAINING_SNRS_DB)
 
@@ -107,6 +112,30 @@ def _run_both(
     met = _met(result["rows"], EMBEDDING, TARGETS_BOTH)
     options = WordRecognizer(front_end="both").options.as_dict()
     return result | {"options": options, "passed_by_snr_db": met, "passed": all(met.values()) if met else None}
+
+
+def _run_network(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    front_end: Sequence[str] = tuple(WITH_NETWORK),
+    training: Sequence[str] = TRAINING_BOTH,
+    noise: Sequence[str] = tuple(NOISES),
+    takes: int | None = None,
+    folds: int | None = None,
+) -> dict[str, Any]:
+    measure = partial(_run, data_dir, progress, training=training, noise=noise, takes=takes, folds=folds, network=True)
+    result: dict[str, Any] = {}
+    rows: list[Row] = []
+    met = {}
+    for name in front_end:
+        result = measure(front_end=[WITH_NETWORK[name]])
+        met[name] = _met(result["rows"], WITH_NETWORK[name], TARGETS_ALONE if name == "cepstra" else TARGETS_BOTH)
+        rows += [{**row, "front_end": name} for row in result["rows"]]
+    options = WordRecognizer(use_network=True).options.as_dict()
+    judged = [one for by_db in met.values() for one in by_db.values()]
+    passed = all(judged) if judged else None
+    return {"seed": result["seed"], "options": options, "rows": rows, "passed_by_snr_db": met, "passed": passed}
 
 
 def _listed(targets: Mapping[int, float]) -> str:
@@ -145,5 +174,20 @@ STUDIES = (
         sources=(*WORD_SOURCES, "python/studies/sweeps.py", "python/studies/front_ends.py"),
         folds=True,
         quick={"training": ("noisy",), "noise": ("white",)},
+    ),
+    Study(
+        "fsdd-noise-network",
+        "English digits in recorded noise, leave one of 4 speakers out, with a network trained on the same words: "
+        "beside cepstra, and beside cepstra and the embedding",
+        ("fsdd/recordings", "noise"),
+        f"white noise at {_listed(TARGETS_ALONE)} (cepstra) and {_listed(TARGETS_BOTH)} (both), trained with noise, "
+        "alone",
+        _run_network,
+        layout=Layout(columns="snr_db", x="snr_db", panel="noise"),
+        axes={"front_end": tuple(WITH_NETWORK), "training": TRAINING_BOTH, "noise": tuple(NOISES)},
+        thins=True,
+        sources=(*WORD_SOURCES, "python/studies/sweeps.py", "python/studies/front_ends.py"),
+        folds=True,
+        quick={"front_end": ("cepstra",), "training": ("noisy",), "noise": ("white",)},
     ),
 )

@@ -2,22 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Isolated words of unseen speakers: every clip on its own, and by a recogniser that adapts to the speaker.
 
-By cepstra alone, and by cepstra and the pretrained speech embedding together (``front_end="both"``).
+By cepstra, by the pretrained speech embedding, and by both together (``front_end``).
 """
 
 from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from hri.datasets import Dataset
 from hri.evaluation import adapting, evaluate_conditions
 from hri.recognition import WordRecognizer
-from hri.studies.commands import FrontEndKind
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.sweeps import measured
 
+FrontEndKind = Literal["cepstra", "both", "embedding"]
 ALONE = "each clip alone"
 
 
@@ -56,7 +56,10 @@ def _study(
     )
 
 
-_BOTH = ", by cepstra and a pretrained speech embedding (extra embedding)"
+_EMBEDDED: dict[FrontEndKind, str] = {
+    "both": ", by cepstra and a pretrained speech embedding (extra embedding)",
+    "embedding": ", by a pretrained speech embedding alone (extra embedding)",
+}
 _SETS = (
     ("fsdd", "fsdd/recordings", "English digits, leave one of 4 speakers out", 0.90, 0.985, 0.975),
     ("hindi-digits", "hindi_words/digits", "Hindi digits, leave one of 4 speakers out", 0.97, 0.98, 0.98),
@@ -66,7 +69,8 @@ _SETS = (
 STUDIES = (
     *(_study(name, folder, what, target) for name, folder, what, target, _, _ in _SETS),
     *(
-        _study(f"{name}-both", folder, what + _BOTH, target, "both", alone)
+        _study(f"{name}-{front_end}", folder, what + how, target, front_end, alone)
+        for front_end, how in _EMBEDDED.items()
         for name, folder, what, _, target, alone in _SETS
     ),
 )
