@@ -66,7 +66,7 @@ def cross_validate(
     exposure : float, optional
         Factor on the pixels of the test pictures.
     embedding : SpeechEmbedding, optional
-        For words by the front end "both", as of `WordRecognizer.fit`.
+        For words by the front ends "both" and "embedding", as of `WordRecognizer.fit`.
     progress : callable, optional
         Called with (what, done, total).
     """

@@ -47,7 +47,7 @@ class SpeechRunner:
     adapt : bool
         Also run every test in random order with an unsupervised `SpeakerAdapter`.
     embedding : SpeechEmbedding, optional
-        What `fit` takes for the front end "both".
+        What `fit` takes for the front ends "both" and "embedding".
     """
 
     def __init__(

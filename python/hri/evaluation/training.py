@@ -58,7 +58,7 @@ def train(
     fillers : sequence of FillerWord, optional
         Words outside the vocabulary, as of `WordRecognizer.fit`.
     embedding : SpeechEmbedding, optional
-        For words by the front end "both", as of `WordRecognizer.fit`.
+        For words by the front ends "both" and "embedding", as of `WordRecognizer.fit`.
     progress : callable, optional
         Called with (what is being done, steps done, steps in all).
 

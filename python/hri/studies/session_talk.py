@@ -16,15 +16,17 @@ from hri.live import ArraySource, Event
 from hri.media import read_audio
 from hri.recognition import WordRecognizer
 from hri.recognition.decision import RECOGNISED
+from hri.recognition.keywords import WordRecognizerKeywords
 from hri.session import Session
 from hri.signal import resample
-from hri.studies.commands import FRONT_ENDS
+from hri.studies.commands import FRONT_ENDS as TWO_FRONT_ENDS
 from hri.studies.false_alarms import Samples, compose_words
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.session_stop import NUM_FOLDS, WORDS
 from hri.studies.tables import statistics
 
 SEED = 0
+FRONT_ENDS: dict[str, WordRecognizerKeywords] = {**TWO_FRONT_ENDS, "embedding": {"front_end": "embedding"}}
 STOP = "stop"
 OTHERS = "other_words"
 STREAM_S = 300
