@@ -7,9 +7,9 @@
 
 #include <vector>
 
-#include "hri/models/multi_stream_scorer.hpp"
 #include "hri/recognition/calibration.hpp"
 #include "hri/recognition/held_out_report.hpp"
+#include "hri/recognition/word/multi_stream_scorer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "hri/recognition/word/word_verifier.hpp"
 

@@ -13,7 +13,7 @@
 #include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/features/speech/cepstra.hpp"
-#include "hri/models/multi_stream_scorer.hpp"
+#include "hri/recognition/word/multi_stream_scorer.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
 #include "hri/recognition/word/word_spectrogram.hpp"
 #include "hri/signal/activity.hpp"

@@ -15,7 +15,7 @@
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/classifiers/logistic_regression.hpp"
-#include "hri/models/multi_stream_scorer.hpp"
+#include "hri/recognition/word/multi_stream_scorer.hpp"
 
 namespace hri {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "hri/models/multi_stream_scorer.hpp"
+#include "hri/recognition/word/multi_stream_scorer.hpp"
 
 #include <algorithm>
 #include <string>
