@@ -13,6 +13,7 @@ import pytest
 
 import hri as package
 from conftest import PERSONS, RATE_HZ, CommandResult, tone_word
+from hri.cli.train import MIN_PERSONS
 from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition import SpeechEmbedding, embedding_weights
 from hri.recognition.word import embedding as module
@@ -152,7 +153,7 @@ def test_the_command_line_trains_with_either(
     assert refused.code == 2 and "--front-end" in refused.err
 
 
-def test_the_command_line_trains_a_network_when_asked(
+def test_the_command_line_trains_a_network_when_asked_or_for_enough_speakers(
     spoken: Path, tmp_path: Path, hri: Callable[..., CommandResult], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     model = tmp_path / "words.hri"
@@ -162,13 +163,14 @@ def test_the_command_line_trains_a_network_when_asked(
     assert trained.code == 0, trained.err
     assert package.load(model).options.use_network
     assert hri("recognise", "--speech", spoken / "1_low_0.wav", "--speech-model", model).code == 0
-    plain = hri(*command)
-    assert plain.code == 0 and "network" not in plain.err, plain.err
-    assert not package.load(model).options.use_network
-    monkeypatch.setattr("hri.cli.train.MANY_PERSONS", 3)
-    many = hri(*command)
-    assert many.code == 0 and "--no-network" in many.err, many.err
+    three = hri(*command)
+    assert three.code == 0 and "--no-network" in three.err, three.err
     assert package.load(model).options.use_network
+    monkeypatch.setitem(MIN_PERSONS, "cepstra", 4)
+    fewer = hri(*command)
+    assert fewer.code == 0 and "network" not in fewer.err, fewer.err
+    assert not package.load(model).options.use_network
+    monkeypatch.setitem(MIN_PERSONS, "cepstra", 3)
     for fast in (["--no-network"], ["--option", "use_network=false"]):
         assert hri(*command, *fast).code == 0
         assert not package.load(model).options.use_network
