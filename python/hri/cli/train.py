@@ -31,8 +31,8 @@ from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer, embed
 from hri.vision.faces import face_finder
 
 MIN_PERSONS = {"cepstra": 3, "both": 10, "embedding": 10}
-"""By front end, from how many on a network is trained unless asked otherwise: beside cepstra it gains much in noise even
-with three (`hri study fsdd-noise-network`), beside the embedding it was measured with twenty."""
+"""By front end, from how many on a network is trained unless asked otherwise: beside cepstra it gains much in noise
+even with three (`hri study fsdd-noise-network`), beside the embedding it was measured with twenty."""
 
 
 @click.command(cls=CheckedCommand)
