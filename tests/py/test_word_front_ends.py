@@ -13,7 +13,7 @@ import pytest
 
 import hri as package
 from conftest import PERSONS, RATE_HZ, CommandResult, tone_word
-from hri.cli.train import MIN_PERSONS
+from hri.cli.train import NETWORK_MIN_PERSONS
 from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition import SpeechEmbedding, embedding_weights
 from hri.recognition.word import embedding as module
@@ -166,11 +166,11 @@ def test_the_command_line_trains_a_network_when_asked_or_for_enough_speakers(
     three = hri(*command)
     assert three.code == 0 and "--no-network" in three.err, three.err
     assert package.load(model).options.use_network
-    monkeypatch.setitem(MIN_PERSONS, "cepstra", 4)
+    monkeypatch.setitem(NETWORK_MIN_PERSONS, "cepstra", 4)
     fewer = hri(*command)
     assert fewer.code == 0 and "network" not in fewer.err, fewer.err
     assert not package.load(model).options.use_network
-    monkeypatch.setitem(MIN_PERSONS, "cepstra", 3)
+    monkeypatch.setitem(NETWORK_MIN_PERSONS, "cepstra", 3)
     for fast in (["--no-network"], ["--option", "use_network=false"]):
         assert hri(*command, *fast).code == 0
         assert not package.load(model).options.use_network

@@ -30,7 +30,7 @@ from hri.evaluation.training import train as train_recognizer
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer, embedding_weights
 from hri.vision.faces import face_finder
 
-MIN_PERSONS = {"cepstra": 3, "both": 10, "embedding": 10}
+NETWORK_MIN_PERSONS = {"cepstra": 3, "both": 10, "embedding": 10}
 """By front end, from how many on a network is trained unless asked otherwise: beside cepstra it gains much in noise
 even with three (`hri study fsdd-noise-network`), beside the embedding it was measured with twenty."""
 
@@ -207,7 +207,7 @@ def train(
 
 
 def _trains_network(recognizer: WordRecognizer, num_persons: int) -> bool:
-    return num_persons >= MIN_PERSONS[recognizer.options.front_end]
+    return num_persons >= NETWORK_MIN_PERSONS[recognizer.options.front_end]
 
 
 def _has_embedding() -> bool:
