@@ -60,6 +60,7 @@ from hri.studies import (
     wavelets,
     webcam,
     webcam_live,
+    word_transforms,
     word_trimming,
 )
 from hri.studies.pictures import draw
@@ -82,6 +83,7 @@ _MODULES = (
     word_trimming,
     false_alarms,
     classifiers,
+    word_transforms,
     training_size,
     few_samples,
     new_words,
