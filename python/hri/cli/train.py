@@ -12,6 +12,7 @@ from hri.cli.faces import faces_option
 from hri.cli.groups import CheckedCommand, is_given
 from hri.cli.hand_source import choose_source
 from hri.cli.messages import note
+from hri.cli.noisy_copies import check_noises, with_noisy_copies
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
@@ -63,6 +64,14 @@ even with three (`hri study fsdd-noise-network`), beside the embedding it was me
     "use_network=true or false",
 )
 @click.option(
+    "--noise",
+    "noises",
+    multiple=True,
+    metavar="white|pink|FILE",
+    help="Speech only: train on a copy of every recording in noise too, 0 to 20 dB below the word, best in a recording "
+    "of the place where the recogniser is used. With several, each copy takes one of them.",
+)
+@click.option(
     "--source",
     type=click.Choice(["silhouettes", "landmarks"]),
     help="Gesture only: silhouettes of hands, or their joints, as the extra mediapipe finds them. The default is "
@@ -88,6 +97,7 @@ def train(
     front_end: str | None,
     embedding_path: str | None,
     network: bool | None,
+    noises: tuple[str, ...],
     source: str | None,
     hands: str | None,
     faces: str | None,
@@ -104,6 +114,7 @@ def train(
       hri train speech --data spoken/ --front-end cepstra
       hri train speech --data spoken/ --embedding embedding_model.onnx
       hri train speech --data spoken/ --no-network
+      hri train speech --data spoken/ --noise workshop.wav
       hri train gesture --data pairs/ --hands both
       hri train gesture --data room/ --faces auto
     """
@@ -135,6 +146,9 @@ def train(
         options = (*options, "front_end=both")
     if network is not None and mode != "speech":
         raise click.UsageError("--network is for speech")
+    if noises and mode != "speech":
+        raise click.UsageError("--noise is for speech")
+    check_noises(noises)
     if hands is not None:
         if mode != "gesture":
             raise click.UsageError("--hands is for gesture")
@@ -170,8 +184,8 @@ def train(
         untrained.faces = faces
         if faces not in (None, "never"):
             face_finder(faces, required=True)  # refused now, not after all recordings
-    with progress_bars() as progress:
-        recognizer = train_recognizer(dataset, untrained, fillers=others, embedding=embedding, progress=progress)
+    with progress_bars() as progress, with_noisy_copies(dataset, noises, seed, progress) as trained_on:
+        recognizer = train_recognizer(trained_on, untrained, fillers=others, embedding=embedding, progress=progress)
     recognizer.save(path)
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
@@ -180,6 +194,8 @@ def train(
         note(f"front end: {_front_end(recognizer.options.front_end)}")
         if recognizer.options.use_network:
             note("a network of the same words votes too; --no-network trains in a fraction of the time")
+    if noises:
+        note("trained on a copy of every recording in noise, too; what follows counts both")
     if why_source:
         note(why_source)
     if faces not in (None, "never"):
@@ -200,6 +216,7 @@ def train(
             "num_recordings": len(dataset),
             "persons": dataset.persons,
             "synthetic": dataset.synthetic,
+            "noises": list(noises),
             "options": recognizer.options.as_dict(),
             "held_out": None if report is None else report.to_dict(),
         },
