@@ -53,7 +53,7 @@ def mean_loss(models: Sequence[GaussianMixtureHmm], frames: Sequence[Frames], cl
 def train_minimum_error(
     models: Sequence[GaussianMixtureHmm], frames: Sequence[Frames], classes: Sequence[int]
 ) -> list[GaussianMixtureHmm]:
-    """Models whose means moved so that fewer of these words are taken for others; all else stays.
+    """Models whose means moved so that fewer of these words are confused with others; all else stays.
 
     Means of the right word move towards its frames, those of its best rivals away, each in units of its own variance,
     weighted by the slope of the error function.
