@@ -57,6 +57,17 @@ def test_every_recording_gets_a_copy_in_noise_by_the_same_person(spoken: Path, h
         assert same is dataset
 
 
+def test_silence_in_a_noise_is_passed_over(spoken: Path, tmp_path: Path) -> None:
+    path = tmp_path / "pauses.wav"
+    noise = np.zeros(4 * RATE_HZ, np.float32)
+    noise[3 * RATE_HZ :] = 0.1 * np.random.default_rng(0).standard_normal(RATE_HZ)
+    write_wav_pcm16(str(path), noise, RATE_HZ)
+    dataset = hri.Dataset.load(spoken, "speech")
+    with with_noisy_copies(dataset, [str(path)], 0, _quiet) as both:
+        for sample, copy in zip(dataset.samples, both.samples[len(dataset) :], strict=True):
+            assert np.abs(read_audio(copy.path).samples - read_audio(sample.path).samples).max() > 1e-3
+
+
 def test_train_says_that_it_added_noise(
     spoken: Path, hum: Path, tmp_path: Path, few_fillers: None, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -12,17 +12,19 @@ from tempfile import TemporaryDirectory
 
 import click
 import numpy as np
+from numpy.typing import NDArray
 
 from hri.datasets import Dataset
-from hri.evaluation import AddNoise, make_noise
+from hri.evaluation import make_noise, mix_noise
 from hri.evaluation.noise import SYNTHESISED
 from hri.evaluation.training import Progress
 from hri.io import write_wav_pcm16
-from hri.media import read_audio
+from hri.media import Audio, read_audio
 
 SNRS_DB = (20.0, 15.0, 10.0, 5.0, 0.0)
 """Of copies; those that `hri study fsdd-noise` trains with."""
-_CHECK_RATE_HZ = 16000
+NUM_DRAWS = 20
+"""Pieces of a noise that are tried until one is not digital silence, which some recordings begin or pause with."""
 
 
 def check_noises(noises: Sequence[str]) -> None:
@@ -31,15 +33,27 @@ def check_noises(noises: Sequence[str]) -> None:
     Raises
     ------
     click.UsageError
-        For a name that is neither of a synthesised noise nor of a file.
+        For a name that is neither of a synthesised noise nor of a file, or a file of digital silence.
     FormatError, IoError
         For a file that is no recording; names it.
     """
     for name in noises:
-        if name not in SYNTHESISED and not Path(name).is_file():
+        if name in SYNTHESISED:
+            continue
+        if not Path(name).is_file():
             raise click.UsageError(f"--noise {name} is neither {' nor '.join(SYNTHESISED)} nor a file")
-        if not make_noise(name, _CHECK_RATE_HZ, _CHECK_RATE_HZ, np.random.default_rng(0)).any():
+        if not read_audio(name).samples.any():
             raise click.UsageError(f"--noise {name} is silent")
+
+
+def _in_noise(audio: Audio, noises: Sequence[str], rng: np.random.Generator) -> NDArray[np.float32]:
+    """A clip in a piece of one of the noises that is no digital silence; as it is where none was found."""
+    name, snr_db = str(rng.choice(noises)), float(rng.choice(SNRS_DB))
+    for _ in range(NUM_DRAWS):
+        noise = make_noise(name, len(audio.samples), audio.sample_rate_hz, rng)
+        if noise.any():
+            return mix_noise(audio.samples, noise, snr_db, audio.sample_rate_hz)
+    return audio.samples
 
 
 @contextmanager
@@ -51,12 +65,11 @@ def with_noisy_copies(dataset: Dataset, noises: Sequence[str], seed: int, progre
     if not noises:
         yield dataset
         return
-    add = AddNoise(noises, SNRS_DB)
     with TemporaryDirectory(prefix="hri-noise-") as folder:
         copies = []
         for number, sample in enumerate(dataset.samples):
             audio = read_audio(sample.path)
-            noisy = add(audio.samples, audio.sample_rate_hz, np.random.default_rng([seed, number]))
+            noisy = _in_noise(audio, noises, np.random.default_rng([seed, number]))
             path = Path(folder) / f"{number}_{sample.path.stem}_in_noise.wav"
             # Recognisers do not mind the level, a file of 16 bits does.
             write_wav_pcm16(str(path), noisy / max(1.0, float(np.abs(noisy).max())), audio.sample_rate_hz)

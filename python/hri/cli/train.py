@@ -33,7 +33,8 @@ from hri.vision.faces import face_finder
 
 NETWORK_MIN_PERSONS = {"cepstra": 3, "both": 10, "embedding": 10}
 """By front end, from how many on a network is trained unless asked otherwise: beside cepstra it gains much in noise
-even with three (`hri study fsdd-noise-network`), beside the embedding it was measured with twenty."""
+even with three, beside the embedding little (`hri study fsdd-noise-network`); there it was measured again with
+twenty only."""
 
 
 @click.command(cls=CheckedCommand)

@@ -58,7 +58,10 @@ class StateMoments:
 
 
 def fit_discriminants(moments: StateMoments) -> Matrix:
-    """Linear discriminants by falling ratio of the covariances between and within states, a row each: a full basis."""
+    """Linear discriminants by falling ratio of the covariances between and within states, a row each.
+
+    All of them, also those that separate nothing, which `hri.models.LDA` leaves out: the search below starts there.
+    """
     whitening = np.linalg.inv(np.linalg.cholesky(moments.within))
     _, vectors = np.linalg.eigh(whitening @ (moments.total - moments.within) @ whitening.T)
     return vectors[:, ::-1].T @ whitening
