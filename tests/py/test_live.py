@@ -20,7 +20,16 @@ import hri
 from conftest import PERSONS, RATE_HZ, tone_word
 from hri import _native
 from hri.core.errors import InvalidArgument, IoError
-from hri.live import ArraySource, FileSource, Listener, MicrophoneSource, SampleRing, Stalled, list_microphones
+from hri.live import (
+    ArraySource,
+    Attention,
+    FileSource,
+    Listener,
+    MicrophoneSource,
+    SampleRing,
+    Stalled,
+    list_microphones,
+)
 
 
 @pytest.fixture(scope="module")
@@ -66,6 +75,33 @@ def test_a_stream_gives_the_decisions_of_its_words(
         assert event.fields["last_s"] == pytest.approx(start + 0.5 + padding_s, abs=0.05)
         assert event.fields["compute_ms"] > 0 and event.fields["model"] == "tones" and event.fields["locale"] == "en"
     assert [e.time for e in events] == sorted(e.time for e in events)
+
+
+def test_an_urgent_word_that_is_rejected_by_little_is_named(
+    words: hri.WordRecognizer, session: tuple[np.ndarray, list[str], list[float]]
+) -> None:
+    assert words.held_out is not None
+    score = words.recognise(session[0][: RATE_HZ + RATE_HZ // 2], RATE_HZ).score
+    for missed_by, urgent, near in ((0.4, ("rise",), "rise"), (0.6, ("rise",), None), (0.4, ("fall",), None)):
+        attention = Attention(min_score=score + missed_by)
+        listener = Listener(words, attention=attention, urgent=urgent)
+        first = next(e for e in listener.listen(ArraySource(session[0], RATE_HZ)) if e.decision is not None)
+        assert first.fields["rejected"] and first.fields.get("near") == near
+    accepted = Listener(words, attention=Attention(min_score=score - 1), urgent=("rise",))
+    assert all("near" not in e.fields for e in accepted.listen(ArraySource(session[0], RATE_HZ)) if e.decision)
+
+
+def test_nothing_is_near_where_no_words_were_held_out(session: tuple[np.ndarray, list[str], list[float]]) -> None:
+    one_each = [tone_word(500.0, slope, 1) for slope in (800.0, -350.0)]
+    words = hri.WordRecognizer().fit(one_each, ["rise", "fall"], sample_rate_hz=RATE_HZ)
+    assert words.held_out is None
+
+    def first(min_score: float) -> hri.live.Event:
+        listener = Listener(words, attention=Attention(min_score=min_score), urgent=("rise", "fall"))
+        return next(e for e in listener.listen(ArraySource(session[0], RATE_HZ)) if e.decision is not None)
+
+    rejected = first(first(-1e6).fields["score"] + 0.1)
+    assert rejected.fields["rejected"] and "near" not in rejected.fields
 
 
 def test_events_do_not_depend_on_blocks(

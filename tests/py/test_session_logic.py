@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -151,6 +152,30 @@ def test_an_unsure_stop_does_not_wait_for_what_has_not_begun_while_the_robot_mov
     made.begin("gesture", 2.0, 2.1)
     assert made.observe(word("stop", 2.0, 2.5, confidence=0.43), 2.8) == []
     (pair,) = made.observe(sign("5", 2.0, 2.6, confidence=0.97), 3.1)
+    assert pair.fused.status == "ask"
+
+
+@pytest.mark.parametrize("moving", [False, True])
+@pytest.mark.parametrize("near", ["", "stop", "7"])
+def test_a_stop_that_was_rejected_by_little_counts_while_the_robot_moves(near: str, moving: bool) -> None:
+    made = pairer()
+    made.hurried = moving
+    rejected = replace(word(near or "stop", 1.0, 1.5, status=UNKNOWN), near=near)
+    found = made.observe(rejected, 1.8)
+    if near == "stop" and moving:
+        (pair,) = found
+        assert pair.fused.label == "stop" and pair.carried_by == "speech" and "by little" in pair.why
+    else:
+        assert found == []
+        assert [pair.fused.status for _, pair in advance(made, 4.0)] == [UNKNOWN]
+
+
+def test_a_stop_that_was_rejected_by_little_and_is_unsure_asks_beside_a_sure_sign() -> None:
+    made = pairer()
+    made.hurried = True
+    made.begin("gesture", 1.0, 1.1)
+    assert made.observe(replace(word("stop", 1.0, 1.5, status=UNKNOWN, confidence=0.43), near="stop"), 1.8) == []
+    (pair,) = made.observe(sign("5", 1.0, 1.6, confidence=0.97), 2.1)
     assert pair.fused.status == "ask"
 
 

@@ -16,8 +16,11 @@ from hri.live.events import Event, decision_fields
 from hri.live.sources import AudioSource
 from hri.live.utterances import Samples, UtteranceFinder
 from hri.recognition import CommandRecognizer, WordRecognizer
-from hri.recognition.decision import UNKNOWN
+from hri.recognition.decision import UNKNOWN, Decision
 from hri.signal import EndpointerOptions
+
+NEAR = 0.5
+"""By how much an urgent word may miss the threshold and still be near: in log odds, as scores of words are."""
 
 
 class Listener:
@@ -41,7 +44,8 @@ class Listener:
     urgent : collection of str
         Commands of several words end with a long pause; labels of a `CommandRecognizer` given here are decided on at
         one as short as behind a single word, and need no more than `CommandRecognizer.recognise_early` asks for. What
-        else is said before the long pause is then not decided on.
+        else is said before the long pause is then not decided on. Of a `WordRecognizer` the decision on one that was
+        rejected by at most `NEAR` names it in its field `near`, for those to whom missing it is worse.
 
     Raises
     ------
@@ -123,10 +127,20 @@ class Listener:
         fields = {name: event.fields[name] for name in ("first_s", "last_s")}
         meant, decision = tracker.judge(fields["first_s"], fields["last_s"], decision)
         fields |= decision_fields(decision, self._locale, self._model_id) | {"compute_ms": round(compute_ms, 3)}
+        if self._is_near(decision):
+            fields["near"] = decision.nbest[0].label
         if meant == COMMAND:
             return Event(event.time, events.DECISION, fields, decision)
         # Without a decision, so that callers who act on decisions do not act on these.
         return Event(event.time, events.WAKE if meant == WAKE else events.IGNORED, fields | {"final": ""})
+
+    def _is_near(self, decision: Decision) -> bool:
+        """Whether an urgent word was rejected by little; never without held-out words, which make scores log odds."""
+        words, min_score = self._recognizer, self._attention.min_score
+        if decision.status != UNKNOWN or not isinstance(words, WordRecognizer) or words.held_out is None:
+            return False
+        threshold = words.threshold if min_score is None else min_score
+        return decision.nbest[0].label in self._urgent and decision.score >= threshold - NEAR
 
 
 def _endpointer_of(recognizer: WordRecognizer | CommandRecognizer) -> EndpointerOptions:

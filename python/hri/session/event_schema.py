@@ -62,6 +62,7 @@ _FIELDS: dict[str, Schema] = {
     "missing": _of("string", "What keeps the hand from being seen", enum=["", "light", "face", "hand"]),
     "model": _of("string", "Which model: its name and hash, where known"),
     "nbest": _list(_ENTRY, "The most probable labels, the best first"),
+    "near": _of("string", "The urgent label that was rejected by little"),
     "nearest": _list(_TEXT, "Words of the nearest stored sentence"),
     "notes": _list(_TEXT, "What the recogniser noted about the input"),
     "num_stable": _of("integer", "So many of the first words stand until the end", minimum=0),

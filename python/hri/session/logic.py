@@ -172,7 +172,8 @@ class SessionLogic:
                 out.append(session_event(time_s, IGNORED, label=event.decision.label, reason=_OWN_VOICE))
                 pairs = self.pairer.drop(mode, time_s)
             else:
-                seen = Observation(event.decision, event.fields["first_s"], event.fields["last_s"])
+                span = event.fields["first_s"], event.fields["last_s"]
+                seen = Observation(event.decision, *span, event.fields.get("near", ""))
                 pairs = self.pairer.observe(seen, time_s)
         elif event.event in _DROPS and mode not in self._unsettled:
             pairs = self.pairer.drop(mode, time_s)

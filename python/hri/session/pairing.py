@@ -30,11 +30,14 @@ class Observation:
         Its mode is the mode of the observation.
     first_s, last_s : float
         When it was said or shown, in the session's time.
+    near : str
+        The label that was rejected by little, if it is an urgent one, see `hri.live.Listener`.
     """
 
     decision: Decision
     first_s: float
     last_s: float
+    near: str = ""
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.first_s) and self.first_s <= self.last_s < math.inf):
@@ -97,7 +100,8 @@ class Pairer:
     Where a learned fusion is given it decides in place of `SessionOptions.rule`.
 
     A sure STOP and labels that lead the dialogue wait for nothing. An unsure STOP while the robot moves waits for what
-    has begun in the other mode, and never for what may come.
+    has begun in the other mode, and never for what may come. While it moves a STOP that was rejected by little counts,
+    too: to halt for another word costs less than to go on.
     """
 
     def __init__(self, options: SessionOptions | None = None, fusion: LearnedFusion | None = None) -> None:
@@ -161,10 +165,14 @@ class Pairer:
         self._pass(observation.mode, time_s)
         stream = self._streams[observation.mode]
         stream.begun_s = None
-        decision = self._strict(observation.decision)
+        decision, why = observation.decision, "STOP waits for nothing"
+        if self.hurried and observation.near in self._options.fusion.stop_labels:
+            decision = replace(decision, label=observation.near, status=RECOGNISED)
+            why = "STOP counts where it was rejected by little while the robot moves"
+        decision = self._strict(decision)
         observation = replace(observation, decision=decision)
         if self.is_sure_stop(decision):
-            return [self._alone(observation, "STOP waits for nothing")]
+            return [self._alone(observation, why)]
         if decision.status == RECOGNISED and decision.label in self._options.control_labels:
             before = self._flushed(stream) if decision.label in self._options.sentence_labels else self._resolve()
             return [*before, self._alone(observation, "it leads the dialogue")]
