@@ -14,6 +14,7 @@ import pytest
 
 import hri
 from hri.io import model_as_cpp, write_wav_pcm16
+from hri.recognition import SentenceStream
 from hri.synthetic.speech import make_speaker, make_speech_corpus, speak
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -96,6 +97,48 @@ def test_words_in_a_stream_are_found_and_recognised(programs: Path, spoken: Path
     assert [line.split("\t")[1] for line in lines] == ["one", "three"]
     begins_ms = [int(line.split()[0]) for line in lines]
     assert 1000 <= begins_ms[0] < 1200 and begins_ms[1] > 2000 + 1000 * len(clips[0].samples) / rate_hz
+
+
+def test_signed_sentences_in_a_stream_are_those_of_python(programs: Path, tmp_path: Path) -> None:
+    sentences = [signed(number, words) for number, words in enumerate(("ball cat", "cat", "ball", "cat ball") * 3)]
+    signs = hri.SentenceRecognizer().fit([tracks for tracks, _ in sentences], [spans for _, spans in sentences])
+    signs.save(tmp_path / "signs.hri")
+    tracks, _ = signed(50, "cat ball")
+    frames = np.concatenate([tracks, np.repeat(tracks[-1:], 40, axis=0), tracks])
+    frames[10, 2] = np.nan  # the head out of sight
+    stream, expected = SentenceStream(signs), []
+    for event in [*(stream.push(frame, number / 25) for number, frame in enumerate(frames)), stream.finish()]:
+        if event is not None and event.kind in ("partial", "end"):
+            words = [w if i < event.num_stable else f"[{w}]" for i, w in enumerate(event.labels)]
+            expected.append("\t".join([{"end": "sentence"}.get(event.kind, "so far"), *words]))
+    lines = [" ".join(map(str, (number / 25, *frame.ravel()))) for number, frame in enumerate(frames)]
+    (tmp_path / "tracks.txt").write_text("\n".join(lines))
+    program = [programs / "read_signs", tmp_path / "signs.hri"]
+    with (tmp_path / "tracks.txt").open() as given:
+        done = subprocess.run(program, stdin=given, capture_output=True, text=True)
+    assert done.returncode == 0 and done.stdout.splitlines() == expected
+    assert expected.count("sentence\tcat\tball") == 2
+    done = subprocess.run(program, input=f"{lines[0]}\n0.04 1 2 3 four\n", capture_output=True, text=True)
+    assert done.returncode == 3 and done.stderr == "line 2: expected 7 numbers, found 4\n"
+
+
+def signed(seed: int, text: str) -> tuple[np.ndarray, list[tuple[str, int, int]]]:
+    """Synthetic tracks of a sentence, and the frames of its words."""
+    rest = [(-30.0, 120.0), (30.0, 120.0)]
+    signs = {
+        "ball": [[(-40.0, 40.0), (40.0, 40.0)], [(-10.0, 60.0), (10.0, 60.0)]],
+        "cat": [[(-30.0, 120.0), (20.0, 10.0)], [(-30.0, 120.0), (60.0, 10.0)]],
+    }
+    places, spans = [np.array(rest)] * 8, []
+    for word in text.split():
+        first = len(places)
+        for place, frames in zip(signs[word], (5, 12), strict=True):
+            places += [places[-1] + (np.array(place) - places[-1]) * t / frames for t in range(1, frames + 1)]
+        spans.append((word, first, len(places)))
+    places += [np.array(rest)] * 8
+    hands = np.array([160, 60]) + np.array(places)
+    hands += np.random.default_rng(seed).standard_normal(hands.shape)
+    return np.concatenate([hands, np.broadcast_to([160, 60], (len(hands), 1, 2))], axis=1), spans
 
 
 def test_a_model_is_compiled_into_the_program_of_the_tutorial(installed: Path, spoken: Path, tmp_path: Path) -> None:

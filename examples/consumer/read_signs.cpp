@@ -1,0 +1,61 @@
+// Usage: read_signs MODEL < TRACKS
+// Signed sentences as they are signed, from any tracker that writes a line for every frame: its
+// time in seconds, and x and y of the left hand, the right hand and the head in pixels, nan where
+// one is out of sight. Builds with and without exceptions.
+#include <cstdio>
+#include <cstdlib>
+#include <hri/core/error.hpp>
+#include <hri/recognition/sentence/sentence_stream.hpp>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+// The numbers at the beginning of a line.
+std::vector<double> numbers_of(const std::string& line) {
+  std::vector<double> result;
+  char* end = nullptr;
+  for (const char* at = line.c_str();; at = end) {
+    const double value = std::strtod(at, &end);
+    if (end == at) return result;
+    result.push_back(value);
+  }
+}
+
+void print(const hri::SentenceEvent& event) {
+  const bool ended = event.kind == hri::SentenceEventKind::end;
+  if (!ended && event.kind != hri::SentenceEventKind::partial) return;
+  // Words that may still change stand in brackets.
+  std::printf(ended ? "sentence" : "so far");
+  for (std::size_t i = 0; i < event.words.size(); ++i) {
+    const bool stable = i < static_cast<std::size_t>(event.num_stable);
+    std::printf(stable ? "\t%s" : "\t[%s]", event.words[i].label.c_str());
+  }
+  std::printf("\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  // Only called by a core that is built with HRI_EXCEPTIONS=OFF.
+  hri::set_failure_handler([](hri::ErrorKind, const char* message) {
+    std::fprintf(stderr, "%s\n", message);
+    std::exit(3);
+  });
+  hri::SentenceStream stream(hri::SentenceRecognizer::load(argv[1]));
+  int number = 0;
+  for (std::string line; std::getline(std::cin, line);) {
+    ++number;
+    const std::vector<double> values = numbers_of(line);
+    if (values.size() != 7) {
+      std::fprintf(stderr, "line %d: expected 7 numbers, found %zu\n", number, values.size());
+      return 3;
+    }
+    const std::vector<float> places(values.begin() + 1, values.end());
+    print(stream.push(places, values[0]));
+  }
+  print(stream.finish());
+  return 0;
+}
