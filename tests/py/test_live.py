@@ -235,7 +235,7 @@ def test_an_unplugged_microphone_is_told_and_closes(sounddevice: SimpleNamespace
     with pytest.raises(Stalled, match=r"microphone: no sound for 0\.3 s"):
         next(events)
     assert reported[0] == "listening"
-    assert time.monotonic() - begun < 5
+    assert time.monotonic() - begun < 30
 
 
 def test_a_slow_reader_is_told_what_was_lost(sounddevice: SimpleNamespace, words: hri.WordRecognizer) -> None:

@@ -36,6 +36,7 @@ class Controller(threading.Thread):
         self.positions = dict(HOAP2.rest_rad)
         self.received = []
         self.answers = answers
+        self.on_received = lambda number: None
         self.start()
 
     def run(self):
@@ -46,6 +47,7 @@ class Controller(threading.Thread):
             message = json.loads(data)
             self.received.append(message["positions_rad"])
             self.positions.update(message["positions_rad"])
+            self.on_received(len(self.received))
             if len(self.received) <= self.answers:
                 stale = {"step": message["step"] - 1, "positions_rad": {}}
                 fresh = {"step": message["step"], "positions_rad": self.positions}
@@ -80,7 +82,7 @@ def test_a_motion_is_sent_from_where_the_robot_stands(udp_robot, controller):
 
 def test_a_silent_controller_is_an_error(udp_robot):
     controller = Controller(answers=5)
-    with udp_robot("127.0.0.1", controller.port, timeout_s=0.1) as robot, pytest.raises(IoError, match="not answer"):
+    with udp_robot("127.0.0.1", controller.port, timeout_s=1.0) as robot, pytest.raises(IoError, match="not answer"):
         robot.hold(1.0)
     assert len(controller.received) == 6
 
@@ -88,8 +90,7 @@ def test_a_silent_controller_is_an_error(udp_robot):
 def test_stop_and_resume(udp_robot, controller):
     slow = Trajectory(["head_joint_2"], 5.0, [[0.0], [1.0]])
     with udp_robot("127.0.0.1", controller.port) as robot:
-        timer = threading.Timer(0.3, robot.stop)
-        timer.start()
+        controller.on_received = lambda number: robot.stop() if number == 20 else None
         assert robot.perform(slow) is False
         at_rest = controller.positions["head_joint_2"]
         assert 0.0 < at_rest < 0.5
@@ -104,7 +105,7 @@ def test_stop_and_resume(udp_robot, controller):
 
 def test_a_lost_link_stops_and_the_joints_are_asked_for_afterwards(udp_robot, controller):
     nod = Trajectory(["head_joint_2"], 0.1, [[0.3], [0.2], [0.1]])
-    with udp_robot("127.0.0.1", controller.port, timeout_s=0.1) as robot:
+    with udp_robot("127.0.0.1", controller.port, timeout_s=1.0) as robot:
         controller.answers = 10
         with pytest.raises(IoError, match="not answer"):
             robot.perform(nod)
