@@ -13,7 +13,7 @@
 #include "hri/core/export.hpp"
 #include "hri/models/network/sequence_network.hpp"
 #include "hri/models/sequence_scorer.hpp"
-#include "hri/models/vector_scorer.hpp"
+#include "hri/recognition/word/vector_scorer.hpp"
 
 namespace hri {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "hri/models/vector_scorer.hpp"
+#include "hri/recognition/word/vector_scorer.hpp"
 
 #include <cmath>
 #include <utility>
@@ -154,10 +154,10 @@ VectorScorer VectorScorer::adapted(const ClassSequences& classes, double prior_v
 VectorScorer VectorScorer::with_class(int index, const std::vector<MatrixF>& vectors,
                                       const StopCheck& should_stop) const {
   require(!vectors.empty(), "a class has no vector");
-  MatrixF others(means_.rows() + fillers_.rows(), means_.cols());
-  others << means_, fillers_;
   VectorScorer result = *this;
-  result.softmax_ = softmax_.with_class(index, stacked(vectors, means_.cols()), others,
+  // Fillers take no part, as in training: beside hundreds of them a few vectors of one speaker
+  // would win over the other classes for that speaker alone.
+  result.softmax_ = softmax_.with_class(index, stacked(vectors, means_.cols()), means_,
                                         vectors_per_class_, softmax_options(penalty_), should_stop);
   result.means_.resize(means_.rows() + 1, means_.cols());
   result.means_ << means_.topRows(index), mean_of(vectors).transpose(),
