@@ -53,10 +53,11 @@ void HeldOutWords::append(HeldOutWords more) {
   move_behind(&examples_, &more.examples_);
 }
 
-Judgement HeldOutWords::judge(const WordRecognizerOptions& options,
-                              const MultiStreamScorer& scorer) {
+Judgement HeldOutWords::judge(const WordRecognizerOptions& options, const MultiStreamScorer& scorer,
+                              int num_words) {
   Judgement result;
-  result.verifier = WordVerifier::fit(examples_, WordVerifier::num_filler_features(scorer));
+  result.verifier =
+      WordVerifier::fit(examples_, WordVerifier::features_of_words(scorer, num_words));
   for (std::size_t i = 0; i < decisions_.size(); ++i)
     decisions_[i].score = result.verifier.verification_score(features_[i]);
   std::vector<float> others;

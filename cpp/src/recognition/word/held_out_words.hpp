@@ -33,9 +33,10 @@ class HeldOutWords {
   /// All of `more` behind these.
   void append(HeldOutWords more);
 
-  /// `scorer`: any of those that the words were added with.
+  /// `scorer`: any of those that the words were added with; `num_words`: how many different
+  /// ones, each speaker's for itself.
   [[nodiscard]] Judgement judge(const WordRecognizerOptions& options,
-                                const MultiStreamScorer& scorer);
+                                const MultiStreamScorer& scorer, int num_words);
 
  private:
   [[nodiscard]] HeldOutReport report(const std::vector<float>& others,

@@ -402,7 +402,9 @@ class WordTrainer {
 
   [[nodiscard]] WordRecognizer assemble(MultiStreamScorer scorer,
                                         detail::HeldOutWords held_out) const {
-    detail::Judgement judgement = held_out.judge(options_, scorer);
+    std::set<std::pair<int, std::string>> words;
+    for (const PreparedSample& p : prepared_) words.emplace(p.label, p.group);
+    detail::Judgement judgement = held_out.judge(options_, scorer, static_cast<int>(words.size()));
     if (!judgement.report.empty()) judgement.report.labels = labels_;
     return {options_,
             labels_,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include "hri/core/error.hpp"
@@ -89,22 +90,35 @@ void add_path_features(const MultiStreamScorer& scorer, const StreamFrames& fram
 
 using Kind = VerifierExample::Kind;
 
-// Separates words from examples of the kind `no` by their last `num_columns` features (0: all);
-// untrained without examples of both kinds.
+VectorD picked(const VectorD& features, const std::vector<int>& columns) {
+  VectorD result(static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    result[static_cast<Eigen::Index>(i)] = features[columns[i]];
+  return result;
+}
+
+std::vector<int> all_columns(Eigen::Index count) {
+  std::vector<int> columns(static_cast<std::size_t>(count));
+  std::iota(columns.begin(), columns.end(), 0);
+  return columns;
+}
+
+// Separates words from examples of the kind `no` by some features; untrained without examples of
+// both kinds.
 LogisticRegression regression(const std::vector<VerifierExample>& examples, Kind no,
-                              Eigen::Index num_columns) {
+                              const std::vector<int>& columns) {
   std::array<double, 2> counts{};
   for (const VerifierExample& e : examples) {
     if (e.kind == Kind::word || e.kind == no) counts[e.kind == no ? 1 : 0] += 1;
   }
   if (counts[0] == 0 || counts[1] == 0) return {};
-  if (num_columns == 0) num_columns = examples.front().features.size();
-  MatrixD rows(static_cast<Eigen::Index>(counts[0] + counts[1]), num_columns);
+  MatrixD rows(static_cast<Eigen::Index>(counts[0] + counts[1]),
+               static_cast<Eigen::Index>(columns.size()));
   std::vector<int> yes;
   std::vector<double> weights;
   for (const VerifierExample& e : examples) {
     if (e.kind != Kind::word && e.kind != no) continue;
-    rows.row(static_cast<Eigen::Index>(yes.size())) = e.features.tail(num_columns).transpose();
+    rows.row(static_cast<Eigen::Index>(yes.size())) = picked(e.features, columns).transpose();
     yes.push_back(e.kind == no ? 0 : 1);
     weights.push_back(static_cast<double>(rows.rows()) / 2 / counts[e.kind == no ? 1 : 0]);
   }
@@ -114,8 +128,7 @@ LogisticRegression regression(const std::vector<VerifierExample>& examples, Kind
 }
 
 double log_odds(const LogisticRegression& model, const VectorD& features) {
-  const VectorD used = features.tail(model.dim());
-  return model.log_odds({used.data(), static_cast<std::size_t>(used.size())});
+  return model.log_odds({features.data(), static_cast<std::size_t>(features.size())});
 }
 
 // In files since format version 1.
@@ -196,26 +209,37 @@ VectorD WordVerifier::features(const MultiStreamScorer& scorer, const StreamFram
   return Eigen::Map<const VectorD>(result.data(), static_cast<Eigen::Index>(result.size()));
 }
 
-int WordVerifier::num_filler_features(const MultiStreamScorer& scorer) {
-  if (scorer.num_fillers() == 0) return 0;
-  return (scorer.streams().empty() ? 0 : 1) + (scorer.vectors() != nullptr ? 1 : 0) +
-         (scorer.network() != nullptr ? 1 : 0);
+std::vector<int> WordVerifier::features_of_words(const MultiStreamScorer& scorer, int num_words) {
+  const std::vector<std::string> names = feature_names(scorer);
+  const auto count = static_cast<Eigen::Index>(names.size());
+  if (scorer.num_fillers() == 0) return all_columns(count);
+  const auto decides = [&](const std::string& name) {
+    if (name == "fillers" || name == "vector_fillers" || name == "network_rivals") return true;
+    return num_words >= kManyWords && has_paths(scorer) && (name == "rivals" || name == "states");
+  };
+  std::vector<int> columns;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (decides(names[i])) columns.push_back(static_cast<int>(i));
+  }
+  return columns;
 }
 
 WordVerifier WordVerifier::fit(const std::vector<VerifierExample>& examples,
-                               int num_filler_features) {
+                               std::vector<int> of_words) {
   WordVerifier result;
-  result.words_ = regression(examples, Kind::other_word, num_filler_features);
-  result.sounds_ = regression(examples, Kind::sound, 0);
+  if (examples.empty()) return result;
+  result.words_ = regression(examples, Kind::other_word, of_words);
+  result.of_words_ = std::move(of_words);
+  result.sounds_ = regression(examples, Kind::sound, all_columns(examples.front().features.size()));
   return result;
 }
 
 float WordVerifier::verification_score(const VectorD& features) const {
   if (words_.dim() == 0 && sounds_.dim() == 0) return static_cast<float>(features[0]);
   if (words_.dim() == 0) return static_cast<float>(log_odds(sounds_, features));
-  if (sounds_.dim() == 0) return static_cast<float>(log_odds(words_, features));
+  const double a = log_odds(words_, picked(features, of_words_));
+  if (sounds_.dim() == 0) return static_cast<float>(a);
   // The odds of both alternatives add up.
-  const double a = log_odds(words_, features);
   const double b = log_odds(sounds_, features);
   return static_cast<float>(std::min(a, b) - std::log1p(std::exp(-std::abs(a - b))));
 }
@@ -234,19 +258,28 @@ WordVerifier WordVerifier::read(const ModelFile& file, const MultiStreamScorer& 
   const std::vector<std::string> names = stored_names(scorer);
   if (file.text_list(kFeatures) != names)
     fail(ErrorKind::format, file.name() + ": field '" + kFeatures + "' does not fit the models");
-  const auto read_model = [&](const char* prefix, std::size_t dim) {
+  const auto read_model = [&](const char* prefix) {
     if (!file.has(std::string(prefix) + "weights")) return LogisticRegression();
-    LogisticRegression model = LogisticRegression::read(file, prefix);
-    if (static_cast<std::size_t>(model.dim()) != dim) {
-      fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' has " +
-                                  std::to_string(model.dim()) + " values, expected " +
-                                  std::to_string(dim));
-    }
-    return model;
+    return LogisticRegression::read(file, prefix);
   };
-  const auto of_fillers = static_cast<std::size_t>(num_filler_features(scorer));
-  result.words_ = read_model(kWords, of_fillers > 0 ? of_fillers : names.size());
-  result.sounds_ = read_model(kSounds, names.size());
+  const auto refuse = [&](const char* prefix, const LogisticRegression& model, std::size_t dim) {
+    fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' has " +
+                                std::to_string(model.dim()) + " values, expected " +
+                                std::to_string(dim));
+  };
+  result.words_ = read_model(kWords);
+  if (result.words_.dim() > 0) {
+    // How many weights there are says which features they belong to.
+    const auto dim = static_cast<std::size_t>(result.words_.dim());
+    for (const int num_words : {kManyWords, 0}) {
+      result.of_words_ = features_of_words(scorer, num_words);
+      if (result.of_words_.size() == dim) break;
+    }
+    if (result.of_words_.size() != dim) refuse(kWords, result.words_, result.of_words_.size());
+  }
+  result.sounds_ = read_model(kSounds);
+  if (result.sounds_.dim() > 0 && static_cast<std::size_t>(result.sounds_.dim()) != names.size())
+    refuse(kSounds, result.sounds_, names.size());
   return result;
 }
 

@@ -75,7 +75,7 @@ TEST(EmbeddingAlone, RejectsByItsVectors) {
   const WordRecognizer recognizer = trained_alone();
   EXPECT_EQ(WordVerifier::feature_names(recognizer.scorer()),
             (std::vector<std::string>{"rivals", "vector_rivals", "vector_fillers"}));
-  EXPECT_EQ(WordVerifier::num_filler_features(recognizer.scorer()), 1);
+  EXPECT_EQ(WordVerifier::features_of_words(recognizer.scorer(), 99), std::vector<int>{2});
   EXPECT_EQ(recognizer.scorer().num_fillers(), 2);
   EXPECT_EQ(recognizer.verifier().word_weights().size(), 1);
   EXPECT_EQ(recognizer.verifier().sound_weights().size(), 3);
@@ -88,7 +88,7 @@ TEST(EmbeddingAlone, RejectsByItsVectors) {
   const WordRecognizer plain = trained_alone(embedding_alone(), false);
   EXPECT_EQ(WordVerifier::feature_names(plain.scorer()),
             (std::vector<std::string>{"rivals", "vector_rivals"}));
-  EXPECT_EQ(WordVerifier::num_filler_features(plain.scorer()), 0);
+  EXPECT_EQ(WordVerifier::features_of_words(plain.scorer(), 99), (std::vector<int>{0, 1}));
 }
 
 TEST(EmbeddingAlone, HoldsSpeakersOutForThresholdAndConfidences) {

@@ -43,16 +43,17 @@ struct VerifiedClips {
   std::vector<WordSample> samples;
 };
 
-VerifiedClips clips() {
+VerifiedClips clips(int num_persons = 3, int takes = 5) {
   VerifiedClips result;
-  result.audio.reserve(100);
+  result.audio.reserve(kTones.size() * static_cast<std::size_t>(num_persons * takes));
   Random random(11);
-  for (const char* person : {"a", "b", "c"}) {
-    const double pitch = 0.97 + 0.03 * (person[0] - 'a');
+  for (int person = 0; person < num_persons; ++person) {
+    const double pitch = 0.97 + 0.03 * (person % 3);
     for (const auto& [label, tones] : kTones) {
-      for (int take = 0; take < 5; ++take) {
+      for (int take = 0; take < takes; ++take) {
         result.audio.push_back(two_tones(tones.first, tones.second, pitch, &random));
-        result.samples.push_back({result.audio.back(), kToneRateHz, label, person});
+        const std::string name(1, static_cast<char>('a' + person));
+        result.samples.push_back({result.audio.back(), kToneRateHz, label, name});
       }
     }
   }
@@ -74,7 +75,7 @@ std::vector<VerifierExample> examples(double distance) {
 }
 
 TEST(WordVerifier, WeighsTheFeatureThatSeparatesWords) {
-  const WordVerifier verifier = WordVerifier::fit(examples(3), 0);
+  const WordVerifier verifier = WordVerifier::fit(examples(3), {0, 1});
   EXPECT_GT(verifier.word_weights()[0], 1);
   EXPECT_NEAR(verifier.word_weights()[1], 0, 0.3);
   EXPECT_GT(verifier.sound_weights()[0], 1);
@@ -91,8 +92,8 @@ TEST(WordVerifier, TakesTheRatioWhenUntrained) {
   EXPECT_EQ(WordVerifier().verification_score(features), 0.25F);
   std::vector<VerifierExample> words_only = examples(3);
   for (VerifierExample& e : words_only) e.kind = Kind::word;
-  EXPECT_EQ(WordVerifier::fit(words_only, 0).word_weights().size(), 0);
-  EXPECT_EQ(WordVerifier::fit({}, 0).verification_score(features), 0.25F);
+  EXPECT_EQ(WordVerifier::fit(words_only, {0, 1}).word_weights().size(), 0);
+  EXPECT_EQ(WordVerifier::fit({}, {0, 1}).verification_score(features), 0.25F);
 }
 
 // A model with two states, of frames near 0 and then near 5, and one of frames near 5 and then 0.
@@ -114,7 +115,7 @@ std::vector<GaussianMixtureHmm> steps() {
 }
 
 TEST(WordVerifier, FilesBelongToAKindOfModels) {
-  const WordVerifier verifier = WordVerifier::fit(examples(3), 0);
+  const WordVerifier verifier = WordVerifier::fit(examples(3), {0, 1});
   SequenceModelOptions options;
   options.num_states = 2;
   options.num_codewords = 2;
@@ -134,9 +135,84 @@ TEST(WordVerifier, FilesBelongToAKindOfModels) {
   EXPECT_EQ(WordVerifier::read(ModelFile(), with_fillers).word_weights().size(), 0);
   // The names in files stay those of format version 1.
   ModelFile names;
-  WordVerifier::fit(examples(3), 1).write(names, with_fillers);
+  WordVerifier::fit(examples(3), {1}).write(names, with_fillers);
   EXPECT_EQ(names.text_list("verifier.features").back(), "background");
   EXPECT_EQ(WordVerifier::feature_names(with_fillers).back(), "fillers");
+}
+
+// The features of models like steps() with fillers: ratio, rivals, states, length, pace, fillers.
+std::vector<VerifierExample> examples_with_fillers() {
+  Random random(3);
+  std::vector<VerifierExample> result;
+  for (int i = 0; i < 300; ++i) {
+    const auto kind = static_cast<Kind>(i % 3);
+    VectorD features(6);
+    for (double& x : features) x = random.normal() + (kind == Kind::word ? 2 : 0);
+    result.push_back({features, kind});
+  }
+  return result;
+}
+
+MultiStreamScorer scorer_with_fillers() {
+  SequenceModelOptions options;
+  options.num_states = 2;
+  options.garbage_mixtures = 1;
+  const ClassSequences sequences{{MatrixF::Random(8, 1)}, {MatrixF::Random(8, 1)}};
+  return MultiStreamScorer({train_sequence_scorer(sequences, options, {}, steps())});
+}
+
+TEST(WordVerifier, ManyWordsLetRivalsAndStatesDecideToo) {
+  const MultiStreamScorer scorer = scorer_with_fillers();
+  const int many = WordVerifier::kManyWords;
+  EXPECT_EQ(WordVerifier::features_of_words(scorer, many - 1), std::vector<int>{5});
+  EXPECT_EQ(WordVerifier::features_of_words(scorer, many), (std::vector<int>{1, 2, 5}));
+  for (const int num_words : {many - 1, many}) {
+    const WordVerifier verifier = WordVerifier::fit(
+        examples_with_fillers(), WordVerifier::features_of_words(scorer, num_words));
+    ModelFile file;
+    verifier.write(file, scorer);
+    const WordVerifier read = WordVerifier::read(file, scorer);
+    EXPECT_EQ(read.word_weights(), verifier.word_weights());
+    VectorD features(6);
+    features << 0.1, 0.9, -0.4, 0.2, 0.3, 0.7;
+    EXPECT_EQ(read.verification_score(features), verifier.verification_score(features));
+    // Fillers decide in both; the states in the second alone.
+    VectorD other = features;
+    other[2] = 3;
+    other[0] = -1;  // of sounds alone
+    const WordVerifier words_alone = WordVerifier::fit(
+        [] {
+          std::vector<VerifierExample> result = examples_with_fillers();
+          for (VerifierExample& e : result) {
+            if (e.kind == Kind::sound) e.kind = Kind::other_word;
+          }
+          return result;
+        }(),
+        WordVerifier::features_of_words(scorer, num_words));
+    const bool same =
+        words_alone.verification_score(features) == words_alone.verification_score(other);
+    EXPECT_EQ(same, num_words < many);
+  }
+  ModelFile damaged;
+  WordVerifier::fit(examples_with_fillers(), {0, 1}).write(damaged, scorer);
+  EXPECT_THROW(WordVerifier::read(damaged, scorer), FormatError);
+}
+
+TEST(WordRecognizer, CountsTheWordsOfEverySpeaker) {
+  WordRecognizerOptions options;
+  options.num_vtlp_factors = 1;
+  options.num_noisy_copies = 0;
+  options.max_iterations = 2;
+  Random random(8);
+  std::vector<std::vector<float>> audio;
+  for (int take = 0; take < 4; ++take) audio.push_back(two_tones(700, 2000, 1, &random));
+  std::vector<WordSample> fillers;
+  for (const auto& x : audio) fillers.push_back({x, kToneRateHz, "filler", ""});
+  for (const int num_persons : {9, 10}) {  // of five words each
+    const VerifiedClips all = clips(num_persons, 1);
+    const WordRecognizer recognizer = WordRecognizer::train(all.samples, options, {}, {}, fillers);
+    EXPECT_EQ(recognizer.verifier().word_weights().size(), num_persons < 10 ? 1 : 3);
+  }
 }
 
 // As features() finds them from a file of such models, of frames that fit the first one.

@@ -62,19 +62,21 @@ class HRI_API WordVerifier {
   static VectorD features(const MultiStreamScorer& scorer, const StreamFrames& frames,
                           const WordEvidence& evidence, int left_out = -1);
 
-  /// Trains on held-out examples: words against other words, and words against sounds, both kinds
-  /// of equal weight. With fillers their features, and that of a network, alone decide against
-  /// other words: few words are left out in training, and what separates those holds for others
-  /// less well. Without
-  /// examples of a kind that regression stays untrained.
-  static WordVerifier fit(const std::vector<VerifierExample>& examples, int num_filler_features);
-  /// How many of the last features compare with fillers, that of a network included; 0: no fillers.
-  static int num_filler_features(const MultiStreamScorer& scorer);
+  /// Trains on held-out examples: words against other words by their features `of_words`, and words
+  /// against sounds by all, both kinds of equal weight. Without examples of a kind that regression
+  /// stays untrained.
+  static WordVerifier fit(const std::vector<VerifierExample>& examples, std::vector<int> of_words);
+  /// Which features decide against other words, by how many different words, each speaker's for
+  /// itself, were scored without their own model. Without fillers all do. With them those of
+  /// fillers and of a network: what separates a few words holds for others less well. From
+  /// `kManyWords` on "rivals" and "states" of hidden Markov models do, too.
+  static std::vector<int> features_of_words(const MultiStreamScorer& scorer, int num_words);
+  static constexpr int kManyWords = 50;
 
   /// Log odds that a word of the vocabulary was said, and neither another word nor a mere sound.
   [[nodiscard]] float verification_score(const VectorD& features) const;
 
-  /// Weights of the features against other words (with fillers: of theirs alone); empty if
+  /// Weights of the features against other words (of `features_of_words` alone); empty if
   /// untrained.
   [[nodiscard]] const VectorD& word_weights() const { return words_.weights(); }
   /// Weights of all features against sounds; empty if untrained.
@@ -87,6 +89,7 @@ class HRI_API WordVerifier {
 
  private:
   LogisticRegression words_;
+  std::vector<int> of_words_;  // features that it weighs
   LogisticRegression sounds_;
 };
 
