@@ -23,8 +23,8 @@ Eigen::Index argmax(const VectorF& scores) {
 
 }  // namespace
 
-void HeldOutWords::add_word(const StreamFrames& frames, int label, bool as_recorded,
-                            const MultiStreamScorer& scorer) {
+void HeldOutWords::add_word(const StreamFrames& frames, int label, const std::string& group,
+                            bool as_recorded, const MultiStreamScorer& scorer) {
   using Kind = VerifierExample::Kind;
   const VectorF scores = scorer.scores(frames);
   const WordEvidence evidence = WordVerifier::evidence(scorer, frames, scores);
@@ -37,6 +37,7 @@ void HeldOutWords::add_word(const StreamFrames& frames, int label, bool as_recor
   if (scores.size() <= 2) return;
   as_unknown_.push_back(WordVerifier::features(scorer, frames, evidence, label));
   examples_.push_back({as_unknown_.back(), Kind::other_word});
+  words_left_out_.emplace(label, group);
 }
 
 void HeldOutWords::add_non_word(const StreamFrames& frames, VerifierExample::Kind kind,
@@ -51,11 +52,13 @@ void HeldOutWords::append(HeldOutWords more) {
   as_recorded_.insert(as_recorded_.end(), more.as_recorded_.begin(), more.as_recorded_.end());
   move_behind(&as_unknown_, &more.as_unknown_);
   move_behind(&examples_, &more.examples_);
+  words_left_out_.merge(more.words_left_out_);
 }
 
-Judgement HeldOutWords::judge(const WordRecognizerOptions& options, const MultiStreamScorer& scorer,
-                              int num_words) {
+Judgement HeldOutWords::judge(const WordRecognizerOptions& options,
+                              const MultiStreamScorer& scorer) {
   Judgement result;
+  const auto num_words = static_cast<int>(words_left_out_.size());
   result.verifier =
       WordVerifier::fit(examples_, WordVerifier::features_of_words(scorer, num_words));
   for (std::size_t i = 0; i < decisions_.size(); ++i)

@@ -5,6 +5,9 @@
 // calibration and the report of a training are made from.
 #pragma once
 
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "hri/recognition/calibration.hpp"
@@ -24,19 +27,18 @@ struct Judgement {
 
 class HeldOutWords {
  public:
-  /// A word of class `label`, by models that do not know its speaker. `as_recorded`: no noise was
-  /// added.
-  void add_word(const StreamFrames& frames, int label, bool as_recorded,
+  /// A word of class `label`, by models that do not know its speaker, `group`. `as_recorded`: no
+  /// noise was added.
+  void add_word(const StreamFrames& frames, int label, const std::string& group, bool as_recorded,
                 const MultiStreamScorer& scorer);
   void add_non_word(const StreamFrames& frames, VerifierExample::Kind kind,
                     const MultiStreamScorer& scorer);
   /// All of `more` behind these.
   void append(HeldOutWords more);
 
-  /// `scorer`: any of those that the words were added with; `num_words`: how many different
-  /// ones, each speaker's for itself.
+  /// `scorer`: any of those that the words were added with.
   [[nodiscard]] Judgement judge(const WordRecognizerOptions& options,
-                                const MultiStreamScorer& scorer, int num_words);
+                                const MultiStreamScorer& scorer);
 
  private:
   [[nodiscard]] HeldOutReport report(const std::vector<float>& others,
@@ -46,6 +48,7 @@ class HeldOutWords {
   std::vector<VectorD> features_;    // of each decision
   std::vector<bool> as_recorded_;    // each decision
   std::vector<VectorD> as_unknown_;  // of each, as if its word were not in the vocabulary
+  std::set<std::pair<int, std::string>> words_left_out_;  // label and speaker of these
   std::vector<VerifierExample> examples_;
 };
 

@@ -396,15 +396,13 @@ class WordTrainer {
   void score_sample(const PreparedSample& p, const MultiStreamScorer& scorer,
                     detail::HeldOutWords* held_out) const {
     for (const StreamFrames* copy : judged_copies(p))
-      held_out->add_word(*copy, p.label, copy == &p.copies.front(), scorer);
+      held_out->add_word(*copy, p.label, p.group, copy == &p.copies.front(), scorer);
     for (const NonWord& n : p.non_words) held_out->add_non_word(n.frames, n.kind, scorer);
   }
 
   [[nodiscard]] WordRecognizer assemble(MultiStreamScorer scorer,
                                         detail::HeldOutWords held_out) const {
-    std::set<std::pair<int, std::string>> words;
-    for (const PreparedSample& p : prepared_) words.emplace(p.label, p.group);
-    detail::Judgement judgement = held_out.judge(options_, scorer, static_cast<int>(words.size()));
+    detail::Judgement judgement = held_out.judge(options_, scorer);
     if (!judgement.report.empty()) judgement.report.labels = labels_;
     return {options_,
             labels_,

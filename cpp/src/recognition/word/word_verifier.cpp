@@ -258,28 +258,25 @@ WordVerifier WordVerifier::read(const ModelFile& file, const MultiStreamScorer& 
   const std::vector<std::string> names = stored_names(scorer);
   if (file.text_list(kFeatures) != names)
     fail(ErrorKind::format, file.name() + ": field '" + kFeatures + "' does not fit the models");
-  const auto read_model = [&](const char* prefix) {
+  const auto read_model = [&](const char* prefix, std::size_t fewest, std::size_t most) {
     if (!file.has(std::string(prefix) + "weights")) return LogisticRegression();
-    return LogisticRegression::read(file, prefix);
-  };
-  const auto refuse = [&](const char* prefix, const LogisticRegression& model, std::size_t dim) {
-    fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' has " +
-                                std::to_string(model.dim()) + " values, expected " +
-                                std::to_string(dim));
-  };
-  result.words_ = read_model(kWords);
-  if (result.words_.dim() > 0) {
-    // How many weights there are says which features they belong to.
-    const auto dim = static_cast<std::size_t>(result.words_.dim());
-    for (const int num_words : {kManyWords, 0}) {
-      result.of_words_ = features_of_words(scorer, num_words);
-      if (result.of_words_.size() == dim) break;
+    LogisticRegression model = LogisticRegression::read(file, prefix);
+    const auto dim = static_cast<std::size_t>(model.dim());
+    if (dim != fewest && dim != most) {
+      fail(ErrorKind::format, file.name() + ": field '" + prefix + "weights' has " +
+                                  std::to_string(dim) + " values, expected " +
+                                  std::to_string(fewest) +
+                                  (most == fewest ? "" : " or " + std::to_string(most)));
     }
-    if (result.of_words_.size() != dim) refuse(kWords, result.words_, result.of_words_.size());
-  }
-  result.sounds_ = read_model(kSounds);
-  if (result.sounds_.dim() > 0 && static_cast<std::size_t>(result.sounds_.dim()) != names.size())
-    refuse(kSounds, result.sounds_, names.size());
+    return model;
+  };
+  std::vector<int> few = features_of_words(scorer, 0);
+  std::vector<int> many = features_of_words(scorer, kManyWords);
+  result.words_ = read_model(kWords, few.size(), many.size());
+  // How many weights there are says which features they belong to.
+  const bool has_few = static_cast<std::size_t>(result.words_.dim()) == few.size();
+  result.of_words_ = std::move(has_few ? few : many);
+  result.sounds_ = read_model(kSounds, names.size(), names.size());
   return result;
 }
 

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "hri/core/error.hpp"
@@ -193,9 +195,33 @@ TEST(WordVerifier, ManyWordsLetRivalsAndStatesDecideToo) {
         words_alone.verification_score(features) == words_alone.verification_score(other);
     EXPECT_EQ(same, num_words < many);
   }
+}
+
+std::string message_of_reading(const ModelFile& file, const MultiStreamScorer& scorer) {
+  try {
+    WordVerifier::read(file, scorer);
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(WordVerifier, FilesWithOtherNumbersOfWeightsAreRefused) {
+  const MultiStreamScorer scorer = scorer_with_fillers();
   ModelFile damaged;
   WordVerifier::fit(examples_with_fillers(), {0, 1}).write(damaged, scorer);
-  EXPECT_THROW(WordVerifier::read(damaged, scorer), FormatError);
+  EXPECT_NE(message_of_reading(damaged, scorer).find("has 2 values, expected 1 or 3"),
+            std::string::npos);
+  for (const char* kind : {"words", "sounds"}) {
+    for (const Eigen::Index size : {0, 2}) {
+      ModelFile file;
+      WordVerifier::fit(examples_with_fillers(), {5}).write(file, scorer);
+      ASSERT_EQ(message_of_reading(file, scorer), "");
+      const std::string prefix = std::string("verifier.") + kind + ".";
+      file.set_vector(prefix + "weights", VectorD(VectorD::Ones(size)));
+      EXPECT_NE(message_of_reading(file, scorer), "") << kind << size;
+    }
+  }
 }
 
 TEST(WordRecognizer, CountsTheWordsOfEverySpeaker) {
@@ -208,11 +234,18 @@ TEST(WordRecognizer, CountsTheWordsOfEverySpeaker) {
   for (int take = 0; take < 4; ++take) audio.push_back(two_tones(700, 2000, 1, &random));
   std::vector<WordSample> fillers;
   for (const auto& x : audio) fillers.push_back({x, kToneRateHz, "filler", ""});
-  for (const int num_persons : {9, 10}) {  // of five words each
-    const VerifiedClips all = clips(num_persons, 1);
+  for (const int num_persons : {9, 10}) {  // of five words each, twice
+    const VerifiedClips all = clips(num_persons, 2);
     const WordRecognizer recognizer = WordRecognizer::train(all.samples, options, {}, {}, fillers);
     EXPECT_EQ(recognizer.verifier().word_weights().size(), num_persons < 10 ? 1 : 3);
   }
+  // Of two words neither is scored without its own model.
+  VerifiedClips two = clips(26, 1);
+  const auto third = [](const WordSample& s) { return s.label != "edge" && s.label != "wide"; };
+  two.samples.erase(std::remove_if(two.samples.begin(), two.samples.end(), third),
+                    two.samples.end());
+  const WordRecognizer recognizer = WordRecognizer::train(two.samples, options, {}, {}, fillers);
+  EXPECT_EQ(recognizer.verifier().word_weights().size(), 1);
 }
 
 // As features() finds them from a file of such models, of frames that fit the first one.

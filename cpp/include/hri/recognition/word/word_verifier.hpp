@@ -66,10 +66,10 @@ class HRI_API WordVerifier {
   /// against sounds by all, both kinds of equal weight. Without examples of a kind that regression
   /// stays untrained.
   static WordVerifier fit(const std::vector<VerifierExample>& examples, std::vector<int> of_words);
-  /// Which features decide against other words, by how many different words, each speaker's for
-  /// itself, were scored without their own model. Without fillers all do. With them those of
-  /// fillers and of a network: what separates a few words holds for others less well. From
-  /// `kManyWords` on "rivals" and "states" of hidden Markov models do, too.
+  /// Which features decide against other words, by how many pairs of word and speaker were scored
+  /// without the word's own model. Without fillers all do. With them those of fillers and of a
+  /// network: what separates a few words holds for others less well. From `kManyWords` pairs on
+  /// "rivals" and "states" of hidden Markov models do, too.
   static std::vector<int> features_of_words(const MultiStreamScorer& scorer, int num_words);
   static constexpr int kManyWords = 50;
 
