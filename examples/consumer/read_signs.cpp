@@ -4,6 +4,7 @@
 // one is out of sight. Builds with and without exceptions.
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <hri/core/error.hpp>
 #include <hri/recognition/sentence/sentence_stream.hpp>
 #include <iostream>
@@ -12,15 +13,17 @@
 
 namespace {
 
-// The numbers at the beginning of a line.
+// None if there is anything else in the line.
 std::vector<double> numbers_of(const std::string& line) {
   std::vector<double> result;
-  char* end = nullptr;
-  for (const char* at = line.c_str();; at = end) {
+  const char* at = line.c_str();
+  for (char* end = nullptr;; at = end) {
     const double value = std::strtod(at, &end);
-    if (end == at) return result;
+    if (end == at) break;
     result.push_back(value);
   }
+  if (at[std::strspn(at, " \t\r")] != '\0') return {};
+  return result;
 }
 
 void print(const hri::SentenceEvent& event) {
@@ -33,6 +36,7 @@ void print(const hri::SentenceEvent& event) {
     std::printf(stable ? "\t%s" : "\t[%s]", event.words[i].label.c_str());
   }
   std::printf("\n");
+  std::fflush(stdout);
 }
 
 }  // namespace
@@ -50,7 +54,7 @@ int main(int argc, char** argv) {
     ++number;
     const std::vector<double> values = numbers_of(line);
     if (values.size() != 7) {
-      std::fprintf(stderr, "line %d: expected 7 numbers, found %zu\n", number, values.size());
+      std::fprintf(stderr, "line %d: expected 7 numbers\n", number);
       return 3;
     }
     const std::vector<float> places(values.begin() + 1, values.end());

@@ -118,8 +118,9 @@ def test_signed_sentences_in_a_stream_are_those_of_python(programs: Path, tmp_pa
         done = subprocess.run(program, stdin=given, capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout.splitlines() == expected
     assert expected.count("sentence\tcat\tball") == 2
-    done = subprocess.run(program, input=f"{lines[0]}\n0.04 1 2 3 four\n", capture_output=True, text=True)
-    assert done.returncode == 3 and done.stderr == "line 2: expected 7 numbers, found 4\n"
+    for bad in ("0.04 1 2 3", "0.04 1 2 3 4 5 6 7", "0.04 1 2 3 4 5 6 seven", ""):
+        done = subprocess.run(program, input=f"{lines[0]}\n{bad}\n", capture_output=True, text=True)
+        assert done.returncode == 3 and done.stderr == "line 2: expected 7 numbers\n"
 
 
 def signed(seed: int, text: str) -> tuple[np.ndarray, list[tuple[str, int, int]]]:

@@ -137,7 +137,9 @@ class Listener:
     def _is_near(self, decision: Decision) -> bool:
         """Whether an urgent word was rejected by little; never without held-out words, which make scores log odds."""
         words, min_score = self._recognizer, self._attention.min_score
-        if decision.status != UNKNOWN or not isinstance(words, WordRecognizer) or words.held_out is None:
+        if decision.status != UNKNOWN or not decision.nbest:
+            return False
+        if not isinstance(words, WordRecognizer) or words.held_out is None:
             return False
         threshold = words.threshold if min_score is None else min_score
         return decision.nbest[0].label in self._urgent and decision.score >= threshold - NEAR

@@ -173,8 +173,7 @@ class SessionLogic:
                 pairs = self.pairer.drop(mode, time_s)
             else:
                 span = event.fields["first_s"], event.fields["last_s"]
-                seen = Observation(event.decision, *span, event.fields.get("near", ""))
-                pairs = self.pairer.observe(seen, time_s)
+                pairs = self.pairer.observe(Observation(event.decision, *span, event.fields.get("near", "")), time_s)
         elif event.event in _DROPS and mode not in self._unsettled:
             pairs = self.pairer.drop(mode, time_s)
         elif is_over(event):
@@ -196,7 +195,8 @@ class SessionLogic:
             return False
         span = event.fields["first_s"], event.fields["last_s"]
         moving = self.dialogue.state == ACTING
-        stops = self.pairer.is_stop(event.decision) if moving else self.pairer.is_sure_stop(event.decision)
+        near = self.pairer.is_stop_label(event.fields.get("near", ""))
+        stops = near or self.pairer.is_stop(event.decision) if moving else self.pairer.is_sure_stop(event.decision)
         return self._own_voice.may_be(event.decision, *span, stops, moving)
 
     def _heed_signs(self, event: Event, cause: Cause, out: list[Event]) -> None:

@@ -150,9 +150,13 @@ class Pairer:
         self._pass(mode, time_s)
         return list(self._resolve())
 
+    def is_stop_label(self, label: str) -> bool:
+        """Whether a label is STOP."""
+        return label in self._options.fusion.stop_labels
+
     def is_stop(self, decision: Decision) -> bool:
         """Whether a decision is STOP, sure or not."""
-        return decision.status == RECOGNISED and decision.label in self._options.fusion.stop_labels
+        return decision.status == RECOGNISED and self.is_stop_label(decision.label)
 
     def is_sure_stop(self, decision: Decision) -> bool:
         """Whether a decision is STOP, and as sure of it as `SessionOptions` ask."""
@@ -166,9 +170,9 @@ class Pairer:
         stream = self._streams[observation.mode]
         stream.begun_s = None
         decision, why = observation.decision, "STOP waits for nothing"
-        if self.hurried and observation.near in self._options.fusion.stop_labels:
+        if self.hurried and self.is_stop_label(observation.near):
             decision = replace(decision, label=observation.near, status=RECOGNISED)
-            why = "STOP counts where it was rejected by little while the robot moves"
+            why = "a STOP that was rejected by little counts while the robot moves"
         decision = self._strict(decision)
         observation = replace(observation, decision=decision)
         if self.is_sure_stop(decision):

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -130,6 +131,8 @@ def replay(
             failure = recorded[given["mode"]].failure
             if failure is not None:  # which a feed makes a stall of
                 raise failure
+            if event is not None and "near" in event.fields and "near" not in given:  # recorded before there was any
+                event = replace(event, fields={k: v for k, v in event.fields.items() if k != "near"})
         yield from logic.process(Arrival(event or as_event(given), time.perf_counter()))
 
 
