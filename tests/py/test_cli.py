@@ -8,6 +8,7 @@ import json
 import signal
 import subprocess
 import sys
+import tomllib
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -16,6 +17,7 @@ import pytest
 
 from conftest import RATE_HZ, tone_word
 from hri import _native
+from hri.cli.info import EXTRAS
 from hri.cli.main import COMMANDS
 from hri.cli.recognizers import parse_options
 from hri.core.errors import InvalidArgument
@@ -67,9 +69,9 @@ def test_evaluate_by_person_and_by_folders(hri, spoken: Path, tmp_path: Path):
     picture, report = tmp_path / "confusion.png", tmp_path / "new" / "report.json"
     result = hri(
         *("evaluate", "speech", "--data", spoken, "--confusion", picture, "--json", report),
-        *("--noise", "white", "--snr", "20"),
+        *("--noise", "white", "--snr", "20", "--front-end", "cepstra", "--no-network"),
     )
-    assert result.code == 0 and "%" not in result.err
+    assert result.code == 0 and "%" not in result.err and "front end: cepstra" in result.err
     rows = [line.split("\t") for line in result.out.splitlines()]
     assert [row[0] for row in rows] == ["held out", "high", "low", "middle", "all"]
     assert rows[-1][2].startswith("100.0 % ± 0.0")
@@ -78,7 +80,8 @@ def test_evaluate_by_person_and_by_folders(hri, spoken: Path, tmp_path: Path):
     assert written["conditions"]["snr_db"] == 20 and written["num_samples"] == 18
     assert written["options"]["num_states"] > 0
 
-    split = hri("evaluate", "speech", "--train", spoken, "--test", spoken, "--option", "num_states=4")
+    quick = ("--option", "num_states=4", "--option", "use_network=false")
+    split = hri("evaluate", "speech", "--train", spoken, "--test", spoken, *quick)
     assert split.code == 0 and split.out.splitlines()[-1].startswith("all\t18\t100.0 %")
 
 
@@ -193,3 +196,12 @@ def test_ctrl_c_while_training_ends_with_130_and_writes_nothing(
     assert (result.code, result.out, result.err.strip()) == (130, "", "hri: interrupted")
     assert reported.count("training") == 1
     assert list(tmp_path.glob("*.hri*")) == []
+
+
+def test_info_says_of_every_extra_whether_it_is_there(hri, monkeypatch: pytest.MonkeyPatch):
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
+    extras = project["optional-dependencies"].keys() - {"all", "test", "bench", "docs", "coverage", "lint"}
+    monkeypatch.setitem(EXTRAS, "live", ("no_such_package.microphones",))
+    lines = dict(line.split("\t") for line in hri("info").out.splitlines() if line.startswith("extra "))
+    assert lines.keys() == {f"extra {name}" for name in extras}
+    assert lines["extra live"] == "no: pip install libhri[live]" and lines["extra cli"] == "yes"

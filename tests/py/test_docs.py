@@ -107,5 +107,5 @@ def test_commands_shown_exist() -> None:
             if isinstance(command, click.Group):
                 command = command.get_command(click.Context(command), words[1])
                 assert command is not None, f"{page.name}: hri {line}"
-            known = {option for parameter in command.params for option in parameter.opts}
+            known = {option for parameter in command.params for option in (*parameter.opts, *parameter.secondary_opts)}
             assert {word for word in words if word.startswith("--")} <= known, f"{page.name}: hri {line}"

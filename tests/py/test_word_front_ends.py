@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +14,7 @@ import pytest
 
 import hri as package
 from conftest import PERSONS, RATE_HZ, CommandResult, tone_word
-from hri.cli.train import NETWORK_MIN_PERSONS
+from hri.cli.choices import NETWORK_MIN_PERSONS
 from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition import SpeechEmbedding, embedding_weights
 from hri.recognition.word import embedding as module
@@ -176,3 +177,32 @@ def test_the_command_line_trains_a_network_when_asked_or_for_enough_speakers(
         assert not package.load(model).options.use_network
     refused = hri("train", "gesture", "--data", spoken, "--network")
     assert refused.code == 2 and "--network" in refused.err
+
+
+@pytest.mark.parametrize("installed", [True, False])
+def test_evaluate_measures_what_train_makes(
+    spoken: Path, tmp_path: Path, hri: Callable[..., CommandResult], monkeypatch: pytest.MonkeyPatch, installed: bool
+) -> None:
+    if not installed:
+        monkeypatch.setattr("hri.recognition.word.embedding.PACKAGE", "no.such.package")
+    quick = ("--option", "network.num_epochs=2", "--option", "network.num_channels=8", "--option", "max_iterations=2")
+    made = {}
+    for command in ("train", "evaluate"):
+        report = tmp_path / f"{command}.json"
+        out = ("--out", tmp_path / "words.hri") if command == "train" else ()
+        done = hri(command, "speech", "--data", spoken, "--json", report, *quick, *out)
+        assert done.code == 0, done.err
+        assert ("front end: both" if installed else "front end: cepstra") in done.err
+        assert ("a network" in done.err) is not installed, "three speakers: beside cepstra alone"
+        made[command] = json.loads(report.read_text())["options"]
+    assert made["train"] == made["evaluate"]
+    assert made["train"]["front_end"] == ("both" if installed else "cepstra")
+    two = hri("evaluate", "speech", "--data", spoken, "--train-persons", "2", "--front-end", "cepstra", *quick)
+    assert two.code == 0 and "a network" not in two.err
+    for flags in (("--network",), ("--front-end", "both")):
+        assert hri("evaluate", "gesture", "--data", spoken, *flags).code == 2
+        twice = hri("evaluate", "speech", "--data", spoken, *flags, "--option", f"{NAMES[flags[0]]}=true")
+        assert twice.code == 2 and "exclude each other" in twice.err
+
+
+NAMES = {"--network": "use_network", "--front-end": "front_end"}

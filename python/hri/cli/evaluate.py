@@ -9,6 +9,15 @@ from typing import Any
 
 import click
 
+from hri.cli.choices import (
+    asked_options,
+    chosen_options,
+    front_end_option,
+    hands_option,
+    network_option,
+    source_option,
+    what_words_are_of,
+)
 from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say_table, write_json
@@ -21,11 +30,11 @@ from hri.cli.recognizers import (
     options_option,
     pattern_option,
     recognizer_factory,
-    with_embedding,
 )
 from hri.core.optional import import_optional
 from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, FoldResult, cross_validate, evaluate_split
+from hri.recognition import WordRecognizer
 
 _folder = click.Path(exists=True, file_okay=False)
 
@@ -44,7 +53,11 @@ _folder = click.Path(exists=True, file_okay=False)
 @click.option("--train-noise", is_flag=True, help="Train on a noisy copy of every clip too.")
 @click.option("--exposure", type=FiniteRange(0.05, 20), help="Factor on the brightness of the test pictures.")
 @options_option("MODE", "num_states=8")
+@front_end_option
 @embedding_option
+@network_option
+@source_option
+@hands_option
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of folds, training and noise.")
 @click.option(
     "--confusion",
@@ -73,7 +86,11 @@ def evaluate(
     train_noise: bool,
     exposure: float | None,
     options: tuple[str, ...],
+    front_end: str | None,
     embedding_path: str | None,
+    network: bool | None,
+    source: str | None,
+    hands: str | None,
     seed: int,
     confusion: str | None,
     reliability: str | None,
@@ -81,9 +98,13 @@ def evaluate(
 ) -> None:
     """Measure the accuracy of MODE (speech or gesture) on persons who are not in the training data.
 
+    What is measured is what 'hri train' makes of the same recordings by the same options. That may take hours where
+    many people are held out one by one: --folds 5 and --no-network take a fraction of that.
+
     \b
     Examples:
       hri evaluate speech --data spoken/
+      hri evaluate speech --data spoken/ --front-end cepstra --no-network --folds 5
       hri evaluate gesture --data signed/ --folds 5 --confusion confusion.png --reliability reliability.png
       hri evaluate speech --train ours/ --test theirs/ --json result.json
       hri evaluate speech --data spoken/ --noise white --snr 10 --train-noise
@@ -106,7 +127,14 @@ def evaluate(
         raise click.UsageError("--leave-out goes without --folds and --train-persons")
     if confusion is not None or reliability is not None:
         import_optional("matplotlib", "plots", "to draw the confusion matrix or the reliability diagram")
-    options = with_embedding(options, embedding_path) if mode == "speech" else options
+    options = asked_options(
+        mode, options, front_end=front_end, embedding_path=embedding_path, network=network, source=source, hands=hands
+    )
+    folder = data or train_dir
+    assert folder is not None
+    dataset = load_dataset(folder, mode, pattern)
+    num_persons = train_persons or len(dataset.persons)
+    options, why_source = chosen_options(mode, options, dataset, num_persons, seed)
     make = recognizer_factory(mode, options, seed)
     conditions: dict[str, Any] = {
         "seed": seed,
@@ -118,17 +146,19 @@ def evaluate(
     }
     with progress_bars() as progress:
         conditions["progress"] = progress
-        if data is not None:
-            dataset = load_dataset(data, mode, pattern)
+        if test_dir is None:
             result = cross_validate(
                 dataset, make, num_folds=folds, train_persons=train_persons, leave_out=leave_out, **conditions
             )
         else:
-            assert train_dir is not None and test_dir is not None
-            parts = [load_dataset(folder, mode, pattern) for folder in (train_dir, test_dir)]
-            _warn_of_shared_persons(*parts)
-            result = evaluate_split(parts[0], parts[1], make, **conditions)
+            test = load_dataset(test_dir, mode, pattern)
+            _warn_of_shared_persons(dataset, test)
+            result = evaluate_split(dataset, test, make, **conditions)
     say_table(_table(result), json_path)
+    measured = make()
+    lines = what_words_are_of(measured.options) if isinstance(measured, WordRecognizer) else [why_source]
+    for line in filter(None, lines):
+        note(line)
     if "stratified" in str(result.conditions.get("folds", "")):
         note(f"folds are {result.conditions['folds']}")
     if confusion is not None:
@@ -143,7 +173,7 @@ def evaluate(
     elif reliability is not None:
         note("no reliability diagram: no recording has a word or a sign in it")
     found = {**result.to_dict(), "reliability": result.reliability().to_dict() if has_input else None}
-    write_json(json_path, {"mode": mode, **found, "options": make().options.as_dict()})
+    write_json(json_path, {"mode": mode, **found, "options": measured.options.as_dict()})
 
 
 def _warn_of_shared_persons(train: Dataset, test: Dataset) -> None:

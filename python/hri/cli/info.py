@@ -25,9 +25,16 @@ _OF_SEVERAL = {"connected_word_recognizer": "connected", "sentence_recognizer": 
 EXTRAS = {
     "audio": ("soundfile",),
     "cli": ("click", "rich", "platformdirs"),
+    "embedding": ("livekit.wakeword",),
+    "live": ("sounddevice",),
+    "mcap": ("mcap", "mcap_ros2"),
+    "mediapipe": ("mediapipe",),
+    "nao": ("qi",),
     "plots": ("matplotlib",),
     "robot": ("pybullet",),
+    "studies": ("pyroomacoustics", "audiotsm"),
     "video": ("cv2",),
+    "web": ("starlette", "uvicorn", "websockets"),
 }
 
 
@@ -56,9 +63,16 @@ def _installation() -> dict[str, Any]:
         "version": __version__,
         "python": python_version(),
         "native": {"core": True, "vision": _has_vision()},
-        "extras": {name: all(map(find_spec, modules)) for name, modules in EXTRAS.items()},
+        "extras": {name: all(map(_is_there, modules)) for name, modules in EXTRAS.items()},
         "models": {mode: str(default_model(mode)) for mode in KINDS if default_model(mode).is_file()},
     }
+
+
+def _is_there(module: str) -> bool:
+    try:
+        return find_spec(module) is not None
+    except ModuleNotFoundError:  # of the package around it
+        return False
 
 
 def _has_vision() -> bool:

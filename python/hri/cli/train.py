@@ -8,9 +8,18 @@ from pathlib import Path
 
 import click
 
+from hri.cli.choices import (
+    asked_options,
+    chosen_options,
+    front_end_option,
+    hands_option,
+    names,
+    network_option,
+    source_option,
+    what_words_are_of,
+)
 from hri.cli.faces import faces_option
 from hri.cli.groups import CheckedCommand, is_given
-from hri.cli.hand_source import choose_source
 from hri.cli.messages import note
 from hri.cli.noisy_copies import check_noises, with_noisy_copies
 from hri.cli.output import OutputFile, json_option, say, write_json
@@ -24,17 +33,11 @@ from hri.cli.recognizers import (
     options_option,
     pattern_option,
     recognizer_factory,
-    with_embedding,
 )
 from hri.evaluation.training import fillers_of
 from hri.evaluation.training import train as train_recognizer
-from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer, embedding_weights
+from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
 from hri.vision.faces import face_finder
-
-NETWORK_MIN_PERSONS = {"cepstra": 3, "both": 10, "embedding": 10}
-"""By front end, from how many on a network is trained unless asked otherwise: beside cepstra it gains much in noise
-even with three, beside the embedding little (`hri study fsdd-noise-network`); there it was measured again with
-twenty only."""
 
 
 @click.command(cls=CheckedCommand)
@@ -50,20 +53,9 @@ twenty only."""
     help="Speech only: a folder of words outside the vocabulary, for rejection, in place of the synthetic ones of hri.",
 )
 @click.option("--no-fillers", is_flag=True, help="Speech only: no filler words; training and recognition are faster.")
-@click.option(
-    "--front-end",
-    type=click.Choice(["cepstra", "both", "embedding"]),
-    help="Speech only: cepstra alone, both: with a pretrained speech embedding, which the extra embedding installs, or "
-    "that embedding alone. The default is both where the extra is. The same as --option front_end=...",
-)
+@front_end_option
 @embedding_option
-@click.option(
-    "--network/--no-network",
-    default=None,
-    help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes; the default is "
-    "to do so from three speakers on with cepstra, and from ten on with the embedding. The same as --option "
-    "use_network=true or false",
-)
+@network_option
 @click.option(
     "--noise",
     "noises",
@@ -72,18 +64,8 @@ twenty only."""
     help="Speech only: train on a copy of every recording in noise too, 0 to 20 dB below the word, best in a recording "
     "of the place where the recogniser is used. With several, each copy takes one of them.",
 )
-@click.option(
-    "--source",
-    type=click.Choice(["silhouettes", "landmarks"]),
-    help="Gesture only: silhouettes of hands, or their joints, as the extra mediapipe finds them. The default is "
-    "landmarks where the extra is installed and finds the hands. The same as --option source=...",
-)
-@click.option(
-    "--hands",
-    type=click.Choice(["one", "both"]),
-    help="Gesture only: whether gestures are of one hand, the default, or of both. The same as --option num_hands=1 or "
-    "2",
-)
+@source_option
+@hands_option
 @faces_option("never: an open palm may look like a face")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
@@ -123,58 +105,25 @@ def train(
         raise click.UsageError("--fillers and --no-fillers are for speech")
     if fillers and no_fillers:
         raise click.UsageError("--fillers and --no-fillers exclude each other")
-    flags = {
-        "--front-end": "front_end",
-        "--network": "use_network",
-        "--hands": "num_hands",
-        "--source": "source",
-        "--faces": "use_faces",
-    }
-    for flag, given in zip(flags, (front_end, network, hands, source, faces), strict=True):
-        if given is not None and any(o.startswith(f"{flags[flag]}=") for o in options):
-            raise click.UsageError(f"{flag} and --option {flags[flag]}=... exclude each other")
-    if is_given("seed") and any(o.startswith("seed=") for o in options):
+    if is_given("seed") and names(options, "seed"):
         raise click.UsageError("--seed and --option seed=... exclude each other")
-    if front_end is not None:
-        if mode != "speech":
-            raise click.UsageError("--front-end is for speech")
-        options = (*options, f"front_end={front_end}")
-    if embedding_path is not None:
-        if mode != "speech":
-            raise click.UsageError("--embedding is for speech")
-        options = with_embedding(options, embedding_path)
-    elif mode == "speech" and _has_embedding() and not any(o.startswith("front_end=") for o in options):
-        options = (*options, "front_end=both")
-    if network is not None and mode != "speech":
-        raise click.UsageError("--network is for speech")
     if noises and mode != "speech":
         raise click.UsageError("--noise is for speech")
     check_noises(noises)
-    if hands is not None:
-        if mode != "gesture":
-            raise click.UsageError("--hands is for gesture")
-        options = (*options, f"num_hands={1 if hands == 'one' else 2}")
-    if source is not None:
-        if mode != "gesture":
-            raise click.UsageError("--source is for gesture")
-        options = (*options, f"source={source}")
+    options = asked_options(
+        mode, options, front_end=front_end, embedding_path=embedding_path, network=network, source=source, hands=hands
+    )
     if faces is not None:
         if mode != "gesture" or "source=landmarks" in options:
             raise click.UsageError("--faces is for gestures by silhouettes")
+        if names(options, "use_faces"):
+            raise click.UsageError("--faces and --option use_faces=... exclude each other")
         options = (*options, f"use_faces={str(faces != 'never').lower()}")
-        if source is None and not any(o.startswith("source=") for o in options):
+        if not names(options, "source"):
             options = (*options, "source=silhouettes")
     dataset = load_dataset(data, mode, pattern)
-    why_source = ""
-    if mode == "gesture" and not any(o.startswith("source=") for o in options):
-        chosen, why_source = choose_source(dataset)
-        options = (*options, f"source={chosen}")
-    asked = network is not None or any(o.startswith("use_network=") for o in options)
-    if network is not None:
-        options = (*options, f"use_network={str(network).lower()}")
+    options, why_source = chosen_options(mode, options, dataset, len(dataset.persons), seed)
     untrained = recognizer_factory(mode, options, seed)()
-    if isinstance(untrained, WordRecognizer) and not asked and _trains_network(untrained, len(dataset.persons)):
-        untrained = recognizer_factory(mode, (*options, "use_network=true"), seed)()
     embedding = embedding_for(untrained, embedding_path)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
@@ -192,9 +141,8 @@ def train(
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
     note(f"{len(dataset)} recordings{persons}, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
     if isinstance(recognizer, WordRecognizer):
-        note(f"front end: {_front_end(recognizer.options.front_end)}")
-        if recognizer.options.use_network:
-            note("a network of the same words votes too; --no-network trains in a fraction of the time")
+        for line in what_words_are_of(recognizer.options):
+            note(line)
     if noises:
         note("trained on a copy of every recording in noise, too; what follows counts both")
     if why_source:
@@ -222,26 +170,3 @@ def train(
             "held_out": None if report is None else report.to_dict(),
         },
     )
-
-
-def _trains_network(recognizer: WordRecognizer, num_persons: int) -> bool:
-    return num_persons >= NETWORK_MIN_PERSONS[recognizer.options.front_end]
-
-
-def _has_embedding() -> bool:
-    try:
-        embedding_weights()
-    except ImportError:
-        return False
-    return True
-
-
-def _front_end(name: str) -> str:
-    """What a model was trained on, and what else there is."""
-    if name != "cepstra":
-        parts = "both, cepstra and a speech embedding" if name == "both" else "embedding, a speech embedding alone"
-        return (
-            f"{parts} (extra embedding); wherever the model is used it needs the extra too, or the weights "
-            "(--embedding), or --front-end cepstra here"
-        )
-    return "cepstra; --front-end both understands people better whom it has not met (extra embedding)"

@@ -1,0 +1,143 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What ``hri train`` trains and ``hri evaluate`` measures: by flags, and what is chosen without them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import click
+
+from hri.cli.hand_source import choose_source
+from hri.cli.recognizers import recognizer_factory, with_embedding
+from hri.datasets import Dataset
+from hri.recognition import WordRecognizer, WordRecognizerOptions, embedding_weights
+
+NETWORK_MIN_PERSONS = {"cepstra": 3, "both": 10, "embedding": 10}
+"""By front end, from how many on a network is trained unless asked otherwise: beside cepstra it gains much in noise
+even with three, beside the embedding little (`hri study fsdd-noise-network`); there it was measured again with
+twenty only."""
+
+Decorator = Callable[[Any], Any]
+
+front_end_option: Decorator = click.option(
+    "--front-end",
+    type=click.Choice(["cepstra", "both", "embedding"]),
+    help="Speech only: cepstra alone, both: with a pretrained speech embedding, which the extra embedding installs, or "
+    "that embedding alone. The default is both where the extra is. The same as --option front_end=...",
+)
+network_option: Decorator = click.option(
+    "--network/--no-network",
+    default=None,
+    help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes; the default is "
+    "to do so from three speakers on with cepstra, and from ten on with the embedding. The same as --option "
+    "use_network=true or false",
+)
+source_option: Decorator = click.option(
+    "--source",
+    type=click.Choice(["silhouettes", "landmarks"]),
+    help="Gesture only: silhouettes of hands, or their joints, as the extra mediapipe finds them. The default is "
+    "landmarks where the extra is installed and finds the hands. The same as --option source=...",
+)
+hands_option: Decorator = click.option(
+    "--hands",
+    type=click.Choice(["one", "both"]),
+    help="Gesture only: whether gestures are of one hand, the default, or of both. The same as --option num_hands=1 or "
+    "2",
+)
+_OF_MODE = {"--front-end": "speech", "--embedding": "speech", "--network": "speech"}
+_NAMES = {"--front-end": "front_end", "--network": "use_network", "--hands": "num_hands", "--source": "source"}
+
+
+def names(options: tuple[str, ...], name: str) -> bool:
+    """Whether ``--option`` gives this one."""
+    return any(option.startswith(f"{name}=") for option in options)
+
+
+def asked_options(
+    mode: str,
+    options: tuple[str, ...],
+    *,
+    front_end: str | None,
+    embedding_path: str | None,
+    network: bool | None,
+    source: str | None,
+    hands: str | None,
+) -> tuple[str, ...]:
+    """`options`, and behind them those that the flags stand for.
+
+    Raises
+    ------
+    click.UsageError
+        For a flag of the other mode, and one whose option is given, too.
+    """
+    flags = {"--front-end": front_end, "--network": network, "--hands": hands, "--source": source}
+    for flag, given in (*flags.items(), ("--embedding", embedding_path)):
+        if given is not None and mode != _OF_MODE.get(flag, "gesture"):
+            raise click.UsageError(f"{flag} is for {_OF_MODE.get(flag, 'gesture')}")
+        if given is not None and flag in _NAMES and names(options, _NAMES[flag]):
+            raise click.UsageError(f"{flag} and --option {_NAMES[flag]}=... exclude each other")
+    values = {
+        "front_end": front_end,
+        "use_network": None if network is None else str(network).lower(),
+        "num_hands": None if hands is None else 1 if hands == "one" else 2,
+        "source": source,
+    }
+    options = (*options, *(f"{name}={value}" for name, value in values.items() if value is not None))
+    return with_embedding(options, embedding_path)
+
+
+def chosen_options(
+    mode: str, options: tuple[str, ...], dataset: Dataset, num_persons: int, seed: int
+) -> tuple[tuple[str, ...], str]:
+    """`options`, and behind them what they leave open: by the extras that are installed, and the recordings.
+
+    Parameters
+    ----------
+    mode, options, seed
+        As `recognizer_factory` takes them.
+    dataset : Dataset
+    num_persons : int
+        How many are trained on.
+
+    Returns
+    -------
+    (tuple of str, str)
+        The options, and why gestures are of this source; "" where that was asked for, and for speech.
+    """
+    if mode == "gesture":
+        if names(options, "source"):
+            return options, ""
+        source, why = choose_source(dataset)
+        return (*options, f"source={source}"), why
+    if not names(options, "front_end") and _has_embedding():
+        options = (*options, "front_end=both")
+    untrained = recognizer_factory(mode, options, seed)()
+    assert isinstance(untrained, WordRecognizer)
+    if not names(options, "use_network") and num_persons >= NETWORK_MIN_PERSONS[untrained.options.front_end]:
+        options = (*options, "use_network=true")
+    return options, ""
+
+
+def what_words_are_of(options: WordRecognizerOptions) -> list[str]:
+    """Lines on what words are recognised by, and what else there is."""
+    lines = ["front end: cepstra; --front-end both understands people better whom it has not met (extra embedding)"]
+    if options.front_end != "cepstra":
+        both = options.front_end == "both"
+        parts = "both, cepstra and a speech embedding" if both else "embedding, a speech embedding alone"
+        lines = [
+            f"front end: {parts} (extra embedding); wherever a model is used it needs the extra too, or the weights "
+            "(--embedding), or --front-end cepstra here"
+        ]
+    if options.use_network:
+        lines.append("a network of the same words votes too; --no-network trains in a fraction of the time")
+    return lines
+
+
+def _has_embedding() -> bool:
+    try:
+        embedding_weights()
+    except ImportError:
+        return False
+    return True
