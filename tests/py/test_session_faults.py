@@ -23,7 +23,7 @@ from hri.robot import Robot, Trajectory, open_robot
 from hri.robot.imitation import LiveImitation, SeenPerson
 from hri.session import EventQueue, Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE
-from hri.session.feeds import Arrival, Feed, merge
+from hri.session.feeds import Feed, merge
 from hri.session.live import LiveFeeds
 from hri.session.logic import NoRobot, SessionLogic, moved_event
 from hri.session.mover import Cause, Moved, Mover
@@ -172,37 +172,6 @@ def test_while_the_robot_speaks_stop_has_to_be_sure_unless_it_moves(moving: bool
         begun(logic, "flat")
     heard = Decision("speech", "stop", "recognised", confidence, nbest=())
     assert logic._is_own(Event(2.5, "decision", {"first_s": 1.5, "last_s": 2.0}, heard, "speech")) is own
-
-
-@pytest.mark.parametrize("speaks", [False, True])
-@pytest.mark.parametrize(
-    ("moving", "near", "stops"), [(True, "stop", True), (True, "tall", False), (False, "stop", False)]
-)
-def test_a_stop_that_was_rejected_by_little_halts_what_moves(
-    moving: bool, near: str, stops: bool, speaks: bool
-) -> None:
-    logic = SessionLogic(SessionOptions(), NoRobot(reports=False), ("flat", "tall"))
-
-    def heed(kind: str, time_s: float, decision: Decision | None = None, **fields: Any) -> list[str]:
-        heeded = logic.process(Arrival(Event(time_s, kind, fields, decision, "speech"), 0.0))
-        return [event.event for event in heeded]
-
-    heed("listening", 0.0)
-    if speaks:
-        logic._own_voice.begin("flat.", 1.0)
-    if moving:
-        begun(logic, "flat")
-    heed("level", 1.0)
-    rejected = Decision("speech", "unknown", "unknown", 0.9, nbest=(NBest(near, 0.9, 0.0), NBest("flat", 0.1, -2.0)))
-    heard = heed("decision", 2.5, rejected, first_s=1.5, last_s=2.0, near=near)
-    assert ("stop" in heard) is stops and ("fused" in heard) is (stops or not speaks)
-
-
-def test_what_is_rejected_without_any_label_is_not_near(words: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    nothing = Decision("speech", "unknown", "unknown", 0.0)
-    monkeypatch.setattr(hri.WordRecognizer, "recognise", lambda *_: nothing)
-    found = list(Listener(words, urgent=("stop",)).listen(ArraySource(speech([("stop", 0.8)], 2.5), RATE_HZ)))
-    assert [e.decision for e in found if e.event == "decision"] == [nothing]
 
 
 def test_stop_drops_a_motion_that_waits(robot: Robot) -> None:
