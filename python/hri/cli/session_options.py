@@ -86,7 +86,7 @@ _OPTIONS = (
         default=SessionOptions.stop_at_rest,
         show_default=True,
         metavar="P",
-        help="While nothing moves, a spoken STOP less sure than this is asked about; 0.99 where people talk.",
+        help="While nothing moves, a spoken STOP less sure than this is asked about; 0.99 in talk, by cepstra.",
     ),
     click.option(
         "--imitate",
