@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -109,3 +110,29 @@ def test_commands_shown_exist() -> None:
                 assert command is not None, f"{page.name}: hri {line}"
             known = {option for parameter in command.params for option in (*parameter.opts, *parameter.secondary_opts)}
             assert {word for word in words if word.startswith("--")} <= known, f"{page.name}: hri {line}"
+
+
+def test_every_option_stands_in_a_page() -> None:
+    """An option is explained in the docs, not in --help alone; those of `hri htk` are HTK's."""
+    import click
+
+    from hri.cli.main import hri as group
+
+    text = "\n".join(page.read_text() for page in PAGES)
+    written = set(re.findall(r"(?<![\w-])--?[a-z][\w-]*", text))
+
+    def options(command: click.Command, name: str) -> Iterator[tuple[str, set[str]]]:
+        if isinstance(command, click.Group):
+            context = click.Context(command)
+            for sub in set(command.list_commands(context)) - {"htk"}:
+                found = command.get_command(context, sub)
+                assert found is not None
+                yield from options(found, f"{name} {sub}")
+        else:
+            for parameter in command.params:
+                if isinstance(parameter, click.Option) and not parameter.hidden:
+                    yield name, {*parameter.opts, *parameter.secondary_opts}
+
+    found = list(options(group, "hri"))
+    assert len(found) > 300  # it looked at all commands
+    assert [f"{name} {min(names)}" for name, names in found if not names & written] == []
