@@ -113,12 +113,12 @@ def test_commands_shown_exist() -> None:
 
 
 def test_every_option_stands_in_a_page() -> None:
-    """An option is explained in the docs, not in --help alone; those of `hri htk` are HTK's."""
+    """The name of every option is in some page, not in --help alone; those of `hri htk` are HTK's."""
     import click
 
     from hri.cli.main import hri as group
 
-    text = "\n".join(page.read_text() for page in PAGES)
+    text = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
     written = set(re.findall(r"(?<![\w-])--?[a-z][\w-]*", text))
 
     def options(command: click.Command, name: str) -> Iterator[tuple[str, set[str]]]:
