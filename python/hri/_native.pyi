@@ -6483,7 +6483,7 @@ class WordRecognizerOptions:
     max_snr_db : float, default 20.0
         largest; each copy has its own, at random; -20..100 dB
     false_reject_rate : float, default 0.05
-        share of correct held-out words, noisy ones included, that the threshold may reject; 0..0.5
+        share of correct held-out words that the threshold may reject; noisy copies included, but for front_end both or embedding; 0..0.5
     num_embedding_copies : int, default 4
         front_end both or embedding: training copies of every word for the embedding alone, with noise added and faster or slower by up to 15 %; 0..20
     embedding_weight : float, default 0.0
@@ -6493,9 +6493,7 @@ class WordRecognizerOptions:
     embedding_shrinkage : float, default 0.8
         front_end both or embedding: of the embedding's linear discriminants, by which words are rejected; 0..1
     embedding_false_accept_rate : float, default 0.1
-        front_end both or embedding: share of other words that the threshold may accept, if it can be met; 0..1
-    embedding_max_false_reject_rate : float, default 0.2
-        front_end both or embedding: share of correct held-out words that the threshold may reject to that end; 0..0.5
+        front_end both or embedding: share of other words that the threshold may accept; where it and false_reject_rate cannot both be kept to, both are exceeded by the same factor; 0..1
     use_network : bool, default False
         a small network of log mel energies, trained on the same words, votes too: for many speakers
     network : SequenceNetworkOptions or dict
@@ -6539,7 +6537,6 @@ class WordRecognizerOptions:
         embedding_penalty: float = 100.0,
         embedding_shrinkage: float = 0.8,
         embedding_false_accept_rate: float = 0.1,
-        embedding_max_false_reject_rate: float = 0.2,
         use_network: bool = False,
         network: SequenceNetworkOptions | collections.abc.Mapping[str, typing.Any] = ...,
         network_weight: float = 0.0,
@@ -6567,17 +6564,10 @@ class WordRecognizerOptions:
     @property
     def embedding_false_accept_rate(self) -> float:
         """
-        front_end both or embedding: share of other words that the threshold may accept, if it can be met
+        front_end both or embedding: share of other words that the threshold may accept; where it and false_reject_rate cannot both be kept to, both are exceeded by the same factor
         """
     @embedding_false_accept_rate.setter
     def embedding_false_accept_rate(self, arg1: typing.Any) -> None: ...
-    @property
-    def embedding_max_false_reject_rate(self) -> float:
-        """
-        front_end both or embedding: share of correct held-out words that the threshold may reject to that end
-        """
-    @embedding_max_false_reject_rate.setter
-    def embedding_max_false_reject_rate(self, arg1: typing.Any) -> None: ...
     @property
     def embedding_penalty(self) -> float:
         """
@@ -6602,7 +6592,7 @@ class WordRecognizerOptions:
     @property
     def false_reject_rate(self) -> float:
         """
-        share of correct held-out words, noisy ones included, that the threshold may reject
+        share of correct held-out words that the threshold may reject; noisy copies included, but for front_end both or embedding
         """
     @false_reject_rate.setter
     def false_reject_rate(self, arg1: typing.Any) -> None: ...

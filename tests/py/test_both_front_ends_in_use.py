@@ -38,7 +38,7 @@ def words(request: pytest.FixtureRequest) -> hri.WordRecognizer:
         for label, slope in SLOPES.items()
     ]
     x, y, persons = map(list, zip(*rows, strict=True))
-    made = hri.WordRecognizer(front_end=request.param, max_iterations=4, embedding_max_false_reject_rate=0.0)
+    made = hri.WordRecognizer(front_end=request.param, max_iterations=4, embedding_false_accept_rate=1.0)
     return made.fit(x, y, sample_rate_hz=RATE_HZ, groups=persons)
 
 

@@ -106,7 +106,6 @@ class WordRecognizerKeywords(TypedDict, total=False):
     embedding_penalty: float
     embedding_shrinkage: float
     embedding_false_accept_rate: float
-    embedding_max_false_reject_rate: float
     use_network: bool
     network: _native.SequenceNetworkOptions | SequenceNetworkKeywords
     network_weight: float

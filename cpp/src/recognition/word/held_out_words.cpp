@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recognition/word/held_out_words.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
+
+#include "recognition/word/word_threshold.hpp"
 
 namespace hri::detail {
 namespace {
@@ -68,16 +71,37 @@ Judgement HeldOutWords::judge(const WordRecognizerOptions& options,
   for (const VectorD& features : as_unknown_)
     others.push_back(result.verifier.verification_score(features));
   RejectionRates rates;
-  rates.false_reject = options.false_reject_rate;
-  if (has_embedding(options.front_end)) {
-    rates.max_false_reject = options.embedding_max_false_reject_rate;
-    rates.false_accept = options.embedding_false_accept_rate;
-  } else {
-    rates.max_false_reject = options.false_reject_rate;
-  }
-  result.calibration = Calibration::fit(decisions_, rates, others);
+  rates.false_reject = rates.max_false_reject = false_reject_rate(options, others);
+  result.calibration = Calibration::fit(decisions_, rates);
   result.report = report(others, result.calibration);
   return result;
+}
+
+// The share of right decisions to reject, noisy copies included. Without an embedding other words
+// pass at any threshold that leaves the right ones. With one, both shares count, of words as they
+// were recorded: other words are mostly heard as clearly as those of the vocabulary.
+double HeldOutWords::false_reject_rate(const WordRecognizerOptions& options,
+                                       const std::vector<float>& others) const {
+  if (!has_embedding(options.front_end) || others.empty()) return options.false_reject_rate;
+  std::vector<float> right;
+  std::vector<float> right_as_recorded;
+  std::vector<float> others_as_recorded;
+  for (std::size_t i = 0; i < decisions_.size(); ++i) {
+    const HeldOut& decision = decisions_[i];
+    const bool is_right = argmax(decision.scores) == decision.truth;
+    if (is_right) right.push_back(decision.score);
+    if (!as_recorded_[i]) continue;
+    if (is_right) right_as_recorded.push_back(decision.score);
+    others_as_recorded.push_back(others[i]);
+  }
+  if (right_as_recorded.empty()) return options.false_reject_rate;
+  const float threshold =
+      balanced_threshold(std::move(right_as_recorded), std::move(others_as_recorded),
+                         options.false_reject_rate, options.embedding_false_accept_rate);
+  const auto num_below =
+      std::count_if(right.begin(), right.end(), [&](float score) { return score < threshold; });
+  // Half a decision more, so that rounding leaves the threshold at one of them.
+  return std::min(0.5, (static_cast<double>(num_below) + 0.5) / static_cast<double>(right.size()));
 }
 
 // Of words as they were recorded, whatever the calibration learned from besides.

@@ -41,6 +41,8 @@ class HeldOutWords {
                                 const MultiStreamScorer& scorer);
 
  private:
+  [[nodiscard]] double false_reject_rate(const WordRecognizerOptions& options,
+                                         const std::vector<float>& others) const;
   [[nodiscard]] HeldOutReport report(const std::vector<float>& others,
                                      const Calibration& calibration) const;
 

@@ -63,7 +63,6 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   double embedding_penalty = 100;
   double embedding_shrinkage = 0.8;
   double embedding_false_accept_rate = 0.1;
-  double embedding_max_false_reject_rate = 0.2;
   bool use_network = false;
   SequenceNetworkOptions network;
   double network_weight = 0;
@@ -100,7 +99,8 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
     v("max_snr_db", o.max_snr_db, within(-20, 100), "largest; each copy has its own, at random",
       formerly("noise_high_db"));
     v("false_reject_rate", o.false_reject_rate, within(0, 0.5),
-      "share of correct held-out words, noisy ones included, that the threshold may reject");
+      "share of correct held-out words that the threshold may reject; noisy copies included, but "
+      "for front_end both or embedding");
     v("num_embedding_copies", o.num_embedding_copies, within(0, 20),
       "front_end both or embedding: training copies of every word for the embedding alone, with "
       "noise added and faster or slower by up to 15 %");
@@ -114,11 +114,8 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
       "front_end both or embedding: of the embedding's linear discriminants, by which words are "
       "rejected");
     v("embedding_false_accept_rate", o.embedding_false_accept_rate, within(0, 1),
-      "front_end both or embedding: share of other words that the threshold may accept, if it can "
-      "be met");
-    v("embedding_max_false_reject_rate", o.embedding_max_false_reject_rate, within(0, 0.5),
-      "front_end both or embedding: share of correct held-out words that the threshold may reject "
-      "to that end");
+      "front_end both or embedding: share of other words that the threshold may accept; where it "
+      "and false_reject_rate cannot both be kept to, both are exceeded by the same factor");
     v("use_network", o.use_network, any_value,
       "a small network of log mel energies, trained on the same words, votes too: for many "
       "speakers");
