@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "core/arrays.hpp"
 #include "core/options.hpp"
@@ -286,26 +287,34 @@ void bind_labels(py::module_& m) {
           "write", [](const MasterLabelFile& self, const Path& path) { self.write(path.text); },
           py::arg("path"), "Writes the file.")
       .def(
-          "find",
-          [](const MasterLabelFile& self, const std::string& name) -> std::optional<Transcription> {
-            const auto* entry = self.find(name);
-            if (entry == nullptr || !entry->folder.empty()) return std::nullopt;
-            return entry->transcription;
+          "search",
+          [](const MasterLabelFile& self, const std::string& name) {
+            using Folder = std::pair<std::string, bool>;
+            std::vector<std::variant<Transcription, Folder>> found;
+            for (const auto& entry : self.entries) {
+              if (!hri::htk::matches(entry.pattern, name)) continue;
+              if (entry.folder.empty()) {
+                found.emplace_back(entry.transcription);
+              } else {
+                found.emplace_back(Folder(entry.folder, entry.is_searched));
+              }
+            }
+            return found;
           },
           py::arg("name"),
-          "Of the first pattern that matches the name; None where none does, or where it names a "
-          "folder.")
-      .def(
-          "folder",
-          [](const MasterLabelFile& self,
-             const std::string& name) -> std::optional<std::pair<std::string, bool>> {
-            const auto* entry = self.find(name);
-            if (entry == nullptr || entry->folder.empty()) return std::nullopt;
-            return std::pair(entry->folder, entry->is_searched);
+          "What the patterns that match the name of a label file stand for, in their order: a "
+          "transcription, or the folder where it is and whether folders of the name may stand in "
+          "it (=>).")
+      .def_property_readonly(
+          "folder_patterns",
+          [](const MasterLabelFile& self) {
+            std::vector<std::string> patterns;
+            for (const auto& entry : self.entries) {
+              if (!entry.folder.empty()) patterns.push_back(entry.pattern);
+            }
+            return patterns;
           },
-          py::arg("name"),
-          "Where the first pattern that matches the name says that its label file is, and whether "
-          "folders of the name may stand in it (=>); None: here, or nowhere.")
+          "Patterns that stand for a folder.")
       .def_property_readonly(
           "entries",
           [](const MasterLabelFile& self) {

@@ -8526,13 +8526,9 @@ class HtkMasterLabelFile:
         Raises FormatError naming file and line.
         """
     def __init__(self, entries: collections.abc.Sequence[tuple[str, HtkTranscription]] = []) -> None: ...
-    def find(self, name: str) -> HtkTranscription | None:
+    def search(self, name: str) -> list[HtkTranscription | tuple[str, bool]]:
         """
-        Of the first pattern that matches the name; None where none does, or where it names a folder.
-        """
-    def folder(self, name: str) -> tuple[str, bool] | None:
-        """
-        Where the first pattern that matches the name says that its label file is, and whether folders of the name may stand in it (=>); None: here, or nowhere.
+        What the patterns that match the name of a label file stand for, in their order: a transcription, or the folder where it is and whether folders of the name may stand in it (=>).
         """
     def to_text(self) -> str:
         """
@@ -8546,6 +8542,11 @@ class HtkMasterLabelFile:
     def entries(self) -> list[tuple[str, HtkTranscription]]:
         """
         Pairs of a pattern and a transcription.
+        """
+    @property
+    def folder_patterns(self) -> list[str]:
+        """
+        Patterns that stand for a folder.
         """
 
 class HtkModelSet:

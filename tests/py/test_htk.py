@@ -274,11 +274,11 @@ def test_results_count_equal_labels_and_show_alignments(hri, tmp_path: Path):
     (tmp_path / "x.rec").write_text("0 100 a -5.0\n100 200 sil\n200 300 a\n")
     plain = hri("htk", "results", "-t", tmp_path / "list", tmp_path / "x.rec")
     assert "[H=1, D=1, S=1, I=1, N=3]" in plain.out or "[H=2, D=1, S=0, I=1, N=3]" in plain.out
-    assert f"Aligned transcription: {tmp_path}/x.rec\n LAB: " in plain.out
+    assert f"Aligned transcription: {tmp_path}/x.lab vs {tmp_path}/x.rec\n LAB: " in plain.out
     equal = hri("htk", "results", "-e", "???", "sil", "-e", "a", "b", tmp_path / "list", tmp_path / "x.rec")
     assert "[H=2, D=0, S=0, I=0, N=2]" in equal.out
     (tmp_path / "list").write_text("a\n")
-    refused = hri("htk", "results", tmp_path / "list", tmp_path / "x.rec")
+    refused = hri("htk", "results", "-p", tmp_path / "list", tmp_path / "x.rec")
     assert refused.code == 3 and "does not have 'sil'" in refused.err
 
 
@@ -305,9 +305,13 @@ def test_lists_and_scripts_are_read(tmp_path: Path):
     path.write_text("a b\nc 'd\n")
     with pytest.raises(FormatError, match=re.escape(f"{path}: line 2: a quotation does not end")):
         read_script(path)
+    path.write_text("don't a\\b 'it''s'\n")
+    assert read_script(path) == ["don't", "a\\b", "it", "s"]
     path.write_text("a\nb c\n")
     assert read_list(path) == {"a": "a", "b": "c"}
-    for text, line in (("a\na\n", 2), ("a b c\n", 1)):
+    path.write_text("don't\n\\303\\251t \\'t\n'\\'' \"a b\"\n")
+    assert read_list(path) == {"don't": "don't", "ét": "'t", "'": "a b"}
+    for text, line in (("a\na\n", 2), ("a b c\n", 1), ("a\n\\303\n", 2), ("a\\\n", 1), ("a 'b\n", 1)):
         path.write_text(text)
         with pytest.raises(FormatError, match=f"line {line}: "):
             read_list(path)

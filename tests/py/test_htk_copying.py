@@ -36,8 +36,9 @@ def test_results_take_their_options(hri, work: Path):
         '#!MLF!#\n"*/s1_ann.rec"\nx-a+y\n///\na\nb\n.\n"*/s2_ann.rec"\nA\n.\n"*/s1_bob.rec"\na\nb\n.\n'
     )
     given = ("-I", "ref.mlf", "list", "rec.mlf")
-    refused = hri("htk", "results", *given)
+    refused = hri("htk", "results", "-p", *given)
     assert refused.code == 3 and "rec.mlf: line 9: the list list does not have 'A'" in refused.err
+    succeed(hri("htk", "results", *given))  # what is not in the list is only an error
     out = succeed(hri("htk", "results", "-c", "-s", *given))
     assert "SENT: %Correct=0.00 [H=0, S=3, N=3]" in out and "[H=2, D=1, S=1, I=1, N=4]" in out
     out = succeed(hri("htk", "results", "-c", "-d", 2, "-a", "CLIP", "-b", "UNIT", *given))
@@ -47,9 +48,19 @@ def test_results_take_their_options(hri, work: Path):
     out = succeed(hri("htk", "results", "-c", "-s", "-z", "b", *given))
     assert "[H=2, D=0, S=0, I=1, N=2]" in out
     out = succeed(hri("htk", "results", "-c", "-s", "-k", "*_%%%.rec", *given))
-    assert "Speaker ann: WORD: %Corr=33.33" in out and "Speaker bob: WORD: %Corr=100.00, Acc=0.00" in out
-    wrong = hri("htk", "results", "-c", "-s", "-k", "*_%%.rec", *given)
-    assert wrong.code == 3 and "is not as the mask '*_%%.rec' has it" in wrong.err
+    speakers = out.split("Speaker Results")[1].splitlines()[1:3]
+    assert speakers == [
+        "ann:   33.33(  33.33)  [H=   1, D=  1, S=  1, I=  0, N=  3]   0.00 [N=  2]",
+        "bob:  100.00(   0.00)  [H=   1, D=  0, S=  0, I=  1, N=  1]   0.00 [N=  1]",
+    ]
+    out = succeed(hri("htk", "results", "-c", "-s", "-k", "*/s1_%%%.rec", *given))
+    assert out.splitlines()[-1] == "** Speaker Pattern '*/s1_%%%.rec' Failed 1 Times **" and "[H=2, D=1, S=1" in out
+    out = succeed(hri("htk", "results", "-c", "-s", "-f", "-t", *given)).splitlines()
+    assert out[0] == "------------------------ Sentence Scores --------------------------"
+    assert out[1] == "====================== HTK Results Analysis ======================="
+    at = out.index("-------------------------- File Results ---------------------------")
+    assert out[at + 1] == "s1_ann.rec:   50.00(  50.00)  [H=   1, D=  1, S=  0, I=  0, N=  2]"
+    assert out[at + 2] == "Aligned transcription: */s1_ann.lab vs */s1_ann.rec"
     rows = succeed(hri("htk", "results", "-c", "-s", "-p", *given)).split("Confusion Matrix")[1].splitlines()[1:]
     assert rows[0].split() == ["A", "B", "Del", "%c"]
     assert rows[1].split() == ["A", "2", "0", "0", "100.0"] and rows[2].split() == ["B", "1", "0", "1", "0.0"]
@@ -63,7 +74,7 @@ def test_results_take_their_options(hri, work: Path):
     Path("folder.mlf").write_text('#!MLF!#\n"*" -> "labels"\n')
     refused = hri("htk", "results", "-I", "ref.mlf", "list", "folder.mlf")
     assert refused.code == 3 and "folder.mlf: '*' names a folder; labels have to stand here" in refused.err
-    refused = hri("htk", "results", "-s", "-m", 1, *given)
+    refused = hri("htk", "results", "-p", "-s", "-m", 1, *given)
     assert refused.code == 3 and "ref.mlf: line 4: the list list does not have 'c'" in refused.err
 
 
@@ -93,6 +104,10 @@ def test_copy_cuts_and_joins(hri, sounds: Path):
         np.testing.assert_array_equal(named.values, part.values)
     assert len(coded("-n", 2, 3, "-L", "labels", "one.wav", "n.mfc").values) == 58
     assert len(coded("-x", "word", 1, "-m", 500_000, "-L", "labels", "one.wav", "m.mfc").values) == 48
+    # Ends before and behind that of the recording, which has a second.
+    np.testing.assert_array_equal(coded("-s", 2_000_000, "-e", -4_000_000, "one.wav", "e.mfc").values, part.values)
+    assert len(coded("-e", 0, "one.wav", "e.mfc").values) == len(coded("-e", 9e7, "one.wav", "e.mfc").values) == 98
+    assert len(coded("-x", "word", 2, "-m", 1e7, "-L", "labels", "one.wav", "m.mfc").values) == 98
     joined = coded("one.wav", "+", "two.wav", "both.mfc")
     assert len(joined.values) == 198
     # Parameter files are cut and joined by frames.
@@ -105,7 +120,9 @@ def test_copy_cuts_and_joins(hri, sounds: Path):
 
 def test_copy_takes_labels_along(hri, sounds: Path):
     given = ("-C", "config", "-L", "labels", "-s", 1_000_000, "-e", 7_000_000)
-    succeed(hri("htk", "copy", *given, "-i", "new.mlf", "-l", "cut", "one.wav", "+", "one.wav", "both.mfc"))
+    succeed(hri("htk", "copy", *given, "-i", "new.mlf", "-l", "*/of", "one.wav", "+", "one.wav", "both.mfc"))
+    assert MasterLabelFile.read("new.mlf").entries[0][0] == "*/of/both.lab" and not Path("*").exists()
+    succeed(hri("htk", "copy", *given, "-l", "cut", "one.wav", "+", "one.wav", "both.mfc"))
     expected = [
         ("sil", 0, 1_000_000),
         ("word", 1_000_000, 5_000_000),
@@ -121,7 +138,8 @@ def test_copy_takes_labels_along(hri, sounds: Path):
         (("-n", 3, 9), "has 4 labels, and not those from 3 to 9"),
         (("-a", 2, "-n", 1), "has 1 alternatives, no number 2"),
         (("-s", 5_000_000, "-e", 4_000_000), "nothing is left between"),
-        (("-e", 90_000_000), "ends before 90000000"),
+        (("-s", 90_000_000), "nothing is left between"),
+        (("-e", -90_000_000), "nothing is left between 0.0 * 100 ns and 90000000.0 * 100 ns before its end"),
     ):
         refused = hri("htk", "copy", "-C", "config", "-L", "labels", *option, "one.wav", "no.mfc")
         assert refused.code == 3 and message in refused.err and not Path("no.mfc").exists()
@@ -162,23 +180,61 @@ def test_results_count_keywords_by_their_times(hri, work: Path):
     Path("list").write_text("fire\nhelp\n")
     said = "0 100 fire\n100 200 other\n1000 2000 fire\n3000 4000 fire\n5000 6000 help\n"
     Path("said.mlf").write_text(f'#!MLF!#\n"*/a.lab"\n{said}{hour // 2 - 9} {hour // 2} other\n.\n')
-    # By score: hit, false alarm, hit, false alarm (its label is taken), a word that is no keyword, hit of help.
+    # By score: hit, false alarm, hit, the same again, a word that is no keyword, false alarm (the middle of what was
+    # said lies beside it), hit of help.
     found = (
-        "10 90 fire -1\n200 300 fire -2\n900 2000 fire -3\n1100 1900 fire -4\n2000 2500 other 5\n5100 5200 help -9\n"
+        "10 90 fire -1\n200 300 fire -2\n900 2000 fire -3\n1400 1600 fire -4\n2000 2500 other 5\n"
+        "3000 3400 fire -5\n5100 9900 help -9\n"
     )
     Path("found.mlf").write_text(f'#!MLF!#\n"*/a.rec"\n{found}.\n')
     rows = succeed(hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")).splitlines()
     cells = {row.split(":")[0].strip(): row.split(":")[1].split() for row in rows[2:5]}
-    # N = 5: after one hit of three, then two for good.
-    assert cells["fire"] == ["2", "2", "3", f"{(100 / 3 + 4 * 200 / 3) / 5:.2f}"]
+    # N = 5: after one hit of three, then three for good.
+    merit = (100 / 3 + 4 * 100) / 5
+    assert cells["fire"] == ["3", "2", "3", f"{merit:.2f}"]
     assert cells["help"] == ["1", "0", "1", "100.00"]
-    assert cells["Overall"][:3] == ["3", "2", "4"]
+    assert cells["Overall"] == ["4", "2", "4", f"{(3 * merit + 100) / 4:.2f}"]
     rows = succeed(hri("htk", "results", "-w", "-u", 2.5, "-I", "said.mlf", "list", "found.mlf")).splitlines()
     # 2 false alarms in 2.5 hours.
-    assert rows[2].split()[-1] == f"{(100 / 3 + 200 / 3) / 2:.2f}"
+    assert rows[2].split()[-1] == f"{(100 / 3 + 100) / 2:.2f}"
     Path("found.mlf").write_text('#!MLF!#\n"*/a.rec"\n0 100 fire\n.\n')
     refused = hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")
     assert refused.code == 3 and "found.mlf: line 3: the keyword 'fire' has no score" in refused.err
     Path("found.mlf").write_text('#!MLF!#\n"*/a.rec"\nfire -3\n.\n')
     refused = hri("htk", "results", "-w", "-I", "said.mlf", "list", "found.mlf")
     assert refused.code == 3 and "found.mlf: line 3: the label 'fire' has no times" in refused.err
+
+
+def test_labels_are_found_by_all_patterns_in_turn(hri, sounds: Path):
+    """A folder counts where it has the file; patterns are compared with names as they are given."""
+
+    def seconds(*arguments: object) -> float:
+        succeed(hri("htk", "copy", "-C", "config", "-x", "word", *arguments, "out.mfc"))
+        return (2 + len(ParameterFile.read("out.mfc").values)) / 100  # a frame has 25 ms
+
+    for folder in ("empty", "second", "deep"):
+        Path(folder).mkdir()
+    Path("deep/sounds").mkdir()
+    Path("second/one.lab").write_text("0 3000000 word\n")
+    Path("deep/sounds/one.lab").write_text("0 4000000 word\n")
+    Path("sounds").mkdir()
+    Path("one.wav").rename("sounds/one.wav")
+    entry = "{}\n0 {} word\n.\n"
+    for text, expected in (
+        ('"*" -> "empty"\n"*" -> "second"\n', 0.3),
+        ('"*" -> "empty"\n' + entry.format('"*/one.lab"', 5_000_000), 0.5),
+        ('"*" => "empty"\n"*" => "deep"\n', 0.4),
+        (entry.format('"sounds/???.lab"', 6_000_000), 0.6),
+    ):
+        Path("labels.mlf").write_text(f"#!MLF!#\n{text}")
+        assert seconds("-I", "labels.mlf", "sounds/one.wav") == expected
+    Path("labels.mlf").write_text('#!MLF!#\n"*" -> "empty"\n')
+    refused = hri("htk", "copy", "-C", "config", "-x", "word", "-I", "labels.mlf", "sounds/one.wav", "no.mfc")
+    assert refused.code == 3 and "empty/one.lab: there is no such label file" in refused.err
+    Path("sounds/one.lab").write_text("0 7000000 word\n")
+    assert seconds("-I", "labels.mlf", "sounds/one.wav") == 0.7
+    Path("sounds/one.wav").rename("one.wav")
+    for pattern in ("one.lab", "???.lab", "*/one.lab", "./one.*"):
+        Path("labels.mlf").write_text(f"#!MLF!#\n{entry.format(chr(34) + pattern + chr(34), 2_000_000)}")
+        assert seconds("-I", "labels.mlf", "one.wav") == 0.2
+        assert seconds("-I", "labels.mlf", "./one.wav") == 0.2

@@ -32,13 +32,13 @@ class Source:
         A WAV file where SOURCEFORMAT says so; else a parameter file, which may be a waveform.
     start : float
         Where the part begins, in 100 ns.
-    end : float or None
-        Where it ends; None: with the recording.
+    end : float
+        Where it ends, at the latest with the recording; 0 or below: so far before its end.
     """
 
     path: str | PathLike[str]
     start: float = 0.0
-    end: float | None = None
+    end: float = 0.0
 
     def duration(self, configuration: HtkConfiguration) -> int:
         """Of the part, in 100 ns. Raises as `code_file` does."""
@@ -49,13 +49,13 @@ class Source:
         return len(self.cut(file.values, UNITS_PER_S / file.sample_period)) * file.sample_period
 
     def cut(self, values: NDArray[np.float32], rate_hz: float) -> NDArray[np.float32]:
-        """The part of samples or frames. Raises FormatError where it is empty, or ends behind them."""
+        """The part of samples or frames. Raises FormatError where it is empty."""
         first = round(self.start * rate_hz / UNITS_PER_S)
-        last = len(values) if self.end is None else round(self.end * rate_hz / UNITS_PER_S)
-        if last > len(values):
-            raise FormatError(f"{fspath(self.path)}: ends before {self.end} * 100 ns")
+        last = round(self.end * rate_hz / UNITS_PER_S)
+        last = min(last, len(values)) if self.end > 0 else len(values) + last
         if first >= last:
-            raise FormatError(f"{fspath(self.path)}: nothing is left between {self.start} and {self.end} * 100 ns")
+            end = f"{self.end} * 100 ns" if self.end > 0 else f"{-self.end} * 100 ns before its end"
+            raise FormatError(f"{fspath(self.path)}: nothing is left between {self.start} * 100 ns and {end}")
         return values[first:last]
 
 
@@ -113,7 +113,7 @@ def _code(sources: Sequence[Source], configuration: HtkConfiguration) -> HtkPara
             clips.append((source.cut(*audio), audio[1]))
         else:
             file = HtkParameterFile.read(source.path)
-            whole = source.start == 0 and source.end is None
+            whole = source.start == 0 and source.end == 0
             part = file if whole else _part_of(file, source)
             files.append(part)
             if (part.kind, part.sample_period) != (files[0].kind, files[0].sample_period):

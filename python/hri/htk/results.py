@@ -8,7 +8,6 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from hri.core.errors import FormatError
 from hri.language.word_errors import AlignedWord, WordErrors, align_words
 
 HTK_COSTS = (10, 7, 7)
@@ -64,12 +63,17 @@ class Results:
         ]
 
     def file_line(self, name: str) -> str:
-        """What is printed for one file."""
+        """What is printed of one file."""
         w = self.words
         return (
             f"{name}: {self.correct:7.2f}({self.accuracy:7.2f})  [H={self.num_hits:4d}, D={w.deletions:3d}, "
             f"S={w.substitutions:3d}, I={w.insertions:3d}, N={w.num_words:3d}]"
         )
+
+    def speaker_line(self, name: str) -> str:
+        """What is printed of one speaker: words, then sentences."""
+        right = _percent(self.num_correct, self.num_sentences)
+        return f"{self.file_line(name)} {right:6.2f} [N={self.num_sentences:3d}]"
 
 
 def compare(
@@ -78,6 +82,11 @@ def compare(
     """The errors of one sentence, and how its words were aligned at these costs."""
     pairs = align_words(reference, found, costs)
     return WordErrors.of(pairs), pairs
+
+
+def bar(title: str, mark: str = "-") -> str:
+    """A line with a title in it, as wide as HResults has them."""
+    return f"{mark * ((WIDTH - len(title) - 3) // 2)} {title} ".ljust(WIDTH, mark)
 
 
 def aligned_lines(pairs: Sequence[AlignedWord]) -> list[str]:
@@ -127,20 +136,12 @@ class Confusions:
         return [*lines, f"{'Ins':<{width}}{inserted}"]
 
 
-def speaker_of(mask: str, name: str) -> str:
-    """What the % of a mask stand for in a name: *_%%%.rec has the three characters before .rec.
-
-    Raises
-    ------
-    FormatError
-        For a name that the mask does not match.
-    """
+def speaker_of(mask: str, name: str) -> str | None:
+    """What the % of a mask stand for in a name: *_%%%.rec has three characters before .rec; None of another name."""
     parts = {"*": ".*", "?": ".", "%": "(.)"}
     pattern = "".join(parts.get(character, re.escape(character)) for character in mask)
     match = re.fullmatch(pattern, name)
-    if match is None:
-        raise FormatError(f"{name}: is not as the mask {mask!r} has it")
-    return "".join(match.groups())
+    return None if match is None else "".join(match.groups())
 
 
 def nist_table(of_speakers: Mapping[str, Results], total: Results) -> list[str]:

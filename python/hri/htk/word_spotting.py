@@ -25,8 +25,8 @@ class _Keyword:
 class WordSpotting:
     """Keywords found in recordings against those that were said.
 
-    A keyword that was found is a hit where its middle lies in a label of its name; of several for one label the best
-    is a hit, the others are false alarms.
+    A keyword that was found is a hit where it covers the middle of one that was said, as HResults has it: found twice
+    there it is a hit twice.
 
     Parameters
     ----------
@@ -43,24 +43,14 @@ class WordSpotting:
         for label in reference:
             if label.name in self._keywords:
                 self._keywords[label.name].num_actual += 1
-        taken: set[int] = set()
-        for label in sorted(found, key=lambda one: -(one.score or 0.0)):
+        for label in found:
             if label.name not in self._keywords or label.first is None or label.last is None:
                 continue
-            middle = (label.first + label.last) / 2
-            hit = next(
-                (
-                    number
-                    for number, said in enumerate(reference)
-                    if said.name == label.name
-                    and number not in taken
-                    and (said.first or 0) <= middle <= (said.last or 0)
-                ),
-                None,
+            is_hit = any(
+                said.name == label.name and label.first <= ((said.first or 0) + (said.last or 0)) / 2 <= label.last
+                for said in reference
             )
-            if hit is not None:
-                taken.add(hit)
-            self._keywords[label.name].found.append((label.score or 0.0, hit is not None))
+            self._keywords[label.name].found.append((label.score or 0.0, is_hit))
 
     def figure_of_merit(self, name: str, unit_hours: float = 1.0) -> float:
         """Mean percent of the occurrences of a keyword that rank above 1, 2, ... 10 false alarms in a unit of time.
@@ -71,18 +61,31 @@ class WordSpotting:
         return self._merit(self._keywords[name], unit_hours)
 
     def lines(self, unit_hours: float = 1.0) -> list[str]:
-        """A table: hits, false alarms, occurrences and figure of merit of every keyword, and of all."""
+        """A table: hits, false alarms, occurrences and figure of merit of every keyword, and of all.
+
+        The figure of all is the mean over what was said.
+        """
         rows = [" Figures of Merit ".center(WIDTH, "-"), f"{'KeyWord:':>12}    #Hits     #FAs  #Actual      FOM"]
         for name, one in self._keywords.items():
-            rows.append(self._row(name, one, unit_hours))
-        found = [each for one in self._keywords.values() for each in one.found]
-        together = _Keyword(sum(one.num_actual for one in self._keywords.values()), found)
-        return [*rows, self._row("Overall", together, unit_hours), "-" * WIDTH]
+            rows.append(self._row(name, self._counts(one), self._merit(one, unit_hours)))
+        counts = [sum(column) for column in zip(*map(self._counts, self._keywords.values()), strict=True)]
+        return [*rows, self._row("Overall", counts or [0, 0, 0], self._mean_merit(unit_hours)), "-" * WIDTH]
 
-    def _row(self, name: str, one: _Keyword, unit_hours: float) -> str:
+    @staticmethod
+    def _counts(one: _Keyword) -> list[int]:
+        """Hits, false alarms, occurrences."""
         hits = sum(hit for _, hit in one.found)
-        merit = self._merit(one, unit_hours)
-        return f"{name + ':':>12}{hits:>9}{len(one.found) - hits:>9}{one.num_actual:>9}{merit:>9.2f}"
+        return [hits, len(one.found) - hits, one.num_actual]
+
+    @staticmethod
+    def _row(name: str, counts: Sequence[int], merit: float) -> str:
+        return f"{name + ':':>12}" + "".join(f"{count:>9}" for count in counts) + f"{merit:>9.2f}"
+
+    def _mean_merit(self, unit_hours: float) -> float:
+        """Each keyword weighs as often as it was said."""
+        keywords = self._keywords.values()
+        num_actual = sum(one.num_actual for one in keywords)
+        return sum(one.num_actual * self._merit(one, unit_hours) for one in keywords) / max(1, num_actual)
 
     def _merit(self, one: _Keyword, unit_hours: float) -> float:
         alarms = MOST_ALARMS * self._duration / (UNITS_PER_HOUR * unit_hours)

@@ -242,9 +242,8 @@ def labelled_entries(master: MasterLabelFile, path: str) -> list[tuple[str, Tran
     ------
     FormatError
     """
-    for pattern, _ in master.entries:
-        if master.folder(pattern) is not None:
-            raise FormatError(f"{path}: {pattern!r} names a folder; labels have to stand here")
+    for pattern in master.folder_patterns:
+        raise FormatError(f"{path}: {pattern!r} names a folder; labels have to stand here")
     return master.entries
 
 
@@ -271,29 +270,36 @@ class References:
 
     def locate(self, recording: str) -> tuple[Transcription, str]:
         """The same with the name of the file that it stands in."""
-        path = Path(recording).with_suffix(f".{self._suffix}")
-        if self._folder is not None:
-            path = Path(self._folder, path.name)
-        # A pattern such as */a.lab also means a file in the current folder.
-        name = str(path) if path.parent != Path() else f"./{path}"
+        name = self.name_of(recording)
+        path = Path(name)
+        # Patterns are compared with the name as it is given; */a.lab also means a file in the current folder.
+        names = dict.fromkeys((name, str(path), f"./{path}" if path.parent == Path() else str(path)))
+        tried = []
         for source, master in self._masters.items():
-            found = master.find(name)
-            if found is not None:
-                return found, source
-            elsewhere = master.folder(name)
-            if elsewhere is not None:
-                return _in_folder(path, *elsewhere)
+            for found in next(filter(None, map(master.search, names)), []):
+                if isinstance(found, Transcription):
+                    return found, source
+                places = _places(path, *found)
+                for place in places:
+                    if place.is_file():
+                        return Transcription.read(place), str(place)
+                tried.append(places[0])
+        if tried and not path.is_file():
+            raise FormatError(f"{tried[0]}: there is no such label file, where a master label file says that it is")
         if self._masters and not path.is_file():
             raise FormatError(f"{recording}: no master label file has a transcription for {str(path)!r}")
         return Transcription.read(path), str(path)
 
+    def name_of(self, recording: str) -> str:
+        """Of the label file of a recording, which need not exist."""
+        head, separator, last = recording.rpartition("/")
+        stem, dot, _ = last.rpartition(".")
+        named = f"{stem if dot and stem else last}.{self._suffix}"
+        return str(Path(self._folder, named)) if self._folder is not None else f"{head}{separator}{named}"
 
-def _in_folder(path: Path, folder: str, is_searched: bool) -> tuple[Transcription, str]:
-    """The label file in a folder that a master label file names, perhaps in the last folders of its own name."""
+
+def _places(path: Path, folder: str, is_searched: bool) -> list[Path]:
+    """Where a label file may be in a folder that a master label file names: perhaps below the last of its folders."""
     parts = [part for part in path.parts if part != path.anchor]
     depths = range(1, len(parts) + 1) if is_searched else range(1, 2)
-    tried = [Path(folder, *parts[len(parts) - depth :]) for depth in depths]
-    for place in tried:
-        if place.is_file():
-            return Transcription.read(place), str(place)
-    raise FormatError(f"{tried[0]}: there is no such label file, where a master label file says that it is")
+    return [Path(folder, *parts[len(parts) - depth :]) for depth in depths]

@@ -66,7 +66,14 @@ def _named_label(ctx: click.Context, param: click.Parameter, value: str | None) 
 @only_format("-O", "parameter files")
 @only_format("-P", "label files")
 @click.option("-s", "start", type=FiniteRange(0), default=0.0, metavar="T", help="Begin here, in 100 ns.")
-@click.option("-e", "end", type=FiniteRange(0), metavar="T", help="End here, in 100 ns.")
+@click.option(
+    "-e",
+    "end",
+    type=FiniteRange(),
+    default=0.0,
+    metavar="T",
+    help="End here, in 100 ns; 0 or below: so far before the end.",
+)
 @click.option(
     "-n",
     "numbers",
@@ -90,7 +97,12 @@ def _named_label(ctx: click.Context, param: click.Parameter, value: str | None) 
 @click.option(
     "-i", "master", type=OutputFile(), metavar="MLF", help="Write the labels of what was copied to this file."
 )
-@click.option("-l", "label_target", metavar="DIR", help="Write them to label files in this folder.")
+@click.option(
+    "-l",
+    "label_target",
+    metavar="DIR",
+    help="Write them to label files in this folder; with -i: what stands before their names in FILE.",
+)
 @refused_options(t=("what is traced has no width", 1))
 @click.argument("files", nargs=-1)
 def copy(
@@ -101,7 +113,7 @@ def copy(
     suffix: str,
     trace: int,
     start: float,
-    end: float | None,
+    end: float,
     numbers: tuple[int, int] | None,
     named: tuple[str, int] | None,
     margin: float,
@@ -150,11 +162,11 @@ def copy(
         file = code_sources(parts, configuration)
         make_folder(Path(target).parent)
         file.write(target)
-        if label_target is not None:
-            path = Path(label_target, Path(target).with_suffix(f".{suffix}").name)
-            make_folder(path.parent)
-            Transcription(labels).write(path)
-        entries.append((f"*/{Path(target).with_suffix(f'.{suffix}').name}", Transcription(labels)))
+        name = Path(target).with_suffix(f".{suffix}").name
+        if label_target is not None and master is None:
+            make_folder(Path(label_target))
+            Transcription(labels).write(Path(label_target, name))
+        entries.append((f"{label_target or '*'}/{name}", Transcription(labels)))
         if trace:
             click.echo(f"{' + '.join(sources)} -> {target}")
     if master is not None:

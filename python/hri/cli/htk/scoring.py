@@ -7,6 +7,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 import click
 
@@ -25,7 +26,7 @@ from hri.cli.htk.standard import INPUT, HtkCommand, label_format_option, refused
 from hri.core.errors import FormatError
 from hri.core.files import read_text
 from hri.htk import Label, MasterLabelFile, Results, Transcription, WordSpotting, compare, read_list
-from hri.htk.results import HTK_COSTS, WIDTH, Confusions, aligned_lines, nist_table, speaker_of
+from hri.htk.results import HTK_COSTS, WIDTH, Confusions, aligned_lines, bar, nist_table, speaker_of
 from hri.language.word_errors import NIST_COSTS
 
 MASTER = "#!MLF!#"
@@ -111,7 +112,9 @@ def results(
     label_list: str,
     found: tuple[str, ...],
 ) -> None:
-    """Count errors of recognised label files or MLFs, as HResults; LABEL_LIST names all labels.
+    """Count errors of recognised label files or MLFs, as HResults.
+
+    LABEL_LIST names the labels of the table of -p, and the keywords of -w; a list of models does else.
 
     \b
     Example:
@@ -124,14 +127,16 @@ def results(
     case = str.upper if ignore_case else str
     classes = {case(member): case(name) for name, member in equal}
     labels = _Labels(classes, case(null), ignore_case, strip)
-    known = {labels.one(name) for name in read_list(label_list)} | set(classes.values())
+    listed = list(read_list(label_list))
+    known = {labels.one(name) for name in listed} | set(classes.values()) if confusions else None
     references = References(masters, label_folder, suffix)
     if spotting:
-        _spot(_recognised(names), references, list(read_list(label_list)), unit_hours)
+        _spot(_recognised(names), references, listed, unit_hours)
         return
     costs = NIST_COSTS if nist or nist_format else HTK_COSTS
     total, matrix = Results(), Confusions()
     of_speakers: dict[str, Results] = {}
+    num_of_none = 0
     lines: list[str] = []
     for number, (name, source, transcription) in enumerate(_recognised(names)):
         if number == most_files:
@@ -146,31 +151,37 @@ def results(
         total.add(errors)
         matrix.add(pairs)
         if mask is not None:
-            of_speakers.setdefault(speaker_of(mask, name), Results()).add(errors)
-        if aligned and errors.total:
-            lines += [f"Aligned transcription: {name}", *aligned_lines(pairs)]
+            speaker = speaker_of(mask, name)
+            num_of_none += speaker is None
+            if speaker is not None:
+                of_speakers.setdefault(speaker, Results()).add(errors)
         if by_file:
             one = Results()
             one.add(errors)
-            lines.append(one.file_line(name))
-    if mask is not None and not nist_format:
-        lines += [
-            f"Speaker {name}: {line}"
-            for name, one in of_speakers.items()
-            for line in one.lines(word_name, sentence_name)
-        ]
+            lines.append(one.file_line(Path(name).name))
+        if aligned and errors.total:
+            lines += [f"Aligned transcription: {references.name_of(name)} vs {name}", *aligned_lines(pairs)]
+    if by_file:
+        lines.insert(0, bar("File Results"))
     if nist_format:
         lines += nist_table(of_speakers, total)
     else:
-        click.echo(" HTK Results Analysis ".center(WIDTH, "="))
+        if mask is not None:
+            lines.append(bar("Speaker Results"))
+            lines += [one.speaker_line(name) for name, one in of_speakers.items()]
+        if by_file:
+            click.echo(bar("Sentence Scores"))
+        click.echo(bar("HTK Results Analysis", "="))
         click.echo(f"  Date: {time.asctime()}")
         for mark, paths in (("Ref", masters or (label_folder or ".",)), ("Rec", names)):
             for row, path in enumerate(paths):
                 click.echo(f"  {mark if row == 0 else '   '} : {path}")
-        lines += [" Overall Results ".center(WIDTH, "-"), *total.lines(word_name, sentence_name)]
+        lines += [bar("Overall Results"), *total.lines(word_name, sentence_name)]
     if confusions:
-        lines += [" Confusion Matrix ".center(WIDTH, "-"), *matrix.lines()]
+        lines += [bar("Confusion Matrix"), *matrix.lines()]
     lines += [] if nist_format else ["=" * WIDTH]
+    if num_of_none:
+        lines.append(f"** Speaker Pattern '{mask}' Failed {num_of_none} Times **")
     for line in lines:
         click.echo(line)
 
@@ -198,8 +209,11 @@ def _spot(
 
 
 def _require_known(
-    alternatives: Iterable[Iterable[Label]], labels: _Labels, known: set[str], source: str, label_list: str
+    alternatives: Iterable[Iterable[Label]], labels: _Labels, known: set[str] | None, source: str, label_list: str
 ) -> None:
+    """Of the labels of a table; None: any are."""
+    if known is None:
+        return
     for one in alternatives:
         for label in one:
             name = labels.one(label.name)
