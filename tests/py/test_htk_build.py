@@ -140,3 +140,25 @@ def test_build_refuses(hri, said: Path):
     ):
         assert hri("htk", "build", *wrong, "words", "net").code == 2
     assert not Path("net").exists()
+
+
+def test_words_for_the_ends_may_be_said(hri, said: Path):
+    """As HLStats writes a bigram, with the words of HTK, which are in the list of words."""
+    arpa = (
+        "\\data\\\nngram 1=6\nngram 2=3\n\n\\1-grams:\n-99 !ENTER -0.1\n-0.5 !EXIT\n-0.5 go -0.2\n-0.6 stop\n"
+        "-0.7 left\n-0.8 right\n\n\\2-grams:\n-0.2 !ENTER go\n-0.3 go !EXIT\n-0.4 go left\n\n\\end\\\n"
+    )
+    Path("bg").write_text(arpa)
+    succeed(hri("htk", "build", "-n", "bg", "words", "plain"))
+    plain = WordLattice.read("plain")
+    assert best_log_probability(plain, ["go"]) == pytest.approx(np.log(10) * -0.5, abs=1e-5)
+    assert best_log_probability(plain, ["stop"]) == pytest.approx(np.log(10) * (-0.1 - 0.6 - 0.5), abs=1e-5)
+    Path("ends").write_text(Path("words").read_text() + "!ENTER\n!EXIT\n")
+    succeed(hri("htk", "build", "-n", "bg", "ends", "spoken"))
+    spoken = WordLattice.read("spoken")
+    assert spoken.words == ["!ENTER", *plain.words[1:-1], "!EXIT"] and spoken.arcs == plain.arcs
+    Path("bg").write_text(arpa.replace("!ENTER", "BEGIN").replace("!EXIT", "END"))
+    succeed(hri("htk", "build", "-n", "bg", "-s", "BEGIN", "END", "words", "other"))
+    assert Path("other").read_text() == Path("plain").read_text()
+    refused = hri("htk", "build", "-n", "bg", "words", "no")
+    assert refused.code == 3 and "bg: " in refused.err and "<s>" in refused.err

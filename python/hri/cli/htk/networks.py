@@ -14,7 +14,7 @@ from hri.cli.htk.options import labelled_entries, load_configuration
 from hri.cli.htk.standard import INPUT, HtkCommand, refused_options, standard_options
 from hri.cli.output import OutputFile
 from hri.core.errors import FormatError, InvalidArgument
-from hri.core.files import make_folder
+from hri.core.files import make_folder, read_text
 from hri.htk import (
     Dictionary,
     MasterLabelFile,
@@ -30,7 +30,8 @@ from hri.htk import (
 from hri.htk.sentences import NULL
 from hri.language import NGramModel, NGramOptions
 
-HTK_START, HTK_END = "!ENTER", "!EXIT"
+HTK_ENDS = ("!ENTER", "!EXIT")
+ARPA_ENDS = ("<s>", "</s>")
 UNKNOWN = "<unk>"
 
 
@@ -138,7 +139,7 @@ def sgen(
     "markers",
     nargs=2,
     metavar="START END",
-    help="The model's words for the ends of sentences.  [default: <s> </s>, or !ENTER !EXIT]",
+    help="The model's words for the ends of sentences.  [default: !ENTER !EXIT, or <s> </s>]",
 )
 @click.option("-t", "brackets", nargs=2, metavar="FIRST LAST", help="Words that stand before and after the loop.")
 @click.option("-u", "unknown", metavar="WORD", help="<unk>: what words that the model does not know count as.")
@@ -167,6 +168,9 @@ def build(
 ) -> None:
     """Make a word network of a bigram, or a loop of the words in a list, as HBuild; HLStats' bigram with -I or -S.
 
+    Where WORD_LIST has the words for the ends of sentences, they are words of the network, which the dictionary may
+    pronounce as silence; else nothing is said there.
+
     \b
     Example:
       hri htk build -n bigram.arpa words wdnet
@@ -187,7 +191,7 @@ def build(
     else:
         if brackets is not None:
             raise click.UsageError("-t goes with a loop, not with a language model")
-        language = _language(arpa, sentences, smoothing, words, word_list)
+        language = _language(arpa, sentences, smoothing, words, word_list, markers or HTK_ENDS)
         if save is not None:
             make_folder(Path(save).parent)
             language.save(save)
@@ -212,33 +216,55 @@ def _language(
     smoothing: Literal["witten_bell", "kneser_ney"],
     words: list[str],
     word_list: str,
+    ends: tuple[str, str],
 ) -> NGramModel:
     if sentences is None:
         assert arpa is not None
-        return NGramModel.load(arpa)
+        return NGramModel.parse(_with_arpa_ends(read_text(arpa), ends), arpa)
     known = set(words)
     for sentence in sentences:
         for word in sentence:
-            if word not in known and word not in (HTK_START, HTK_END):
+            if word not in known and word not in ends:
                 raise FormatError(f"{word_list}: does not have {word!r}, a word of the transcriptions")
-    inner = [[word for word in sentence if word not in (HTK_START, HTK_END)] for sentence in sentences]
-    vocabulary = [word for word in words if word not in (HTK_START, HTK_END)]
+    inner = [[word for word in sentence if word not in ends] for sentence in sentences]
+    vocabulary = [word for word in words if word not in ends]
     return NGramModel.train(inner, NGramOptions(order=2, smoothing=smoothing), vocabulary)
+
+
+def _with_arpa_ends(text: str, ends: tuple[str, str]) -> str:
+    """A language model with <s> and </s>, where it has only other words for the ends, as HLStats writes it."""
+    lines = text.split("\n")
+    rows = [line.split() for line in lines]
+    if any(len(row) > 1 and row[1] in ARPA_ENDS for row in rows):
+        return text
+    renamed = dict(zip(ends, ARPA_ENDS, strict=True))
+    return "\n".join(
+        " ".join([row[0], *(renamed.get(word, word) for word in row[1:])])
+        if len(row) > 1 and row[0] != "ngram"
+        else line
+        for line, row in zip(lines, rows, strict=True)
+    )
 
 
 def _bigram(
     language: NGramModel, words: list[str], markers: tuple[str, str] | None, unknown: str | None, source: str
 ) -> WordLattice:
     known = set(language.words)
-    start, end = markers or ((HTK_START, HTK_END) if HTK_START in known else ("<s>", "</s>"))
-    inner = [word for word in words if word not in (start, end, HTK_START, HTK_END)]
-    for word in (start, end, *inner):
+    said = markers or HTK_ENDS
+    ends = said if set(said) <= known else ARPA_ENDS
+    inner = [word for word in words if word not in (*said, *ends)]
+    for word in (*ends, *inner):
         if word not in known and (unknown is None or unknown not in known):
             raise FormatError(f"{source}: the language model does not know {word!r}")
     try:
-        return WordLattice.of_bigram(language, inner, start, end)
+        network = WordLattice.of_bigram(language, inner, *ends)
     except InvalidArgument as error:
         raise FormatError(f"{source}: {error}") from error
+    nodes = network.words
+    for node, word in zip((0, -1), said, strict=True):
+        if word in words:
+            nodes[node] = word
+    return WordLattice(nodes, network.arcs)
 
 
 def _loop(words: list[str], brackets: tuple[str, str] | None) -> WordLattice:
