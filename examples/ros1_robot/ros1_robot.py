@@ -59,23 +59,23 @@ class Ros1Robot(Robot):
             rospy.init_node("hri", anonymous=True, disable_signals=True)
         self._timeout_s = timeout_s
         self._news = threading.Condition()
-        self._heard_s = -math.inf
-        self._state_of: dict[str, float] = {}
+        self._state_of: dict[str, tuple[float, float]] = {}  # position, and when it was heard
         self._due_s = time.monotonic()
         command = f"/{namespace}/joint_trajectory_controller/command"
         self._publisher = rospy.Publisher(command, JointTrajectory, queue_size=1)
         self._subscriber = rospy.Subscriber(f"/{namespace}/joint_states", JointState, self._hear, queue_size=1)
         try:
-            self._wait_for_states(10 * timeout_s)  # topics are joined by the master, which takes a while
+            # Topics are joined by the master, which takes a while.
+            self._commanded.update(self._wait_for_states(10 * timeout_s, -math.inf))
             self._wait_for_listener(command, time.monotonic() + 10 * timeout_s)
         except IoError:
             self._close()
             raise
 
     def _hear(self, message: JointState) -> None:
+        now_s = time.monotonic()
         with self._news:
-            self._state_of.update(zip(message.name, message.position, strict=False))
-            self._heard_s = time.monotonic()
+            self._state_of.update((n, (float(p), now_s)) for n, p in zip(message.name, message.position, strict=False))
             self._news.notify_all()
 
     def _wait_for_listener(self, command: str, until_s: float) -> None:
@@ -84,14 +84,19 @@ class Ros1Robot(Robot):
                 raise IoError(f"no controller listens to {command}")
             time.sleep(0.01)
 
-    def _wait_for_states(self, timeout_s: float, after_s: float = -math.inf) -> dict[str, float]:
+    def _wait_for_states(self, timeout_s: float, after_s: float) -> dict[str, float]:
+        """Where all joints are, each heard of after a time; several nodes may publish some of them each."""
+
+        def silent() -> list[str]:
+            return [name for name in self.table.names if self._state_of.get(name, (0.0, -math.inf))[1] <= after_s]
+
         with self._news:
-            if not self._news.wait_for(lambda: self._heard_s > after_s, timeout_s):
-                raise IoError(f"the robot's joint states are silent for {timeout_s:g} s")
-            missing = [name for name in self.table.names if name not in self._state_of]
-            if missing:
-                raise IoError(f"the robot's joint states lack {', '.join(missing)}")
-            found = {name: float(self._state_of[name]) for name in self.table.names}
+            if not self._news.wait_for(lambda: not silent(), timeout_s):
+                missing = silent()
+                if len(missing) == len(self.table.names):
+                    raise IoError(f"the robot's joint states are silent for {timeout_s:g} s")
+                raise IoError(f"the robot's joint states lack {', '.join(missing)} for {timeout_s:g} s")
+            found = {name: self._state_of[name][0] for name in self.table.names}
         wrong = [name for name, position in found.items() if not math.isfinite(position)]
         if wrong:
             raise IoError(f"the robot's joint states are not finite: {', '.join(wrong)}")

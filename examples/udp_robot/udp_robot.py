@@ -4,8 +4,8 @@
 
 Every `step_s` one datagram goes out, ``{"step": n, "positions_rad": {joint: angle}}``, all joints in each, so that a
 lost one does no harm; one without joints commands none. The controller answers with where its joints are, in a datagram
-of the same form and number. When it is silent for longer than the timeout, the motion ends with an error and the robot
-is stopped until `resume`; a controller must itself hold its joints then.
+of the same form and number. One that is not answered is sent again. When that does not help before the timeout, the
+motion ends with an error and the robot is stopped until `resume`; a controller must itself hold its joints then.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 import math
 import socket
+import threading
 import time
 from collections.abc import Mapping
 
@@ -28,12 +29,20 @@ class UdpRobot(Robot):
 
     def __init__(self, host: str, port: int, timeout_s: float = 0.5) -> None:
         super().__init__(HOAP2)
+        self._timeout_s = timeout_s
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self._socket.settimeout(timeout_s)
-        self._socket.connect((host, port))
+        self._asking = threading.Lock()  # a page may ask before the first motion, in a thread of its own
         self._number = 0
         self._due_s = time.monotonic()
-        self._positions = self._ask({})
+        try:
+            self._socket.connect((host, port))
+            self._positions = self._ask({})
+        except OSError as error:
+            self._socket.close()
+            raise IoError(f"{host}: {error}") from error
+        except Error:
+            self._socket.close()
+            raise
 
     def _state(self) -> RobotState:
         nowhere = (0.0, 0.0, 0.0)  # this controller does not report where its base is
@@ -58,18 +67,37 @@ class UdpRobot(Robot):
         return dict(self._positions)
 
     def _ask(self, sent: Mapping[str, float]) -> dict[str, float]:
+        with self._asking:
+            return self._asked(sent)
+
+    def _asked(self, sent: Mapping[str, float]) -> dict[str, float]:
         self._number += 1
-        message = json.dumps({"step": self._number, "positions_rad": sent})
+        message = json.dumps({"step": self._number, "positions_rad": sent}).encode("ascii")
+        ends_s = time.monotonic() + self._timeout_s
         try:
-            self._socket.send(message.encode("ascii"))
-            while True:
-                answer = json.loads(self._socket.recv(65536))
-                if answer["step"] == self._number:  # an older one came late
-                    found = {name: float(answer["positions_rad"][name]) for name in self.table.names}
-                    if not all(map(math.isfinite, found.values())):
-                        raise ValueError("a position is not finite")
+            while (left_s := ends_s - time.monotonic()) > 0.0:
+                self._socket.send(message)
+                found = self._answer(min(left_s, max(self._timeout_s / 4, self.step_s)))
+                if found is not None:
                     return found
         except OSError as error:
             raise IoError(f"the robot's controller does not answer: {error}") from error
-        except (ValueError, KeyError, TypeError) as error:
+        except (ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
             raise IoError(f"the robot's controller answers nonsense: {error!r}") from error
+        raise IoError(f"the robot's controller does not answer within {self._timeout_s:g} s")
+
+    def _answer(self, within_s: float) -> dict[str, float] | None:
+        """Where the joints are; None where no answer to the last datagram comes in time, whatever else does."""
+        ends_s = time.monotonic() + within_s
+        while (left_s := ends_s - time.monotonic()) > 0.0:
+            self._socket.settimeout(left_s)
+            try:
+                answer = json.loads(self._socket.recv(65536))
+            except TimeoutError:
+                return None
+            if answer["step"] == self._number:  # an older one came late
+                found = {name: float(answer["positions_rad"][name]) for name in self.table.names}
+                if not all(map(math.isfinite, found.values())):
+                    raise ValueError("a position is not finite")
+                return found
+        return None

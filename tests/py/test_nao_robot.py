@@ -135,6 +135,13 @@ def test_stop_in_mid_motion_brakes_and_latches(nao, robot):
     assert robot.perform(TURN)
 
 
+def test_joints_whose_limits_depend_on_others_follow_nothing(nao, robot):
+    for names in (["HeadYaw", "LElbowYaw"], ["LHipYawPitch"]):
+        with pytest.raises(InvalidArgument, match=names[0]):
+            robot.follow(names, lambda time_s: None)
+    assert not nao.motion.sent
+
+
 def test_the_joints_follow_a_hand_while_they_have_no_power(nao, robot):
     nao.motion.positions["HeadYaw"] = 0.7  # turned after the robot was opened
     assert robot.perform(TURN)
@@ -191,7 +198,9 @@ def test_a_robot_that_falls_silent_in_mid_motion_is_an_error(nao):
         until(lambda: len(nao.motion.sent) > count)  # the call that hung is carried out
         nao.motion.positions["HeadYaw"] = nao.motion.targets["HeadYaw"] = 0.3  # turned by hand meanwhile
         robot.resume()
-        assert robot.perform(TURN), "it is connected to again"
+        assert robot.wake_up() and not robot.stopped, "it is connected to again"
+        nao.motion.positions["HeadYaw"] = nao.motion.targets["HeadYaw"] = 0.3
+        assert robot.perform(TURN)
         assert abs(sent(nao)[-1]) < 1e-6 and np.abs(sent(nao)[count + 1 :]).max() == pytest.approx(0.3, abs=0.01)
 
 

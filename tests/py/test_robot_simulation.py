@@ -23,6 +23,7 @@ from hri.robot import (
     link_poses,
     load_gestures,
     open_robot,
+    render_still,
     render_video,
     rest_positions,
     urdf_text,
@@ -217,6 +218,30 @@ def test_a_video_is_filmed(tmp_path, backend):
     assert frames == int(trajectory.duration_s * 12 + 1e-6) + 1 and progress[-1] == (frames, frames)
     clip = read_frames(path)
     assert len(clip.frames) == frames
+
+
+def test_films_and_stills_keep_the_time():
+    """A film may have more pictures than the robot has steps; a still is no row of the motion."""
+    nod = Trajectory(["head_joint_2"], 2.0, [[0.0], [0.8], [0.0]])
+    shown = []
+    with open_robot("kinematic") as robot:
+        assert robot.perform(nod, lambda image, time_s: shown.append(time_s), fps=250.0, size=(16, 16))
+    assert len(shown) == 1 + round(nod.duration_s * 250) and shown == sorted(shown)
+    assert np.abs(np.array(shown) - np.arange(len(shown)) / 250.0).max() <= 0.01 + 1e-9
+
+
+def test_a_still_is_taken_at_its_time(tmp_path, monkeypatch):
+    nod = Trajectory(["head_joint_2"], 2.0, [[0.0], [0.8], [0.0]])
+    seen = []
+    monkeypatch.setattr(
+        "hri.robot.simulation.kinematic_backend.KinematicRobot._render",
+        lambda robot, width, height: (
+            seen.append(robot._positions["head_joint_2"]) or np.zeros((height, width, 3), "u1")
+        ),
+    )
+    for at_s, expected in ((0.5, 0.2), (0.0, 0.0), (3.0, 0.4)):
+        render_still(nod, tmp_path / "still.png", at_s, "kinematic", (16, 16))
+        assert seen[-1] == pytest.approx(expected, abs=0.01)
 
 
 def test_what_cannot_be_opened():

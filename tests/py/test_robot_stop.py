@@ -185,6 +185,26 @@ def test_an_exception_brings_the_joints_to_rest(robot):
     assert robot.hold(0.1) and not robot.stopped
 
 
+def test_an_interrupt_while_following_brings_the_joints_to_rest(robot):
+    sent = commanded(robot)
+    command = robot._command
+
+    def interrupted(positions):
+        command(positions)
+        if sent[-1]["head_joint_2"] > 0.1 and robot._command is interrupted:
+            robot._command = command
+            raise KeyboardInterrupt  # as it comes while a robot's link sleeps
+
+    robot._command = interrupted
+    with pytest.raises(KeyboardInterrupt):
+        robot.follow(["head_joint_2"], lambda time_s: np.array([0.8]))
+    head = np.array([positions["head_joint_2"] for positions in sent])
+    speeds = np.diff(head) / robot.step_s
+    assert 0.1 < head[-1] < 0.7 and speeds.max() > 0.5 and abs(speeds[-1]) < 0.1, "it moved, and slowed down"
+    assert np.abs(np.diff(speeds)).max() / robot.step_s <= 1.01 * HOAP2.max_acceleration_rad_s2
+    assert robot.hold(0.1) and not robot.stopped
+
+
 def test_a_robot_that_takes_no_commands_is_stopped_and_found_again():
     with open_robot("kinematic") as robot:
         command, count = robot._command, [0]

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import Error, InvalidArgument
-from hri.robot.control.commanding import CommandedJoints
+from hri.robot.control.commanding import HOLD_AFTER_FALL_S, CommandedJoints
 from hri.robot.control.filming import Film, Image, OnFrame
 from hri.robot.control.following import JointFollower, clear_of_itself
 from hri.robot.control.playing import Playback, approach_to
@@ -25,7 +25,6 @@ from hri.robot.model.postures import require_posture
 from hri.robot.motion.checks import require_safe, require_safe_approach, require_within
 from hri.robot.motion.trajectory import Trajectory
 
-_HOLD_AFTER_FALL_S = 1.0
 _SAME_RAD = 1e-9
 _MOST_PREPARED = 256
 _SHARE = 0.99  # of speed and acceleration; the rest is for rounding
@@ -194,6 +193,8 @@ class Robot(CommandedJoints):
     def hold(self, duration_s: float, log: MotionLog | None = None) -> bool:
         """Keep the joints where they were sent for a time, also when stopped; False when the robot falls meanwhile.
 
+        After the link to a robot was lost they are kept where they are found: they may have moved.
+
         Parameters
         ----------
         duration_s : float
@@ -203,11 +204,12 @@ class Robot(CommandedJoints):
         Raises
         ------
         Error
-            When the robot is closed, or carries out a motion.
+            When the robot is closed, or carries out a motion; as of `perform` for the link to a robot.
         """
         if not 0.0 <= duration_s < np.inf:
             raise InvalidArgument(f"duration_s is {duration_s}, must be 0 or more and finite")
         with self._one_at_a_time():
+            self._find_again()
             return self._hold(duration_s, log)
 
     def stop(self) -> None:
@@ -276,8 +278,12 @@ class Robot(CommandedJoints):
         return self._joint_positions()
 
     def known_positions_rad(self) -> dict[str, float]:
-        """Where the joints are, as far as that is known at once: of a real robot, where they were last sent."""
-        return self.joint_positions_rad()
+        """Where the joints are, as far as that is known at once: where they were last sent, if they were.
+
+        Any thread may ask, also during a motion.
+        """
+        self._require_open()
+        return dict(self._commanded) or self.joint_positions_rad()
 
     def close(self) -> None:
         """Let go of the robot, which cannot be used any more; a motion of another thread is stopped first.
@@ -349,10 +355,14 @@ class Robot(CommandedJoints):
                 self._event("stop", "not begun: stopped until resume()", log)
                 yield False
                 return
-            if self._link_lost:
-                self._commanded.update(self._joint_positions())
-                self._link_lost = False
+            self._find_again()
             yield True
+
+    def _find_again(self) -> None:
+        """Where the joints are, after the link to them was lost."""
+        if self._link_lost:
+            self._commanded.update(self._joint_positions())
+            self._link_lost = False
 
     def _checked(self, trajectory: Trajectory) -> tuple[NDArray[np.float64], Trajectory | None]:
         """Where the motion's joints are, and the way to its first row; raises TrajectoryError for what is not safe."""
@@ -394,54 +404,5 @@ class Robot(CommandedJoints):
         self._report_end(fallen, log)
         self._brake(names, before, now, log)
         if fallen:
-            self._hold(_HOLD_AFTER_FALL_S, log)
+            self._hold(HOLD_AFTER_FALL_S, log)
         return False
-
-    def _follow(
-        self,
-        follower: JointFollower,
-        names: tuple[str, ...],
-        target_at: Callable[[float], NDArray[np.float64] | None],
-        stops: object,
-        log: MotionLog | None,
-    ) -> bool:
-        """Until the targets, a stop or a fall end it; the way to rest is always one that was found clear."""
-        ended = fallen = False
-        failure: BaseException | None = None
-        while not (ended and follower.rests):
-            target: NDArray[np.float64] | None = None
-            if not ended:
-                fallen = self._fallen()
-                ended = fallen or self._stop.since(stops)
-                if ended:
-                    self._report_end(fallen, log)
-                else:
-                    try:
-                        target = _target(target_at(self.time_s), len(names))
-                    except BaseException as error:  # raised once the joints rest
-                        failure = error
-                    ended = target is None
-            for row in follower.tick(target).tolist():
-                self._send(dict(zip(names, row, strict=True)), log)
-        if failure is not None:
-            raise failure
-        if fallen:
-            self._hold(_HOLD_AFTER_FALL_S, log)
-        return not (fallen or self._stop.since(stops))
-
-    def _report_end(self, fallen: bool, log: MotionLog | None) -> None:
-        if fallen:
-            self._event("fall", f"the base leans by {self._tilt_deg():.0f} degrees", log)
-            self._upright_s = 0.0
-        else:
-            self._event("stop", "stopped on request", log)
-
-
-def _target(positions_rad: NDArray[np.float64] | None, count: int) -> NDArray[np.float64] | None:
-    """What `Robot.follow` was given; raises InvalidArgument for anything but one finite number a joint."""
-    if positions_rad is None:
-        return None
-    target = np.asarray(positions_rad, dtype=np.float64)
-    if target.shape != (count,) or not np.isfinite(target).all():
-        raise InvalidArgument(f"a target to follow must be {count} finite positions, got {positions_rad!r}")
-    return target

@@ -5,12 +5,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.errors import InvalidArgument
 from hri.robot.control.braking import brake
+from hri.robot.control.following import JointFollower
 from hri.robot.control.state import Contact, Event, MotionLog, RobotState, SelfContact, SelfContacts
 from hri.robot.control.stopping import StopLatch
 from hri.robot.control.straining import PATIENCE_S, Straining
@@ -22,6 +24,7 @@ UPRIGHT_TILT_DEG = 20.0
 _UPRIGHT_S = 0.5
 _LOOK_S = 0.01
 _FEEL_S = 0.005
+HOLD_AFTER_FALL_S = 1.0
 _TOLERANCES_RAD = np.array([-LIMIT_TOLERANCE_RAD, LIMIT_TOLERANCE_RAD])
 
 
@@ -99,6 +102,61 @@ class CommandedJoints(ABC):
         for row in brake(positions, speeds, limits, self.table.max_speed_rad_s, most, self.step_s).tolist():
             self._send(dict(zip(names, row, strict=True)), log)
 
+    def _follow(
+        self,
+        follower: JointFollower,
+        names: tuple[str, ...],
+        target_at: Callable[[float], NDArray[np.float64] | None],
+        stops: object,
+        log: MotionLog | None,
+    ) -> bool:
+        """Until the targets, a stop or a fall end it; the way to rest is always one that was found clear."""
+        ended = fallen = False
+        failure: BaseException | None = None
+        while not (ended and follower.rests):
+            target: NDArray[np.float64] | None = None
+            if not ended:
+                fallen = self._fallen()
+                ended = fallen or self._stop.since(stops)
+                if ended:
+                    self._report_end(fallen, log)
+                else:
+                    try:
+                        target = _target(target_at(self.time_s), len(names))
+                    except BaseException as error:  # raised once the joints rest
+                        failure = error
+                    ended = target is None
+            rows = iter(follower.tick(target).tolist())
+            try:
+                for row in rows:
+                    self._send(dict(zip(names, row, strict=True)), log)
+            except BaseException:  # an interrupt, mostly while it sleeps
+                if not self._link_lost:
+                    self._rest(follower, names, rows, log)
+                raise
+        if failure is not None:
+            raise failure
+        if fallen:
+            self._hold(HOLD_AFTER_FALL_S, log)
+        return not (fallen or self._stop.since(stops))
+
+    def _rest(
+        self, follower: JointFollower, names: tuple[str, ...], rows: Iterator[list[float]], log: MotionLog | None
+    ) -> None:
+        """Send what is left of a tick, and bring the joints to rest."""
+        for row in rows:
+            self._send(dict(zip(names, row, strict=True)), log)
+        while not follower.rests:
+            for row in follower.tick(None).tolist():
+                self._send(dict(zip(names, row, strict=True)), log)
+
+    def _report_end(self, fallen: bool, log: MotionLog | None) -> None:
+        if fallen:
+            self._event("fall", f"the base leans by {self._tilt_deg():.0f} degrees", log)
+            self._upright_s = 0.0
+        else:
+            self._event("stop", "stopped on request", log)
+
     def _hold(self, duration_s: float, log: MotionLog | None) -> bool:
         for _ in range(round(duration_s / self.step_s)):
             if self._fallen():
@@ -153,3 +211,13 @@ class CommandedJoints(ABC):
         self.events.append(event)
         if log is not None:
             log.events.append(event)
+
+
+def _target(positions_rad: NDArray[np.float64] | None, count: int) -> NDArray[np.float64] | None:
+    """What `Robot.follow` was given; raises InvalidArgument for anything but one finite number a joint."""
+    if positions_rad is None:
+        return None
+    target = np.asarray(positions_rad, dtype=np.float64)
+    if target.shape != (count,) or not np.isfinite(target).all():
+        raise InvalidArgument(f"a target to follow must be {count} finite positions, got {positions_rad!r}")
+    return target

@@ -36,7 +36,13 @@ class Film:
         self._frames = 0
 
     def show(self, render: Callable[[int, int], Image], time_s: float, end_s: float) -> None:
-        """Take the picture that is due at this time, if any; none is due before 0 or after the end."""
-        if self._on_frame is not None and self._frames <= min(time_s, end_s) * self._fps + 1e-9:
-            self._on_frame(render(*self._size), time_s)
+        """Take the picture that is due at this time, if any; none is due before 0 or after the end.
+
+        Where more than one is, it is handed on so often, so that a film keeps the time.
+        """
+        if self._on_frame is None or self._frames > min(time_s, end_s) * self._fps + 1e-9:
+            return
+        image = render(*self._size)
+        while self._frames <= min(time_s, end_s) * self._fps + 1e-9:
             self._frames += 1
+            self._on_frame(image, time_s)

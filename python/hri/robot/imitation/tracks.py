@@ -18,6 +18,7 @@ from hri.core.files import parse_number, read_csv
 Floats = NDArray[np.float64]
 
 MAX_PIXELS = 1e6
+_MOST_LEFT_OUT = 100_000  # frames of a file that has a column for them
 _HANDS = ("left-x", "left-y", "right-x", "right-y")
 _NOSE = ("nose-x", "nose-y")
 _SHOULDERS = ("left-shoulder-x", "left-shoulder-y", "right-shoulder-x", "right-shoulder-y")
@@ -141,6 +142,7 @@ def read_hand_tracks(path: str | PathLike[str], fps: float = 30.0) -> dict[str, 
     columns = [header.index(name) for name in wanted]
     video, frame = (header.index(name) if name in header else -1 for name in ("video", "frame"))
     found: dict[str, list[list[float]]] = {}
+    num_left_out = 0
     for number, row in rows:
         where = f"{path}: row {number}"
         if len(row) != len(header):
@@ -151,6 +153,11 @@ def read_hand_tracks(path: str | PathLike[str], fps: float = 30.0) -> dict[str, 
             index = _number(f"{where}, column frame", row[frame])
             if not len(lines) <= index < len(lines) + 10_000 or index != int(index):
                 raise FormatError(f"{where}, column frame: {row[frame]!r}, must count up from 0 within video {name!r}")
+            num_left_out += int(index) - len(lines)
+            if num_left_out > _MOST_LEFT_OUT:
+                raise FormatError(
+                    f"{where}, column frame: {row[frame]!r}, more than {_MOST_LEFT_OUT} are left out in all"
+                )
             lines += [[np.nan] * len(wanted) for _ in range(int(index) - len(lines))]
         lines.append([_number(f"{where}, column {header[c]}", row[c], True) for c in columns])
     return {name: _track(name, fps, wanted, np.array(lines)) for name, lines in found.items()}

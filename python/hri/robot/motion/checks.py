@@ -78,6 +78,8 @@ def check_pulse_csv(path: str | PathLike[str], table: JointTable = HOAP2) -> lis
         When the file cannot be read.
     """
     period_s, counts, findings = parse_pulse_csv(path, table)
+    if not findings and np.isnan(counts).all():
+        findings = [Finding(1, "", "", "", "the file commands no joint")]
     if findings:
         return findings
     return check_trajectory(trajectory_from_counts(period_s, counts, table), table)

@@ -75,16 +75,18 @@ def needs_feet(trajectory: Trajectory) -> bool:
 
 def mirrored(trajectory: Trajectory) -> Trajectory:
     """A motion of HOAP-2's arms and head with left and right exchanged."""
+    names = trajectory.joint_names
     signs = {f"joint_{number}": sign for number, sign in enumerate([*MIRROR, -1.0], start=1)}
-    columns = []
-    for name in trajectory.joint_names:
+    columns = {}
+    for name in names:
         limb, _, joint = name.partition("_")
         other = {"larm": "rarm", "rarm": "larm"}.get(limb, limb)
         if limb not in ("larm", "rarm", "head"):
             raise InvalidArgument(f"joint {name} is neither of an arm nor of the head")
         sign = signs[joint] if limb != "head" else {"joint_1": -1.0}.get(joint, 1.0)
-        columns.append(sign * trajectory.positions_rad[:, trajectory.joint_names.index(f"{other}_{joint}")])
-    return Trajectory(trajectory.joint_names, trajectory.period_s, np.stack(columns, axis=1))
+        columns[f"{other}_{joint}"] = sign * trajectory.positions_rad[:, names.index(name)]
+    ordered = names if set(names) == set(columns) else tuple(columns)
+    return Trajectory(ordered, trajectory.period_s, np.stack([columns[name] for name in ordered], axis=1))
 
 
 def _by_arm(trajectory: Trajectory, side: str, gesture: str) -> Trajectory:

@@ -26,7 +26,7 @@ MAX_BYTES = 1 << 26
 MAX_POINTS = 500_000
 
 _PERIOD_S = 0.01  # of points at uneven times, once interpolated
-_MAX_NUMBERS = 25_000_000  # that interpolation may make
+_MAX_NUMBERS = 25_000_000  # of positions, as they stand and as interpolation makes them
 _MAX_S = float((1 << 31) - 1)
 _NS = 1_000_000_000
 _EVEN_NS = 1000.0
@@ -88,6 +88,10 @@ def trajectory_of_message(message: Any, name: str = "message") -> Trajectory:
     names, points = _list(fields, "joint_names", name), _list(fields, "points", name)
     if not 1 <= len(points) <= MAX_POINTS:
         raise FormatError(f"{name}: points: {len(points)}, must be 1 to {MAX_POINTS}")
+    if len(points) * len(names) > _MAX_NUMBERS:
+        raise FormatError(
+            f"{name}: {len(points)} points of {len(names)} joints: must be {_MAX_NUMBERS} positions or fewer"
+        )
     times_ns = np.empty(len(points), np.int64)
     positions = np.empty((len(points), len(names)))
     velocities: NDArray[np.float64] | None = np.zeros_like(positions)

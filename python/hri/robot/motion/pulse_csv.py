@@ -17,11 +17,12 @@ from numpy.typing import NDArray
 from hri.core.errors import FormatError
 from hri.core.files import read_bytes, split_lines, write_text
 from hri.robot.model.joints import HOAP2, JointTable
-from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
+from hri.robot.motion.trajectory import MOST_FINDINGS, Finding, Trajectory, TrajectoryError
 
 COLUMNS = 27
 _COUNT = re.compile(r"[ \t]*(-?[0-9]{1,9}|R)[ \t]*")
 _WHOLE = re.compile(r"[ \t]*[0-9]{1,4}[ \t]*")
+_MOST_MS = 9999
 _IDLE = re.compile(r"[ \t]*(60|R)[ \t]*")
 
 
@@ -63,7 +64,7 @@ def read_pulse_csv(path: str | PathLike[str], table: JointTable = HOAP2) -> Traj
 
 
 def write_pulse_csv(path: str | PathLike[str], trajectory: Trajectory, table: JointTable = HOAP2) -> tuple[str, ...]:
-    """Write a motion; between whole milliseconds it is resampled to 1 ms rows by straight lines.
+    """Write a motion; with a period of no 1 to 9999 whole milliseconds it is resampled to 1 ms rows by straight lines.
 
     Returns
     -------
@@ -78,7 +79,7 @@ def write_pulse_csv(path: str | PathLike[str], trajectory: Trajectory, table: Jo
         When the file cannot be written.
     """
     period_ms = round(trajectory.period_s * 1000.0)
-    if period_ms < 1 or abs(period_ms / 1000.0 - trajectory.period_s) > 1e-9:
+    if not 1 <= period_ms <= _MOST_MS or abs(period_ms / 1000.0 - trajectory.period_s) > 1e-9:
         times_s = np.arange(int(trajectory.duration_s * 1000.0 + 1e-6) + 1) / 1000.0
         rows = np.array([trajectory.at(time_s) for time_s in times_s])
         period_ms = 1
@@ -181,6 +182,9 @@ def _parse_lines(lines: list[str], table: JointTable) -> tuple[float, NDArray[np
         faults = _faults(number, cells, period, table)
         if faults:
             findings += faults
+            if len(findings) >= MOST_FINDINGS:
+                findings.append(Finding(number, "", "", "", "the rest of the file was not looked at"))
+                break
             continue
         counts[number - 1] = [np.nan if "R" in cell else int(cell) for cell in cells[first:last]]
     return float(period) / 1000.0 if not findings else 1.0, counts, findings

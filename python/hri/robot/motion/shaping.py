@@ -17,6 +17,7 @@ from hri.robot.motion.trajectory import Trajectory
 
 Floats = NDArray[np.float64]
 _SLOWEST = 1000.0
+_MOST_VALUES = 25_000_000
 _BEYOND_REASON_RAD = 1e6
 _FASTEST_OF_MINIMUM_JERK, _HARDEST_OF_MINIMUM_JERK = 1.875, 5.7736
 
@@ -95,7 +96,7 @@ def slow_to_limits(trajectory: Trajectory, table: JointTable = HOAP2) -> Traject
     Raises
     ------
     InvalidArgument
-        When a position is not finite, or the motion would take more than 1000 times as long.
+        When a position is not finite, where the motion would take more than 1000 times as long, and for too many rows.
     """
     if not np.isfinite(trajectory.positions_rad).all():
         raise InvalidArgument("the motion cannot be slowed to the limits: a position is not finite")
@@ -110,6 +111,8 @@ def slow_to_limits(trajectory: Trajectory, table: JointTable = HOAP2) -> Traject
                 f"the motion is too rough: within the limits it would last {factor:.0f} times as long"
             )
         rows = int(np.ceil(trajectory.duration_s * factor / trajectory.period_s - 1e-9)) + 1
+        if rows * len(trajectory.joint_names) > _MOST_VALUES:
+            raise InvalidArgument(f"the motion is too rough: within the limits it would have {rows} rows")
         times = trajectory.period_s / factor * np.arange(rows, dtype=np.float64)
         slower = Trajectory(trajectory.joint_names, trajectory.period_s, trajectory.at(times))
         beyond = excess(slower.positions_rad.T, slower.period_s, table)

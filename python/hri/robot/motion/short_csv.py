@@ -13,11 +13,12 @@ from os import PathLike, fspath
 
 import numpy as np
 
+from hri.core.errors import InvalidArgument
 from hri.core.files import parse_number, read_bytes, split_lines, write_text
 from hri.robot.model.joints import HOAP2, JointTable
 from hri.robot.motion.checks import check_trajectory
 from hri.robot.motion.pulse_csv import column_letter
-from hri.robot.motion.trajectory import Finding, Trajectory, TrajectoryError
+from hri.robot.motion.trajectory import MOST_FINDINGS, Finding, Trajectory, TrajectoryError
 
 _HEAD_BYTES = 1 << 16  # of remarks before a header
 _TO_ROW = re.compile(r"\bto row ([0-9]+)")
@@ -86,6 +87,9 @@ def _read(path: str | PathLike[str], table: JointTable) -> tuple[Trajectory, lis
             findings.append(Finding(row, "", "", str(len(cells)), message))
             continue
         values.append([_number(row, place, header, cell, findings) for place, cell in enumerate(cells)])
+        if len(findings) >= MOST_FINDINGS:
+            findings.append(Finding(row, "", "", "", "the rest of the file was not looked at"))
+            break
     if not findings and len(values) < 2:
         findings.append(Finding(max(1, len(lines)), "", "", "", "there must be at least two rows of positions"))
     if not findings:
@@ -93,12 +97,28 @@ def _read(path: str | PathLike[str], table: JointTable) -> tuple[Trajectory, lis
     if findings:
         raise TrajectoryError(findings, fspath(path))
     rows = np.array(values)
-    trajectory = Trajectory(header[1:], float(rows[-1, 0]) / (len(rows) - 1), np.radians(rows[:, 1:]))
+    period_s = float(rows[-1, 0]) / (len(rows) - 1)
+    try:
+        trajectory = Trajectory(header[1:], period_s, np.radians(rows[:, 1:]))
+    except InvalidArgument as error:
+        last = numbered[-1][0]
+        raise TrajectoryError([Finding(last, "A", "", f"{rows[-1, 0]:g}", str(error))], fspath(path)) from error
     return trajectory, [row for row, _ in numbered[1:]]
 
 
 def write_short_csv(path: str | PathLike[str], trajectory: Trajectory) -> None:
-    """Write a motion in the short form, to a 10000th of a degree; IoError if it fails."""
+    """Write a motion in the short form, to a 10000th of a degree.
+
+    Raises
+    ------
+    TrajectoryError
+        For a position that is not finite.
+    IoError
+        When the file cannot be written.
+    """
+    for row, place in np.argwhere(~np.isfinite(trajectory.positions_rad))[:1].tolist():
+        name = trajectory.joint_names[place]
+        raise TrajectoryError([Finding(row + 1, column_letter(1 + place), name, "nan", "the position is not known")])
     lines = [",".join(("time_s", *trajectory.joint_names))]
     for row, degrees in enumerate(np.degrees(trajectory.positions_rad).tolist()):
         lines.append(",".join((f"{row * trajectory.period_s:.9g}", *(f"{value:.4f}" for value in degrees))))

@@ -93,6 +93,10 @@ class Trajectory:
         write_text(path, "\n".join(lines) + "\n")
 
 
+MOST_FINDINGS = 1000
+"""Of the cells of a file; one that says that there may be more is the last then."""
+
+
 @dataclass(frozen=True)
 class Finding:
     """Something amiss in a motion.

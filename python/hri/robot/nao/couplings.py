@@ -16,6 +16,7 @@ from hri.robot.motion.checks import LIMIT_TOLERANCE_RAD
 from hri.robot.motion.trajectory import Finding, Trajectory
 
 _HIPS = ("LHipYawPitch", "RHipYawPitch")
+COUPLED_JOINTS = frozenset(("HeadYaw", "HeadPitch", *_HIPS))
 
 
 def head_pitch_range(yaw_rad: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

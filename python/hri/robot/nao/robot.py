@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from hri.core.errors import Error, InvalidArgument, IoError
 from hri.robot.control.backend import Robot
 from hri.robot.control.filming import Image
-from hri.robot.control.state import RobotState
+from hri.robot.control.state import MotionLog, RobotState
 from hri.robot.model.joints import NAO, Joint, JointTable
 from hri.robot.motion.checks import LIMIT_TOLERANCE_RAD
 from hri.robot.motion.trajectory import Trajectory, TrajectoryError
-from hri.robot.nao.couplings import coupling_findings
+from hri.robot.nao.couplings import COUPLED_JOINTS, coupling_findings
 from hri.robot.nao.link import NaoqiLink
 
 MAX_TEXT_LENGTH = 1000
@@ -83,10 +83,23 @@ class NaoqiRobot(Robot):
         """Where the robot is."""
         return self._link.url
 
-    def known_positions_rad(self) -> dict[str, float]:
-        """Where the joints were last sent, or were when it was connected to; NAO is not asked."""
-        self._require_open()
-        return dict(self._commanded)
+    def follow(
+        self,
+        joint_names: Sequence[str],
+        target_at: Callable[[float], NDArray[np.float64] | None],
+        log: MotionLog | None = None,
+    ) -> bool:
+        """As of `Robot`; joints whose limits depend on one another, of head and hips, are refused.
+
+        Raises
+        ------
+        InvalidArgument
+            Also for these; nothing has moved.
+        """
+        coupled = sorted(COUPLED_JOINTS.intersection(joint_names))
+        if coupled:
+            raise InvalidArgument(f"{', '.join(coupled)}: the limits depend on other joints; perform checks these")
+        return super().follow(joint_names, target_at, log)
 
     def say(self, text: str, language: str | None = None) -> None:
         """Say a text by ALTextToSpeech, and return when it has been said.
@@ -173,6 +186,7 @@ class NaoqiRobot(Robot):
                 self._event("stop", "not begun: stopped until resume()", None)
                 return False
             try:
+                self._find_again()
                 future = self._link.start("ALMotion", method)
                 ends_s = time.monotonic() + _POSTURE_S
                 while not self._link.wait(future, _POLL_S) and time.monotonic() < ends_s:

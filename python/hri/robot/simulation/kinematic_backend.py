@@ -24,6 +24,10 @@ class KinematicRobot(Robot):
         self._positions = table.rest_rad
         self._commanded.update(self._positions)
 
+    def known_positions_rad(self) -> dict[str, float]:
+        """Where the joints are."""
+        return self.joint_positions_rad()
+
     def _render(self, width: int, height: int) -> Image:
         return draw_robot(link_poses(self._positions, table=self.table), self.table, width, height)
 

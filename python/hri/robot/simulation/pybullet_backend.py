@@ -188,6 +188,10 @@ class PyBulletRobot(Robot):
         pose[:3, 3] = position
         return pose
 
+    def known_positions_rad(self) -> dict[str, float]:
+        """Where the joints are."""
+        return self.joint_positions_rad()
+
     def _render(self, width: int, height: int) -> Image:
         scene.check_size(width, height)
         bullet = self._bullet

@@ -167,5 +167,5 @@ def render_still(
             if time_s >= at_s - 1e-9:
                 robot.stop()
 
-        robot.perform(trajectory, keep, 1.0 / max(at_s, trajectory.period_s), size)
+        robot.perform(trajectory, keep, 1.0 / max(at_s, robot.step_s), size)
     write_image(path, np.ascontiguousarray(images[-1][:, :, ::-1]))
