@@ -18,6 +18,23 @@ constexpr std::int64_t kMost = 10000000;  // nodes or arcs of a file
 // NAME=VALUE fields of one line.
 using Fields = std::map<std::string, std::string>;
 
+// The short names of fields by the long ones.
+using Names = std::map<std::string, std::string>;
+
+const Names& header_names() {
+  static const Names names{{"NODES", "N"}, {"LINKS", "L"}, {"SUBLAT", "S"}};
+  return names;
+}
+const Names& node_names() {
+  static const Names names{{"time", "t"}, {"WORD", "W"}, {"var", "v"}, {"SUBLAT", "L"}};
+  return names;
+}
+const Names& arc_names() {
+  static const Names names{{"START", "S"}, {"END", "E"},      {"WORD", "W"},
+                           {"var", "v"},   {"acoustic", "a"}, {"language", "l"}};
+  return names;
+}
+
 class LatticeReader {
  public:
   LatticeReader(const std::string& text, const std::string& name) : lines_(text, name) {}
@@ -77,14 +94,30 @@ class LatticeReader {
       if (!found.emplace(part.substr(0, part.size() - 1), parts[i + 1]).second)
         lines_.refuse("the field " + part + " stands here twice");
     }
-    return found;
+    if (found.count("I") > 0) return with_short_names(found, node_names());
+    return with_short_names(found, found.count("J") > 0 ? arc_names() : header_names());
+  }
+
+  [[nodiscard]] Fields with_short_names(const Fields& fields, const Names& names) const {
+    Fields result;
+    for (const auto& [name, value] : fields) {
+      const auto found = names.find(name);
+      const std::string& short_name = found == names.end() ? name : found->second;
+      if (!result.emplace(short_name, value).second)
+        lines_.refuse("the field " + short_name + "= stands here twice, by its long name too");
+    }
+    return result;
   }
 
   void read_line(const Fields& fields) {
-    if (fields.count("SUBLAT") > 0) lines_.refuse("lattices in lattices are not read");
-    if (fields.count("I") > 0) {
+    const bool is_node = fields.count("I") > 0;
+    const bool is_header = !is_node && fields.count("J") == 0;
+    // In the line of a node L= names one, in others S=.
+    if ((is_node && fields.count("L") > 0) || (is_header && fields.count("S") > 0))
+      lines_.refuse("lattices in lattices are not read");
+    if (is_node) {
       read_node(fields);
-    } else if (fields.count("J") > 0) {
+    } else if (!is_header) {
       read_arc(fields);
     } else if (fields.count("N") > 0 || fields.count("L") > 0) {
       if (num_nodes_ >= 0) lines_.refuse("N= and L= stand here again");
@@ -92,7 +125,7 @@ class LatticeReader {
       num_nodes_ = lines_.whole_of(fields.at("N"), 1, kMost);
       num_arcs_ = lines_.whole_of(fields.at("L"), 0, kMost);
     }
-    if (fields.count("I") == 0 && fields.count("J") == 0) {
+    if (is_header) {
       if (fields.count("base") > 0) {
         const double base = lines_.number_of(fields.at("base"));
         if (!(base > 0) || base == 1) lines_.refuse("the base of logs is not above 0, or is 1");
@@ -150,10 +183,8 @@ class LatticeReader {
     require_header();
     (void)lines_.whole_of(fields.at("J"), 0, std::max<std::int64_t>(num_arcs_, 1) - 1);
     WordLattice::Arc arc;
-    for (const auto& [keys, node] : {std::pair{std::pair{"S", "START"}, &arc.from},
-                                     std::pair{std::pair{"E", "END"}, &arc.to}}) {
-      auto found = fields.find(keys.first);
-      if (found == fields.end()) found = fields.find(keys.second);
+    for (const auto& [key, node] : {std::pair{"S", &arc.from}, std::pair{"E", &arc.to}}) {
+      const auto found = fields.find(key);
       if (found == fields.end()) lines_.refuse("an arc needs S= and E=");
       *node = static_cast<int>(lines_.whole_of(found->second, 0, num_nodes_ - 1));
     }

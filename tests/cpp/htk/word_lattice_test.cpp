@@ -157,6 +157,25 @@ TEST(WordLattice, ReadsFilesOfOtherPrograms) {
   EXPECT_NEAR(lattice.arcs[0].log_weight, -2.302585092994046, 1e-12);
 }
 
+TEST(WordLattice, ReadsLongNamesOfFields) {
+  const WordLattice by_nodes = WordLattice::parse(
+      "VERSION=1.0\nNODES=3 LINKS=2\nI=0 time=0\nI=1 time=0.5 WORD=one var=2\nI=2 time=1\n"
+      "J=0 START=0 END=1 acoustic=-9 language=-1.5\nJ=1 START=1 END=2\n",
+      "long.slf");
+  EXPECT_EQ(by_nodes.to_text(),
+            WordLattice::parse("VERSION=1.0\nN=3 L=2\nI=0 t=0\nI=1 t=0.5 W=one v=2\nI=2 t=1\n"
+                               "J=0 S=0 E=1 a=-9 l=-1.5\nJ=1 S=1 E=2\n",
+                               "short.slf")
+                .to_text());
+  EXPECT_EQ(by_nodes.words[1], "one");
+  EXPECT_EQ(by_nodes.arcs[0].log_weight, -1.5);
+  const WordLattice by_arcs = WordLattice::parse(
+      "NODES=2 LINKS=1\nI=0\nI=1\nJ=0 START=0 END=1 WORD=two var=3 language=-2\n", "long.slf");
+  EXPECT_EQ(by_arcs.words[2], "two");
+  EXPECT_EQ(by_arcs.variants[2], 3);
+  EXPECT_EQ(by_arcs.arcs[0].log_weight, -2);
+}
+
 TEST(WordLattice, ReadsWordsOnArcsAndEndsThatAreNamed) {
   const WordLattice lattice = WordLattice::parse(
       "VERSION=1.0\nstart=0 end=2\nN=3 L=4\nI=0 t=0\nI=1 t=0.5\nI=2 t=1\nJ=0 S=0 E=1 W=one l=-1 "
@@ -236,6 +255,12 @@ TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
             "file: line 2: a name is not UTF-8 text of one line");
   EXPECT_EQ(lattice_refusal("N=3 L=2\nSUBLAT=x\n"),
             "file: line 2: lattices in lattices are not read");
+  EXPECT_EQ(lattice_refusal("N=3 L=2\nI=0 L=digits\n"),
+            "file: line 2: lattices in lattices are not read");
+  EXPECT_EQ(lattice_refusal("S=digits\nN=3 L=2\n"),
+            "file: line 1: lattices in lattices are not read");
+  EXPECT_EQ(lattice_refusal("N=3 L=2\nI=0 W=a WORD=b\n"),
+            "file: line 2: the field W= stands here twice, by its long name too");
   EXPECT_EQ(lattice_refusal("N=2 L=1\nI=0\nI=1 W=b\nJ=0 S=0 E=1 W=a\n"),
             "file: line 4: there are words on nodes and on arcs");
   EXPECT_EQ(lattice_refusal("start=7\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1\n"),
