@@ -89,15 +89,40 @@ TEST(WordLattice, HoldsTheSentencesOfAGrammar) {
   EXPECT_EQ(of_grammar("( a { b } )"), (std::set<Words>{{"a"}, {"a", "b"}, {"a", "b", "b"}}));
   EXPECT_EQ(of_grammar("( < a | b > )", 2),
             (std::set<Words>{{"a"}, {"b"}, {"a", "a"}, {"a", "b"}, {"b", "a"}, {"b", "b"}}));
-  EXPECT_EQ(of_grammar("$digit = one | two; # digits\n/* a\nsentence */\n$two = $digit $digit;\n"
-                       "( \"sil\" $two | ( $digit ) )"),
-            (std::set<Words>{{"one"},
-                             {"two"},
-                             {"sil", "one", "one"},
-                             {"sil", "one", "two"},
-                             {"sil", "two", "one"},
-                             {"sil", "two", "two"}}));
+  EXPECT_EQ(
+      of_grammar("$digit = one | two; /* digits */\n/* a\nsentence */\n$two = $digit $digit;\n"
+                 "( \"sil\" $two | ( $digit ) )"),
+      (std::set<Words>{{"one"},
+                       {"two"},
+                       {"sil", "one", "one"},
+                       {"sil", "one", "two"},
+                       {"sil", "two", "one"},
+                       {"sil", "two", "two"}}));
   EXPECT_EQ(of_grammar("( { a } { b } )", 1), (std::set<Words>{{}, {"a"}, {"b"}}));
+}
+
+TEST(WordLattice, EndsNamesOfGrammarsAtComments) {
+  EXPECT_EQ(of_grammar("$a/* one */=yes/* two\n*//**/|no/**/;(/**/$a/*three*/)"),
+            (std::set<Words>{{"yes"}, {"no"}}));
+  EXPECT_EQ(of_grammar("( yes #no | a/b\n | # | \"/*\" )"),
+            (std::set<Words>{{"yes", "#no"}, {"a/b"}, {"#"}, {"/*"}}));
+  EXPECT_EQ(grammar_refusal("( yes/* no )"), "file: line 1: a comment does not end");
+}
+
+TEST(WordLattice, RefusesOutputsInGrammars) {
+  const std::string outputs =
+      ": outputs of words behind % are not read, the dictionary has them in [ ]; a % that is part "
+      "of a name needs a backslash";
+  for (const char* name : {"yes%YES", "sil%%", "yes%", "%", "$a%b", "yes%\\377"})
+    EXPECT_EQ(grammar_refusal("( no |\n" + std::string(name) + " )"),
+              "file: line 2: '" + std::string(name) + "'" + outputs);
+  EXPECT_EQ(grammar_refusal("( \"yes\"%YES )"), "file: line 1: '%YES'" + outputs);
+  for (const char* name : {"WD_BEGIN", "WD_END"}) {
+    for (const char* behind : {"%A", "% A", "%%"})
+      EXPECT_EQ(grammar_refusal("(\n" + std::string(name) + behind + " )"),
+                "file: line 2: " + std::string(name) + "% is not read");
+  }
+  EXPECT_EQ(of_grammar("( 50\\% | \"a%b\" )"), (std::set<Words>{{"50%"}, {"a%b"}}));
 }
 
 TEST(WordLattice, RefusesGrammarsByNameAndLine) {
@@ -283,7 +308,7 @@ TEST(Dictionary, WritesLinesAsTheyWereWhileTheySayTheSame) {
 
 TEST(Dictionary, ReadsOutputsAndProbabilities) {
   const Dictionary d = Dictionary::parse(
-      "# words\none w ah n\none [1] 0.25 hh w ah n\nSENT-START [] sil\n7 7\n\"8\" \"[x]\" "
+      "one w ah n\none [1] 0.25 hh w ah n\nSENT-START [] sil\n7 7\n\"8\" \"[x]\" "
       "\"#\\\"\" t\n",
       "words.dic");
   ASSERT_EQ(d.entries.size(), 5U);
@@ -298,6 +323,18 @@ TEST(Dictionary, ReadsOutputsAndProbabilities) {
   EXPECT_EQ(d.by_word().at("one"), (std::vector<int>{0, 1}));
   const std::string text = d.to_text();
   EXPECT_EQ(Dictionary::parse(text, "again").to_text(), text);
+}
+
+TEST(Dictionary, HasWordsWithHashes) {
+  const std::string text = "#no n ow\n# [#] hash\n#\\\"  h#\n";
+  Dictionary d = Dictionary::parse(text, "words.dic");
+  ASSERT_EQ(d.entries.size(), 3U);
+  EXPECT_EQ(d.entries[0].word, "#no");
+  EXPECT_EQ(d.entries[1].word, "#");
+  EXPECT_EQ(d.entries[2].word, "#\"");
+  EXPECT_EQ(d.to_text(), text);
+  for (Pronunciation& entry : d.entries) entry.text.clear();
+  EXPECT_EQ(Dictionary::parse(d.to_text(), "again").entries[2].word, "#\"");
 }
 
 TEST(Dictionary, RefusesByNameAndLine) {

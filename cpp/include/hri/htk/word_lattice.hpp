@@ -45,10 +45,10 @@ struct HRI_API WordLattice {
   static WordLattice parse(const std::string& text, const std::string& name);
 
   /// The network of a grammar: `$name = ...;` defines, the sentence stands in ( ); | alternatives,
-  /// [ ] may be left out, { } none or more, < > one or more; comments behind # or in /* */.
-  /// Throws FormatError naming file and line for another form, names that are not defined above (so
-  /// that none can hold itself), repetitions of what may be empty, and networks of more than a
-  /// million nodes.
+  /// [ ] may be left out, { } none or more, < > one or more; comments in /* */. Throws FormatError
+  /// naming file and line for another form, outputs of words (`word%output`), which only the
+  /// dictionary says, names that are not defined above (so that none can hold itself), repetitions
+  /// of what may be empty, and networks of more than a million nodes.
   static WordLattice of_grammar(const std::string& text, const std::string& name);
   static WordLattice read_grammar(const std::string& path);
   /// The one sentence, for forced alignment.
