@@ -51,6 +51,7 @@ class LatticeReader {
     if (static_cast<std::int64_t>(lattice_.arcs.size()) != num_arcs_)
       lines_.refuse("there are " + std::to_string(lattice_.arcs.size()) + " arcs above, L= says " +
                     std::to_string(num_arcs_));
+    lattice_.insertion_penalty *= log_base_;
     for (auto& [number, word] : nodes_) lattice_.words.push_back(std::move(word));
     for (const auto& [number, line] : line_of_) lattice_.lines.push_back(line);
     if (!variant_of_.empty()) {
@@ -131,6 +132,10 @@ class LatticeReader {
         if (!(base > 0) || base == 1) lines_.refuse("the base of logs is not above 0, or is 1");
         log_base_ = std::log(base);
       }
+      if (const auto scale = fields.find("lmscale"); scale != fields.end())
+        lattice_.language_scale = lines_.number_of(scale->second, 1e12);
+      if (const auto penalty = fields.find("wdpenalty"); penalty != fields.end())
+        lattice_.insertion_penalty = lines_.number_of(penalty->second, 1e12);
       for (const auto& [key, node] :
            {std::pair{"start", &lattice_.start}, std::pair{"end", &lattice_.end}}) {
         if (fields.count(key) > 0)
@@ -291,6 +296,8 @@ std::string WordLattice::fault() const {
     if (!std::isfinite(arc.log_weight) || !std::isfinite(arc.log_acoustic))
       return "the weight of an arc is not finite";
   }
+  if (!std::isfinite(language_scale) || !std::isfinite(insertion_penalty))
+    return "lmscale= or wdpenalty= is not finite";
   if (!times_s.empty() && times_s.size() != words.size()) return "some nodes have no time";
   for (const double time : times_s) {
     if (!std::isfinite(time)) return "the time of a node is not finite";
@@ -334,6 +341,9 @@ std::string WordLattice::to_text() const {
   const std::string found = fault();
   require(found.empty(), found.c_str());
   std::string text = "VERSION=1.0\n";
+  if (!times_s.empty() || language_scale != 1 || insertion_penalty != 0)
+    text += "lmscale=" + detail::shortest(language_scale) +
+            " wdpenalty=" + detail::shortest(insertion_penalty) + "\n";
   if (start != kByArcs) text += "start=" + std::to_string(start) + "\n";
   if (end != kByArcs) text += "end=" + std::to_string(end) + "\n";
   text +=

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -80,6 +81,50 @@ TEST(WordLattice, HoldsLatticesOfRecognition) {
   EXPECT_THROW((void)WordLattice::of_lattice(lattice, {"one"}, 0, 0.01), InvalidArgument);
   EXPECT_TRUE(
       WordLattice::parse("N=2 L=1\nI=0 t=0\nI=1 W=a\nJ=0 S=0 E=1\n", "file").times_s.empty());
+}
+
+// Words begin behind a node of their own, whose arcs hold weight and penalty, or at once.
+TEST(WordLattice, TakesScaleAndPenaltyOutOfWeights) {
+  const double half = std::log(0.5);
+  const Lattice lattice({{-1, 0, false},
+                         {-1, 0, false},
+                         {0, 3, false},
+                         {-1, 3, false},
+                         {1, 4, false},
+                         {2, 7, true},
+                         {-1, 7, false}},
+                        {{0, 1, 0, 8 * half - 10},
+                         {1, 2, -3, 0},
+                         {2, 3, 0, -10},
+                         {3, 4, -1, 0},
+                         {0, 4, -5, 8 * half - 10},
+                         {4, 5, -2, 4 * half},
+                         {5, 6, 0, 2}});
+  const std::vector<std::string> labels{"one", "two", "sil"};
+  const WordLattice written = WordLattice::of_lattice(lattice, labels, 0, 0.01, 4, -10);
+  const WordLattice file = WordLattice::parse(written.to_text(), "file");
+  EXPECT_NE(file.to_text().find("\nlmscale=4 wdpenalty=-10\n"), std::string::npos);
+  EXPECT_EQ(file.language_scale, 4);
+  EXPECT_EQ(file.insertion_penalty, -10);
+  ASSERT_EQ(file.arcs.size(), 7U);
+  for (const WordLattice::Arc& arc : file.arcs) {
+    double expected = 0;
+    if (arc.from == 0) expected = 2 * half;
+    if (arc.from == 4) expected = half;
+    if (arc.from == 5) expected = 0.5;
+    EXPECT_NEAR(arc.log_weight, expected, 1e-12) << arc.from << " " << arc.to;
+  }
+  const Lattice back = file.to_lattice(labels, {"sil"}, 0, 0.01);
+  ASSERT_EQ(back.arcs().size(), lattice.arcs().size());
+  for (std::size_t a = 0; a < back.arcs().size(); ++a)
+    EXPECT_NEAR(back.arcs()[a].log_weight, lattice.arcs()[a].log_weight, 1e-12) << a;
+  const WordLattice bare = WordLattice::of_lattice(lattice, labels, 0, 0.01, 0, -10);
+  for (const WordLattice::Arc& arc : bare.arcs) EXPECT_EQ(arc.log_weight, 0);
+  EXPECT_THROW((void)WordLattice::of_lattice(lattice, labels, 0, 0.01, -1, 0), InvalidArgument);
+  const WordLattice tens = WordLattice::parse(
+      "base=10 lmscale=2.50 wdpenalty=-1.00\nN=2 L=1\nI=0\nI=1 W=a\nJ=0 S=0 E=1\n", "file");
+  EXPECT_EQ(tens.language_scale, 2.5);
+  EXPECT_NEAR(tens.insertion_penalty, -std::log(10.0), 1e-12);
 }
 
 TEST(WordLattice, HoldsTheSentencesOfAGrammar) {
@@ -288,6 +333,8 @@ TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
             "file: line 2: the field W= stands here twice, by its long name too");
   EXPECT_EQ(lattice_refusal("N=2 L=1\nI=0\nI=1 W=b\nJ=0 S=0 E=1 W=a\n"),
             "file: line 4: there are words on nodes and on arcs");
+  EXPECT_EQ(lattice_refusal("VERSION=1.0\nlmscale=x\n"),
+            "file: line 2: 'x' is no number that can stand here");
   EXPECT_EQ(lattice_refusal("start=7\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1\n"),
             "file: line 5: start= or end= is no node");
   EXPECT_EQ(lattice_refusal("N=3 L=1\nI=0\nI=1\nI=2\nJ=0 S=0 E=1\n"),
