@@ -14,6 +14,7 @@ namespace hri::htk {
 namespace {
 
 constexpr std::int64_t kMost = 10000000;  // nodes or arcs of a file
+constexpr double kLargestField = 1e12;    // of scores, natural logs, and of times
 
 // NAME=VALUE fields of one line.
 using Fields = std::map<std::string, std::string>;
@@ -51,7 +52,7 @@ class LatticeReader {
     if (static_cast<std::int64_t>(lattice_.arcs.size()) != num_arcs_)
       lines_.refuse("there are " + std::to_string(lattice_.arcs.size()) + " arcs above, L= says " +
                     std::to_string(num_arcs_));
-    lattice_.insertion_penalty *= log_base_;
+    lattice_.insertion_penalty = natural(lattice_.insertion_penalty);
     for (auto& [number, word] : nodes_) lattice_.words.push_back(std::move(word));
     for (const auto& [number, line] : line_of_) lattice_.lines.push_back(line);
     if (!variant_of_.empty()) {
@@ -133,9 +134,9 @@ class LatticeReader {
         log_base_ = std::log(base);
       }
       if (const auto scale = fields.find("lmscale"); scale != fields.end())
-        lattice_.language_scale = lines_.number_of(scale->second, 1e12);
+        lattice_.language_scale = lines_.number_of(scale->second, kLargestField);
       if (const auto penalty = fields.find("wdpenalty"); penalty != fields.end())
-        lattice_.insertion_penalty = lines_.number_of(penalty->second, 1e12);
+        lattice_.insertion_penalty = lines_.number_of(penalty->second, kLargestField);
       for (const auto& [key, node] :
            {std::pair{"start", &lattice_.start}, std::pair{"end", &lattice_.end}}) {
         if (fields.count(key) > 0)
@@ -143,6 +144,13 @@ class LatticeReader {
       }
     }
     // All others say where the lattice comes from.
+  }
+
+  // A log to the base of the file as natural log.
+  [[nodiscard]] double natural(double log) const {
+    if (std::fabs(log * log_base_) > kLargestField)
+      lines_.refuse("a log of this base is no number that can stand here");
+    return log * log_base_;
   }
 
   void require_header() const {
@@ -161,7 +169,7 @@ class LatticeReader {
     if (word != fields.end())
       has_words_on_nodes_ = has_words_on_nodes_ || name != WordLattice::kNull;
     if (const auto time = fields.find("t"); time != fields.end())
-      times_[number] = lines_.number_of(time->second, 1e12);
+      times_[number] = lines_.number_of(time->second, kLargestField);
     if (const auto variant = fields.find("v"); variant != fields.end())
       variant_of_[number] = static_cast<int>(lines_.whole_of(variant->second, 0, kMost));
   }
@@ -194,9 +202,9 @@ class LatticeReader {
       *node = static_cast<int>(lines_.whole_of(found->second, 0, num_nodes_ - 1));
     }
     if (const auto weight = fields.find("l"); weight != fields.end())
-      arc.log_weight = lines_.number_of(weight->second, 1e12) * log_base_;
+      arc.log_weight = natural(lines_.number_of(weight->second, kLargestField));
     if (const auto score = fields.find("a"); score != fields.end())
-      arc.log_acoustic = lines_.number_of(score->second, 1e12) * log_base_;
+      arc.log_acoustic = natural(lines_.number_of(score->second, kLargestField));
     if (static_cast<std::int64_t>(lattice_.arcs.size()) >= num_arcs_)
       lines_.refuse("there are more arcs than L= says");
     if (const auto word = fields.find("W");

@@ -335,6 +335,13 @@ TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
             "file: line 4: there are words on nodes and on arcs");
   EXPECT_EQ(lattice_refusal("VERSION=1.0\nlmscale=x\n"),
             "file: line 2: 'x' is no number that can stand here");
+  // What would not be read again where it is written, to the base e.
+  for (const char* field : {"l", "a"})
+    EXPECT_EQ(lattice_refusal("base=10\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1 " + std::string(field) +
+                              "=-9e11\n"),
+              "file: line 5: a log of this base is no number that can stand here");
+  EXPECT_EQ(lattice_refusal("wdpenalty=9e11 base=10\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1\n"),
+            "file: line 5: a log of this base is no number that can stand here");
   EXPECT_EQ(lattice_refusal("start=7\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1\n"),
             "file: line 5: start= or end= is no node");
   EXPECT_EQ(lattice_refusal("N=3 L=1\nI=0\nI=1\nI=2\nJ=0 S=0 E=1\n"),
