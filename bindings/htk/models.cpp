@@ -193,18 +193,24 @@ void bind_htk_words(py::module_& m) {
           },
           "(from, to, log weight).")
       .def_static("of_lattice", &WordLattice::of_lattice, py::arg("lattice"), py::arg("labels"),
-                  py::arg("first_s"), py::arg("frame_s"),
+                  py::arg("first_s"), py::arg("frame_s"), py::arg("language_scale") = 1.0,
+                  py::arg("insertion_penalty") = 0.0,
                   "A hri.language.Lattice as a file: labels of its models, frame n at first_s + n "
-                  "frame_s.")
+                  "frame_s. Scale and penalty that its weights hold are taken out.")
       .def("to_lattice", &WordLattice::to_lattice, py::arg("labels"),
            py::arg("silences") = std::vector<std::string>{}, py::arg("first_s") = 0.0,
            py::arg("frame_s") = 0.01,
-           "The same back; words of `silences` are silence. Raises InvalidArgument for a file "
+           "The same back, weighed again; words of `silences` are silence. Raises InvalidArgument "
+           "for a file "
            "without times.")
       .def_readonly("lines", &WordLattice::lines,
                     "Of the file that the nodes were read from; empty: of none.")
       .def_readonly("variants", &WordLattice::variants,
                     "Pronunciation of every node, from 1, 0: any; or empty.")
+      .def_readonly("language_scale", &WordLattice::language_scale,
+                    "That weights had in recognition.")
+      .def_readonly("insertion_penalty", &WordLattice::insertion_penalty,
+                    "That every word had in recognition.")
       .def_readonly("times_s", &WordLattice::times_s, "Where the words of the nodes end, or empty.")
       .def_property_readonly("first", &WordLattice::first, "The node that begins sentences.")
       .def_property_readonly("last", &WordLattice::last, "The node that ends them.");
@@ -275,6 +281,8 @@ void bind_recognizer(py::module_& m) {
            py::call_guard<py::gil_scoped_release>(),
            "At most `count` (1..1000) sentences of a lattice of this recogniser that differ in "
            "their words, the best first.")
+      .def_property_readonly("options", &Recognizer::options, py::return_value_policy::copy,
+                             "Those that it was made with.")
       .def_property_readonly("words", &Recognizer::words, "Of every pronunciation.");
 }
 

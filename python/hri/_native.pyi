@@ -8724,9 +8724,11 @@ class HtkWordLattice:
         labels: collections.abc.Sequence[str],
         first_s: typing.SupportsFloat | typing.SupportsIndex,
         frame_s: typing.SupportsFloat | typing.SupportsIndex,
+        language_scale: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        insertion_penalty: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> HtkWordLattice:
         """
-        A hri.language.Lattice as a file: labels of its models, frame n at first_s + n frame_s.
+        A hri.language.Lattice as a file: labels of its models, frame n at first_s + n frame_s. Scale and penalty that its weights hold are taken out.
         """
     @staticmethod
     def of_words(words: collections.abc.Sequence[str]) -> HtkWordLattice:
@@ -8770,7 +8772,7 @@ class HtkWordLattice:
         frame_s: typing.SupportsFloat | typing.SupportsIndex = 0.01,
     ) -> Lattice:
         """
-        The same back; words of `silences` are silence. Raises InvalidArgument for a file without times.
+        The same back, weighed again; words of `silences` are silence. Raises InvalidArgument for a file without times.
         """
     def to_text(self) -> str:
         """
@@ -8789,6 +8791,16 @@ class HtkWordLattice:
     def first(self) -> int:
         """
         The node that begins sentences.
+        """
+    @property
+    def insertion_penalty(self) -> float:
+        """
+        That every word had in recognition.
+        """
+    @property
+    def language_scale(self) -> float:
+        """
+        That weights had in recognition.
         """
     @property
     def last(self) -> int:
@@ -8956,6 +8968,11 @@ class HtkRecognizer:
     def recognise(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> HtkRecognisedSentence:
         """
         The best sentence of frames, shape (num_frames, num_columns).
+        """
+    @property
+    def options(self) -> ConnectedDecoderOptions:
+        """
+        Those that it was made with.
         """
     @property
     def words(self) -> list[str]:

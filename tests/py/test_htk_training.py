@@ -284,7 +284,7 @@ def test_embedded_training_says_what_it_leaves_out_and_refuses(hri, tmp_path: Pa
     assert nothing.code == 3 and "no recording fits its transcript" in nothing.err
     Path("out/models").unlink()
 
-    Path("long.lab").write_text("# said\n\nb\nc\n")
+    Path("long.lab").write_text("\n\nb\nc\n")
     unknown = hri(*given, "list", "short.usr", "long.usr")
     assert unknown.code == 3 and "long.lab: line 4: the list of models does not have 'c'" in unknown.err
     Path("said.mlf").write_text('#!MLF!#\n"*/short.lab"\nb\n.\n"*/long.lab"\nb\nd\n.\n')

@@ -9,6 +9,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/htk/word_lattice.hpp"
+#include "hri/language/connected_decoder.hpp"
 
 namespace hri::htk {
 namespace {
@@ -30,20 +31,60 @@ std::vector<int> in_order(const WordLattice& lattice) {
   return order;
 }
 
+bool is_word(const Lattice::Node& node) {
+  return node.model != WordNetwork::kNull && !node.is_silence;
+}
+
+// By arc: whether its weight has the penalty of a word. This is the arc into the word, or those
+// into a node that only goes on to words, without weight: such nodes begin words of one frame.
+std::vector<bool> penalised(const std::vector<Lattice::Node>& nodes,
+                            const std::vector<Lattice::Arc>& arcs) {
+  std::vector<bool> begins_words(nodes.size(), true);
+  begins_words.front() = false;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n].model != WordNetwork::kNull) begins_words[n] = false;
+  }
+  for (const Lattice::Arc& arc : arcs) {
+    if (arc.log_weight != 0 || !is_word(nodes[static_cast<std::size_t>(arc.to)]))
+      begins_words[static_cast<std::size_t>(arc.from)] = false;
+  }
+  begins_words.back() = false;
+  std::vector<bool> result;
+  result.reserve(arcs.size());
+  for (const Lattice::Arc& arc : arcs) {
+    const auto to = static_cast<std::size_t>(arc.to);
+    result.push_back(begins_words[to] ||
+                     (is_word(nodes[to]) && !begins_words[static_cast<std::size_t>(arc.from)]));
+  }
+  return result;
+}
+
 }  // namespace
 
 WordLattice WordLattice::of_lattice(const Lattice& lattice, const std::vector<std::string>& labels,
-                                    double first_s, double frame_s) {
+                                    double first_s, double frame_s, double language_scale,
+                                    double insertion_penalty) {
   require(!lattice.empty(), "the lattice has no sentence");
+  ConnectedDecoderOptions options;
+  options.language_scale = language_scale;
+  options.insertion_penalty = insertion_penalty;
+  validate(options);
   WordLattice made;
+  made.language_scale = language_scale;
+  made.insertion_penalty = insertion_penalty;
   for (const Lattice::Node& node : lattice.nodes()) {
     require(node.model < static_cast<int>(labels.size()), "the lattice has a model without label");
     made.words.push_back(
         node.model == WordNetwork::kNull ? kNull : labels[static_cast<std::size_t>(node.model)]);
     made.times_s.push_back(first_s + static_cast<double>(node.frame) * frame_s);
   }
-  for (const Lattice::Arc& arc : lattice.arcs())
-    made.arcs.push_back({arc.from, arc.to, arc.log_weight, arc.log_acoustic});
+  const std::vector<bool> has_penalty = penalised(lattice.nodes(), lattice.arcs());
+  for (std::size_t a = 0; a < has_penalty.size(); ++a) {
+    const Lattice::Arc& arc = lattice.arcs()[a];
+    const double weight = arc.log_weight - (has_penalty[a] ? insertion_penalty : 0);
+    made.arcs.push_back(
+        {arc.from, arc.to, language_scale > 0 ? weight / language_scale : 0, arc.log_acoustic});
+  }
   return made;
 }
 
@@ -79,6 +120,11 @@ Lattice WordLattice::to_lattice(const std::vector<std::string>& labels,
   for (const Arc& arc : arcs) {
     made.push_back({numbers[static_cast<std::size_t>(arc.from)],
                     numbers[static_cast<std::size_t>(arc.to)], arc.log_acoustic, arc.log_weight});
+  }
+  const std::vector<bool> has_penalty = penalised(nodes, made);
+  for (std::size_t a = 0; a < made.size(); ++a) {
+    made[a].log_weight =
+        made[a].log_weight * language_scale + (has_penalty[a] ? insertion_penalty : 0);
   }
   return {std::move(nodes), std::move(made)};
 }

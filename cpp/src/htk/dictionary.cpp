@@ -46,7 +46,7 @@ std::string read_entry(const std::string& line, Pronunciation* entry) {
 // Whether the line that an entry was read from says what it holds now.
 bool is_said_by_its_line(const Pronunciation& entry) {
   if (entry.text.find_first_not_of(detail::kBlanks) == std::string::npos ||
-      entry.text.find_first_of("\r\n") != std::string::npos || entry.text.front() == '#')
+      entry.text.find_first_of("\r\n") != std::string::npos)
     return false;
   Pronunciation again;
   return read_entry(entry.text, &again).empty() && again.word == entry.word &&
@@ -70,7 +70,7 @@ Dictionary Dictionary::parse(const std::string& text, const std::string& name) {
   detail::TextLines lines(text, name);
   Dictionary dictionary;
   while (lines.next()) {
-    if (lines.line().empty() || lines.line().front() == '#') continue;
+    if (lines.line().empty()) continue;
     Pronunciation entry;
     if (const std::string fault = read_entry(lines.line(), &entry); !fault.empty())
       lines.refuse(fault);

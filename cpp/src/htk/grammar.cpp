@@ -53,9 +53,7 @@ class GrammarReader {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '\n') ++line_;
-      if (c == '#') {
-        at_ = std::min(text_.find('\n', at_), text_.size());
-      } else if (c == '/' && text_.compare(at_, 2, "/*") == 0) {
+      if (text_.compare(at_, 2, "/*") == 0) {
         const std::size_t end = text_.find("*/", at_ + 2);
         token_line_ = line_;
         if (end == std::string::npos) refuse("a comment does not end");
@@ -88,10 +86,7 @@ class GrammarReader {
       if (end >= text_.size() || text_[end] != text_[at_]) refuse("a quotation does not end");
       ++end;
     } else {
-      while (end < text_.size() &&
-             std::string("()[]{}<>|=; \t\r\n").find(text_[end]) == std::string::npos)
-        end += text_[end] == '\\' ? 2 : 1;
-      end = std::min(end, text_.size());
+      end = end_of_name();
     }
     std::vector<std::string> fields;
     const char* fault = detail::split_fields(text_.substr(at_, end - at_), &fields);
@@ -99,6 +94,24 @@ class GrammarReader {
     if (fields.size() != 1 || fields.front().empty()) refuse("a name is empty");
     now_.name = fields.front();
     at_ = end;
+  }
+
+  // A name ends before a mark, a blank or a comment.
+  [[nodiscard]] std::size_t end_of_name() const {
+    std::size_t end = at_;
+    std::size_t percent = std::string::npos;
+    while (end < text_.size() && text_.compare(end, 2, "/*") != 0 &&
+           std::string("()[]{}<>|=; \t\r\n").find(text_[end]) == std::string::npos) {
+      if (text_[end] == '%') percent = std::min(percent, end);
+      end += text_[end] == '\\' ? 2 : 1;
+    }
+    end = std::min(end, text_.size());
+    if (percent == std::string::npos) return end;
+    const std::string before = text_.substr(at_, percent - at_);
+    if (before == "WD_BEGIN" || before == "WD_END") refuse(before + "% is not read");
+    refuse("'" + text_.substr(at_, end - at_) +
+           "': outputs of words behind % are not read, the dictionary has them in [ ]; a % that is "
+           "part of a name needs a backslash");
   }
 
   void expect(char mark) {
@@ -172,7 +185,6 @@ class GrammarReader {
 
   Part named() {
     const std::string name = now_.name;
-    if (name == "WD_BEGIN%" || name == "WD_END%") refuse(name + " is not read");
     Part found;
     if (name.front() == '$') {
       const auto variable = variables_.find(name);

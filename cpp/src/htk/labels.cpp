@@ -118,7 +118,7 @@ Transcription read_labels(detail::TextLines* lines, bool in_master) {
       ended = true;
     } else if (line == kAlternative) {
       found.alternatives.emplace_back();
-    } else if (!line.empty() && line.front() != '#') {
+    } else if (!line.empty()) {
       Label label;
       if (const std::string fault = LabelLine(line).read(&label); !fault.empty())
         lines->refuse(fault);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "hri/core/error.hpp"
@@ -14,7 +13,6 @@ namespace hri::htk {
 namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-constexpr int kMostSentences = 1000;
 
 // A model that pronunciations name.
 struct Unit {
@@ -401,29 +399,6 @@ std::vector<std::vector<AlignedModel>> Recognizer::align(ConstMatrixRefF observa
 
 Lattice Recognizer::lattice(ConstMatrixRefF observations, const LatticeOptions& options) const {
   return Lattice::decode(chains_, network_, scores(observations), options_, options);
-}
-
-std::vector<RecognisedSentence> Recognizer::n_best(const Lattice& lattice, int count) const {
-  require(count >= 1 && count <= kMostSentences, "count must lie in 1..1000");
-  std::vector<RecognisedSentence> result;
-  if (lattice.empty()) return result;
-  const std::set<std::string> different = [this] {
-    const std::vector<std::string> all = words();
-    return std::set<std::string>(all.begin(), all.end());
-  }();
-  // Sentences that differ in pronunciations alone come one behind the other, and count once.
-  const bool are_unique = different.size() == pronunciations_.size();
-  std::set<std::vector<std::string>> known;
-  for (const DecodedSentence& found : lattice.n_best(are_unique ? count : kMostSentences)) {
-    std::vector<RecognisedWord> words = words_of(found.words);
-    std::vector<std::string> names;
-    names.reserve(words.size());
-    for (const RecognisedWord& word : words) names.push_back(word.word);
-    if (!known.insert(std::move(names)).second) continue;
-    result.push_back({true, found.log_score, std::move(words)});
-    if (static_cast<int>(result.size()) == count) break;
-  }
-  return result;
 }
 
 std::vector<std::string> Recognizer::words() const {

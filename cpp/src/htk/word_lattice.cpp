@@ -14,9 +14,27 @@ namespace hri::htk {
 namespace {
 
 constexpr std::int64_t kMost = 10000000;  // nodes or arcs of a file
+constexpr double kLargestField = 1e12;    // of scores, natural logs, and of times
 
 // NAME=VALUE fields of one line.
 using Fields = std::map<std::string, std::string>;
+
+// The short names of fields by the long ones.
+using Names = std::map<std::string, std::string>;
+
+const Names& header_names() {
+  static const Names names{{"NODES", "N"}, {"LINKS", "L"}, {"SUBLAT", "S"}};
+  return names;
+}
+const Names& node_names() {
+  static const Names names{{"time", "t"}, {"WORD", "W"}, {"var", "v"}, {"SUBLAT", "L"}};
+  return names;
+}
+const Names& arc_names() {
+  static const Names names{{"START", "S"}, {"END", "E"},      {"WORD", "W"},
+                           {"var", "v"},   {"acoustic", "a"}, {"language", "l"}};
+  return names;
+}
 
 class LatticeReader {
  public:
@@ -34,6 +52,7 @@ class LatticeReader {
     if (static_cast<std::int64_t>(lattice_.arcs.size()) != num_arcs_)
       lines_.refuse("there are " + std::to_string(lattice_.arcs.size()) + " arcs above, L= says " +
                     std::to_string(num_arcs_));
+    lattice_.insertion_penalty = natural(lattice_.insertion_penalty);
     for (auto& [number, word] : nodes_) lattice_.words.push_back(std::move(word));
     for (const auto& [number, line] : line_of_) lattice_.lines.push_back(line);
     if (!variant_of_.empty()) {
@@ -77,14 +96,30 @@ class LatticeReader {
       if (!found.emplace(part.substr(0, part.size() - 1), parts[i + 1]).second)
         lines_.refuse("the field " + part + " stands here twice");
     }
-    return found;
+    if (found.count("I") > 0) return with_short_names(found, node_names());
+    return with_short_names(found, found.count("J") > 0 ? arc_names() : header_names());
+  }
+
+  [[nodiscard]] Fields with_short_names(const Fields& fields, const Names& names) const {
+    Fields result;
+    for (const auto& [name, value] : fields) {
+      const auto found = names.find(name);
+      const std::string& short_name = found == names.end() ? name : found->second;
+      if (!result.emplace(short_name, value).second)
+        lines_.refuse("the field " + short_name + "= stands here twice, by its long name too");
+    }
+    return result;
   }
 
   void read_line(const Fields& fields) {
-    if (fields.count("SUBLAT") > 0) lines_.refuse("lattices in lattices are not read");
-    if (fields.count("I") > 0) {
+    const bool is_node = fields.count("I") > 0;
+    const bool is_header = !is_node && fields.count("J") == 0;
+    // In the line of a node L= names one, in others S=.
+    if ((is_node && fields.count("L") > 0) || (is_header && fields.count("S") > 0))
+      lines_.refuse("lattices in lattices are not read");
+    if (is_node) {
       read_node(fields);
-    } else if (fields.count("J") > 0) {
+    } else if (!is_header) {
       read_arc(fields);
     } else if (fields.count("N") > 0 || fields.count("L") > 0) {
       if (num_nodes_ >= 0) lines_.refuse("N= and L= stand here again");
@@ -92,12 +127,16 @@ class LatticeReader {
       num_nodes_ = lines_.whole_of(fields.at("N"), 1, kMost);
       num_arcs_ = lines_.whole_of(fields.at("L"), 0, kMost);
     }
-    if (fields.count("I") == 0 && fields.count("J") == 0) {
+    if (is_header) {
       if (fields.count("base") > 0) {
         const double base = lines_.number_of(fields.at("base"));
         if (!(base > 0) || base == 1) lines_.refuse("the base of logs is not above 0, or is 1");
         log_base_ = std::log(base);
       }
+      if (const auto scale = fields.find("lmscale"); scale != fields.end())
+        lattice_.language_scale = lines_.number_of(scale->second, kLargestField);
+      if (const auto penalty = fields.find("wdpenalty"); penalty != fields.end())
+        lattice_.insertion_penalty = lines_.number_of(penalty->second, kLargestField);
       for (const auto& [key, node] :
            {std::pair{"start", &lattice_.start}, std::pair{"end", &lattice_.end}}) {
         if (fields.count(key) > 0)
@@ -105,6 +144,13 @@ class LatticeReader {
       }
     }
     // All others say where the lattice comes from.
+  }
+
+  // A log to the base of the file as natural log.
+  [[nodiscard]] double natural(double log) const {
+    if (std::fabs(log * log_base_) > kLargestField)
+      lines_.refuse("a log of this base is no number that can stand here");
+    return log * log_base_;
   }
 
   void require_header() const {
@@ -123,7 +169,7 @@ class LatticeReader {
     if (word != fields.end())
       has_words_on_nodes_ = has_words_on_nodes_ || name != WordLattice::kNull;
     if (const auto time = fields.find("t"); time != fields.end())
-      times_[number] = lines_.number_of(time->second, 1e12);
+      times_[number] = lines_.number_of(time->second, kLargestField);
     if (const auto variant = fields.find("v"); variant != fields.end())
       variant_of_[number] = static_cast<int>(lines_.whole_of(variant->second, 0, kMost));
   }
@@ -150,17 +196,15 @@ class LatticeReader {
     require_header();
     (void)lines_.whole_of(fields.at("J"), 0, std::max<std::int64_t>(num_arcs_, 1) - 1);
     WordLattice::Arc arc;
-    for (const auto& [keys, node] : {std::pair{std::pair{"S", "START"}, &arc.from},
-                                     std::pair{std::pair{"E", "END"}, &arc.to}}) {
-      auto found = fields.find(keys.first);
-      if (found == fields.end()) found = fields.find(keys.second);
+    for (const auto& [key, node] : {std::pair{"S", &arc.from}, std::pair{"E", &arc.to}}) {
+      const auto found = fields.find(key);
       if (found == fields.end()) lines_.refuse("an arc needs S= and E=");
       *node = static_cast<int>(lines_.whole_of(found->second, 0, num_nodes_ - 1));
     }
     if (const auto weight = fields.find("l"); weight != fields.end())
-      arc.log_weight = lines_.number_of(weight->second, 1e12) * log_base_;
+      arc.log_weight = natural(lines_.number_of(weight->second, kLargestField));
     if (const auto score = fields.find("a"); score != fields.end())
-      arc.log_acoustic = lines_.number_of(score->second, 1e12) * log_base_;
+      arc.log_acoustic = natural(lines_.number_of(score->second, kLargestField));
     if (static_cast<std::int64_t>(lattice_.arcs.size()) >= num_arcs_)
       lines_.refuse("there are more arcs than L= says");
     if (const auto word = fields.find("W");
@@ -260,6 +304,8 @@ std::string WordLattice::fault() const {
     if (!std::isfinite(arc.log_weight) || !std::isfinite(arc.log_acoustic))
       return "the weight of an arc is not finite";
   }
+  if (!std::isfinite(language_scale) || !std::isfinite(insertion_penalty))
+    return "lmscale= or wdpenalty= is not finite";
   if (!times_s.empty() && times_s.size() != words.size()) return "some nodes have no time";
   for (const double time : times_s) {
     if (!std::isfinite(time)) return "the time of a node is not finite";
@@ -303,6 +349,9 @@ std::string WordLattice::to_text() const {
   const std::string found = fault();
   require(found.empty(), found.c_str());
   std::string text = "VERSION=1.0\n";
+  if (!times_s.empty() || language_scale != 1 || insertion_penalty != 0)
+    text += "lmscale=" + detail::shortest(language_scale) +
+            " wdpenalty=" + detail::shortest(insertion_penalty) + "\n";
   if (start != kByArcs) text += "start=" + std::to_string(start) + "\n";
   if (end != kByArcs) text += "end=" + std::to_string(end) + "\n";
   text +=

@@ -20,7 +20,7 @@ std::string refusal_of_labels(const std::string& text) {
 
 TEST(Transcription, ReadsTimesNamesScoresAndLevels) {
   const Transcription t = Transcription::parse(
-      "0 3600000 one -125.5 w -60 \n3600000 4000000 \"two words\"\n\n# said twice\nthree 7\n"
+      "0 3600000 one -125.5 w -60 \n3600000 4000000 \"two words\"\n\n\nthree 7\n"
       "5000000 four\n6000000 7000000 5\n///\n8\n",
       "a.lab");
   ASSERT_EQ(t.alternatives.size(), 2U);
@@ -41,6 +41,16 @@ TEST(Transcription, ReadsTimesNamesScoresAndLevels) {
   EXPECT_EQ(t.labels()[3].last, Label::kNoTime);
   EXPECT_EQ(t.labels()[4].name, "5");
   EXPECT_EQ(t.alternatives[1][0].name, "8");
+}
+
+TEST(Transcription, HasLabelsWithHashes) {
+  const std::string text = "#no\n# 7\n0 5 #x\n";
+  const Transcription t = Transcription::parse(text, "a.lab");
+  ASSERT_EQ(t.labels().size(), 3U);
+  EXPECT_EQ(t.labels()[0].name, "#no");
+  EXPECT_EQ(t.labels()[1].name, "#");
+  EXPECT_EQ(t.labels()[2].name, "#x");
+  EXPECT_EQ(t.to_text(), text);
 }
 
 TEST(Transcription, IsReadAsItWasWritten) {

@@ -117,6 +117,58 @@ TEST(Recognizer, TakesThePronunciationThatANodeNames) {
   EXPECT_THROW(score("3"), InvalidArgument);
 }
 
+// Every word has two pronunciations whose models are the same: 4096 ways to say 12 words.
+TEST(Recognizer, FindsSentencesWhateverTheNumberOfPronunciations) {
+  const WordLattice any = WordLattice::of_grammar("( < low | high > )", "g");
+  MatrixF observations(24, 1);
+  for (Eigen::Index t = 0; t < observations.rows(); ++t)
+    observations(t, 0) = (t / 2 % 2 == 0 ? 0.0F : 10.0F) + 0.125F * static_cast<float>(t);
+  const auto best = [&](const std::string& dictionary) {
+    const Recognizer recognizer(models_of_words(), Dictionary::parse(dictionary, "d"), any);
+    return recognizer.n_best(recognizer.lattice(observations), 20);
+  };
+  const auto single = best("low a\nhigh b\n");
+  const auto several = best("low 0.5 a\nlow a\nhigh b\nhigh [HIGH] b sp\nhigh 0.25 b b\n");
+  const auto words_of = [](const RecognisedSentence& sentence) {
+    std::vector<std::string> words;
+    for (const RecognisedWord& word : sentence.words) words.push_back(word.word);
+    return words;
+  };
+  ASSERT_EQ(single.size(), 20U);
+  ASSERT_EQ(several.size(), 20U);
+  EXPECT_EQ(single[0].words.size(), 12U);
+  for (std::size_t i = 0; i < single.size(); ++i) {
+    EXPECT_EQ(words_of(several[i]), words_of(single[i])) << i;
+    EXPECT_NEAR(several[i].log_score, single[i].log_score, 1e-9) << i;
+    double sum = 0;
+    for (const RecognisedWord& word : several[i].words) {
+      EXPECT_EQ(word.pronunciation, word.word == "low" ? 1 : 2);
+      sum += word.log_score;
+    }
+    EXPECT_NEAR(sum, several[i].log_score, 1e-9);
+  }
+}
+
+TEST(Recognizer, NamesThePronunciationsOfItsSentences) {
+  const Recognizer recognizer(models_of_words(), words(),
+                              WordLattice::of_grammar("( < first | second > )", "g"));
+  const MatrixF observations = frames({0, 0, 10, 20, 30, 10, 0});
+  const RecognisedSentence expected = recognizer.recognise(observations);
+  const auto found = recognizer.n_best(recognizer.lattice(observations), 3);
+  ASSERT_EQ(found.size(), 3U);
+  ASSERT_EQ(found[0].words.size(), expected.words.size());
+  for (std::size_t w = 0; w < expected.words.size(); ++w) {
+    EXPECT_EQ(found[0].words[w].pronunciation, expected.words[w].pronunciation);
+    EXPECT_EQ(found[0].words[w].first_frame, expected.words[w].first_frame);
+    EXPECT_NEAR(found[0].words[w].log_score, expected.words[w].log_score, 1e-6);
+  }
+  for (std::size_t i = 1; i < found.size(); ++i)
+    EXPECT_LE(found[i].log_score, found[i - 1].log_score);
+  const Lattice other({{-1, 0, false}, {9, 7, false}}, {{0, 1, -1, 0}});
+  EXPECT_THROW((void)recognizer.n_best(other, 3), InvalidArgument);
+  EXPECT_TRUE(recognizer.n_best(Lattice({}, {}), 3).empty());
+}
+
 TEST(Recognizer, RefusesWhatDoesNotFitTogether) {
   const auto lattice = [](const std::string& word) { return WordLattice::of_words({word}); };
   EXPECT_THROW(Recognizer(models_of_words(), words(), lattice("third")), InvalidArgument);

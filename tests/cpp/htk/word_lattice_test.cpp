@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -82,6 +83,50 @@ TEST(WordLattice, HoldsLatticesOfRecognition) {
       WordLattice::parse("N=2 L=1\nI=0 t=0\nI=1 W=a\nJ=0 S=0 E=1\n", "file").times_s.empty());
 }
 
+// Words begin behind a node of their own, whose arcs hold weight and penalty, or at once.
+TEST(WordLattice, TakesScaleAndPenaltyOutOfWeights) {
+  const double half = std::log(0.5);
+  const Lattice lattice({{-1, 0, false},
+                         {-1, 0, false},
+                         {0, 3, false},
+                         {-1, 3, false},
+                         {1, 4, false},
+                         {2, 7, true},
+                         {-1, 7, false}},
+                        {{0, 1, 0, 8 * half - 10},
+                         {1, 2, -3, 0},
+                         {2, 3, 0, -10},
+                         {3, 4, -1, 0},
+                         {0, 4, -5, 8 * half - 10},
+                         {4, 5, -2, 4 * half},
+                         {5, 6, 0, 2}});
+  const std::vector<std::string> labels{"one", "two", "sil"};
+  const WordLattice written = WordLattice::of_lattice(lattice, labels, 0, 0.01, 4, -10);
+  const WordLattice file = WordLattice::parse(written.to_text(), "file");
+  EXPECT_NE(file.to_text().find("\nlmscale=4 wdpenalty=-10\n"), std::string::npos);
+  EXPECT_EQ(file.language_scale, 4);
+  EXPECT_EQ(file.insertion_penalty, -10);
+  ASSERT_EQ(file.arcs.size(), 7U);
+  for (const WordLattice::Arc& arc : file.arcs) {
+    double expected = 0;
+    if (arc.from == 0) expected = 2 * half;
+    if (arc.from == 4) expected = half;
+    if (arc.from == 5) expected = 0.5;
+    EXPECT_NEAR(arc.log_weight, expected, 1e-12) << arc.from << " " << arc.to;
+  }
+  const Lattice back = file.to_lattice(labels, {"sil"}, 0, 0.01);
+  ASSERT_EQ(back.arcs().size(), lattice.arcs().size());
+  for (std::size_t a = 0; a < back.arcs().size(); ++a)
+    EXPECT_NEAR(back.arcs()[a].log_weight, lattice.arcs()[a].log_weight, 1e-12) << a;
+  const WordLattice bare = WordLattice::of_lattice(lattice, labels, 0, 0.01, 0, -10);
+  for (const WordLattice::Arc& arc : bare.arcs) EXPECT_EQ(arc.log_weight, 0);
+  EXPECT_THROW((void)WordLattice::of_lattice(lattice, labels, 0, 0.01, -1, 0), InvalidArgument);
+  const WordLattice tens = WordLattice::parse(
+      "base=10 lmscale=2.50 wdpenalty=-1.00\nN=2 L=1\nI=0\nI=1 W=a\nJ=0 S=0 E=1\n", "file");
+  EXPECT_EQ(tens.language_scale, 2.5);
+  EXPECT_NEAR(tens.insertion_penalty, -std::log(10.0), 1e-12);
+}
+
 TEST(WordLattice, HoldsTheSentencesOfAGrammar) {
   EXPECT_EQ(of_grammar("( go | stop )"), (std::set<Words>{{"go"}, {"stop"}}));
   EXPECT_EQ(of_grammar("( go [ left | right ] )"),
@@ -89,15 +134,40 @@ TEST(WordLattice, HoldsTheSentencesOfAGrammar) {
   EXPECT_EQ(of_grammar("( a { b } )"), (std::set<Words>{{"a"}, {"a", "b"}, {"a", "b", "b"}}));
   EXPECT_EQ(of_grammar("( < a | b > )", 2),
             (std::set<Words>{{"a"}, {"b"}, {"a", "a"}, {"a", "b"}, {"b", "a"}, {"b", "b"}}));
-  EXPECT_EQ(of_grammar("$digit = one | two; # digits\n/* a\nsentence */\n$two = $digit $digit;\n"
-                       "( \"sil\" $two | ( $digit ) )"),
-            (std::set<Words>{{"one"},
-                             {"two"},
-                             {"sil", "one", "one"},
-                             {"sil", "one", "two"},
-                             {"sil", "two", "one"},
-                             {"sil", "two", "two"}}));
+  EXPECT_EQ(
+      of_grammar("$digit = one | two; /* digits */\n/* a\nsentence */\n$two = $digit $digit;\n"
+                 "( \"sil\" $two | ( $digit ) )"),
+      (std::set<Words>{{"one"},
+                       {"two"},
+                       {"sil", "one", "one"},
+                       {"sil", "one", "two"},
+                       {"sil", "two", "one"},
+                       {"sil", "two", "two"}}));
   EXPECT_EQ(of_grammar("( { a } { b } )", 1), (std::set<Words>{{}, {"a"}, {"b"}}));
+}
+
+TEST(WordLattice, EndsNamesOfGrammarsAtComments) {
+  EXPECT_EQ(of_grammar("$a/* one */=yes/* two\n*//**/|no/**/;(/**/$a/*three*/)"),
+            (std::set<Words>{{"yes"}, {"no"}}));
+  EXPECT_EQ(of_grammar("( yes #no | a/b\n | # | \"/*\" )"),
+            (std::set<Words>{{"yes", "#no"}, {"a/b"}, {"#"}, {"/*"}}));
+  EXPECT_EQ(grammar_refusal("( yes/* no )"), "file: line 1: a comment does not end");
+}
+
+TEST(WordLattice, RefusesOutputsInGrammars) {
+  const std::string outputs =
+      ": outputs of words behind % are not read, the dictionary has them in [ ]; a % that is part "
+      "of a name needs a backslash";
+  for (const char* name : {"yes%YES", "sil%%", "yes%", "%", "$a%b", "yes%\\377"})
+    EXPECT_EQ(grammar_refusal("( no |\n" + std::string(name) + " )"),
+              "file: line 2: '" + std::string(name) + "'" + outputs);
+  EXPECT_EQ(grammar_refusal("( \"yes\"%YES )"), "file: line 1: '%YES'" + outputs);
+  for (const char* name : {"WD_BEGIN", "WD_END"}) {
+    for (const char* behind : {"%A", "% A", "%%"})
+      EXPECT_EQ(grammar_refusal("(\n" + std::string(name) + behind + " )"),
+                "file: line 2: " + std::string(name) + "% is not read");
+  }
+  EXPECT_EQ(of_grammar("( 50\\% | \"a%b\" )"), (std::set<Words>{{"50%"}, {"a%b"}}));
 }
 
 TEST(WordLattice, RefusesGrammarsByNameAndLine) {
@@ -155,6 +225,25 @@ TEST(WordLattice, ReadsFilesOfOtherPrograms) {
   EXPECT_EQ(lattice.first(), 0);
   EXPECT_EQ(lattice.last(), 3);
   EXPECT_NEAR(lattice.arcs[0].log_weight, -2.302585092994046, 1e-12);
+}
+
+TEST(WordLattice, ReadsLongNamesOfFields) {
+  const WordLattice by_nodes = WordLattice::parse(
+      "VERSION=1.0\nNODES=3 LINKS=2\nI=0 time=0\nI=1 time=0.5 WORD=one var=2\nI=2 time=1\n"
+      "J=0 START=0 END=1 acoustic=-9 language=-1.5\nJ=1 START=1 END=2\n",
+      "long.slf");
+  EXPECT_EQ(by_nodes.to_text(),
+            WordLattice::parse("VERSION=1.0\nN=3 L=2\nI=0 t=0\nI=1 t=0.5 W=one v=2\nI=2 t=1\n"
+                               "J=0 S=0 E=1 a=-9 l=-1.5\nJ=1 S=1 E=2\n",
+                               "short.slf")
+                .to_text());
+  EXPECT_EQ(by_nodes.words[1], "one");
+  EXPECT_EQ(by_nodes.arcs[0].log_weight, -1.5);
+  const WordLattice by_arcs = WordLattice::parse(
+      "NODES=2 LINKS=1\nI=0\nI=1\nJ=0 START=0 END=1 WORD=two var=3 language=-2\n", "long.slf");
+  EXPECT_EQ(by_arcs.words[2], "two");
+  EXPECT_EQ(by_arcs.variants[2], 3);
+  EXPECT_EQ(by_arcs.arcs[0].log_weight, -2);
 }
 
 TEST(WordLattice, ReadsWordsOnArcsAndEndsThatAreNamed) {
@@ -236,8 +325,23 @@ TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
             "file: line 2: a name is not UTF-8 text of one line");
   EXPECT_EQ(lattice_refusal("N=3 L=2\nSUBLAT=x\n"),
             "file: line 2: lattices in lattices are not read");
+  EXPECT_EQ(lattice_refusal("N=3 L=2\nI=0 L=digits\n"),
+            "file: line 2: lattices in lattices are not read");
+  EXPECT_EQ(lattice_refusal("S=digits\nN=3 L=2\n"),
+            "file: line 1: lattices in lattices are not read");
+  EXPECT_EQ(lattice_refusal("N=3 L=2\nI=0 W=a WORD=b\n"),
+            "file: line 2: the field W= stands here twice, by its long name too");
   EXPECT_EQ(lattice_refusal("N=2 L=1\nI=0\nI=1 W=b\nJ=0 S=0 E=1 W=a\n"),
             "file: line 4: there are words on nodes and on arcs");
+  EXPECT_EQ(lattice_refusal("VERSION=1.0\nlmscale=x\n"),
+            "file: line 2: 'x' is no number that can stand here");
+  // What would not be read again where it is written, to the base e.
+  for (const char* field : {"l", "a"})
+    EXPECT_EQ(lattice_refusal("base=10\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1 " + std::string(field) +
+                              "=-9e11\n"),
+              "file: line 5: a log of this base is no number that can stand here");
+  EXPECT_EQ(lattice_refusal("wdpenalty=9e11 base=10\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1\n"),
+            "file: line 5: a log of this base is no number that can stand here");
   EXPECT_EQ(lattice_refusal("start=7\nN=2 L=1\nI=0\nI=1\nJ=0 S=0 E=1\n"),
             "file: line 5: start= or end= is no node");
   EXPECT_EQ(lattice_refusal("N=3 L=1\nI=0\nI=1\nI=2\nJ=0 S=0 E=1\n"),
@@ -258,7 +362,7 @@ TEST(Dictionary, WritesLinesAsTheyWereWhileTheySayTheSame) {
 
 TEST(Dictionary, ReadsOutputsAndProbabilities) {
   const Dictionary d = Dictionary::parse(
-      "# words\none w ah n\none [1] 0.25 hh w ah n\nSENT-START [] sil\n7 7\n\"8\" \"[x]\" "
+      "one w ah n\none [1] 0.25 hh w ah n\nSENT-START [] sil\n7 7\n\"8\" \"[x]\" "
       "\"#\\\"\" t\n",
       "words.dic");
   ASSERT_EQ(d.entries.size(), 5U);
@@ -273,6 +377,18 @@ TEST(Dictionary, ReadsOutputsAndProbabilities) {
   EXPECT_EQ(d.by_word().at("one"), (std::vector<int>{0, 1}));
   const std::string text = d.to_text();
   EXPECT_EQ(Dictionary::parse(text, "again").to_text(), text);
+}
+
+TEST(Dictionary, HasWordsWithHashes) {
+  const std::string text = "#no n ow\n# [#] hash\n#\\\"  h#\n";
+  Dictionary d = Dictionary::parse(text, "words.dic");
+  ASSERT_EQ(d.entries.size(), 3U);
+  EXPECT_EQ(d.entries[0].word, "#no");
+  EXPECT_EQ(d.entries[1].word, "#");
+  EXPECT_EQ(d.entries[2].word, "#\"");
+  EXPECT_EQ(d.to_text(), text);
+  for (Pronunciation& entry : d.entries) entry.text.clear();
+  EXPECT_EQ(Dictionary::parse(d.to_text(), "again").entries[2].word, "#\"");
 }
 
 TEST(Dictionary, RefusesByNameAndLine) {

@@ -101,6 +101,7 @@ class HRI_API Recognizer {
   /// Of every pronunciation.
   [[nodiscard]] std::vector<std::string> words() const;
 
+  [[nodiscard]] const ConnectedDecoderOptions& options() const { return options_; }
   [[nodiscard]] int dim() const { return emissions_.empty() ? 1 : emissions_.front().dim(); }
 
  private:

@@ -25,7 +25,7 @@ struct HRI_API WordLattice {
   struct Arc {
     int from = 0;
     int to = 0;
-    double log_weight = 0;    ///< natural log: l=
+    double log_weight = 0;    ///< natural log, without scale and penalty: l=
     double log_acoustic = 0;  ///< natural log, of the word that the arc leads to: a=
   };
   std::vector<std::string> words;   ///< of the nodes
@@ -33,8 +33,10 @@ struct HRI_API WordLattice {
   std::vector<int> variants;        ///< which pronunciation, from 1: v=; 0: any; empty: any of all
   std::vector<std::int64_t> lines;  ///< of the file that the nodes were read from; empty: of none
   std::vector<Arc> arcs;
-  int start = kByArcs;  ///< where sentences begin: start=
-  int end = kByArcs;    ///< where they end: end=
+  int start = kByArcs;           ///< where sentences begin: start=
+  int end = kByArcs;             ///< where they end: end=
+  double language_scale = 1;     ///< that weights had in recognition: lmscale=
+  double insertion_penalty = 0;  ///< that every word had there, natural log: wdpenalty=
 
   /// Reads a lattice; a word on an arc becomes a node of its own on it, behind all nodes of the
   /// file. Throws IoError, and FormatError naming file and line for counts that differ from what is
@@ -45,10 +47,10 @@ struct HRI_API WordLattice {
   static WordLattice parse(const std::string& text, const std::string& name);
 
   /// The network of a grammar: `$name = ...;` defines, the sentence stands in ( ); | alternatives,
-  /// [ ] may be left out, { } none or more, < > one or more; comments behind # or in /* */.
-  /// Throws FormatError naming file and line for another form, names that are not defined above (so
-  /// that none can hold itself), repetitions of what may be empty, and networks of more than a
-  /// million nodes.
+  /// [ ] may be left out, { } none or more, < > one or more; comments in /* */. Throws FormatError
+  /// naming file and line for another form, outputs of words (`word%output`), which only the
+  /// dictionary says, names that are not defined above (so that none can hold itself), repetitions
+  /// of what may be empty, and networks of more than a million nodes.
   static WordLattice of_grammar(const std::string& text, const std::string& name);
   static WordLattice read_grammar(const std::string& path);
   /// The one sentence, for forced alignment.
@@ -64,11 +66,15 @@ struct HRI_API WordLattice {
                                const std::string& end = NGramModel::kEnd);
 
   /// A lattice of recognition: `labels` are the words of its models, and frame n begins at
-  /// first_s + n frame_s. Throws InvalidArgument for models without a label, and empty lattices.
+  /// first_s + n frame_s. Scale and penalty that its weights hold are taken out, so that it can be
+  /// recognised with again; at a scale of 0 no weights are left. Throws InvalidArgument for models
+  /// without a label, empty lattices, and a scale or penalty that ConnectedDecoderOptions refuse.
   static WordLattice of_lattice(const Lattice& lattice, const std::vector<std::string>& labels,
-                                double first_s, double frame_s);
-  /// The same back: words of `silences` are silence. Throws InvalidArgument for a lattice without
-  /// times, with a cycle, with words that labels do not have, and what Lattice refuses.
+                                double first_s, double frame_s, double language_scale = 1,
+                                double insertion_penalty = 0);
+  /// The same back, weighed by scale and penalty again: words of `silences` are silence, without
+  /// penalty. Throws InvalidArgument for a lattice without times, with a cycle, with words that
+  /// labels do not have, and what Lattice refuses.
   [[nodiscard]] Lattice to_lattice(const std::vector<std::string>& labels,
                                    const std::vector<std::string>& silences, double first_s,
                                    double frame_s) const;

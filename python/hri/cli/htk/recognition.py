@@ -283,5 +283,6 @@ def _recognised(
             break
     if lattice_path is not None and not lattice.empty:
         make_folder(lattice_path.parent)
-        WordLattice.of_lattice(lattice, recognizer.words, 0.0, period * UNIT_S).write(lattice_path)
+        weighed = (recognizer.options.language_scale, recognizer.options.insertion_penalty)
+        WordLattice.of_lattice(lattice, recognizer.words, 0.0, period * UNIT_S, *weighed).write(lattice_path)
     return found
