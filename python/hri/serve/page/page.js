@@ -32,6 +32,8 @@ offerLanguages(at("language"), () => voice.offer());
 const voice = new RobotVoice(at("voice"), link, () => !player.sounds);
 const panels = new Map([...document.querySelectorAll("[data-teach]")].map((s) => [s.dataset.teach, new TeachPanel(s, link)]));
 const knows = { speech: false, gesture: false };
+const opened = { microphone: null, camera: null };
+let starting = false;
 let measured = [];
 
 function showState(name) {
@@ -119,6 +121,7 @@ function heedEvent(event) {
 function heedWelcome(message) {
   Object.assign(knows, { speech: message.speech, gesture: message.gesture });
   player.knows = knows;
+  offerStart();
   problem("", "line");
   missing.show();
   showState(message.state);
@@ -144,12 +147,15 @@ function heed(message) {
   }
 }
 
+// What is open stays as it is: opened once more, a microphone would be sent twice.
 async function start() {
-  at("start").disabled = true;
+  starting = true;
+  offerStart();
   const failed = [];
-  if (knows.speech) {
+  if (knows.speech && !opened.microphone) {
     try {
-      const microphone = await openMicrophone((samples) => !player.sounds && link.sound(samples), () => lost("microphone"));
+      const heard = (samples) => !player.sounds && link.sound(samples);
+      const microphone = (opened.microphone = await openMicrophone(heard, () => lost("microphone")));
       problem("", "microphone");
       put(at("level-label"), phrase("microphone_on"));
       if (microphone.rate !== link.rate) {
@@ -160,9 +166,10 @@ async function start() {
       failed.push(["microphone", error]);
     }
   }
-  if (knows.gesture) {
+  if (knows.gesture && !opened.camera) {
     try {
-      await openCamera(at("camera"), (blob, takenMs) => !player.shows && link.picture(blob, takenMs), () => lost("camera"));
+      const seen = (blob, takenMs) => !player.shows && link.picture(blob, takenMs);
+      opened.camera = await openCamera(at("camera"), seen, () => lost("camera"));
       problem("", "camera");
       put(at("camera-line"), phrase("camera_on"));
       imitation.see(true);
@@ -171,16 +178,26 @@ async function start() {
     }
   }
   failed.forEach(([what, error]) => problem(whatIsWrong(error, what), what));
-  at("start").disabled = failed.length === 0;
+  starting = false;
+  offerStart();
+}
+
+// Before the welcome it is not known which devices are wanted.
+function offerStart() {
+  const wanted = (knows.speech && !opened.microphone) || (knows.gesture && !opened.camera);
+  at("start").disabled = starting || !wanted;
 }
 
 function lost(what) {
+  opened[what]?.close();
+  opened[what] = null;
   if (what === "camera") {
     imitation.see(false);
     missing.show();
   }
+  put(at(what === "camera" ? "camera-line" : "level-label"), phrase(what === "camera" ? "camera_off" : "microphone_off"));
   problem(phrase("unplugged", { device: phrase(what) }), what);
-  at("start").disabled = false;
+  offerStart();
 }
 
 async function stop() {

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The page's camera and microphone in a real browser: each is opened once, and given back when it is unplugged."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+pytest.importorskip("browsing")
+
+from browsing import MARKS, expect
+from hri.serve import PageServer
+from session_people import speech
+
+pytest_plugins = ("serving", "browsing")
+pytestmark = MARKS
+
+WATCH = """
+  window.made = { streams: [], contexts: [] };
+  const media = navigator.mediaDevices, ask = media.getUserMedia.bind(media);
+  media.getUserMedia = async (wanted) => {
+    const stream = await ask(wanted);
+    made.streams.push(stream);
+    return stream;
+  };
+  const Real = window.AudioContext;
+  window.AudioContext = class extends Real {
+    constructor(options) { super(options); made.contexts.push(this); }
+  };
+"""
+COUNT = """() => [made.streams.filter((s) => s.getAudioTracks().length).length,
+  made.streams.filter((s) => s.getVideoTracks().length).length,
+  made.contexts.filter((c) => c.state !== "closed").length]"""
+UNPLUG = """(kind) => {
+  const tracks = made.streams.flatMap((stream) => stream.getTracks()).filter((track) => track.kind === kind);
+  tracks.at(-1).dispatchEvent(new Event("ended"));
+}"""
+
+
+def test_start_opens_only_what_is_not_open(visit: Any) -> None:
+    page = visit(script=WATCH)
+    page.click("#start")
+    expect(page, "#camera-line").to_have_text("Camera: on")
+    expect(page, "#start").to_be_disabled()
+    assert page.evaluate(COUNT) == [1, 1, 1]
+    page.evaluate(UNPLUG, "video")
+    expect(page, "#problems").to_contain_text("The camera was unplugged")
+    expect(page, "#camera-line").to_have_text("Camera: off")
+    page.click("#start")
+    expect(page, "#camera-line").to_have_text("Camera: on")
+    expect(page, "#problems").to_be_empty()
+    assert page.evaluate(COUNT) == [1, 2, 1], "the microphone goes on"
+    page.evaluate(UNPLUG, "audio")
+    expect(page, "#problems").to_contain_text("The microphone was unplugged")
+    page.wait_for_function("made.contexts[0].state === 'closed'")
+    assert page.evaluate("made.streams[0].getTracks().every((track) => track.readyState === 'ended')")
+    page.click("#start")
+    expect(page, "#level-label").to_have_text("Microphone: on")
+    expect(page, "#start").to_be_disabled()
+    assert page.evaluate(COUNT) == [2, 2, 1] and page.failures == []
+
+
+def test_start_waits_for_the_welcome(visit: Any, server: PageServer) -> None:
+    page = visit(speech([("tall", 1.6)], 12.0))
+    expect(page, "#start").to_be_enabled()
+    second = page.context.new_page()
+    second.goto(f"http://127.0.0.1:{server.port}/")
+    expect(second, "#problems").to_contain_text("Another page uses the robot now")
+    expect(second, "#start").to_be_disabled()
+    assert page.failures == []
