@@ -113,24 +113,24 @@ class Reception:
                 raise FormatError("a page begins with hello")
         except (TimeoutError, FormatError, KeyError):
             log.warning("a connection that did not begin as the page does was closed")
-            await socket.close(REFUSED, "this is no page of hri serve")
+            await _close(socket, REFUSED, "this is no page of hri serve")
             return
         except WebSocketDisconnect:
             return
         page = str(hello.get("page", ""))
         if self.current is not None and (not page or page != self.current.page):
             log.warning("a second page was refused: the camera and the robot serve another one")
-            await socket.close(TAKEN, _ELSEWHERE)
+            await _close(socket, TAKEN, _ELSEWHERE)
             return
         await self._serve(Connection(socket, self.stage, self.teaching, page, hello))
 
     async def _serve(self, connection: Connection) -> None:
         before, self.current = self.current, connection
-        if before is not None:  # the same page, which has lost that connection before we did, or stands in two windows
-            await before.dismiss(TAKEN, _ELSEWHERE)
-        else:
-            self.stage.arrive()
         try:
+            if before is not None:  # the same page, which has lost that connection before we did, or is in two windows
+                await before.dismiss(TAKEN, _ELSEWHERE)
+            else:
+                self.stage.arrive()
             await connection.run()
         finally:
             if self.current is connection:
@@ -189,8 +189,7 @@ class Connection:
     async def dismiss(self, code: int, reason: str) -> None:
         """End, and say why."""
         await self.end()
-        with suppress(RuntimeError):  # it is closed already
-            await self._socket.close(code, reason)
+        await _close(self._socket, code, reason)
 
     def complain(self, text: str) -> None:
         """On the page and on the terminal, the same at most every two seconds."""
@@ -221,7 +220,7 @@ class Connection:
                 continue
             if not self._messages.take():
                 log.warning("a page that sent too many messages was sent away")
-                await self._socket.close(REFUSED, "This page sent too many messages.")
+                await _close(self._socket, REFUSED, "This page sent too many messages.")
                 return
             if command is not None:
                 self._obey(command)
@@ -279,3 +278,9 @@ class Connection:
                 self.outbox.put({"passing": True, **(now or {})})
                 before = now
             await asyncio.sleep(_FIGURE_S)
+
+
+async def _close(socket: WebSocket, code: int, reason: str) -> None:
+    """Close a socket, which may be closed already, or have gone this moment."""
+    with suppress(RuntimeError, WebSocketDisconnect):
+        await socket.close(code, reason)

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Who has the one place of the page's server."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+pytest.importorskip("serving")
+
+from starlette.websockets import WebSocket, WebSocketDisconnect
+from websockets.exceptions import ConnectionClosed
+
+from hri.robot import Robot
+from hri.serve import PageServer, Stage
+from hri.serve.connection import TAKEN, Connection
+from page_people import connected
+from serving import LIMITS
+from session_people import MOTIONS
+
+pytest_plugins = ("serving",)
+
+
+@pytest.fixture
+def stage(words: Any, robot: Robot) -> Iterator[Stage]:
+    made = Stage(words, None, robot, motions=MOTIONS, limits=LIMITS)
+    yield made
+    made.close()
+
+
+def test_a_page_comes_again_whose_old_connection_has_just_gone(
+    server: PageServer, cookie: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    close = WebSocket.close
+
+    async def gone(self: WebSocket, code: int = 1000, reason: str | None = None) -> None:
+        if code == TAKEN:
+            raise WebSocketDisconnect(1006)  # as Starlette does for a socket that cannot be sent to
+        await close(self, code, reason)
+
+    monkeypatch.setattr(WebSocket, "close", gone)
+    with connected(server, cookie), connected(server, cookie) as again:
+        again.say(type="stop")
+        again.await_stopped()
+
+
+def test_the_place_is_free_when_taking_it_over_has_failed(
+    server: PageServer, cookie: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def fail(*_: object) -> None:
+        raise OSError("no line")
+
+    with connected(server, cookie):
+        with monkeypatch.context() as patched:
+            patched.setattr(Connection, "dismiss", fail)
+            with pytest.raises(ConnectionClosed), connected(server, cookie):
+                pass
+    with connected(server, cookie, "b") as page:
+        page.say(type="stop")
+        page.await_stopped()
