@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Who has the one place of the page's server."""
+"""Who has the one place of the page's server, and that nothing keeps STOP waiting."""
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from typing import Any
 
@@ -14,11 +15,13 @@ pytest.importorskip("serving")
 from starlette.websockets import WebSocket, WebSocketDisconnect
 from websockets.exceptions import ConnectionClosed
 
+import hri
+from conftest import WAIT_S, until
 from hri.robot import Robot
 from hri.serve import PageServer, Stage
 from hri.serve.connection import TAKEN, Connection
-from page_people import connected
-from serving import LIMITS
+from page_people import connected, request
+from serving import LIMITS, stop_by_request
 from session_people import MOTIONS
 
 pytest_plugins = ("serving",)
@@ -61,3 +64,32 @@ def test_the_place_is_free_when_taking_it_over_has_failed(
     with connected(server, cookie, "b") as page:
         page.say(type="stop")
         page.await_stopped()
+
+
+def test_stop_does_not_wait_for_a_model_that_is_downloaded(
+    server: PageServer, cookie: str, robot: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, go_on = threading.Event(), threading.Event()
+    made = hri.WordRecognizer.to_model_file
+
+    def slowly(self: hri.WordRecognizer) -> Any:
+        begun.set()
+        go_on.wait(WAIT_S)
+        return made(self)
+
+    monkeypatch.setattr(hri.WordRecognizer, "to_model_file", slowly)
+    with connected(server, cookie) as page:
+        answers: list[int] = []
+        download = threading.Thread(target=lambda: answers.append(request(server, "/words.hri", cookie)[0]))
+        download.start()
+        try:
+            assert begun.wait(WAIT_S)
+            presser = threading.Thread(target=stop_by_request, args=(server, cookie, page))
+            presser.start()
+            until(lambda: robot.stopped)
+            assert not answers
+        finally:
+            go_on.set()
+        presser.join(WAIT_S)
+        download.join(WAIT_S)
+        assert answers == [200]

@@ -182,7 +182,8 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
             return PlainTextResponse(f"There is no recogniser of {name}.", 404, _HEADERS)
         kind, content = _FORMS[form]
         attached = {"Content-Disposition": f'attachment; filename="{name}.{form}"'}
-        return Response(content(recognizer.to_model_file(), name), media_type=kind, headers=_HEADERS | attached)
+        made = await asyncio.to_thread(lambda: content(recognizer.to_model_file(), name))  # STOP does not wait for it
+        return Response(made, media_type=kind, headers=_HEADERS | attached)
 
     async def samples(request: Request) -> Response:
         """What words were added by, and what synthetic voices said: a model with added words is trained anew on it."""
