@@ -70,3 +70,19 @@ def test_start_waits_for_the_welcome(visit: Any, server: PageServer) -> None:
     expect(second, "#problems").to_contain_text("Another page uses the robot now")
     expect(second, "#start").to_be_disabled()
     assert page.failures == []
+
+
+def test_stop_is_shown_as_done_only_once_it_has_arrived(visit: Any, robot: Any) -> None:
+    page = visit()
+    page.route("**/stop", lambda route: None)  # the server hangs
+    page.evaluate("WebSocket.prototype.send = () => {}")
+    page.click("#stop")
+    expect(page, "#state").to_have_text("stopping …")
+    expect(page, "#problems").to_contain_text("STOP did not reach hri serve")
+    expect(page, "#state").to_have_text("idle")
+    assert not robot.stopped
+    page.unroute("**/stop")
+    page.click("#stop")
+    expect(page, "#state").to_have_text("stopped")
+    expect(page, "#problems").to_be_empty()
+    assert robot.stopped and page.failures == []

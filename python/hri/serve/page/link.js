@@ -7,6 +7,7 @@ const MOST_WAITING_BYTES = 200000;
 const TAKEN = 4409;
 const SENT_AWAY = new Set([1008, TAKEN]);
 const LONGEST_PAUSE_MS = 5000;
+const STOP_MS = 1500;
 
 export class Link {
   constructor(onMessage, onState) {
@@ -45,10 +46,10 @@ export class Link {
     if (this.isOpen) this.socket.send(JSON.stringify(command));
   }
 
-  // STOP goes by two ways: the line may be lost, or full.
+  // STOP goes by two ways: the line may be lost, or full. Whether it has arrived; a server that hangs does not answer.
   stop() {
     this.say({ type: "stop" });
-    return fetch("stop", { method: "POST" }).then((answer) => answer.ok, () => false);
+    return fetch("stop", { method: "POST", signal: AbortSignal.timeout(STOP_MS) }).then((answer) => answer.ok, () => false);
   }
 
   sound(samples) {

@@ -35,8 +35,10 @@ const knows = { speech: false, gesture: false };
 const opened = { microphone: null, camera: null };
 let starting = false;
 let measured = [];
+let known = "disconnected"; // the last state that the server has reported
 
 function showState(name) {
+  if (name !== "stopping") known = name;
   if (name === "disconnected") {
     imitation.show(false);
     missing.show();
@@ -203,8 +205,9 @@ function lost(what) {
 async function stop() {
   voice.hush();
   player.halt();
-  showState("stopped");
+  showState("stopping");
   const heard = await link.stop();
+  if (at("state").dataset.state === "stopping") showState(heard ? "stopped" : known); // unless an event was faster
   problem(heard ? "" : phrase("stop_lost"), "stop");
 }
 
