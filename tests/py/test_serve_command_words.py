@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import io
+import shutil
 import zipfile
 from collections import Counter
 from collections.abc import Iterator
@@ -237,3 +238,17 @@ def test_what_adding_words_needs_is_said(
     ):
         result = hri("serve", *given, *more)
         assert result.code == code and message in result.err, result.err
+
+
+@pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="espeak-ng is not installed")
+def test_a_voice_that_is_not_there_is_refused_at_the_start(
+    hri: Any, model: Any, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(PageServer, "run", lambda self: None)
+    model.save(tmp_path / "words.hri")
+    (tmp_path / "g.jsgf").write_text(GRAMMAR)
+    given = ("--no-gesture", "--backend", "none", "--port", "0", "--speech-model", tmp_path / "words.hri")
+    given += ("--grammar", tmp_path / "g.jsgf", "--speech-data", spoken)
+    result = hri("serve", *given, "--voice", "xx")
+    assert result.code == 3 and "espeak-ng refuses voice 'xx" in result.err
+    assert hri("serve", *given, "--voice", "hi").code == 0
