@@ -56,11 +56,10 @@ def test_the_place_is_free_when_taking_it_over_has_failed(
     async def fail(*_: object) -> None:
         raise OSError("no line")
 
-    with connected(server, cookie):
-        with monkeypatch.context() as patched:
-            patched.setattr(Connection, "dismiss", fail)
-            with pytest.raises(ConnectionClosed), connected(server, cookie):
-                pass
+    with connected(server, cookie), monkeypatch.context() as patched:
+        patched.setattr(Connection, "dismiss", fail)
+        with pytest.raises(ConnectionClosed), connected(server, cookie):
+            pass
     with connected(server, cookie, "b") as page:
         page.say(type="stop")
         page.await_stopped()

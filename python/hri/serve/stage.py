@@ -31,7 +31,7 @@ from hri.serve.messages import with_phrases
 from hri.serve.recordings import Recording, Spoken, require_recordings_of
 from hri.serve.seen import SeenHands
 from hri.serve.voice import PageVoice
-from hri.serve.welcome import sentences_of
+from hri.serve.welcome import known_by, learns_gestures, sentences_of
 from hri.session import Session, SessionOptions, SessionRecorder, Voice
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
@@ -98,6 +98,8 @@ class Stage:
         Gets messages for the page, by several threads; it must not wait.
     on_stop : callable
         Called on STOP by whatever way, by several threads; it must not wait.
+    teaching_state : callable
+        Gives how far words and gestures are that are being added, by mode.
     page_voice : PageVoice
         What the page says aloud.
     """
@@ -137,6 +139,7 @@ class Stage:
         self.page_voice = PageVoice(self.limits.voice_s)
         self.publish: Publish = lambda message: None
         self.on_stop: Callable[[], None] = lambda: None
+        self.teaching_state: Callable[[], dict[str, Any]] = dict
         self._robot = robot
         self._options = options or SessionOptions(retry_s=0.2)
         self._model_ids = dict(model_ids or {})
@@ -255,21 +258,16 @@ class Stage:
             "type": "welcome",
             "state": self._state,
             "has_samples": self.recordings is not None and self.vocabulary is not self._first_vocabulary,
-            "speech": self.words is not None,
-            "gesture": self.signs is not None,
+            **known_by(self.words, self.signs),
             "teach": [
-                mode for mode, one in (("speech", self.vocabulary), ("gesture", self.gestures)) if one is not None
+                *(["speech"] if self.vocabulary is not None else []),
+                *(["gesture"] if learns_gestures(self.gestures) else []),
             ],
-            "grammar": None if self.grammar is None else self.grammar.text,
-            "made_of": [str(label) for label in self.words.words.classes_]
-            if isinstance(self.words, CommandRecognizer)
-            else [],
+            "teaching": self.teaching_state(),
             "sentences": sentences_of(self._options, self.signs, self._knowledge),
             "imitate": list(self._imitated),
             "imitating": self._imitating,
             "robot": self._robot.table.name if self._robot is not None else "",
-            "words": [] if self.words is None else [str(label) for label in self.words.classes_],
-            "signs": [] if self.signs is None else [str(label) for label in self.signs.classes_],
             "motions": sorted(self._session.motions),
             "refused": self._session.refused,
             "log": [with_phrases(message) for message in self._log],

@@ -127,7 +127,10 @@ function heedWelcome(message) {
   problem("", "line");
   missing.show();
   showState(message.state);
-  panels.forEach((panel, mode) => (panel.section.hidden = !message.teach.includes(mode)));
+  panels.forEach((panel, mode) => {
+    panel.section.hidden = !message.teach.includes(mode);
+    panel.reset(message.teaching[mode]);
+  });
   commands.show(message.grammar);
   at("word-samples").hidden = !message.has_samples;
   imitation.offer(message.imitate.length > 0, message.imitating);
