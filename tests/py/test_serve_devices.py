@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("browsing")
 
 from browsing import MARKS, expect
-from hri.serve import PageServer
+from hri.serve import PageServer, ServeLimits, Stage
 from session_people import speech
 
 pytest_plugins = ("serving", "browsing")
@@ -86,3 +86,57 @@ def test_stop_is_shown_as_done_only_once_it_has_arrived(visit: Any, robot: Any) 
     expect(page, "#state").to_have_text("stopped")
     expect(page, "#problems").to_be_empty()
     assert robot.stopped and page.failures == []
+
+
+def test_a_microphone_of_a_high_rate_is_heard(visit: Any) -> None:
+    high = """
+      const Real = window.AudioContext;
+      window.AudioContext = class extends Real { // a browser that does not convert rates
+        constructor(options) {
+          super({ sampleRate: options?.sampleRate ?? 96000 });
+          this.asked = options !== undefined;
+        }
+        createMediaStreamSource(stream) {
+          if (this.asked) throw new DOMException("", "NotSupportedError");
+          return super.createMediaStreamSource(stream);
+        }
+      };
+    """
+    page = visit(speech([("tall", 1.6)], 6.0), script=high)
+    page.click("#start")
+    expect(page, "#decided").to_have_text("tall")
+    expect(page, "#problems").to_be_empty()
+    assert page.failures == []
+
+
+HELLO = """
+  const send = WebSocket.prototype.send;
+  WebSocket.prototype.send = function (data) {
+    const hello = typeof data === "string" && data.includes("hello") ? %s : data;
+    if (hello) send.call(this, hello);
+  };
+"""
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [("data.replace('16000', '96000')", "The microphone's 16000 samples a second"), ("'{}'", "does not understand")],
+)
+def test_a_page_whose_hello_is_refused_says_why(visit: Any, server: PageServer, changed: str, said: str) -> None:
+    second = visit().context.new_page()
+    second.add_init_script(HELLO % changed)
+    second.goto(f"http://127.0.0.1:{server.port}/")
+    expect(second, "#problems").to_contain_text(said)
+    expect(second, "#state").to_have_text("not connected")
+
+
+def test_a_page_whose_hello_came_too_late_tries_again(visit: Any, words: Any) -> None:
+    stage = Stage(words, None, limits=ServeLimits(hello_s=1.0))
+    try:
+        with PageServer(stage) as server:
+            page = visit(at=server, script=HELLO % "window.late ? data : ((window.late = true), '')")
+            expect(page, "#start").to_be_enabled()
+            expect(page, "#problems").to_be_empty()
+            assert page.failures == []
+    finally:
+        stage.close()

@@ -17,7 +17,7 @@ import numpy as np
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from hri.core.errors import FormatError
-from hri.core.phrases import phrase, phrase_of
+from hri.core.phrases import Phrase, phrase, phrase_of
 from hri.live.events import STALL
 from hri.serve.limits import RateLimit
 from hri.serve.messages import SOUND, read_command, read_media, with_phrases
@@ -28,7 +28,10 @@ from hri.session.voice import VOICE_END
 
 TOO_LARGE = 1009
 REFUSED = 1008
+NO_PAGE = 4400
+LATE = 4408
 TAKEN = 4409
+BAD_RATE = 4415
 _ELSEWHERE = "Another page uses the robot now. Close it first."
 _FIGURE_S = 0.12
 _REPEAT_S = 2.0
@@ -111,9 +114,15 @@ class Reception:
             hello = read_command(first, self.stage.limits)
             if hello["type"] != "hello":
                 raise FormatError("a page begins with hello")
-        except (TimeoutError, FormatError, KeyError):
-            log.warning("a connection that did not begin as the page does was closed")
-            await _close(socket, REFUSED, "this is no page of hri serve")
+        except TimeoutError:  # the computer may be busy: the page tries again
+            log.warning("a connection that sent nothing was closed")
+            await _close(socket, LATE, "nothing came in time")
+            return
+        except (FormatError, KeyError) as error:
+            why = phrase_of(error) if isinstance(error, FormatError) else "it sent bytes"
+            log.warning("a connection that did not begin as the page does was closed: %s", why)
+            of_rate = isinstance(why, Phrase) and why.code == "rate_unusable"
+            await _close(socket, BAD_RATE if of_rate else NO_PAGE, "this is no page of hri serve")
             return
         except WebSocketDisconnect:
             return

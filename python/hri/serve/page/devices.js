@@ -4,6 +4,7 @@
 import { phrase } from "./phrases.js";
 
 const RATE_HZ = 16000;
+const MOST_HZ = 48000; // that the server takes
 const FPS = 15;
 const WIDTH_PX = 480;
 const QUALITY = 0.85;
@@ -43,12 +44,14 @@ export async function openMicrophone(onSamples, onEnd) {
       source = context.createMediaStreamSource(stream);
     }
     await context.audioWorklet.addModule("sound.js");
-    const sender = new AudioWorkletNode(context, "sender", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
+    const step = Math.ceil(context.sampleRate / MOST_HZ);
+    const oneChannel = { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" };
+    const sender = new AudioWorkletNode(context, "sender", { ...oneChannel, processorOptions: { step } });
     sender.port.onmessage = (message) => onSamples(message.data);
     source.connect(sender);
     await context.resume();
     stream.getAudioTracks()[0].onended = onEnd;
-    return { rate: context.sampleRate, close, keep: [stream, source, sender] };
+    return { rate: Math.round(context.sampleRate / step), close, keep: [stream, source, sender] };
   } catch (error) {
     close();
     throw error;

@@ -4,8 +4,7 @@
 const SOUND = 1;
 const PICTURE = 2;
 const MOST_WAITING_BYTES = 200000;
-const TAKEN = 4409;
-const SENT_AWAY = new Set([1008, TAKEN]);
+const REFUSALS = { 1008: "sent_away", 4400: "hello_refused", 4409: "elsewhere", 4415: "rate_refused" }; // final ones, by code
 const LONGEST_PAUSE_MS = 5000;
 const STOP_MS = 1500;
 
@@ -31,7 +30,7 @@ export class Link {
     };
     socket.onclose = (closed) => {
       if (socket !== this.socket) return;
-      if (SENT_AWAY.has(closed.code)) return this.onState("refused", closed.code === TAKEN ? "elsewhere" : "sent_away");
+      if (closed.code in REFUSALS) return this.onState("refused", REFUSALS[closed.code]);
       this.onState("lost", closed.code === 1009 ? "line_lost_large" : "line_lost");
       this.timer = setTimeout(() => this.open(), this.pause);
       this.pause = Math.min(2 * this.pause, LONGEST_PAUSE_MS);

@@ -64,7 +64,7 @@ function problem(said, key = "") {
 function connection(is, why) {
   if (is === "connecting") return;
   showState("disconnected");
-  problem(phrase(why), "line");
+  problem(phrase(why, { rate: link.rate }), "line");
 }
 
 // From taking the picture that a decision rests on to the next picture of this page that shows it.
