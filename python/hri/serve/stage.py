@@ -315,7 +315,7 @@ class Stage:
             While the robot moves.
         """
         if self.moving:
-            raise InvalidArgument("wait until the robot rests")
+            raise InvalidArgument(phrase("wait_for_rest"))
         self._session = self._made()
         self.publish(self.welcome())
 
@@ -346,7 +346,7 @@ class Stage:
         """Why a session was not recorded, if so."""
         failure = getattr(recorder, "failure", "")
         if failure:
-            self._report(f"The session was not recorded: {failure}")
+            self._report(phrase("not_recorded", detail=failure))
 
     def _free(self) -> None:
         """Let the robot move again; STOP wins when both come at once."""
