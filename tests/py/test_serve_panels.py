@@ -12,11 +12,11 @@ import pytest
 pytest.importorskip("browsing")
 
 import hri
-from browsing import MARKS, expect, serious_faults
+from browsing import MARKS, api, expect, serious_faults
 from drawn_hands import stills
 from hri.core.errors import InvalidArgument
 from hri.media import write_image
-from hri.serve import PageServer
+from hri.serve import PageServer, Stage
 
 pytest_plugins = ("serving", "browsing")
 pytestmark = MARKS
@@ -64,4 +64,39 @@ def test_panels_follow_the_server_after_a_fault_a_lost_line_and_a_reload(
     page.click("#gesture-undo")
     expect(page, "#gesture-line").to_have_text("“cross” is removed.")
     expect(page, "#gesture-undo").to_be_disabled()
+    assert page.failures == []
+
+
+def test_the_conversation_goes_on_with_what_is_missing(visit: Any, server: PageServer, stage: Stage) -> None:
+    page = visit()
+    page.click("#stop")
+    expect(page, "#log").to_contain_text("STOP")
+    page.evaluate("document.querySelector('#log p').id = 'first'")
+    lines = page.locator("#log p")
+
+    def await_line(text: str) -> list[str]:
+        api.expect(lines.last).to_contain_text(text)
+        expect(page, "#first").to_be_attached()  # nothing was written anew
+        return lines.all_inner_texts()
+
+    before = lines.all_inner_texts()
+    stage.renew()  # as by a word that is added
+    stage._report("one")
+    assert await_line("one")[: len(before)] == before
+    for connection in list(server._server.server_state.connections):
+        connection.transport.abort()
+    expect(page, "#problems").to_contain_text("is lost")
+    stage._report("two")  # before the page is back, or just after
+    expect(page, "#problems").not_to_contain_text("is lost")
+    stage._report("three")
+    after = await_line("three")
+    assert [after.count(text) for text in ("one", "two", "three")] == [1, 1, 1]
+    page.reload()
+    api.expect(lines.last).to_contain_text("three")
+    assert lines.all_inner_texts()[-3:] == after[-3:]
+    for connection in list(server._server.server_state.connections):
+        connection.transport.abort()
+    for number in range(100):  # more than are kept: all is written anew
+        stage._report(f"line {number}")
+    api.expect(lines.last).to_contain_text("line 99")
     assert page.failures == []

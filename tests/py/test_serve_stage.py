@@ -126,3 +126,18 @@ def test_what_the_stage_reports_is_said_in_both_languages(
         assert note["phrases"]["text"]["code"] == "not_recorded"
     finally:
         stage.close()
+
+
+def test_what_a_page_may_have_missed_is_numbered(words: Any, robot: Robot) -> None:
+    stage = Stage(words, None, robot, motions=MOTIONS, limits=LIMITS)
+    published: queue.Queue[dict[str, Any]] = queue.Queue()
+    stage.publish = published.put
+    try:
+        for text in ("one", "two", "three"):
+            stage._report(text)
+        log = stage.welcome()["log"]
+        numbers = [message["log_number"] for message in log]
+        assert numbers == list(range(numbers[0], numbers[0] + 3))
+        assert [published.get(timeout=WAIT_S)["log_number"] for _ in log] == numbers
+    finally:
+        stage.close()

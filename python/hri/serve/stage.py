@@ -148,6 +148,8 @@ class Stage:
         self._voice, self._record = voice, record
         self._session = self._made()
         self._log: deque[dict[str, Any]] = deque(maxlen=_MOST_KEPT)
+        self._num_logged = time.time_ns() // 1_000_000  # above all numbers of a server before this one
+        self._logging = threading.Lock()
         self._state = IDLE
         self._imitating = False
         self._begun_s = 0.0
@@ -270,7 +272,7 @@ class Stage:
             "robot": self._robot.table.name if self._robot is not None else "",
             "motions": sorted(self._session.motions),
             "refused": self._session.refused,
-            "log": [with_phrases(message) for message in self._log],
+            "log": [with_phrases(message) for message in self._log.copy()],
         }
 
     @property
@@ -338,9 +340,15 @@ class Stage:
         self.publish({"type": "error", "text": text})
 
     def _report(self, text: str) -> None:
-        message = {"type": "note", "text": text}
-        self._log.append(message)
-        self.publish(message)
+        self.publish(self._logged({"type": "note", "text": text}))
+
+    def _logged(self, message: dict[str, Any]) -> dict[str, Any]:
+        """Keep a message for pages that come; by its running number they know what they have."""
+        with self._logging:
+            self._num_logged += 1
+            message["log_number"] = self._num_logged
+            self._log.append(message)
+        return message
 
     def _report_failure(self, recorder: SessionRecorder | None) -> None:
         """Why a session was not recorded, if so."""
@@ -436,6 +444,4 @@ class Stage:
             message["aloud"] = self._session.aloud(event.fields["text"])
         if event.event == SENTENCE and self._knowledge is not None:
             message["max_distance"] = self._knowledge.max_distance
-        if event.event in _LOGGED:
-            self._log.append(message)
-        self.publish(message)
+        self.publish(self._logged(message) if event.event in _LOGGED else message)

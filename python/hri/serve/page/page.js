@@ -117,7 +117,7 @@ function heedEvent(event) {
     at("decided").textContent = decided(event);
     put(at("rule"), reason(event));
   }
-  conversation.heed(event);
+  conversation.take(event);
 }
 
 function heedWelcome(message) {
@@ -134,8 +134,7 @@ function heedWelcome(message) {
   commands.show(message.grammar);
   at("word-samples").hidden = !message.has_samples;
   imitation.offer(message.imitate.length > 0, message.imitating);
-  conversation.clear();
-  message.log.forEach((one) => (one.type === "event" ? conversation.heed(one) : conversation.write(phraseOf(one, "text"), "note")));
+  conversation.catchUp(message.log);
   showVocabulary(at("vocabulary"), message);
 }
 
@@ -148,7 +147,7 @@ function heed(message) {
   else if (message.type === "teach") panels.get(message.mode)?.heed(message);
   else {
     problem(phraseOf(message, "text"));
-    conversation.write(phraseOf(message, "text"), message.type);
+    conversation.take(message);
   }
 }
 
