@@ -12,8 +12,8 @@ export class Conversation {
     this.last = 0;
   }
 
-  // What has happened, with running numbers ("log_number"): only what is not there yet is written, as a screen reader says
-  // it; all is written anew where something between is missing.
+  // What has happened, with running numbers ("log_number"): only what is not there yet is written, as a screen reader
+  // says it; all is written anew where something between is missing.
   catchUp(messages) {
     if (messages[0]?.log_number > this.last + 1) this.clear();
     messages.forEach((message) => this.take(message));

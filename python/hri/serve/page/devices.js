@@ -26,8 +26,8 @@ async function media(constraints) {
   return navigator.mediaDevices.getUserMedia(constraints);
 }
 
-// The rate at which samples will come, and what gives the microphone back; onSamples gets an ArrayBuffer of 16-bit samples,
-// onEnd is called when the microphone is unplugged.
+// The rate at which samples will come, and what gives the microphone back; onSamples gets an ArrayBuffer of 16-bit
+// samples, onEnd is called when the microphone is unplugged.
 export async function openMicrophone(onSamples, onEnd) {
   // The page's own voice is taken out of the sound where the browser can: else a STOP over it is lost.
   const processing = { echoCancellation: true, noiseSuppression: false, autoGainControl: false, channelCount: 1 };

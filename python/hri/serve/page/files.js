@@ -116,7 +116,8 @@ export class FilePlayer {
       this.clip.src = address;
       await ready(this.clip);
       const { duration } = this.clip; // infinite in what a browser has recorded: such a file ends by the clock
-      if (Number.isFinite(duration) && duration > LONGEST_S) return phrase("file_long", { name: file.name, most: LONGEST_S });
+      const tooLong = Number.isFinite(duration) && duration > LONGEST_S;
+      if (tooLong) return phrase("file_long", { name: file.name, most: LONGEST_S });
       await this.together.arrive();
       this.beginPictures(this.clip, sizeOf(this.clip));
       await pause(BEFORE_S);

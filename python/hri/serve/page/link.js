@@ -4,7 +4,8 @@
 const SOUND = 1;
 const PICTURE = 2;
 const MOST_WAITING_BYTES = 200000;
-const REFUSALS = { 1008: "sent_away", 4400: "hello_refused", 4409: "elsewhere", 4415: "rate_refused" }; // final ones, by code
+// Final ones, by the code of the close.
+const REFUSALS = { 1008: "sent_away", 4400: "hello_refused", 4409: "elsewhere", 4415: "rate_refused" };
 const LONGEST_PAUSE_MS = 5000;
 const STOP_MS = 1500;
 
@@ -48,7 +49,8 @@ export class Link {
   // STOP goes by two ways: the line may be lost, or full. Whether it has arrived; a server that hangs does not answer.
   stop() {
     this.say({ type: "stop" });
-    return fetch("stop", { method: "POST", signal: AbortSignal.timeout(STOP_MS) }).then((answer) => answer.ok, () => false);
+    const signal = AbortSignal.timeout?.(STOP_MS);
+    return fetch("stop", { method: "POST", signal }).then((answer) => answer.ok, () => false);
   }
 
   sound(samples) {

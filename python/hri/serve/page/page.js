@@ -196,10 +196,12 @@ function lost(what) {
   opened[what]?.close();
   opened[what] = null;
   if (what === "camera") {
+    put(at("camera-line"), phrase("camera_off"));
     imitation.see(false);
     missing.show();
+  } else {
+    put(at("level-label"), phrase("microphone_off"));
   }
-  put(at(what === "camera" ? "camera-line" : "level-label"), phrase(what === "camera" ? "camera_off" : "microphone_off"));
   problem(phrase("unplugged", { device: phrase(what) }), what);
   offerStart();
 }
