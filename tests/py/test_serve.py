@@ -28,6 +28,7 @@ from drawn_hands import HIDDEN, picture
 from hri.core.errors import InvalidArgument, IoError
 from hri.robot import HOAP2, Robot
 from hri.serve import PageServer, ServeLimits, Stage
+from hri.serve.connection import BAD_RATE, LATE, NO_PAGE
 from hri.serve.limits import RateLimit
 from page_people import (
     PICTURE,
@@ -248,13 +249,19 @@ def test_ten_thousand_messages_a_second_are_sent_away(
 
 def test_who_does_not_begin_as_the_page_does_is_sent_away(serving: Serving, words: Any) -> None:
     server, cookie = serving(words, limits=replace(LIMITS, hello_s=1.0))
-    for first in ("nonsense", '{"type": "resume"}', b"\x01", None):
+    for first, code in (
+        ("nonsense", NO_PAGE),
+        ('{"type": "resume"}', NO_PAGE),
+        (b"\x01", NO_PAGE),
+        ('{"type": "hello", "rate": 96000}', BAD_RATE),
+        (None, LATE),
+    ):
         with open_socket(server, cookie) as other:
             if first is not None:
                 other.send(first)
             with pytest.raises(ConnectionClosed) as closed:
                 other.recv(timeout=WAIT_S)
-            assert closed.value.rcvd is not None and closed.value.rcvd.code == 1008
+            assert closed.value.rcvd is not None and closed.value.rcvd.code == code, first
 
 
 def test_a_microphone_that_falls_silent_is_reported_and_comes_back(

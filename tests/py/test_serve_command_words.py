@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import io
+import shutil
 import zipfile
 from collections import Counter
 from collections.abc import Iterator
@@ -196,11 +197,20 @@ def test_words_of_synthetic_voices_are_said_again_in_training(recordings: Datase
         kept = Counter((label, person) for _, label, person in teacher.samples())
         assert kept["hum", "page"] == kept["whistle", "page"] == 3 and kept["beep", "synthetic-a"] == 1
         assert len(zipfile.ZipFile(io.BytesIO(samples_zip(teacher.samples()))).namelist()) == 11  # and the manifest
-        for label in ("../up", "a/b", "c:d", ".hidden"):
-            with pytest.raises(InvalidArgument, match="cannot be the name of a folder"):
-                samples_zip([(Audio(hum(0), RATE_HZ), label, "page")])
     finally:
         stage.close()
+
+
+def test_samples_of_any_label_are_downloaded(tmp_path: Path) -> None:
+    labels = ["ready?", "ready*", "12:30", "C*", "../up", "a/b", ".hidden", "...", "con “x”", "नमस्ते", "Ready_", "a\\b"]
+    packed = samples_zip([(Audio(hum(0), RATE_HZ), label, "page") for label in labels for _ in range(2)])
+    with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+        names = archive.namelist()
+        archive.extractall(tmp_path)
+    assert not [name for name in names if set(name) & set('\\:*?"<>|') or name.startswith(".") or name.count("/") > 1]
+    assert len({name.casefold() for name in names}) == len(names) == 2 * len(labels) + 1
+    kept = Dataset.load(tmp_path, "speech").samples
+    assert Counter((s.label, s.person) for s in kept) == {(label, "page"): 2 for label in labels}
 
 
 def test_what_adding_words_needs_is_said(
@@ -237,3 +247,17 @@ def test_what_adding_words_needs_is_said(
     ):
         result = hri("serve", *given, *more)
         assert result.code == code and message in result.err, result.err
+
+
+@pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="espeak-ng is not installed")
+def test_a_voice_that_is_not_there_is_refused_at_the_start(
+    hri: Any, model: Any, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(PageServer, "run", lambda self: None)
+    model.save(tmp_path / "words.hri")
+    (tmp_path / "g.jsgf").write_text(GRAMMAR)
+    given = ("--no-gesture", "--backend", "none", "--port", "0", "--speech-model", tmp_path / "words.hri")
+    given += ("--grammar", tmp_path / "g.jsgf", "--speech-data", spoken)
+    result = hri("serve", *given, "--voice", "xx")
+    assert result.code == 3 and "espeak-ng refuses voice 'xx" in result.err
+    assert hri("serve", *given, "--voice", "hi").code == 0

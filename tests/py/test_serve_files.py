@@ -73,6 +73,41 @@ def test_a_picture_and_a_video_are_seen(visit: Any, tmp_path: Path) -> None:
     assert page.failures == []
 
 
+RECORD = """async () => {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [64, 64];
+  const context = canvas.getContext("2d");
+  const recorder = new MediaRecorder(canvas.captureStream(15), { mimeType: "video/webm" });
+  const parts = [];
+  recorder.ondataavailable = (part) => parts.push(part.data);
+  recorder.start(200);
+  for (let i = 0; i < 20; i++) {
+    context.fillRect(0, 0, 3 * i, 3 * i);
+    await new Promise((done) => setTimeout(done, 60));
+  }
+  const stopped = new Promise((done) => (recorder.onstop = done));
+  recorder.stop();
+  await stopped;
+  const file = new File(parts, "recorded.webm", { type: "video/webm" });
+  const clip = document.createElement("video");
+  clip.src = URL.createObjectURL(file);
+  await new Promise((done) => (clip.onloadedmetadata = done));
+  const dropped = new DataTransfer();
+  dropped.items.add(file);
+  document.body.dispatchEvent(new DragEvent("drop", { bubbles: true, cancelable: true, dataTransfer: dropped }));
+  return clip.duration === Infinity;
+}"""
+
+
+def test_a_video_that_a_browser_has_recorded_is_played(visit: Any) -> None:
+    page = visit()
+    assert page.evaluate(RECORD)
+    said = "#files [role=status]"
+    expect(page, said).to_have_text("recorded.webm is played …")
+    expect(page, said).to_have_text("Played to the end.")
+    assert page.failures == []
+
+
 def test_a_sound_and_a_video_that_come_together_are_one_command(visit: Any, tmp_path: Path) -> None:
     page = visit()
     with VideoWriter(tmp_path / "tall.webm", FPS) as film:

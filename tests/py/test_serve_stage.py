@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import queue
 from copy import copy
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,10 +16,13 @@ pytest.importorskip("serving")
 
 
 from conftest import RATE_HZ, WAIT_S, tone_word
+from hri.core.errors import InvalidArgument
+from hri.core.phrases import phrase_of
 from hri.live import Stalled
 from hri.robot import Robot
 from hri.serve import Stage
 from hri.serve.devices import PageMicrophone
+from hri.serve.messages import with_phrases
 from hri.session import Session
 from serving import LIMITS
 from session_people import MOTIONS
@@ -100,5 +104,40 @@ def test_a_label_that_is_added_moves_the_robot_where_it_has_a_gesture_of_that_na
         changed.add_word("5", [tone_word(700.0, 2000.0, take) for take in range(3)], RATE_HZ)
         stage.renew()
         assert stage.welcome()["motions"] == ["5"]
+    finally:
+        stage.close()
+
+
+def test_what_the_stage_reports_is_said_in_both_languages(
+    words: Any, robot: Robot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stage = Stage(words, None, robot, motions=MOTIONS, limits=LIMITS)
+    try:
+        with monkeypatch.context() as patched:
+            patched.setattr(Stage, "moving", True)
+            with pytest.raises(InvalidArgument, match="until the robot rests") as refused:
+                stage.renew()
+        assert with_phrases({"text": phrase_of(refused.value)})["phrases"]["text"]["code"] == "wait_for_rest"
+        published: queue.Queue[dict[str, Any]] = queue.Queue()
+        stage.publish = published.put
+        stage._report_failure(SimpleNamespace(failure="the disk is full"))  # type: ignore[arg-type]
+        note = with_phrases(published.get(timeout=WAIT_S))
+        assert note["text"] == "The session was not recorded: the disk is full"
+        assert note["phrases"]["text"]["code"] == "not_recorded"
+    finally:
+        stage.close()
+
+
+def test_what_a_page_may_have_missed_is_numbered(words: Any, robot: Robot) -> None:
+    stage = Stage(words, None, robot, motions=MOTIONS, limits=LIMITS)
+    published: queue.Queue[dict[str, Any]] = queue.Queue()
+    stage.publish = published.put
+    try:
+        for text in ("one", "two", "three"):
+            stage._report(text)
+        log = stage.welcome()["log"]
+        numbers = [message["log_number"] for message in log]
+        assert numbers == list(range(numbers[0], numbers[0] + 3))
+        assert [published.get(timeout=WAIT_S)["log_number"] for _ in log] == numbers
     finally:
         stage.close()

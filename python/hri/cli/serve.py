@@ -102,6 +102,8 @@ def serve(
         import_optional(module, "web", "to serve the page")
     from hri.serve import PageServer, Stage
 
+    if voice is not None:
+        speak_words({voice: {"1": "1"}}, num_speakers=1)  # refuses one that espeak-ng does not have
     options = chosen.session_options(retry_s=0.2)
     words = None if chosen.no_speech else chosen.load_words()
     signs = None if chosen.no_gesture else chosen.load_signs()

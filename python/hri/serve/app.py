@@ -19,7 +19,6 @@ from starlette.responses import JSONResponse, PlainTextResponse, RedirectRespons
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
-from hri.core.errors import InvalidArgument
 from hri.core.files import write_bytes
 from hri.core.phrases import phrase
 from hri.io import ModelFile, model_as_cpp, model_as_json
@@ -182,7 +181,8 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
             return PlainTextResponse(f"There is no recogniser of {name}.", 404, _HEADERS)
         kind, content = _FORMS[form]
         attached = {"Content-Disposition": f'attachment; filename="{name}.{form}"'}
-        return Response(content(recognizer.to_model_file(), name), media_type=kind, headers=_HEADERS | attached)
+        made = await asyncio.to_thread(lambda: content(recognizer.to_model_file(), name))  # STOP does not wait for it
+        return Response(made, media_type=kind, headers=_HEADERS | attached)
 
     async def samples(request: Request) -> Response:
         """What words were added by, and what synthetic voices said: a model with added words is trained anew on it."""
@@ -191,10 +191,7 @@ def make_app(stage: Stage, token: str, port: int) -> Starlette:
         rows = teaching.words.samples() if isinstance(teaching.words, CommandWordTeacher) else []
         if not rows:
             return PlainTextResponse("No word was added to those of commands.", 404, _HEADERS)
-        try:
-            content = await asyncio.to_thread(samples_zip, rows)
-        except InvalidArgument as error:
-            return PlainTextResponse(str(error), 409, _HEADERS)
+        content = await asyncio.to_thread(samples_zip, rows)
         attached = {"Content-Disposition": 'attachment; filename="samples.zip"'}
         return Response(content, media_type="application/zip", headers=_HEADERS | attached)
 

@@ -17,7 +17,7 @@ import numpy as np
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from hri.core.errors import FormatError
-from hri.core.phrases import phrase, phrase_of
+from hri.core.phrases import Phrase, phrase, phrase_of
 from hri.live.events import STALL
 from hri.serve.limits import RateLimit
 from hri.serve.messages import SOUND, read_command, read_media, with_phrases
@@ -28,7 +28,10 @@ from hri.session.voice import VOICE_END
 
 TOO_LARGE = 1009
 REFUSED = 1008
+NO_PAGE = 4400
+LATE = 4408
 TAKEN = 4409
+BAD_RATE = 4415
 _ELSEWHERE = "Another page uses the robot now. Close it first."
 _FIGURE_S = 0.12
 _REPEAT_S = 2.0
@@ -111,26 +114,32 @@ class Reception:
             hello = read_command(first, self.stage.limits)
             if hello["type"] != "hello":
                 raise FormatError("a page begins with hello")
-        except (TimeoutError, FormatError, KeyError):
-            log.warning("a connection that did not begin as the page does was closed")
-            await socket.close(REFUSED, "this is no page of hri serve")
+        except TimeoutError:  # the computer may be busy: the page tries again
+            log.warning("a connection that sent nothing was closed")
+            await _close(socket, LATE, "nothing came in time")
+            return
+        except (FormatError, KeyError) as error:
+            why = phrase_of(error) if isinstance(error, FormatError) else "it sent bytes"
+            log.warning("a connection that did not begin as the page does was closed: %s", why)
+            of_rate = isinstance(why, Phrase) and why.code == "rate_unusable"
+            await _close(socket, BAD_RATE if of_rate else NO_PAGE, "this is no page of hri serve")
             return
         except WebSocketDisconnect:
             return
         page = str(hello.get("page", ""))
         if self.current is not None and (not page or page != self.current.page):
             log.warning("a second page was refused: the camera and the robot serve another one")
-            await socket.close(TAKEN, _ELSEWHERE)
+            await _close(socket, TAKEN, _ELSEWHERE)
             return
         await self._serve(Connection(socket, self.stage, self.teaching, page, hello))
 
     async def _serve(self, connection: Connection) -> None:
         before, self.current = self.current, connection
-        if before is not None:  # the same page, which has lost that connection before we did, or stands in two windows
-            await before.dismiss(TAKEN, _ELSEWHERE)
-        else:
-            self.stage.arrive()
         try:
+            if before is not None:  # the same page, which has lost that connection before we did, or is in two windows
+                await before.dismiss(TAKEN, _ELSEWHERE)
+            else:
+                self.stage.arrive()
             await connection.run()
         finally:
             if self.current is connection:
@@ -189,8 +198,7 @@ class Connection:
     async def dismiss(self, code: int, reason: str) -> None:
         """End, and say why."""
         await self.end()
-        with suppress(RuntimeError):  # it is closed already
-            await self._socket.close(code, reason)
+        await _close(self._socket, code, reason)
 
     def complain(self, text: str) -> None:
         """On the page and on the terminal, the same at most every two seconds."""
@@ -221,7 +229,7 @@ class Connection:
                 continue
             if not self._messages.take():
                 log.warning("a page that sent too many messages was sent away")
-                await self._socket.close(REFUSED, "This page sent too many messages.")
+                await _close(self._socket, REFUSED, "This page sent too many messages.")
                 return
             if command is not None:
                 self._obey(command)
@@ -279,3 +287,9 @@ class Connection:
                 self.outbox.put({"passing": True, **(now or {})})
                 before = now
             await asyncio.sleep(_FIGURE_S)
+
+
+async def _close(socket: WebSocket, code: int, reason: str) -> None:
+    """Close a socket, which may be closed already, or have gone this moment."""
+    with suppress(RuntimeError, WebSocketDisconnect):
+        await socket.close(code, reason)

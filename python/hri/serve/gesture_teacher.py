@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import Error, FormatError
+from hri.core.errors import FormatError
 from hri.core.phrases import phrase, phrase_of
 from hri.live import FrameSource, Stalled, events, frame_results
 from hri.live.frames import Frame, TimedFrame
@@ -25,7 +25,7 @@ from hri.serve.clips import read_clip
 from hri.serve.devices import PageCamera
 from hri.serve.messages import Media
 from hri.serve.stage import Stage
-from hri.serve.teacher import NUM_SAMPLES, STOPPED, Teacher
+from hri.serve.teacher import NUM_SAMPLES, STOPPED, Teacher, detail_of
 
 LONGEST_S = 10.0
 PAUSE_S = 2.5
@@ -77,20 +77,25 @@ class GestureTeacher(Teacher):
         name : str
             The file's name as the person knows it.
         """
-        refused = self._refusal() or self._unnamed()
+        refused = self._refusal() or self._unnamed() or self._complete()
         if refused:
             return refused
         self._busy.acquire()
         with self._working():
             try:
                 refused = self._keep(read_clip(path, name, self._stage.limits))
-            except Error as error:
-                refused = phrase_of(error)
+            except Exception as error:  # else the page hears nothing of it
+                refused = detail_of(error)
         if refused:
             if not refused.startswith(f"{name}: "):
                 refused = phrase("of_file", name=name, why=refused)
             self._answer(refused)
         return refused
+
+    def _complete(self) -> str:
+        """Why no sample more is taken, where adding by those that are there has failed; else ""."""
+        complete = len(self._samples) == NUM_SAMPLES
+        return phrase("samples_complete", label=self._label, most=NUM_SAMPLES) if complete else ""
 
     def _labels(self) -> list[str] | None:
         return None if self._stage.gestures is None else [str(label) for label in self._signs.classes_]
@@ -108,6 +113,10 @@ class GestureTeacher(Teacher):
         self._stage.only_stop(LONGEST_S + PAUSE_S)
         self._answer(_DYNAMIC if self._signs.is_dynamic else _HELD, recording=True)
         self._in_background(self._record)
+
+    @property
+    def _is_recording(self) -> bool:
+        return self._recording
 
     def _end_sample(self) -> bool:
         recording, self._recording = self._recording, False

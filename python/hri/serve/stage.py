@@ -31,7 +31,7 @@ from hri.serve.messages import with_phrases
 from hri.serve.recordings import Recording, Spoken, require_recordings_of
 from hri.serve.seen import SeenHands
 from hri.serve.voice import PageVoice
-from hri.serve.welcome import sentences_of
+from hri.serve.welcome import known_by, learns_gestures, sentences_of
 from hri.session import Session, SessionOptions, SessionRecorder, Voice
 from hri.session.dialogue import ACTING, IDLE, STOPPED
 from hri.session.live import PASSING
@@ -98,6 +98,8 @@ class Stage:
         Gets messages for the page, by several threads; it must not wait.
     on_stop : callable
         Called on STOP by whatever way, by several threads; it must not wait.
+    teaching_state : callable
+        Gives how far words and gestures are that are being added, by mode.
     page_voice : PageVoice
         What the page says aloud.
     """
@@ -137,6 +139,7 @@ class Stage:
         self.page_voice = PageVoice(self.limits.voice_s)
         self.publish: Publish = lambda message: None
         self.on_stop: Callable[[], None] = lambda: None
+        self.teaching_state: Callable[[], dict[str, Any]] = dict
         self._robot = robot
         self._options = options or SessionOptions(retry_s=0.2)
         self._model_ids = dict(model_ids or {})
@@ -145,6 +148,8 @@ class Stage:
         self._voice, self._record = voice, record
         self._session = self._made()
         self._log: deque[dict[str, Any]] = deque(maxlen=_MOST_KEPT)
+        self._num_logged = time.time_ns() // 1_000_000  # above all numbers of a server before this one
+        self._logging = threading.Lock()
         self._state = IDLE
         self._imitating = False
         self._begun_s = 0.0
@@ -255,24 +260,19 @@ class Stage:
             "type": "welcome",
             "state": self._state,
             "has_samples": self.recordings is not None and self.vocabulary is not self._first_vocabulary,
-            "speech": self.words is not None,
-            "gesture": self.signs is not None,
+            **known_by(self.words, self.signs),
             "teach": [
-                mode for mode, one in (("speech", self.vocabulary), ("gesture", self.gestures)) if one is not None
+                *(["speech"] if self.vocabulary is not None else []),
+                *(["gesture"] if learns_gestures(self.gestures) else []),
             ],
-            "grammar": None if self.grammar is None else self.grammar.text,
-            "made_of": [str(label) for label in self.words.words.classes_]
-            if isinstance(self.words, CommandRecognizer)
-            else [],
+            "teaching": self.teaching_state(),
             "sentences": sentences_of(self._options, self.signs, self._knowledge),
             "imitate": list(self._imitated),
             "imitating": self._imitating,
             "robot": self._robot.table.name if self._robot is not None else "",
-            "words": [] if self.words is None else [str(label) for label in self.words.classes_],
-            "signs": [] if self.signs is None else [str(label) for label in self.signs.classes_],
             "motions": sorted(self._session.motions),
             "refused": self._session.refused,
-            "log": [with_phrases(message) for message in self._log],
+            "log": [with_phrases(message) for message in self._log.copy()],
         }
 
     @property
@@ -317,7 +317,7 @@ class Stage:
             While the robot moves.
         """
         if self.moving:
-            raise InvalidArgument("wait until the robot rests")
+            raise InvalidArgument(phrase("wait_for_rest"))
         self._session = self._made()
         self.publish(self.welcome())
 
@@ -340,15 +340,21 @@ class Stage:
         self.publish({"type": "error", "text": text})
 
     def _report(self, text: str) -> None:
-        message = {"type": "note", "text": text}
-        self._log.append(message)
-        self.publish(message)
+        self.publish(self._logged({"type": "note", "text": text}))
+
+    def _logged(self, message: dict[str, Any]) -> dict[str, Any]:
+        """Keep a message for pages that come; by its running number they know what they have."""
+        with self._logging:
+            self._num_logged += 1
+            message["log_number"] = self._num_logged
+            self._log.append(message)
+        return message
 
     def _report_failure(self, recorder: SessionRecorder | None) -> None:
         """Why a session was not recorded, if so."""
         failure = getattr(recorder, "failure", "")
         if failure:
-            self._report(f"The session was not recorded: {failure}")
+            self._report(phrase("not_recorded", detail=failure))
 
     def _free(self) -> None:
         """Let the robot move again; STOP wins when both come at once."""
@@ -438,6 +444,4 @@ class Stage:
             message["aloud"] = self._session.aloud(event.fields["text"])
         if event.event == SENTENCE and self._knowledge is not None:
             message["max_distance"] = self._knowledge.max_distance
-        if event.event in _LOGGED:
-            self._log.append(message)
-        self.publish(message)
+        self.publish(self._logged(message) if event.event in _LOGGED else message)

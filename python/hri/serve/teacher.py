@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 import time
 from abc import ABC, abstractmethod
@@ -25,6 +26,8 @@ _WAIT_S = 0.1
 _MOVES = phrase("counts_at_rest")
 STOPPED = phrase("sample_stopped")
 
+log = logging.getLogger("hri.serve")
+
 
 class Teacher(ABC):
     """Adds labels to a recogniser of a stage.
@@ -43,6 +46,7 @@ class Teacher(ABC):
         self._label = ""
         self._full = ""
         self._samples: list[Any] = []
+        self._likes: list[str] = []
         self._alike: Counter[str] = Counter()
         self._added: dict[str, list[Any]] = {}
         self._busy = threading.Lock()
@@ -60,15 +64,28 @@ class Teacher(ABC):
             unnamed = self._unnamed()
             if unnamed:
                 self._answer(unnamed)
+            elif len(self._samples) == NUM_SAMPLES:
+                self._in_background(self._add_kept)  # which has failed before
             else:
                 self._sample()
         elif command["type"] == "undo":
             self._in_background(self._undo)
 
+    def state(self) -> dict[str, Any]:
+        """How far it is, for a page that comes: name and samples of what is being added, and what was added here."""
+        return {
+            "label": self._label,
+            "samples": len(self._samples),
+            "wanted": NUM_SAMPLES,
+            "added": list(self._added),
+            "recording": self._is_recording,
+            "busy": self._busy.locked(),
+        }
+
     def forget(self) -> None:
         """The page is gone: the samples of what is not added yet are dropped."""
         self._label = self._full = ""
-        self._samples = []
+        self._samples, self._likes = [], []
         self._alike.clear()
 
     def interrupt(self) -> None:
@@ -87,6 +104,11 @@ class Teacher(ABC):
     @abstractmethod
     def _sample(self) -> None:
         """Begin to take a sample."""
+
+    @property
+    @abstractmethod
+    def _is_recording(self) -> bool:
+        """Whether a sample is being taken."""
 
     @abstractmethod
     def _end_sample(self) -> bool:
@@ -118,10 +140,10 @@ class Teacher(ABC):
         return phrase("wait_until_added", noun=phrase("sample"))
 
     def _begin(self, label: str) -> None:
-        self.forget()
         if label in (self._labels() or ()):
             self._answer(phrase("already_known", label=label, noun=self.noun))
             return
+        self.forget()
         self._label = label
         self._answer(self._prompt(label))
 
@@ -147,21 +169,29 @@ class Teacher(ABC):
         if not self._label:  # the page is gone
             return
         self._samples.append(sample)
-        if alike:
-            self._alike[alike] += 1
+        self._likes.append(alike)
         if len(self._samples) < NUM_SAMPLES:
             values = {"number": len(self._samples), "most": NUM_SAMPLES}
             self._answer(phrase(self.alike_code, label=alike, **values) if alike else phrase("sample_of", **values))
             return
-        label, samples = self._label, self._samples
+        self._add_kept()
+
+    def _add_kept(self) -> None:
+        """Add the label by its samples; where that fails both stay, and Record tries it once more."""
+        label, samples, likes = self._label, self._samples, self._likes
+        self._alike.clear()
         try:
             self._add(label, samples)
-        finally:
-            likened = Counter(self._alike)
-            self.forget()
+        except Exception as error:  # whatever it is: the samples cost the person more than another try
+            self._answer(phrase("adding_failed", label=label, detail=detail_of(error)))
+            return
+        likened = Counter(like for like in likes if like) + self._alike
+        self.forget()
         self._full = label
-        mistaken = self._mistaken(label, samples)
-        self._added[label] = samples
+        try:
+            mistaken = self._mistaken(label, samples)
+        finally:
+            self._added[label] = samples  # it can be undone, whatever else fails
         self._renew()
         moves = label in self._stage.session.motions
         more = [] if moves or label not in load_gestures() else [phrase("cannot_move_so")]
@@ -169,7 +199,7 @@ class Teacher(ABC):
         confused = [{"label": one, "samples": likened[one], "samples_of_other": mistaken[one]} for one in labels]
         more = [*self._warning(labels), *more, *self._advice()]
         text = phrase("added_with", first=phrase("added", label=label), more=more)
-        self._answer(text, added=list(self._added), confused=confused)
+        self._answer(text, confused=confused)
 
     def _advice(self) -> list[Phrase]:
         """What is to be done after adding."""
@@ -193,15 +223,29 @@ class Teacher(ABC):
         return [phrase("may_be_confused", others=others, noun=self.noun)]
 
     def _undo(self) -> None:
-        if not self._added:
+        """Take back what came last: a sample that is recorded, one that is kept, a name, or what was added."""
+        label, samples, likes = self._label, self._samples, self._likes
+        if self._end_sample():
+            self._answer(phrase("recording_ended"))
+        elif samples:
+            samples.pop()
+            likes.pop()
+            self._answer(phrase("sample_taken_back", label=label, number=len(samples), most=NUM_SAMPLES))
+        elif label:
+            self.forget()
+            self._answer(phrase("name_taken_back", label=label))
+        elif self._added:
+            self._remove_last()
+        else:
             self._answer(phrase("nothing_to_undo"))
-            return
+
+    def _remove_last(self) -> None:
         self.forget()
         label = next(reversed(self._added))
         self._remove(label)
         del self._added[label]
         self._renew()
-        self._answer(phrase("removed", label=label), added=list(self._added), confused=[])
+        self._answer(phrase("removed", label=label), confused=[])
 
     def _renew(self) -> None:
         """Begin a new session as soon as the robot rests: commands count while something is learned."""
@@ -218,8 +262,8 @@ class Teacher(ABC):
             with self._working():
                 try:
                     work()
-                except Error as error:
-                    self._answer(phrase("did_not_work", detail=phrase_of(error)))
+                except Exception as error:  # else the page waits for ever
+                    self._answer(phrase("did_not_work", detail=detail_of(error)))
 
         threading.Thread(target=run, daemon=True, name=f"hri-teach-{self.mode}").start()
 
@@ -238,8 +282,16 @@ class Teacher(ABC):
 
     def _answer(self, text: str, recording: bool = False, **more: Any) -> None:
         message = {"type": "teach", "mode": self.mode, "text": text, "label": self._label, "recording": recording}
-        message |= {"samples": len(self._samples), "wanted": NUM_SAMPLES, **more}
+        message |= {"samples": len(self._samples), "wanted": NUM_SAMPLES, "added": list(self._added), **more}
         if threading.get_ident() == self._worker and "progress" not in more:
             self._last = message
         else:
             self._stage.publish(message)
+
+
+def detail_of(error: Exception) -> str:
+    """What an error says, for the page; one that was not foreseen is logged whole."""
+    if isinstance(error, Error):
+        return phrase_of(error)
+    log.error("a word or a gesture could not be added", exc_info=error)
+    return f"{type(error).__name__}: {error}"

@@ -31,10 +31,15 @@ class Teaching:
         self.gestures = GestureTeacher(stage)
         self._teachers: dict[str, Teacher] = {one.mode: one for one in (self.words, self.gestures)}
         stage.on_stop = self.interrupt
+        stage.teaching_state = self.state
 
     def obey(self, command: dict[str, Any]) -> None:
         """A command of the page with its "mode"."""
         self._teachers[command["mode"]].obey(command)
+
+    def state(self) -> dict[str, Any]:
+        """How far each is, by its mode."""
+        return {mode: teacher.state() for mode, teacher in self._teachers.items()}
 
     def interrupt(self) -> None:
         """STOP: a sample that is being taken is not kept; by any thread."""

@@ -79,6 +79,10 @@ class SpokenTeacher(Teacher):
             self._parts, self._num_heard = [], 0
             self._answer(phrase("speak_now"), recording=True)
 
+    @property
+    def _is_recording(self) -> bool:
+        return self._parts is not None
+
     def _end_sample(self) -> bool:
         parts, self._parts = self._parts, None
         if parts is not None:

@@ -4,6 +4,7 @@
 import { phrase } from "./phrases.js";
 
 const RATE_HZ = 16000;
+const MOST_HZ = 48000; // that the server takes
 const FPS = 15;
 const WIDTH_PX = 480;
 const QUALITY = 0.85;
@@ -25,28 +26,41 @@ async function media(constraints) {
   return navigator.mediaDevices.getUserMedia(constraints);
 }
 
-// The rate at which samples will come; onSamples gets an ArrayBuffer of 16-bit samples, onEnd is called when the
-// microphone is unplugged.
+// The rate at which samples will come, and what gives the microphone back; onSamples gets an ArrayBuffer of 16-bit
+// samples, onEnd is called when the microphone is unplugged.
 export async function openMicrophone(onSamples, onEnd) {
   // The page's own voice is taken out of the sound where the browser can: else a STOP over it is lost.
   const processing = { echoCancellation: true, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
   const stream = await media({ audio: processing });
   let context = new AudioContext({ sampleRate: RATE_HZ });
-  let source;
+  const close = () => giveBack(stream, context);
   try {
-    source = context.createMediaStreamSource(stream);
-  } catch { // a browser that does not convert rates: the server does
-    await context.close();
-    context = new AudioContext();
-    source = context.createMediaStreamSource(stream);
+    let source;
+    try {
+      source = context.createMediaStreamSource(stream);
+    } catch { // a browser that does not convert rates: the server does
+      await context.close();
+      context = new AudioContext();
+      source = context.createMediaStreamSource(stream);
+    }
+    await context.audioWorklet.addModule("sound.js");
+    const step = Math.ceil(context.sampleRate / MOST_HZ);
+    const oneChannel = { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" };
+    const sender = new AudioWorkletNode(context, "sender", { ...oneChannel, processorOptions: { step } });
+    sender.port.onmessage = (message) => onSamples(message.data);
+    source.connect(sender);
+    await context.resume();
+    stream.getAudioTracks()[0].onended = onEnd;
+    return { rate: Math.round(context.sampleRate / step), close, keep: [stream, source, sender] };
+  } catch (error) {
+    close();
+    throw error;
   }
-  await context.audioWorklet.addModule("sound.js");
-  const sender = new AudioWorkletNode(context, "sender", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
-  sender.port.onmessage = (message) => onSamples(message.data);
-  source.connect(sender);
-  await context.resume();
-  stream.getAudioTracks()[0].onended = onEnd;
-  return { rate: context.sampleRate, name: stream.getAudioTracks()[0].label, keep: [stream, source, sender] };
+}
+
+function giveBack(stream, context = null) {
+  stream.getTracks().forEach((track) => track.stop());
+  if (context && context.state !== "closed") context.close();
 }
 
 // What is shown, as a JPEG and when it was taken, some times a second until the answer is called; a picture that is still
@@ -73,11 +87,17 @@ export function takePictures(source, size, onPicture) {
 
 export const sizeOf = (video) => () => (video.readyState < 2 ? null : [video.videoWidth, video.videoHeight]);
 
+// What gives the camera back; onEnd is called when it is unplugged.
 export async function openCamera(video, onPicture, onEnd) {
   const stream = await media({ video: { width: { ideal: 640 }, height: { ideal: 480 }, frameRate: { ideal: 30 } } });
-  video.srcObject = stream;
-  await video.play();
+  try {
+    video.srcObject = stream;
+    await video.play();
+  } catch (error) {
+    giveBack(stream);
+    throw error;
+  }
   const end = takePictures(video, sizeOf(video), onPicture);
-  stream.getVideoTracks()[0].onended = () => { end(); onEnd(); };
-  return { name: stream.getVideoTracks()[0].label };
+  stream.getVideoTracks()[0].onended = onEnd;
+  return { close: () => { end(); giveBack(stream); } };
 }

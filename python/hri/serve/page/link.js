@@ -4,9 +4,10 @@
 const SOUND = 1;
 const PICTURE = 2;
 const MOST_WAITING_BYTES = 200000;
-const TAKEN = 4409;
-const SENT_AWAY = new Set([1008, TAKEN]);
+// Final ones, by the code of the close.
+const REFUSALS = { 1008: "sent_away", 4400: "hello_refused", 4409: "elsewhere", 4415: "rate_refused" };
 const LONGEST_PAUSE_MS = 5000;
+const STOP_MS = 1500;
 
 export class Link {
   constructor(onMessage, onState) {
@@ -30,7 +31,7 @@ export class Link {
     };
     socket.onclose = (closed) => {
       if (socket !== this.socket) return;
-      if (SENT_AWAY.has(closed.code)) return this.onState("refused", closed.code === TAKEN ? "elsewhere" : "sent_away");
+      if (closed.code in REFUSALS) return this.onState("refused", REFUSALS[closed.code]);
       this.onState("lost", closed.code === 1009 ? "line_lost_large" : "line_lost");
       this.timer = setTimeout(() => this.open(), this.pause);
       this.pause = Math.min(2 * this.pause, LONGEST_PAUSE_MS);
@@ -45,10 +46,11 @@ export class Link {
     if (this.isOpen) this.socket.send(JSON.stringify(command));
   }
 
-  // STOP goes by two ways: the line may be lost, or full.
+  // STOP goes by two ways: the line may be lost, or full. Whether it has arrived; a server that hangs does not answer.
   stop() {
     this.say({ type: "stop" });
-    return fetch("stop", { method: "POST" }).then((answer) => answer.ok, () => false);
+    const signal = AbortSignal.timeout?.(STOP_MS);
+    return fetch("stop", { method: "POST", signal }).then((answer) => answer.ok, () => false);
   }
 
   sound(samples) {

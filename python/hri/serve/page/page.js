@@ -32,9 +32,13 @@ offerLanguages(at("language"), () => voice.offer());
 const voice = new RobotVoice(at("voice"), link, () => !player.sounds);
 const panels = new Map([...document.querySelectorAll("[data-teach]")].map((s) => [s.dataset.teach, new TeachPanel(s, link)]));
 const knows = { speech: false, gesture: false };
+const opened = { microphone: null, camera: null };
+let starting = false;
 let measured = [];
+let known = "disconnected"; // the last state that the server has reported
 
 function showState(name) {
+  if (name !== "stopping") known = name;
   if (name === "disconnected") {
     imitation.show(false);
     missing.show();
@@ -60,7 +64,7 @@ function problem(said, key = "") {
 function connection(is, why) {
   if (is === "connecting") return;
   showState("disconnected");
-  problem(phrase(why), "line");
+  problem(phrase(why, { rate: link.rate }), "line");
 }
 
 // From taking the picture that a decision rests on to the next picture of this page that shows it.
@@ -113,21 +117,24 @@ function heedEvent(event) {
     at("decided").textContent = decided(event);
     put(at("rule"), reason(event));
   }
-  conversation.heed(event);
+  conversation.take(event);
 }
 
 function heedWelcome(message) {
   Object.assign(knows, { speech: message.speech, gesture: message.gesture });
   player.knows = knows;
+  offerStart();
   problem("", "line");
   missing.show();
   showState(message.state);
-  panels.forEach((panel, mode) => (panel.section.hidden = !message.teach.includes(mode)));
+  panels.forEach((panel, mode) => {
+    panel.section.hidden = !message.teach.includes(mode);
+    panel.reset(message.teaching[mode]);
+  });
   commands.show(message.grammar);
   at("word-samples").hidden = !message.has_samples;
   imitation.offer(message.imitate.length > 0, message.imitating);
-  conversation.clear();
-  message.log.forEach((one) => (one.type === "event" ? conversation.heed(one) : conversation.write(phraseOf(one, "text"), "note")));
+  conversation.catchUp(message.log);
   showVocabulary(at("vocabulary"), message);
 }
 
@@ -140,16 +147,19 @@ function heed(message) {
   else if (message.type === "teach") panels.get(message.mode)?.heed(message);
   else {
     problem(phraseOf(message, "text"));
-    conversation.write(phraseOf(message, "text"), message.type);
+    conversation.take(message);
   }
 }
 
+// What is open stays as it is: opened once more, a microphone would be sent twice.
 async function start() {
-  at("start").disabled = true;
+  starting = true;
+  offerStart();
   const failed = [];
-  if (knows.speech) {
+  if (knows.speech && !opened.microphone) {
     try {
-      const microphone = await openMicrophone((samples) => !player.sounds && link.sound(samples), () => lost("microphone"));
+      const heard = (samples) => !player.sounds && link.sound(samples);
+      const microphone = (opened.microphone = await openMicrophone(heard, () => lost("microphone")));
       problem("", "microphone");
       put(at("level-label"), phrase("microphone_on"));
       if (microphone.rate !== link.rate) {
@@ -160,9 +170,10 @@ async function start() {
       failed.push(["microphone", error]);
     }
   }
-  if (knows.gesture) {
+  if (knows.gesture && !opened.camera) {
     try {
-      await openCamera(at("camera"), (blob, takenMs) => !player.shows && link.picture(blob, takenMs), () => lost("camera"));
+      const seen = (blob, takenMs) => !player.shows && link.picture(blob, takenMs);
+      opened.camera = await openCamera(at("camera"), seen, () => lost("camera"));
       problem("", "camera");
       put(at("camera-line"), phrase("camera_on"));
       imitation.see(true);
@@ -171,23 +182,36 @@ async function start() {
     }
   }
   failed.forEach(([what, error]) => problem(whatIsWrong(error, what), what));
-  at("start").disabled = failed.length === 0;
+  starting = false;
+  offerStart();
+}
+
+// Before the welcome it is not known which devices are wanted.
+function offerStart() {
+  const wanted = (knows.speech && !opened.microphone) || (knows.gesture && !opened.camera);
+  at("start").disabled = starting || !wanted;
 }
 
 function lost(what) {
+  opened[what]?.close();
+  opened[what] = null;
   if (what === "camera") {
+    put(at("camera-line"), phrase("camera_off"));
     imitation.see(false);
     missing.show();
+  } else {
+    put(at("level-label"), phrase("microphone_off"));
   }
   problem(phrase("unplugged", { device: phrase(what) }), what);
-  at("start").disabled = false;
+  offerStart();
 }
 
 async function stop() {
   voice.hush();
   player.halt();
-  showState("stopped");
+  showState("stopping");
   const heard = await link.stop();
+  if (at("state").dataset.state === "stopping") showState(heard ? "stopped" : known); // unless an event was faster
   problem(heard ? "" : phrase("stop_lost"), "stop");
 }
 
