@@ -143,6 +143,9 @@ def test_copy_takes_labels_along(hri, sounds: Path):
     ):
         refused = hri("htk", "copy", "-C", "config", "-L", "labels", *option, "one.wav", "no.mfc")
         assert refused.code == 3 and message in refused.err and not Path("no.mfc").exists()
+    Path("labels/one.lab").write_text("0 0 word\n")
+    refused = hri("htk", "copy", "-C", "config", "-L", "labels", "-x", "word", "one.wav", "no.mfc")
+    assert refused.code == 3 and "line 1: the label 'word' ends where it begins" in refused.err
     assert hri("htk", "copy", "-C", "config", "one.wav", "+", "no.mfc").code == 2
     refused = hri("htk", "copy", "-C", "config", "-F", "HTK", "one.wav", "no.mfc")
     assert refused.code == 3 and "one.wav: is a WAV file, which SOURCEFORMAT = WAV, or -F WAV, reads" in refused.err

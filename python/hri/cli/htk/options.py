@@ -242,8 +242,8 @@ def labelled_entries(master: MasterLabelFile, path: str) -> list[tuple[str, Tran
     ------
     FormatError
     """
-    for pattern in master.folder_patterns:
-        raise FormatError(f"{path}: {pattern!r} names a folder; labels have to stand here")
+    if master.folder_patterns:
+        raise FormatError(f"{path}: {master.folder_patterns[0]!r} names a folder; labels have to stand here")
     return master.entries
 
 

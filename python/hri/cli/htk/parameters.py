@@ -210,6 +210,8 @@ def _span(
     begin, end = wanted[0].first, wanted[-1].last
     if begin is None or end is None:
         raise FormatError(f"{where}: line {wanted[0].line}: the label {wanted[0].name!r} has no times")
+    if end + margin <= 0.0:  # which would mean the end of the recording
+        raise FormatError(f"{where}: line {wanted[-1].line}: the label {wanted[-1].name!r} ends where it begins, at 0")
     return max(0.0, begin - margin), end + margin
 
 
