@@ -4,8 +4,8 @@
 
 The names below are loaded on first use, so that ``import hri`` pulls in neither OpenCV nor PyBullet. The rooms are
 `hri.signal`, `hri.features`, `hri.models`, `hri.language`, `hri.htk`, `hri.vision`, `hri.recognition`, `hri.io` (as in
-C++), and `hri.media`, `hri.datasets`, `hri.synthetic`, `hri.evaluation`, `hri.fusion`, `hri.live`, `hri.robot`,
-`hri.session`.
+C++), and `hri.media`, `hri.datasets`, `hri.synthetic`, `hri.training`, `hri.evaluation`, `hri.fusion`, `hri.live`,
+`hri.robot`, `hri.session`.
 """
 
 import logging
@@ -31,11 +31,11 @@ if TYPE_CHECKING:
         session,
         signal,
         synthetic,
+        training,
         vision,
     )
     from hri.datasets import Dataset
     from hri.evaluation import cross_validate
-    from hri.evaluation.training import train
     from hri.features import CepstraOptions, HandFeatureOptions
     from hri.fusion import FusedDecision
     from hri.fusion.fuse import fuse
@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from hri.robot import gesture_trajectory, open_robot, render_video
     from hri.session import Session
     from hri.signal import denoise
+    from hri.training.train import train
 else:
     from hri.core.lazy import loader
 
@@ -77,6 +78,7 @@ else:
         "session",
         "signal",
         "synthetic",
+        "training",
         "vision",
     )
     __getattr__ = loader(
@@ -84,7 +86,6 @@ else:
         {
             "hri.datasets": ("Dataset",),
             "hri.evaluation": ("cross_validate",),
-            "hri.evaluation.training": ("train",),
             "hri.features": ("CepstraOptions", "HandFeatureOptions"),
             "hri.fusion": ("FusedDecision", "fuse"),
             "hri.media": ("Audio", "Clip", "read_audio", "read_frames"),
@@ -106,6 +107,7 @@ else:
             "hri.robot": ("gesture_trajectory", "open_robot", "render_video"),
             "hri.session": ("Session",),
             "hri.signal": ("denoise",),
+            "hri.training": ("train",),
         },
         _ROOMS,
     )
@@ -170,5 +172,6 @@ __all__ = [
     "signal",
     "synthetic",
     "train",
+    "training",
     "vision",
 ]

@@ -40,6 +40,7 @@ PYTHON = {
     "recognition": {"core", "io", "media", "vision", "language", "htk"},
     "live": {"core", "io", "signal", "media", "datasets", "vision", "recognition"},
     "evaluation": {"core", "signal", "media", "datasets", "recognition"},
+    "training": {"core", "media", "datasets", "vision", "recognition", "evaluation"},
     "fusion": {"core", "io", "models", "recognition.decision"},
     "robot": {"core", "media"},
     "session": {"core", "media", "signal", "features", "vision", "recognition", "live", "fusion", "robot", "language"},

@@ -15,10 +15,10 @@ import pytest
 from numpy.typing import NDArray
 
 import hri
-from hri.cli import hand_source
 from hri.core.errors import FormatError, InvalidArgument
 from hri.live import ClipSource, Watcher
 from hri.recognition.gesture import recognizer as module
+from hri.training import hand_source
 from hri.vision import FaceFinder, FaceFinderOptions, HandFinder, PersonHands
 
 Frame = NDArray[np.uint8]

@@ -1,27 +1,23 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""``hri train speech --noise``: for a place where it is not quiet."""
+"""``hri train speech --noise`` and `hri.train`: for a place where it is not quiet."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import hri
 from hri.cli.main import main
-from hri.cli.noisy_copies import with_noisy_copies
 from hri.evaluation.noise import active_power
 from hri.io import write_wav_pcm16
-from hri.media import read_audio
+from hri.media import Audio, read_audio
 
 RATE_HZ = 16000
-
-
-def _quiet(*_: object) -> None:
-    """Progress that goes nowhere."""
 
 
 @pytest.fixture
@@ -33,39 +29,51 @@ def hum(tmp_path: Path) -> Path:
     return path
 
 
-def test_every_recording_gets_a_copy_in_noise_by_the_same_person(spoken: Path, hum: Path) -> None:
+@pytest.fixture
+def trained_on(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """The clips, labels and persons of the last training, which does not take place."""
+    given: list[Any] = []
+
+    def fit(self: hri.WordRecognizer, clips: list[Audio], labels: list[str], **more: Any) -> hri.WordRecognizer:
+        given[:] = [clips, labels, more["groups"]]
+        return self
+
+    monkeypatch.setattr(hri.WordRecognizer, "fit", fit)
+    return given
+
+
+def test_every_recording_gets_a_copy_in_noise_by_the_same_person(
+    spoken: Path, hum: Path, trained_on: list[Any]
+) -> None:
     dataset = hri.Dataset.load(spoken, "speech")
     number = len(dataset)
-    with with_noisy_copies(dataset, [str(hum)], 3, _quiet) as both:
-        assert both.samples[:number] == dataset.samples
-        copies = both.samples[number:]
-        assert [(c.label, c.person) for c in copies] == [(s.label, s.person) for s in dataset.samples]
-        ratios = []
-        for sample, copy in zip(dataset.samples, copies, strict=True):
-            clean, noisy = read_audio(sample.path), read_audio(copy.path)
-            assert noisy.sample_rate_hz == clean.sample_rate_hz and len(noisy.samples) == len(clean.samples)
-            scale = (noisy.samples @ clean.samples) / (clean.samples @ clean.samples)
-            noise = noisy.samples / scale - clean.samples
-            ratios.append(10 * np.log10(active_power(clean.samples, clean.sample_rate_hz) / np.mean(noise**2)))
-        assert -3 < min(ratios) < 6 and 14 < max(ratios) < 24  # dB, of 0 to 20
-        kept = [copy.path.read_bytes() for copy in copies]
-        folder = copies[0].path.parent
-    assert not folder.exists()
-    with with_noisy_copies(dataset, [str(hum)], 3, _quiet) as again:
-        assert [copy.path.read_bytes() for copy in again.samples[number:]] == kept
-    with with_noisy_copies(dataset, [], 3, _quiet) as same:
-        assert same is dataset
+    hri.train(dataset, hri.WordRecognizer(seed=3), noises=[str(hum)])
+    clips, labels, persons = (list(part) for part in trained_on)
+    assert labels == 2 * [s.label for s in dataset.samples] and persons == 2 * [s.person for s in dataset.samples]
+    ratios = []
+    for sample, clean, noisy in zip(dataset.samples, clips[:number], clips[number:], strict=True):
+        assert np.array_equal(clean.samples, read_audio(sample.path).samples)
+        assert noisy.sample_rate_hz == clean.sample_rate_hz and len(noisy.samples) == len(clean.samples)
+        noise = noisy.samples - clean.samples
+        ratios.append(10 * np.log10(active_power(clean.samples, clean.sample_rate_hz) / np.mean(noise**2)))
+    assert -3 < min(ratios) < 6 and 14 < max(ratios) < 24  # dB, of 0 to 20
+    hri.train(dataset, hri.WordRecognizer(seed=3), noises=[str(hum)])
+    assert all(np.array_equal(a.samples, b.samples) for a, b in zip(clips, trained_on[0], strict=True))
+    hri.train(dataset, hri.WordRecognizer(seed=4), noises=[str(hum)])
+    assert not np.array_equal(clips[number].samples, trained_on[0][number].samples)
+    hri.train(dataset, hri.WordRecognizer(seed=3))
+    assert len(trained_on[0]) == number
 
 
-def test_silence_in_a_noise_is_passed_over(spoken: Path, tmp_path: Path) -> None:
+def test_silence_in_a_noise_is_passed_over(spoken: Path, tmp_path: Path, trained_on: list[Any]) -> None:
     path = tmp_path / "pauses.wav"
     noise = np.zeros(4 * RATE_HZ, np.float32)
     noise[3 * RATE_HZ :] = 0.1 * np.random.default_rng(0).standard_normal(RATE_HZ)
     write_wav_pcm16(str(path), noise, RATE_HZ)
-    dataset = hri.Dataset.load(spoken, "speech")
-    with with_noisy_copies(dataset, [str(path)], 0, _quiet) as both:
-        for sample, copy in zip(dataset.samples, both.samples[len(dataset) :], strict=True):
-            assert np.abs(read_audio(copy.path).samples - read_audio(sample.path).samples).max() > 1e-3
+    hri.train(spoken, hri.WordRecognizer(), noises=[str(path)])
+    clips = trained_on[0]
+    for clean, noisy in zip(clips[: len(clips) // 2], clips[len(clips) // 2 :], strict=True):
+        assert np.abs(noisy.samples - clean.samples).max() > 1e-3
 
 
 def test_train_says_that_it_added_noise(
@@ -111,3 +119,19 @@ def test_what_is_no_noise_is_refused_before_training(
 def test_noise_is_for_speech(signed: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["train", "gesture", "--data", str(signed), "--noise", "white"]) != 0
     assert "--noise is for speech" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("noises", "complaint"),
+    [(["street.wav"], "noise street.wav is neither white nor pink nor a file"), ("white", "must be a sequence")],
+)
+def test_python_refuses_what_is_no_noise(spoken: Path, noises: Any, complaint: str, trained_on: list[Any]) -> None:
+    with pytest.raises(hri.InvalidArgument, match=complaint):
+        hri.train(spoken, hri.WordRecognizer(), noises=noises)
+    assert not trained_on
+
+
+@pytest.mark.parametrize("given", [{"noises": ["white"]}, {"fillers": []}])
+def test_what_is_for_words_is_refused_for_gestures(signed: Path, given: dict[str, Any]) -> None:
+    with pytest.raises(hri.InvalidArgument, match="for speech, the data set is gesture"):
+        hri.train(signed, **given)

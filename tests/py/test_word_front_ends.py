@@ -14,10 +14,10 @@ import pytest
 
 import hri as package
 from conftest import PERSONS, RATE_HZ, CommandResult, tone_word
-from hri.cli.choices import NETWORK_MIN_PERSONS
 from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition import SpeechEmbedding, embedding_weights
 from hri.recognition.word import embedding as module
+from hri.training import NETWORK_MIN_PERSONS, choose_options
 
 pytestmark = pytest.mark.usefixtures("few_fillers")
 SLOPES = {"1": 800.0, "2": -350.0}
@@ -197,6 +197,8 @@ def test_evaluate_measures_what_train_makes(
         made[command] = json.loads(report.read_text())["options"]
     assert made["train"] == made["evaluate"]
     assert made["train"]["front_end"] == ("both" if installed else "cepstra")
+    chosen = choose_options(package.Dataset.load(spoken)).options
+    assert chosen == ({"front_end": "both"} if installed else {"use_network": True}), "what Python chooses"
     two = hri("evaluate", "speech", "--data", spoken, "--train-persons", "2", "--front-end", "cepstra", *quick)
     assert two.code == 0 and "a network" not in two.err
     for flags in (("--network",), ("--front-end", "both")):

@@ -9,15 +9,10 @@ from typing import Any
 
 import click
 
-from hri.cli.hand_source import choose_source
-from hri.cli.recognizers import recognizer_factory, with_embedding
+from hri.cli.recognizers import parse_options, recognizer_factory, with_embedding
 from hri.datasets import Dataset
-from hri.recognition import WordRecognizer, WordRecognizerOptions, embedding_weights
-
-NETWORK_MIN_PERSONS = {"cepstra": 3, "both": 10, "embedding": 10}
-"""By front end, from how many on a network is trained unless asked otherwise: beside cepstra it gains much in noise
-even with three, beside the embedding little (`hri study fsdd-noise-network`); there it was measured again with
-twenty only."""
+from hri.recognition import WordRecognizerOptions
+from hri.training import choose_options
 
 Decorator = Callable[[Any], Any]
 
@@ -89,35 +84,20 @@ def asked_options(
 
 
 def chosen_options(
-    mode: str, options: tuple[str, ...], dataset: Dataset, num_persons: int, seed: int
+    options: tuple[str, ...], dataset: Dataset, num_persons: int | None = None
 ) -> tuple[tuple[str, ...], str]:
-    """`options`, and behind them what they leave open: by the extras that are installed, and the recordings.
+    """`options`, and behind them what they leave open, as `choose_options` says; and why gestures are of this source.
 
     Parameters
     ----------
-    mode, options, seed
-        As `recognizer_factory` takes them.
-    dataset : Dataset
-    num_persons : int
-        How many are trained on.
-
-    Returns
-    -------
-    (tuple of str, str)
-        The options, and why gestures are of this source; "" where that was asked for, and for speech.
+    options : tuple of str
+        NAME=VALUE texts.
+    dataset, num_persons
+        As of `choose_options`.
     """
-    if mode == "gesture":
-        if names(options, "source"):
-            return options, ""
-        source, why = choose_source(dataset)
-        return (*options, f"source={source}"), why
-    if not names(options, "front_end") and _has_embedding():
-        options = (*options, "front_end=both")
-    untrained = recognizer_factory(mode, options, seed)()
-    assert isinstance(untrained, WordRecognizer)
-    if not names(options, "use_network") and num_persons >= NETWORK_MIN_PERSONS[untrained.options.front_end]:
-        options = (*options, "use_network=true")
-    return options, ""
+    recognizer_factory(dataset.kind, options, seed=0)  # says of what is wrong with them that --option gave it
+    choice = choose_options(dataset, parse_options(options), num_persons=num_persons)
+    return (*options, *(f"{name}={value}" for name, value in choice.options.items())), choice.why
 
 
 def what_words_are_of(options: WordRecognizerOptions) -> list[str]:
@@ -133,11 +113,3 @@ def what_words_are_of(options: WordRecognizerOptions) -> list[str]:
     if options.use_network:
         lines.append("a network of the same words votes too; --no-network trains in a fraction of the time")
     return lines
-
-
-def _has_embedding() -> bool:
-    try:
-        embedding_weights()
-    except ImportError:
-        return False
-    return True

@@ -133,8 +133,7 @@ def evaluate(
     folder = data or train_dir
     assert folder is not None
     dataset = load_dataset(folder, mode, pattern)
-    num_persons = train_persons or len(dataset.persons)
-    options, why_source = chosen_options(mode, options, dataset, num_persons, seed)
+    options, why_source = chosen_options(options, dataset, train_persons)
     make = recognizer_factory(mode, options, seed)
     conditions: dict[str, Any] = {
         "seed": seed,

@@ -21,7 +21,6 @@ from hri.cli.choices import (
 from hri.cli.faces import faces_option
 from hri.cli.groups import CheckedCommand, is_given
 from hri.cli.messages import note
-from hri.cli.noisy_copies import check_noises, with_noisy_copies
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
@@ -34,9 +33,10 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
-from hri.evaluation.training import fillers_of
-from hri.evaluation.training import train as train_recognizer
+from hri.core.errors import InvalidArgument
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
+from hri.training import check_noises, fillers_of
+from hri.training import train as train_recognizer
 from hri.vision.faces import face_finder
 
 
@@ -109,7 +109,10 @@ def train(
         raise click.UsageError("--seed and --option seed=... exclude each other")
     if noises and mode != "speech":
         raise click.UsageError("--noise is for speech")
-    check_noises(noises)
+    try:
+        check_noises(noises)
+    except InvalidArgument as error:
+        raise click.UsageError(f"--{error}") from error
     options = asked_options(
         mode, options, front_end=front_end, embedding_path=embedding_path, network=network, source=source, hands=hands
     )
@@ -122,7 +125,7 @@ def train(
         if not names(options, "source"):
             options = (*options, "source=silhouettes")
     dataset = load_dataset(data, mode, pattern)
-    options, why_source = chosen_options(mode, options, dataset, len(dataset.persons), seed)
+    options, why_source = chosen_options(options, dataset)
     untrained = recognizer_factory(mode, options, seed)()
     embedding = embedding_for(untrained, embedding_path)
     others: list[FillerWord] | None = [] if no_fillers else None
@@ -134,8 +137,10 @@ def train(
         untrained.faces = faces
         if faces not in (None, "never"):
             face_finder(faces, required=True)  # refused now, not after all recordings
-    with progress_bars() as progress, with_noisy_copies(dataset, noises, seed, progress) as trained_on:
-        recognizer = train_recognizer(trained_on, untrained, fillers=others, embedding=embedding, progress=progress)
+    with progress_bars() as progress:
+        recognizer = train_recognizer(
+            dataset, untrained, fillers=others, embedding=embedding, noises=noises, progress=progress
+        )
     recognizer.save(path)
     say(str(path), json_path)
     persons = f", {len(dataset.persons)} persons" if dataset.persons else ""

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from hri.datasets import Dataset
 from hri.demo.corpus import Corpus, Progress
 from hri.evaluation import EvaluationItem, EvaluationResult, FoldResult
-from hri.evaluation.training import train
 from hri.recognition import GestureRecognizer, WordRecognizer
+from hri.training import train
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,8 @@ def train_both(corpus: Corpus, progress: Progress) -> Trained:
     def named(mode: str) -> Progress:
         return lambda what, done, total: progress(f"{mode}: {what}", done, total)
 
-    words = train(_only(corpus.spoken, set(voices) - out_words), progress=named("words"))
-    signs = train(_only(corpus.signed, set(signers) - out_signs), progress=named("signs"))
-    assert isinstance(words, WordRecognizer) and isinstance(signs, GestureRecognizer)
+    words = train(_only(corpus.spoken, set(voices) - out_words), WordRecognizer(), progress=named("words"))
+    signs = train(_only(corpus.signed, set(signers) - out_signs), GestureRecognizer(), progress=named("signs"))
     return Trained(
         words, signs, _test(_only(corpus.spoken, out_words), words), _test(_only(corpus.signed, out_signs), signs)
     )

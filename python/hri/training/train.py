@@ -8,10 +8,14 @@ from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import overload
 
+import numpy as np
+
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
 from hri.media import read_audio, read_frames
 from hri.recognition import FillerWord, GestureRecognizer, SpeechEmbedding, WordRecognizer
+from hri.training.choices import choose_options
+from hri.training.noisy_copies import check_noises, in_noise
 
 Progress = Callable[[str, int, int], None]
 
@@ -23,6 +27,7 @@ def train(
     *,
     fillers: Sequence[FillerWord] | None = None,
     embedding: SpeechEmbedding | None = None,
+    noises: Sequence[str] = (),
     progress: Progress | None = None,
 ) -> WordRecognizer: ...
 @overload
@@ -36,6 +41,7 @@ def train(
     *,
     fillers: Sequence[FillerWord] | None = None,
     embedding: SpeechEmbedding | None = None,
+    noises: Sequence[str] = (),
     progress: Progress | None = None,
 ) -> WordRecognizer | GestureRecognizer: ...
 def train(
@@ -44,6 +50,7 @@ def train(
     *,
     fillers: Sequence[FillerWord] | None = None,
     embedding: SpeechEmbedding | None = None,
+    noises: Sequence[str] = (),
     progress: Progress | None = None,
 ) -> WordRecognizer | GestureRecognizer:
     """Train on every recording of `dataset`.
@@ -54,11 +61,16 @@ def train(
         Or the folder of one, as `Dataset.load` reads it. Its kind decides what is trained; its persons are held out in
         turn to calibrate confidences.
     recognizer : WordRecognizer or GestureRecognizer, optional
-        One with options of its own, trained in place; default options otherwise.
+        One with options of its own, trained in place. Otherwise what ``hri train`` makes of these recordings: see
+        `choose_options`.
     fillers : sequence of FillerWord, optional
-        Words outside the vocabulary, as of `WordRecognizer.fit`.
+        For words: those outside the vocabulary, as of `WordRecognizer.fit`.
     embedding : SpeechEmbedding, optional
-        For words by the front ends "both" and "embedding", as of `WordRecognizer.fit`.
+        For words by the front ends "both" and "embedding", as of `WordRecognizer.fit`; without `recognizer` it asks
+        for the first of them.
+    noises : sequence of str, optional
+        For words: train on a copy of every recording in noise too, 0 to 20 dB below the word. Each is "white", "pink"
+        or, best, the path of a recording of the place where the recogniser is used; a copy takes one of them.
     progress : callable, optional
         Called with (what is being done, steps done, steps in all).
 
@@ -69,24 +81,39 @@ def train(
     Raises
     ------
     InvalidArgument
-        When `recognizer` is for the other mode, or training refuses the recordings or the embedding.
+        When `recognizer` is for the other mode, fillers, an embedding or noises are given for gestures, a noise is
+        none or silent, or training refuses the recordings or the embedding.
     FormatError, IoError
         For a recording that cannot be read; the message names the file.
+
+    Examples
+    --------
+    >>> words = hri.train("spoken")
+    >>> words = hri.train("spoken", hri.WordRecognizer(num_states=10), noises=["workshop.wav"])
     """
     if isinstance(dataset, str | PathLike):
         dataset = Dataset.load(dataset, None if recognizer is None else recognizer.mode)
+    if dataset.kind != "speech":
+        for name, given in (("fillers", fillers is not None), ("embedding", embedding is not None), ("noises", noises)):
+            if given:
+                raise InvalidArgument(f"{name}: for speech, the data set is {dataset.kind}")
+    check_noises(noises)
     if recognizer is None:
-        recognizer = WordRecognizer() if dataset.kind == "speech" else GestureRecognizer()
+        recognizer = _chosen(dataset, embedding)
     if recognizer.mode != dataset.kind:
         raise InvalidArgument(
             f"the data set {dataset.root} is for {dataset.kind}, the recogniser is for {recognizer.mode}"
         )
     report = progress or (lambda what, done, total: None)
     if isinstance(recognizer, WordRecognizer):
-        return _train_words(dataset, recognizer, fillers, embedding, report)
-    if embedding is not None:
-        raise InvalidArgument(f"embedding is for speech, the data set is {dataset.kind}")
+        return _train_words(dataset, recognizer, fillers, embedding, noises, report)
     return _train_gestures(dataset, recognizer, report)
+
+
+def _chosen(dataset: Dataset, embedding: SpeechEmbedding | None) -> WordRecognizer | GestureRecognizer:
+    given = {} if embedding is None else {"front_end": "both"}
+    options = {**given, **choose_options(dataset, given).options}
+    return WordRecognizer(**options) if dataset.kind == "speech" else GestureRecognizer(**options)
 
 
 def fillers_of(dataset: Dataset) -> list[FillerWord]:
@@ -103,16 +130,23 @@ def _train_words(
     recognizer: WordRecognizer,
     fillers: Sequence[FillerWord] | None,
     embedding: SpeechEmbedding | None,
+    noises: Sequence[str],
     progress: Progress,
 ) -> WordRecognizer:
     clips = []
     for done, sample in enumerate(dataset.samples):
         clips.append(read_audio(sample.path))
         progress("reading", done + 1, len(dataset))
+    samples = list(dataset.samples)
+    if noises:
+        samples *= 2
+        for number, clip in enumerate(clips[: len(dataset)]):
+            clips.append(in_noise(clip, noises, np.random.default_rng([recognizer.options.seed, number])))
+            progress("adding noise", number + 1, len(dataset))
     return recognizer.fit(
         clips,
-        [s.label for s in dataset.samples],
-        groups=[s.person for s in dataset.samples],
+        [s.label for s in samples],
+        groups=[s.person for s in samples],
         fillers=fillers,
         embedding=embedding,
         progress=lambda done, total: progress("training", done, total),
