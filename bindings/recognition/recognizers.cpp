@@ -92,8 +92,12 @@ hri::WordRecognizer train_words(
     const std::shared_ptr<hri::SpeechEmbedding>& embedding,
     const std::vector<FloatArray>& embedding_fillers,
     const std::vector<int>& embedding_filler_rates_hz,
-    const std::vector<std::string>& embedding_filler_labels) {
-  const auto words = as_word_samples(samples, sample_rates_hz, labels, groups, "X");
+    const std::vector<std::string>& embedding_filler_labels,
+    const std::vector<std::string>& recordings) {
+  auto words = as_word_samples(samples, sample_rates_hz, labels, groups, "X");
+  if (!recordings.empty() && recordings.size() != words.size())
+    hri::fail(hri::ErrorKind::invalid_argument, "X and recordings differ in length");
+  for (std::size_t i = 0; i < recordings.size(); ++i) words[i].recording = recordings[i];
   const auto others = as_word_samples(fillers, filler_rates_hz, filler_labels, {}, "fillers");
   const auto embedded = as_word_samples(embedding_fillers, embedding_filler_rates_hz,
                                         embedding_filler_labels, {}, "embedding_fillers");
@@ -139,7 +143,8 @@ void bind_words(py::module_& m) {
                   py::arg("embedding") = nullptr,
                   py::arg("embedding_fillers") = std::vector<FloatArray>{},
                   py::arg("embedding_filler_rates_hz") = std::vector<int>{},
-                  py::arg("embedding_filler_labels") = std::vector<std::string>{})
+                  py::arg("embedding_filler_labels") = std::vector<std::string>{},
+                  py::arg("recordings") = std::vector<std::string>{})
       .def("with_word", &with_word, py::arg("label"), py::arg("clips"), py::arg("sample_rates_hz"))
       .def("without_word", &hri::WordRecognizer::without_word, py::arg("label"))
       .def_static(

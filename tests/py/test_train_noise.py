@@ -31,11 +31,11 @@ def hum(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def trained_on(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
-    """The clips, labels and persons of the last training, which does not take place."""
+    """The clips, labels, persons and recordings of the last training, which does not take place."""
     given: list[Any] = []
 
     def fit(self: hri.WordRecognizer, clips: list[Audio], labels: list[str], **more: Any) -> hri.WordRecognizer:
-        given[:] = [clips, labels, more["groups"]]
+        given[:] = [clips, labels, more["groups"], more["recordings"]]
         return self
 
     monkeypatch.setattr(hri.WordRecognizer, "fit", fit)
@@ -48,7 +48,8 @@ def test_every_recording_gets_a_copy_in_noise_by_the_same_person(
     dataset = hri.Dataset.load(spoken, "speech")
     number = len(dataset)
     hri.train(dataset, hri.WordRecognizer(seed=3), noises=[str(hum)])
-    clips, labels, persons = (list(part) for part in trained_on)
+    clips, labels, persons, recordings = (list(part) for part in trained_on)
+    assert recordings[:number] == recordings[number:] and len(set(recordings)) == number, "held out together"
     assert labels == 2 * [s.label for s in dataset.samples] and persons == 2 * [s.person for s in dataset.samples]
     ratios = []
     for sample, clean, noisy in zip(dataset.samples, clips[:number], clips[number:], strict=True):
@@ -135,3 +136,21 @@ def test_python_refuses_what_is_no_noise(spoken: Path, noises: Any, complaint: s
 def test_what_is_for_words_is_refused_for_gestures(signed: Path, given: dict[str, Any]) -> None:
     with pytest.raises(hri.InvalidArgument, match="for speech, the data set is gesture"):
         hri.train(signed, **given)
+
+
+def test_clips_of_a_recording_are_held_out_together(spoken: Path, few_fillers: None, tmp_path: Path) -> None:
+    dataset = hri.Dataset.load(spoken, "speech")
+    twice = [read_audio(sample.path) for sample in dataset.samples] * 2
+    labels = [sample.label for sample in dataset.samples] * 2
+    names = [sample.path.name for sample in dataset.samples] * 2
+
+    def model(**given: Any) -> bytes:
+        words = hri.WordRecognizer(num_states=3, num_vtlp_factors=1, num_noisy_copies=0, max_iterations=2)
+        words.fit(twice, labels, fillers=[], **given).save(tmp_path / "words.hri")
+        return (tmp_path / "words.hri").read_bytes()
+
+    assert model() != model(recordings=names), "nine recordings of a word: a copy falls in the next of four folds"
+    persons = [sample.person for sample in dataset.samples] * 2
+    assert model(groups=persons) == model(groups=persons, recordings=names)
+    with pytest.raises(hri.InvalidArgument, match="X and recordings differ in length: 36, 2"):
+        model(recordings=["a", "b"])

@@ -147,6 +147,7 @@ def _train_words(
         clips,
         [s.label for s in samples],
         groups=[s.person for s in samples],
+        recordings=[str(number % len(dataset)) for number in range(len(samples))],
         fillers=fillers,
         embedding=embedding,
         progress=lambda done, total: progress("training", done, total),

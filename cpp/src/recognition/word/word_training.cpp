@@ -16,6 +16,7 @@
 #include "recognition/word/non_words.hpp"
 #include "recognition/word/weight_choice.hpp"
 #include "recognition/word/word_augmentation.hpp"
+#include "recognition/word/word_folds.hpp"
 
 namespace hri {
 namespace {
@@ -60,6 +61,7 @@ struct PreparedSample {
   int label = 0;
   int fold = 0;
   std::string group;
+  std::string recording;
   std::vector<StreamFrames> copies;  // the sample itself first
   MatrixF window;                    // for the network's training, where there is one
   std::vector<NonWord> non_words;
@@ -176,6 +178,7 @@ class WordTrainer {
       if (!word.has_speech()) return;
       made[i].label = label_index(labels_, samples[i].label);
       made[i].group = samples[i].group;
+      made[i].recording = samples[i].recording;
       made[i].copies = augmentation_.copies(word, i);
       made[i].window = std::move(word.word.window);
       words[i] = std::move(word.word.samples);
@@ -220,24 +223,19 @@ class WordTrainer {
   }
 
   [[nodiscard]] int num_folds_of(const std::vector<WordSample>& samples) const {
-    std::vector<int> classes;
-    std::vector<std::string> groups;
-    for (const WordSample& s : samples) {
-      classes.push_back(label_index(labels_, s.label));
-      groups.push_back(s.group);
-    }
-    const std::vector<int> folds = held_out_folds(classes, groups, kMaxFolds);
+    std::vector<detail::WordOrigin> words;
+    words.reserve(samples.size());
+    for (const WordSample& s : samples)
+      words.push_back({label_index(labels_, s.label), s.group, s.recording});
+    const std::vector<int> folds = detail::word_folds(words, kMaxFolds);
     return folds.empty() ? 0 : 1 + *std::max_element(folds.begin(), folds.end());
   }
 
   int assign_folds() {
-    std::vector<int> classes;
-    std::vector<std::string> groups;
-    for (const PreparedSample& p : prepared_) {
-      classes.push_back(p.label);
-      groups.push_back(p.group);
-    }
-    const std::vector<int> folds = held_out_folds(classes, groups, kMaxFolds);
+    std::vector<detail::WordOrigin> words;
+    words.reserve(prepared_.size());
+    for (const PreparedSample& p : prepared_) words.push_back({p.label, p.group, p.recording});
+    const std::vector<int> folds = detail::word_folds(words, kMaxFolds);
     int num_folds = 0;
     for (std::size_t i = 0; i < folds.size(); ++i) {
       prepared_[i].fold = folds[i];

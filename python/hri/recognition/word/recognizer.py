@@ -90,6 +90,7 @@ class WordRecognizer(Recognizer):
         *,
         sample_rate_hz: int | Sequence[int] | None = None,
         groups: Sequence[str] | None = None,
+        recordings: Sequence[str] | None = None,
         fillers: Sequence[FillerWord] | None = None,
         embedding_fillers: Sequence[FillerWord] | None = None,
         embedding: SpeechEmbedding | None = None,
@@ -107,6 +108,9 @@ class WordRecognizer(Recognizer):
             Of arrays: one rate for all, or one for each.
         groups : sequence of str, optional
             The speaker of each clip; calibration then holds out whole speakers.
+        recordings : sequence of str, optional
+            The name of the recording that each clip was made of: clips of one, such as its copies in noise, are held
+            out together where speakers are not known. By default every clip is one of its own.
         fillers : sequence of FillerWord, optional
             Words outside the vocabulary, which the model "hmm" and the front end "embedding" compare with to reject
             others of their kind. By default those that come with the package (`filler_words`); an empty sequence turns
@@ -134,6 +138,9 @@ class WordRecognizer(Recognizer):
         speakers = [""] * len(X) if groups is None else as_texts(groups, "groups")
         if not len(X) == len(y) == len(speakers):
             raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
+        made_of = [""] * len(X) if recordings is None else as_texts(recordings, "recordings")
+        if len(made_of) != len(X):
+            raise InvalidArgument(f"X and recordings differ in length: {len(X)}, {len(made_of)}")
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
         takes_embedding = _takes_embedding(self.options.front_end)
@@ -156,6 +163,7 @@ class WordRecognizer(Recognizer):
                 *_as_lists(others),
                 _embedding_for(self.options.front_end, embedding),
                 *_as_lists(embedding_fillers),
+                made_of,
             )
         self._embedding = embedding
         return self

@@ -129,13 +129,16 @@ struct HRI_API WordRecognizerOptions : SequenceModelOptions {
   [[nodiscard]] const char* conflict() const;
 };
 
-/// One training word. `group` is the speaker: calibration holds whole groups out.
+/// One training word. `group` is the speaker: calibration holds whole groups out. Words that were
+/// made of one recording, such as its copy in noise, have the same `recording`: without groups they
+/// are held out together.
 struct WordSample {
   Span<const float> samples;  ///< mono, -1..1, at `sample_rate_hz`
   int sample_rate_hz = 16000;
   std::string label;
   std::string group;
   std::string name = {};  ///< what errors call it, such as a file; by default "samples[i]"
+  std::string recording = {};  ///< by default one of its own
 };
 
 /// The decision on one utterance of a longer recording.

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "recognition/word/word_folds.hpp"
+
+#include <map>
+
+#include "hri/recognition/training.hpp"
+
+namespace hri::detail {
+
+std::vector<int> word_folds(const std::vector<WordOrigin>& words, int max_folds) {
+  std::vector<int> labels;
+  std::vector<std::string> groups;
+  std::vector<std::size_t> recording_of;
+  std::map<std::string, std::size_t> numbers;
+  for (const WordOrigin& word : words) {
+    const std::size_t next = labels.size();
+    const std::size_t number =
+        word.recording.empty() ? next : numbers.try_emplace(word.recording, next).first->second;
+    recording_of.push_back(number);
+    if (number != next) continue;
+    labels.push_back(word.label);
+    groups.push_back(word.group);
+  }
+  const std::vector<int> of_recordings = held_out_folds(labels, groups, max_folds);
+  std::vector<int> folds;
+  folds.reserve(words.size());
+  for (const std::size_t number : recording_of) folds.push_back(of_recordings[number]);
+  return folds;
+}
+
+}  // namespace hri::detail

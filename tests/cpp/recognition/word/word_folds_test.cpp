@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The hri contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "recognition/word/word_folds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "hri/recognition/training.hpp"
+
+namespace hri::detail {
+namespace {
+
+constexpr int kNumFolds = 4;
+
+TEST(WordFolds, AreThoseOfRecordingsWhereEachIsItsOwn) {
+  std::vector<WordOrigin> words;
+  std::vector<int> labels;
+  std::vector<std::string> groups;
+  for (int i = 0; i < 22; ++i) {
+    words.push_back({i % 3, "", i % 2 == 0 ? "" : std::to_string(i)});
+    labels.push_back(i % 3);
+    groups.emplace_back();
+  }
+  EXPECT_EQ(word_folds(words, kNumFolds), held_out_folds(labels, groups, kNumFolds));
+}
+
+TEST(WordFolds, HoldTheCopiesOfARecordingOutWithIt) {
+  std::vector<WordOrigin> words;  // five recordings of either label, then a copy of each
+  for (int i = 0; i < 20; ++i) words.push_back({i % 2, "", std::to_string(i % 10)});
+  const std::vector<int> folds = word_folds(words, kNumFolds);
+  ASSERT_EQ(folds.size(), words.size());
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(folds[i], folds[i + 10]) << i;
+  EXPECT_EQ(std::vector<int>(folds.begin(), folds.begin() + 10),
+            (std::vector<int>{0, 0, 1, 1, 2, 2, 3, 3, 0, 0}));
+}
+
+TEST(WordFolds, KeepSpeakersApart) {
+  std::vector<WordOrigin> words;
+  for (int i = 0; i < 12; ++i)
+    words.push_back({i % 2, i % 6 < 3 ? "asha" : "ravi", std::to_string(i % 6)});
+  const std::vector<int> folds = word_folds(words, kNumFolds);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    EXPECT_EQ(folds[i], words[i].group == "asha" ? 0 : 1);
+  EXPECT_TRUE(word_folds({}, kNumFolds).empty());
+}
+
+}  // namespace
+}  // namespace hri::detail
