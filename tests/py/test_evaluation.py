@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import cv2
 import numpy as np
@@ -135,8 +135,20 @@ def test_gestures_get_darker_in_the_test_only(signed: Path) -> None:
     )
     for result, factor in ((bright, 1.0), (dark, 0.5)):
         expected = [by_hand.recognise(expose(frames[i], factor)) for i in fold.test]
-        assert [item.decision for item in result.folds[0].items] == expected
+        found = [item.decision for item in result.folds[0].items]
+        assert found == expected
+        qualities = [decision.quality for decision in found]
+        assert qualities == [decision.quality for decision in expected] and all(qualities)
     assert bright.items != dark.items
+
+
+@pytest.mark.parametrize("options", [{}, {"num_hands": 2}])
+def test_features_with_quality_are_those_without_to_the_bit(signed: Path, options: dict[str, Any]) -> None:
+    signs = GestureRecognizer(**options)
+    for sample in hri.Dataset.load(signed).samples:
+        rows, quality = signs.features_and_quality(sample)
+        np.testing.assert_array_equal(rows, signs.features(sample))
+        assert quality is not None and 0 < quality <= 1
 
 
 def test_modes_are_not_mixed(signed: Path) -> None:

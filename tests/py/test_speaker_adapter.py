@@ -57,7 +57,8 @@ def test_words_that_were_named_are_learned(words: package.WordRecognizer) -> Non
 def test_a_decision_comes_before_what_is_learned_from_it(words: package.WordRecognizer) -> None:
     clip = strange(800.0, 1)
     adapter = package.SpeakerAdapter(words)
-    assert adapter.recognise(clip, RATE_HZ, update=False) == words.recognise(clip, RATE_HZ)
+    decision, alone = adapter.recognise(clip, RATE_HZ, update=False), words.recognise(clip, RATE_HZ)
+    assert decision == alone and decision.quality == alone.quality is not None
     assert adapter.num_words == 1 and adapter.update_due
     assert adapter.recognise(np.zeros(RATE_HZ, np.float32), RATE_HZ).status == "no_input"
     assert adapter.num_words == 1

@@ -49,6 +49,7 @@ def test_a_fusion_is_trained_on_persons_held_out(hri: Any, corpora: Path, tmp_pa
     assert all(0.0 <= share <= 1.0 for share in found["held_out"].values())
     learned = LearnedFusion.load(out)
     assert learned.kind == "logistic" and set(learned.reliability_) == {"speech", "gesture"}
+    assert all(mode.prior != 0 for mode in learned.reliability_.values()), "the mean quality, of both modes"
     again = tmp_path / "again.hri"
     assert hri("train-fusion", *data, "--out", again, *quick, "--exposure", "0.4").code == 0
     assert again.read_bytes() == out.read_bytes()

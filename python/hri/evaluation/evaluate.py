@@ -182,7 +182,7 @@ def _runner(
 
 
 class _GestureRunner:
-    """Features depend on the options alone, so every clip is read once for all folds."""
+    """Features and quality depend on the options alone, so every clip is read once for all folds."""
 
     def __init__(
         self, dataset: Dataset, make: Callable[[], Any], conditions: dict[str, Any], progress: Progress
@@ -191,25 +191,27 @@ class _GestureRunner:
         self._make = make
         self._progress = progress
         recognizer = make()
-        self._plain: list[Any] = []
-        self._exposed: list[Any] = []
+        self._plain: list[tuple[Any, float | None]] = []
+        self._exposed: list[tuple[Any, float | None]] = []
         for done, sample in enumerate(dataset.samples):
             frames: Sequence[Any] = read_frames(sample.path).frames
-            self._plain.append(recognizer.features(frames))
+            self._plain.append(recognizer.features_and_quality(frames))
             if conditions["exposure"] is not None:
-                self._exposed.append(recognizer.features(expose(frames, conditions["exposure"])))
+                self._exposed.append(recognizer.features_and_quality(expose(frames, conditions["exposure"])))
             progress("finding hands", done + 1, len(dataset))
 
     def run(self, fold: Fold) -> FoldResult:
         recognizer = self._make()
         recognizer.fit_features(
-            [self._plain[i] for i in fold.train],
+            [self._plain[i][0] for i in fold.train],
             [self._samples[i].label for i in fold.train],
             groups=[self._samples[i].person for i in fold.train],
             progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
         )
         tested = self._exposed or self._plain
-        items = tuple(
-            EvaluationItem(i, self._samples[i].label, recognizer.recognise_features(tested[i])) for i in fold.test
-        )
-        return FoldResult(fold.name, items)
+        items = []
+        for i in fold.test:
+            rows, quality = tested[i]
+            decision = replace(recognizer.recognise_features(rows), quality=quality)
+            items.append(EvaluationItem(i, self._samples[i].label, decision))
+        return FoldResult(fold.name, tuple(items))

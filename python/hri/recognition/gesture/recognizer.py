@@ -93,13 +93,33 @@ class GestureRecognizer(Recognizer):
         """
         frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
         if self._by_landmarks:
-            size = (frames[0].shape[1], frames[0].shape[0]) if frames else (1, 1)
-            if self.options.num_hands == 2:
-                return landmark_pair_features(find_landmark_pairs(frames), size, self.options.relation_weight)
-            return landmark_features(find_landmarks(frames), size)
+            return _landmark_rows(frames, self.options)
         from hri import _native_vision
 
         return np.asarray(_native_vision.gesture_features(frames, self.options, self.face_finder()))
+
+    def features_and_quality(self, clip: ClipInput) -> tuple[NDArray[np.float32], float | None]:
+        """What `features` gives, and beside it the quality that `recognise` gives the decision; hands are found once.
+
+        Parameters
+        ----------
+        clip : path, Clip, picture or sequence of pictures
+            As `recognise` takes it.
+        """
+        return self._seen(clip, self.options)
+
+    def _seen(
+        self, clip: ClipInput, options: _native.GestureRecognizerOptions
+    ) -> tuple[NDArray[np.float32], float | None]:
+        frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
+        if options.source == "landmarks":
+            return _landmark_rows(frames, options), None
+        from hri import _native_vision
+
+        finder = _native_vision.HandFinder(options.hands, faces=self.face_finder())
+        sides = finder.find_pair(frames) if options.num_hands == 2 else [finder.find(frames)]
+        surer = [max(hands, key=lambda hand: float(hand.quality)) for hands in zip(*sides, strict=True)]
+        return _observation_rows(sides, options), mask_quality(surer)
 
     def observation_features(self, hands: Sequence[Any], right: Sequence[Any] | None = None) -> NDArray[np.float32]:
         """Features as `features` gives them, of hands that are found already (`HandObservation`).
@@ -255,16 +275,8 @@ class GestureRecognizer(Recognizer):
         >>> signs.recognise(picture).label
         'seven'
         """
-        if self._by_landmarks:
-            return self.recognise_features(self.features(clip))
-        from hri import _native_vision
-
-        options = self._trained.options
-        frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
-        finder = _native_vision.HandFinder(options.hands, faces=self.face_finder())
-        sides = finder.find_pair(frames) if options.num_hands == 2 else [finder.find(frames)]
-        surer = [max(hands, key=lambda hand: float(hand.quality)) for hands in zip(*sides, strict=True)]
-        return replace(self.recognise_features(_observation_rows(sides, options)), quality=mask_quality(surer))
+        rows, quality = self._seen(clip, self._trained.options)
+        return replace(self.recognise_features(rows), quality=quality)
 
     def recognise_features(self, rows: NDArray[np.float32]) -> Decision:
         """Recognise what `features` returned."""
@@ -316,6 +328,14 @@ class GestureRecognizer(Recognizer):
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
         return cls._wrap(load_native(_native.GestureRecognizer.from_model_file, path, "gesture_recognizer"))
+
+
+def _landmark_rows(frames: list[NDArray[np.uint8]], options: _native.GestureRecognizerOptions) -> NDArray[np.float32]:
+    """Rows of one hand, or of both, by their joints."""
+    size = (frames[0].shape[1], frames[0].shape[0]) if frames else (1, 1)
+    if options.num_hands == 2:
+        return landmark_pair_features(find_landmark_pairs(frames), size, options.relation_weight)
+    return landmark_features(find_landmarks(frames), size)
 
 
 def _observation_rows(sides: Sequence[Sequence[Any]], options: _native.GestureRecognizerOptions) -> NDArray[np.float32]:

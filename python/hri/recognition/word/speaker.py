@@ -13,6 +13,7 @@ from hri.media import naming_file
 from hri.recognition.decision import Decision
 from hri.recognition.inputs import AudioInput, as_audio
 from hri.recognition.keywords import SpeakerAdapterKeywords
+from hri.recognition.quality import speech_snr_db
 from hri.recognition.word.recognizer import WordRecognizer
 
 
@@ -64,8 +65,8 @@ class SpeakerAdapter:
         clip = as_audio(audio, sample_rate_hz)
         with naming_file(clip.path):
             decision = Decision.from_native("speech", self._native.recognise(clip.samples, clip.sample_rate_hz))
-        if clip.notes:
-            decision = replace(decision, notes=(*clip.notes, *decision.notes))
+        quality = speech_snr_db(clip.samples, clip.sample_rate_hz)
+        decision = replace(decision, notes=(*clip.notes, *decision.notes), quality=quality)
         if update and self.update_due:
             self.update()
         return decision
