@@ -104,6 +104,18 @@ def test_clones_are_untrained_and_have_the_same_parameters(case: Case, trained: 
         copied.predict(case.items)
 
 
+def test_what_was_set_as_attributes_is_read_cloned_and_trained_with() -> None:
+    words = hri.WordRecognizer(num_states=4, cepstra={"num_filters": 20})
+    words.options.num_states = 10
+    words.options.cepstra.num_filters = 22
+    for read in (words, clone(words), words.set_params(seed=3)):
+        assert read.get_params()["num_states"] == read.options.num_states == 10
+        assert read.get_params()["cepstra__num_filters"] == read.options.cepstra.num_filters == 22
+    signs = hri.GestureRecognizer()
+    signs.faces = "never"
+    assert clone(signs).faces == signs.untrained().faces == "never"
+
+
 def test_parameters_are_read_and_set_by_their_names(case: Case) -> None:
     recogniser = case.make()
     for path, values in case.grid.items():

@@ -39,14 +39,12 @@ class Recognizer:
 
     def __init__(self, **options: Any) -> None:
         self.options = self._options_class(**options)
-        self._passed = options
         self._native: Any = None
 
     @classmethod
     def _wrap(cls, native: Any) -> Self:
         recognizer = cls()
         recognizer.options = native.options
-        recognizer._passed = native.options.as_dict()
         recognizer._native = native
         return recognizer
 
@@ -82,7 +80,7 @@ class Recognizer:
             Also the fields of options within options, as ``cepstra__num_filters``.
         """
         full = dict(self.options.as_dict())
-        return full | self._passed | (flat_params(full) if deep else {})
+        return full | (flat_params(full) if deep else {})
 
     def set_params(self, **params: Any) -> Self:
         """Change options, for the next `fit`; a field of nested options as ``cepstra__num_filters=30``.
@@ -92,10 +90,16 @@ class Recognizer:
         ValueError
             For a name that there is not, or a value out of range; then nothing is changed.
         """
-        changed = replaced_params(self._passed, self.get_params(), params, type(self).__name__)
+        changed = replaced_params(self.get_params(deep=False), self.get_params(), params, type(self).__name__)
         self.options = self._options_class(**changed)
-        self._passed = changed
         return self
+
+    def untrained(self) -> Self:
+        """Another recogniser of the same options, which is not trained."""
+        return type(self)(**self.get_params(deep=False))
+
+    def __sklearn_clone__(self) -> Self:
+        return self.untrained()
 
     def __getstate__(self) -> dict[str, Any]:
         model = None if self._native is None else self.to_model_file().to_bytes()

@@ -30,6 +30,8 @@ from hri.vision.landmarks import (
 )
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from hri._native_vision import GestureStream, GestureStreamOptions
 
 _log = logging.getLogger(__name__)
@@ -71,6 +73,12 @@ class GestureRecognizer(Recognizer):
     def __init__(self, **options: Unpack[GestureRecognizerKeywords]) -> None:
         super().__init__(**options)
         self.faces: str | None = None
+
+    def untrained(self) -> Self:
+        """Another recogniser of the same options and `faces`, which is not trained."""
+        other = super().untrained()
+        other.faces = self.faces
+        return other
 
     def __getstate__(self) -> dict[str, Any]:
         return {**super().__getstate__(), "faces": self.faces}
