@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -117,6 +118,7 @@ def test_training_on_one_folder_and_testing_on_another(spoken: Path) -> None:
     dataset = hri.Dataset.load(spoken)
     result = evaluate_split(dataset, dataset, Words)
     assert len(result.folds) == 1 and len(result.items) == len(dataset) and result.mean == 1.0
+    assert [item.index for item in result.items] == list(range(len(dataset))), "counted in the test set"
     only_one = hri.Dataset(dataset.root, "speech", [s for s in dataset.samples if s.label == "1"])
     with pytest.raises(InvalidArgument, match="labels that train has not: 2"):
         evaluate_split(only_one, dataset, Words)
@@ -240,6 +242,98 @@ def test_one_training_is_tested_under_every_condition(spoken: Path) -> None:
     assert results["noisy"].conditions["condition"] == "noisy"
     again = evaluate_conditions(dataset, Words, {"noisy": noisy}, train=[noisy], front_end=front_end)
     assert again["noisy"].folds == results["noisy"].folds, "what a condition draws does not depend on the others"
+
+
+def test_where_a_noise_is_silent_another_piece_is_drawn(tmp_path: Path) -> None:
+    path, speech = str(tmp_path / "pauses.wav"), np.ones(800, "f4")
+    noise = np.zeros(32000, "f4")
+    noise[24000:] = 0.1 * np.random.default_rng(0).standard_normal(8000)
+    hri._native.write_wav_pcm16(path, noise, 8000)
+    condition = AddNoise([path], [10.0])
+    silent = 0
+    for seed in range(20):
+        heard = condition(speech, 8000, np.random.default_rng(seed))
+        assert heard.std() > 0
+        rng = np.random.default_rng(seed)
+        rng.integers(1), rng.integers(1)
+        piece = make_noise(path, 800, 8000, rng)
+        if piece.any():
+            np.testing.assert_array_equal(heard, mix_noise(speech, piece, 10.0, 8000))
+        silent += not piece.any()
+    assert 0 < silent < 20
+    with pytest.raises(InvalidArgument, match=r"noise .*pauses\.wav is silent in 20 pieces"):
+        AddNoise([path], [10.0], "first")(speech, 8000, np.random.default_rng(0))
+
+
+@pytest.mark.parametrize(
+    ("given", "complaint"),
+    [
+        ({"noise": "whte", "snr_db": 10.0}, "^noise whte is neither white nor pink nor a file"),
+        ({"noise": "white", "snr_db": float("nan")}, r"^snr_db must lie in -30\.\.60, got nan"),
+        ({"noise": "half.wav", "snr_db": 10.0, "train_noise": True}, "^noise half.wav is silent in its second half"),
+        ({"noise": "silence.wav", "snr_db": 10.0}, "^noise silence.wav is silent$"),
+        ({"max_folds": 0}, "^max_folds is 0"),
+        ({"max_folds": -1}, "^max_folds is -1"),
+    ],
+)
+def test_arguments_are_refused_before_anything_is_read(
+    spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: dict[str, Any], complaint: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    hri._native.write_wav_pcm16("silence.wav", np.zeros(8000, "f4"), 8000)
+    hri._native.write_wav_pcm16("half.wav", np.repeat(np.array([0.5, 0.0], "f4"), 4000), 8000)
+    dataset, done = hri.Dataset.load(spoken), []
+    with pytest.raises(InvalidArgument, match=complaint):
+        cross_validate(dataset, Words, progress=lambda *args: done.append(args), **given)
+    if "noise" in given:
+        with pytest.raises(InvalidArgument, match=complaint):
+            evaluate_split(dataset, dataset, Words, progress=lambda *args: done.append(args), **given)
+    else:
+        with pytest.raises(InvalidArgument, match=complaint):
+            evaluate_conditions(dataset, Words, {"": None}, progress=lambda *args: done.append(args), **given)
+    assert not done
+
+
+def test_other_recognisers_are_refused_before_anything_is_read(spoken: Path) -> None:
+    dataset = hri.Dataset.load(spoken)
+    done: list[Any] = []
+    for wrong, complaint in (
+        (hri.SubwordRecognizer(), "make_recognizer must be .* got SubwordRecognizer"),
+        (GestureRecognizer(), "the data set is for speech, the recogniser is for gesture"),
+        (GestureRecognizer, "the data set is for speech, the recogniser is for gesture"),
+    ):
+        with pytest.raises(InvalidArgument, match=complaint):
+            cross_validate(dataset, wrong, progress=lambda *args: done.append(args))
+    with pytest.raises(InvalidArgument, match=r"recognizer must be a WordRecognizer .* got SubwordRecognizer"):
+        hri.train(dataset, hri.SubwordRecognizer())  # type: ignore[call-overload]
+    assert not done
+
+
+def test_what_a_recogniser_has_is_kept_in_every_fold(signed: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[Any] = []
+    fit = GestureRecognizer.fit_features
+
+    def spy(self: GestureRecognizer, *args: Any, **rest: Any) -> GestureRecognizer:
+        seen.append((self.faces, self.options.seed))
+        return fit(self, *args, **rest)
+
+    monkeypatch.setattr(GestureRecognizer, "fit_features", spy)
+    recogniser = GestureRecognizer(seed=3)
+    recogniser.faces, recogniser.options.seed = "never", 4
+    cross_validate(hri.Dataset.load(signed), recogniser, num_folds=2)
+    assert seen == [("never", 4)] * 2
+
+
+def test_few_recordings_of_unknown_persons_make_fewer_folds(spoken: Path) -> None:
+    known = hri.Dataset.load(spoken)
+    samples = [replace(sample, person="") for sample in known.samples]
+    few = [s for s in samples if s.label == "1"][:3] + [s for s in samples if s.label == "2"]
+    result = cross_validate(hri.Dataset(known.root, "speech", few), Words)
+    assert len(result.folds) == 3 and sum(len(fold.items) for fold in result.folds) == len(few)
+    with pytest.raises(InvalidArgument, match=r"num_folds is 5, must be 2\.\.3"):
+        cross_validate(hri.Dataset(known.root, "speech", few), Words, num_folds=5)
+    with pytest.raises(InvalidArgument, match="label '1' has one recording: cross-validation needs two or more"):
+        cross_validate(hri.Dataset(known.root, "speech", few[2:]), Words)
 
 
 def test_conditions_out_of_range_are_refused(spoken: Path) -> None:

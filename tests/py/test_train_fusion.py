@@ -66,6 +66,11 @@ def test_what_cannot_be_learned_from_is_said(hri: Any, corpora: Path, tmp_path: 
         (("--speech-data", tmp_path / "alone", *signed, *out), 3, "two persons or more"),
         (("--speech-data", tmp_path / "others", *signed, *out), 3, "need two labels in common, and have 0"),
         ((*spoken, *signed, *out, "--noise", "pink"), 2, "--noise and --snr go together"),
+        (
+            (*spoken, *signed, *out, "--noise", "pnk", "--snr", 10),
+            2,
+            "--noise pnk is neither white nor pink",
+        ),
         ((*spoken, *signed, *out, "--kind", "oracle"), 2, "oracle"),
         ((*spoken, *signed, *out, "--gesture-option", "colour=red"), 3, "--option"),
         ((*spoken, *signed), 2, "--out"),

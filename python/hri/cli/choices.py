@@ -4,13 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import click
 
 from hri.cli.recognizers import parse_options, recognizer_factory, with_embedding
+from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
+from hri.evaluation.noise import check_noises
 from hri.recognition import WordRecognizerOptions
 from hri.training import choose_options
 
@@ -113,3 +115,19 @@ def what_words_are_of(options: WordRecognizerOptions) -> list[str]:
     if options.use_network:
         lines.append("a network of the same words votes too; --no-network trains in a fraction of the time")
     return lines
+
+
+def refuse_wrong_noises(noises: Sequence[str], parts: Sequence[str] = ("all",)) -> None:
+    """`check_noises` of ``--noise``, before anything is read.
+
+    Raises
+    ------
+    click.UsageError
+        For a noise that is none, or silent.
+    FormatError, IoError
+        For a file that is no recording; names it.
+    """
+    try:
+        check_noises(noises, parts)
+    except InvalidArgument as error:
+        raise click.UsageError(f"--{error}") from error

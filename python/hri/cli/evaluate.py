@@ -15,6 +15,7 @@ from hri.cli.choices import (
     front_end_option,
     hands_option,
     network_option,
+    refuse_wrong_noises,
     source_option,
     what_words_are_of,
 )
@@ -121,6 +122,8 @@ def evaluate(
         raise click.UsageError("--noise is for speech; pictures have --exposure")
     if mode == "speech" and exposure is not None:
         raise click.UsageError("--exposure is for gestures; speech has --noise")
+    if noise is not None:
+        refuse_wrong_noises([noise], ("first", "second") if train_noise else ("all",))
     if data is None and (folds is not None or train_persons is not None or leave_out is not None):
         raise click.UsageError("--folds, --train-persons and --leave-out need --data")
     if leave_out is not None and (folds is not None or train_persons is not None):

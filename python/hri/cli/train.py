@@ -15,6 +15,7 @@ from hri.cli.choices import (
     hands_option,
     names,
     network_option,
+    refuse_wrong_noises,
     source_option,
     what_words_are_of,
 )
@@ -33,9 +34,8 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
-from hri.core.errors import InvalidArgument
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
-from hri.training import check_noises, fillers_of
+from hri.training import fillers_of
 from hri.training import train as train_recognizer
 from hri.vision.faces import face_finder
 
@@ -109,10 +109,7 @@ def train(
         raise click.UsageError("--seed and --option seed=... exclude each other")
     if noises and mode != "speech":
         raise click.UsageError("--noise is for speech")
-    try:
-        check_noises(noises)
-    except InvalidArgument as error:
-        raise click.UsageError(f"--{error}") from error
+    refuse_wrong_noises(noises)
     options = asked_options(
         mode, options, front_end=front_end, embedding_path=embedding_path, network=network, source=source, hands=hands
     )

@@ -11,6 +11,7 @@ from typing import Any
 import click
 import numpy as np
 
+from hri.cli.choices import refuse_wrong_noises
 from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
@@ -68,6 +69,8 @@ def train_fusion(
     """
     if (noise is None) != (snr is None):
         raise click.UsageError("--noise and --snr go together")
+    if noise is not None:
+        refuse_wrong_noises([noise])
     makes = {
         "speech": recognizer_factory("speech", speech_option, seed),
         "gesture": recognizer_factory("gesture", gesture_option, seed),

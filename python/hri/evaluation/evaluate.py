@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -13,14 +14,16 @@ import numpy as np
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
 from hri.evaluation.conditions import expose
-from hri.evaluation.noise import AddNoise
+from hri.evaluation.noise import AddNoise, check_noises, check_snr_db
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
-from hri.evaluation.speech import SpeechRunner
+from hri.evaluation.speech import SpeechRunner, check_max_folds
 from hri.media import read_frames
 from hri.recognition import GestureRecognizer, SpeechEmbedding, WordRecognizer
 
 Progress = Callable[[str, int, int], None]
 Recognizer = WordRecognizer | GestureRecognizer
+_NUM_FOLDS = 5
+"""Where one person at a time would be too many, or persons are not known."""
 
 
 def cross_validate(
@@ -48,9 +51,10 @@ def cross_validate(
         Gives a new, untrained recogniser for every fold: a class, a function, or a recogniser whose options are taken.
     num_folds : int, optional
         Folds by person; None holds out one person at a time (for gestures with more than 10 persons: 5 folds). Where
-        persons are not known, folds are stratified by label, and the result says so.
+        persons are not known, folds are stratified by label, and the result says so; None then makes 5, or as many as
+        the rarest label has recordings.
     max_folds : int, optional
-        Run only the first folds.
+        Run only the first folds, one or more.
     train_persons : int, optional
         Train on this many persons of each fold's training part, drawn at random; None takes all.
     leave_out : str, optional
@@ -69,7 +73,15 @@ def cross_validate(
         For words by the front ends "both" and "embedding", as of `WordRecognizer.fit`.
     progress : callable, optional
         Called with (what, done, total).
+
+    Raises
+    ------
+    InvalidArgument
+        For arguments out of range or that exclude each other, a noise that is none or silent, or another recogniser
+        than one of the data set's kind; before anything is read or trained.
     """
+    make = _factory(make_recognizer, dataset.kind)
+    check_max_folds(max_folds)
     conditions = _conditions(dataset.kind, seed, noise, snr_db, train_noise, exposure)
     if leave_out is not None:
         if num_folds is not None or train_persons is not None:
@@ -78,7 +90,7 @@ def cross_validate(
         conditions["folds"] = f"by {leave_out}"
     elif dataset.persons:
         if num_folds is None and dataset.kind == "gesture" and len(dataset.persons) > 10:
-            num_folds = 5
+            num_folds = _NUM_FOLDS
         folds = dataset.folds_by_person(num_folds, seed)
         conditions["folds"] = "by person"
         if train_persons is not None:
@@ -87,9 +99,9 @@ def cross_validate(
     elif train_persons is not None:
         raise InvalidArgument("train_persons needs a data set that names the person of every recording")
     else:
-        folds = dataset.folds_stratified(num_folds or 5, seed)
+        folds = dataset.folds_stratified(_default_folds(dataset) if num_folds is None else num_folds, seed)
         conditions["folds"] = "stratified by label: persons are not known, so test people may have been met"
-    run = _runner(dataset, _factory(make_recognizer), conditions, embedding, progress)
+    run = _runner(dataset, make, conditions, embedding, progress)
     return EvaluationResult(dataset.labels, [run(fold) for fold in folds[:max_folds]], conditions)
 
 
@@ -108,11 +120,17 @@ def evaluate_split(
 ) -> EvaluationResult:
     """Train on one data set, test on another; parameters as for `cross_validate`.
 
+    Returns
+    -------
+    EvaluationResult
+        Its items count from the first recording of `test`.
+
     Raises
     ------
     InvalidArgument
-        When the kinds differ, or the test set has a label that was not trained.
+        When the kinds differ, the test set has a label that was not trained, and as `cross_validate`.
     """
+    make = _factory(make_recognizer, train.kind)
     if train.kind != test.kind:
         raise InvalidArgument(f"train is {train.kind}, test is {test.kind}")
     unknown = sorted(set(test.labels) - set(train.labels))
@@ -121,16 +139,32 @@ def evaluate_split(
     conditions = _conditions(train.kind, seed, noise, snr_db, train_noise, exposure)
     both = Dataset(train.root, train.kind, [*train.samples, *test.samples])
     fold = Fold(str(test.root.name), list(range(len(train))), list(range(len(train), len(both))))
-    run = _runner(both, _factory(make_recognizer), conditions, embedding, progress)
-    return EvaluationResult(train.labels, [run(fold)], conditions)
+    tested = _runner(both, make, conditions, embedding, progress)(fold)
+    items = tuple(replace(item, index=item.index - len(train)) for item in tested.items)
+    return EvaluationResult(train.labels, [replace(tested, items=items)], conditions)
 
 
-def _factory(recognizer: Callable[[], Recognizer] | Recognizer) -> Callable[[], Recognizer]:
+def _factory(recognizer: Callable[[], Recognizer] | Recognizer, kind: str) -> Callable[[], Recognizer]:
     """Makes untrained recognisers with the options of `recognizer`, if it is one."""
-    if not isinstance(recognizer, WordRecognizer | GestureRecognizer):
-        return recognizer
-    options = recognizer.get_params(deep=False)
-    return lambda: type(recognizer)(**options)
+    mode = getattr(recognizer, "mode", kind)
+    if mode != kind:
+        raise InvalidArgument(f"the data set is for {kind}, the recogniser is for {mode}")
+    if isinstance(recognizer, WordRecognizer | GestureRecognizer):
+        return recognizer.untrained().untrained  # of a copy, whose options stay as they are now
+    if not callable(recognizer):
+        raise InvalidArgument(
+            "make_recognizer must be a WordRecognizer, a GestureRecognizer, or a class or function that makes one, "
+            f"got {type(recognizer).__name__}"
+        )
+    return recognizer
+
+
+def _default_folds(dataset: Dataset) -> int:
+    """For persons that are not known."""
+    label, fewest = min(Counter(sample.label for sample in dataset.samples).items(), key=lambda item: item[1])
+    if fewest < 2:
+        raise InvalidArgument(f"label {label!r} has one recording: cross-validation needs two or more of each label")
+    return min(_NUM_FOLDS, fewest)
 
 
 def _with_fewer_persons(fold: Fold, dataset: Dataset, num_persons: int, seed: int) -> Fold:
@@ -153,6 +187,9 @@ def _conditions(
         raise InvalidArgument("noise is for speech, the data set is gesture")
     if kind == "speech" and exposure is not None:
         raise InvalidArgument("exposure is for gestures, the data set is speech")
+    if noise is not None and snr_db is not None:
+        check_noises([noise], ("first", "second") if train_noise else ("all",))
+        check_snr_db(snr_db)
     return {
         "seed": seed,
         "noise": noise,

@@ -23,6 +23,47 @@ PARTS = {"all": (0.0, 1.0), "first": (0.0, 0.5), "second": (0.5, 1.0)}
 _FRAME_S = 0.02
 _MARGIN_DB = 15.9
 """ITU-T P.56, method B: what lies further below the active level is a pause."""
+_MIN_SNR_DB, _MAX_SNR_DB = -30, 60
+_NUM_DRAWS = 20
+"""Pieces of a noise that are tried until one is not digital silence, which some recordings begin or pause with."""
+
+
+def check_noises(noises: Sequence[str], parts: Sequence[str] = ("all",)) -> None:
+    """Refuse a noise that is none, before all recordings are read.
+
+    Parameters
+    ----------
+    noises : sequence of str
+        As `make_noise` takes them.
+    parts : sequence of str
+        Of recorded noises, those that are going to be used.
+
+    Raises
+    ------
+    InvalidArgument
+        For a name that is neither of a synthesised noise nor of a file, or a file with digital silence alone in one of
+        the parts.
+    FormatError, IoError
+        For a file that is no recording; names it.
+    """
+    if isinstance(noises, str):
+        raise InvalidArgument(f"noises must be a sequence of names, got {noises!r}")
+    for name in noises:
+        if name in SYNTHESISED:
+            continue
+        if not Path(name).is_file():
+            raise InvalidArgument(f"noise {name} is neither {' nor '.join(SYNTHESISED)} nor a file")
+        samples = read_audio(name).samples
+        for part in parts:
+            first, last = _span(len(samples), part)
+            if not samples[first:last].any():
+                raise InvalidArgument(f"noise {name} is silent" + ("" if part == "all" else f" in its {part} half"))
+
+
+def check_snr_db(snr_db: float) -> None:
+    """Refuse a ratio of speech to noise outside -30..60 dB. Raises InvalidArgument."""
+    if not _MIN_SNR_DB <= snr_db <= _MAX_SNR_DB:
+        raise InvalidArgument(f"snr_db must lie in {_MIN_SNR_DB}..{_MAX_SNR_DB}, got {snr_db}")
 
 
 def make_noise(
@@ -55,13 +96,40 @@ def make_noise(
     if not Path(name).is_file():
         raise InvalidArgument(f"noise {name!r} is neither {' nor '.join(SYNTHESISED)} nor a file")
     recording = _recording(name, sample_rate_hz)
-    first, last = (round(share * len(recording)) for share in PARTS[part])
+    first, last = _span(len(recording), part)
     if last == first:
         raise InvalidArgument(f"noise {name!r} is too short")
     if last - first <= num_samples:  # too short for a piece of its own: go round
         return np.resize(np.roll(recording[first:last], -int(rng.integers(last - first))), num_samples)
     start = first + int(rng.integers(last - first - num_samples))
     return recording[start : start + num_samples].copy()
+
+
+def find_noise(
+    name: str, num_samples: int, sample_rate_hz: int, rng: np.random.Generator, part: str = "all"
+) -> Samples | None:
+    """Noise as of `make_noise`, drawn anew while it is digital silence; None where that is all that is found."""
+    for _ in range(_NUM_DRAWS):
+        noise = make_noise(name, num_samples, sample_rate_hz, rng, part)
+        if noise.any():
+            return noise
+    return None
+
+
+def draw_noise(
+    name: str, num_samples: int, sample_rate_hz: int, rng: np.random.Generator, part: str = "all"
+) -> Samples:
+    """As `find_noise`. Raises InvalidArgument, which names the noise, where nothing but silence is found."""
+    noise = find_noise(name, num_samples, sample_rate_hz, rng, part)
+    if noise is None:
+        raise InvalidArgument(f"noise {name} is silent in {_NUM_DRAWS} pieces of {num_samples / sample_rate_hz:.2f} s")
+    return noise
+
+
+def _span(length: int, part: str) -> tuple[int, int]:
+    """Where a part of a recording begins and ends."""
+    first, last = PARTS[part]
+    return round(first * length), round(last * length)
 
 
 @lru_cache(maxsize=16)
@@ -108,8 +176,7 @@ def mix_noise(samples: Samples, noise: Samples, snr_db: float, sample_rate_hz: i
     """
     if samples.shape != noise.shape:
         raise InvalidArgument(f"samples and noise differ in shape: {samples.shape}, {noise.shape}")
-    if not -30 <= snr_db <= 60:
-        raise InvalidArgument(f"snr_db must lie in -30..60, got {snr_db}")
+    check_snr_db(snr_db)
     return (samples + noise_at(noise, active_power(samples, sample_rate_hz), snr_db)).astype(np.float32)
 
 
@@ -123,7 +190,7 @@ def noise_at(noise: Samples, speech_power: float, snr_db: float) -> Samples:
 
 @dataclass(frozen=True)
 class AddNoise:
-    """A condition: noise drawn anew for every clip.
+    """A condition: noise drawn anew for every clip, from where a recorded noise is not digital silence.
 
     Attributes
     ----------
@@ -141,7 +208,9 @@ class AddNoise:
 
     def __call__(self, samples: Samples, sample_rate_hz: int, rng: np.random.Generator) -> Samples:
         """The clip with noise."""
+        if not len(samples):
+            return samples
         name = self.noises[int(rng.integers(len(self.noises)))]
         snr_db = self.snrs_db[int(rng.integers(len(self.snrs_db)))]
-        noise = make_noise(name, len(samples), sample_rate_hz, rng, self.part)
+        noise = draw_noise(name, len(samples), sample_rate_hz, rng, self.part)
         return mix_noise(samples, noise, snr_db, sample_rate_hz)

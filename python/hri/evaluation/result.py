@@ -20,7 +20,7 @@ from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
 
 @dataclass(frozen=True)
 class EvaluationItem:
-    """One test item: its index in the data set, its true label, and what was decided."""
+    """One test item: its index in the data set that is tested, its true label, and what was decided."""
 
     index: int
     truth: str

@@ -15,7 +15,7 @@ from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 from hri.core.optional import import_optional
 from hri.evaluation.conditions import Samples
-from hri.evaluation.noise import active_power, make_noise, noise_at
+from hri.evaluation.noise import active_power, draw_noise, noise_at
 from hri.media import read_audio
 from hri.signal import resample
 
@@ -125,7 +125,7 @@ class InRoom:
         if not self.noises:
             return heard
         name = self.noises[int(rng.integers(len(self.noises)))]
-        noise = make_noise(name, len(heard), sample_rate_hz, rng, self.part)
+        noise = draw_noise(name, len(heard), sample_rate_hz, rng, self.part)
         return heard + noise_at(noise, active_power(samples, sample_rate_hz), self.snr_db)
 
 

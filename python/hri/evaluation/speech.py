@@ -26,6 +26,12 @@ def adapting(test: str) -> str:
     return f"{test}, adapting".removeprefix(", ")
 
 
+def check_max_folds(max_folds: int | None) -> None:
+    """Refuse to run no fold, or folds counted from the end. Raises InvalidArgument."""
+    if max_folds is not None and max_folds < 1:
+        raise InvalidArgument(f"max_folds is {max_folds}, must be 1 or more")
+
+
 class SpeechRunner:
     """Clips are read once; what is random in a clip follows from the seed, the condition and the clip's place in the
     data set, not from the fold.
@@ -79,9 +85,15 @@ class SpeechRunner:
             progress("reading", done + 1, len(dataset))
 
     def _heard(self, index: int, condition: Condition | None, *key: int) -> tuple[Samples, int]:
+        return self._through(*self._under(index, condition, *key))
+
+    def _under(self, index: int, condition: Condition | None, *key: int) -> tuple[Samples, int]:
         samples, rate = self._clips[index]
         if condition is not None:
             samples = condition(samples, rate, np.random.default_rng([self._seed, *key, index]))
+        return samples, rate
+
+    def _through(self, samples: Samples, rate: int) -> tuple[Samples, int]:
         return (samples, rate) if self._front_end is None else self._front_end(samples, rate)
 
     def run(self, fold: Fold) -> dict[str, FoldResult]:
@@ -115,8 +127,9 @@ class SpeechRunner:
     ) -> FoldResult:
         items = []
         for done, i in enumerate(order):
+            heard = self._under(i, condition, _TEST, key)  # what fails here is the condition, not the recording
             with naming_file(self._samples[i].path):
-                decision = listener.recognise(*self._heard(i, condition, _TEST, key))
+                decision = listener.recognise(*self._through(*heard))
             items.append(EvaluationItem(i, self._samples[i].label, decision))
             self._progress(f"testing {fold.name} {name}".rstrip(), done + 1, len(order))
         return FoldResult(fold.name, tuple(items))
@@ -169,8 +182,10 @@ def evaluate_conditions(
     Raises
     ------
     InvalidArgument
-        For recordings without persons, fewer than two persons, or `adapt` with several persons in a fold.
+        For recordings without persons, fewer than two persons, `max_folds` below 1, or `adapt` with several persons in
+        a fold.
     """
+    check_max_folds(max_folds)
     say = progress or (lambda what, done, total: None)
     folds = dataset.folds_by_person(num_folds, seed)[:max_folds]
     if adapt and any(len({dataset.samples[i].person for i in fold.test}) > 1 for fold in folds):

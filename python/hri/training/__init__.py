@@ -3,7 +3,7 @@
 """From a folder of labelled recordings to a trained recogniser: what ``hri train`` does, and `hri.train` in Python."""
 
 from hri.training.choices import NETWORK_MIN_PERSONS, Choice, choose_options
-from hri.training.noisy_copies import SNRS_DB, check_noises, in_noise
+from hri.training.noisy_copies import SNRS_DB, in_noise
 from hri.training.train import Progress, fillers_of, train
 
 __all__ = [
@@ -11,7 +11,6 @@ __all__ = [
     "SNRS_DB",
     "Choice",
     "Progress",
-    "check_noises",
     "choose_options",
     "fillers_of",
     "in_noise",

@@ -12,10 +12,11 @@ import numpy as np
 
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
+from hri.evaluation.noise import check_noises
 from hri.media import read_audio, read_frames
 from hri.recognition import FillerWord, GestureRecognizer, SpeechEmbedding, WordRecognizer
 from hri.training.choices import choose_options
-from hri.training.noisy_copies import check_noises, in_noise
+from hri.training.noisy_copies import in_noise
 
 Progress = Callable[[str, int, int], None]
 
@@ -81,8 +82,8 @@ def train(
     Raises
     ------
     InvalidArgument
-        When `recognizer` is for the other mode, fillers, an embedding or noises are given for gestures, a noise is
-        none or silent, or training refuses the recordings or the embedding.
+        When `recognizer` is for the other mode, or another kind of recogniser, fillers, an embedding or noises are
+        given for gestures, a noise is none or silent, or training refuses the recordings or the embedding.
     FormatError, IoError
         For a recording that cannot be read; the message names the file.
 
@@ -91,6 +92,10 @@ def train(
     >>> words = hri.train("spoken")
     >>> words = hri.train("spoken", hri.WordRecognizer(num_states=10), noises=["workshop.wav"])
     """
+    given: object = recognizer  # whatever the annotation says
+    if not isinstance(given, WordRecognizer | GestureRecognizer | None):
+        name = given.__name__ if isinstance(given, type) else type(given).__name__
+        raise InvalidArgument(f"recognizer must be a WordRecognizer or a GestureRecognizer, got {name}")
     if isinstance(dataset, str | PathLike):
         dataset = Dataset.load(dataset, None if recognizer is None else recognizer.mode)
     if dataset.kind != "speech":
