@@ -9,8 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sklearn.base import clone
+from sklearn.model_selection import cross_val_score
+from sklearn.pipeline import make_pipeline
+from sklearn.svm import LinearSVC
+from sklearn.utils.validation import check_is_fitted
 
 from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.media import Audio
 from hri.models import LDA
 from hri.recognition import SpeechEmbedding, embedding_weights, filler_words
 from hri.recognition.word import embedding as module
@@ -97,6 +103,28 @@ def test_copies_and_parameters(embedding: SpeechEmbedding) -> None:
     assert copy.transform([audio], RATE_HZ).shape == (1, 288)
     assert embedding.checksum == copy.checksum and len(copy.checksum) == 8
     assert repr(embedding) == "SpeechEmbedding(96 values every 40 ms)"
+
+
+def test_it_is_a_transformer_as_scikit_learn_has_them(embedding: SpeechEmbedding, tmp_path: Path) -> None:
+    labels = sorted({word.label for word in filler_words()})[:2]
+    words = [word for word in filler_words() if word.label in labels]
+    clips = [Audio(word.samples, word.sample_rate_hz) for word in words]
+    check_is_fitted(embedding)
+    other = clone(SpeechEmbedding(num_pieces=3)).set_params(activity__max_gap_ms=200.0)
+    assert other.get_params()["num_pieces"] == 3 and other.options.activity.max_gap_ms == 200.0
+    assert other.get_params()["activity"]["max_gap_ms"] == other.get_params()["activity__max_gap_ms"] == 200.0
+    assert "activity__max_gap_ms" not in other.get_params(deep=False)
+    assert np.array_equal(other.transform(clips[:1]), SpeechEmbedding(**other.get_params(False)).transform(clips[:1]))
+    before = other.get_params()
+    for wrong in ({"num_pieces": 0}, {"activity__max_gap_ms": -1.0}, {"no_such": 1}, {"weights": tmp_path / "nowhere"}):
+        (name,) = wrong
+        complaint = "nowhere" if name == "weights" else name.split("__")[-1]
+        with pytest.raises((InvalidArgument, IoError), match=complaint):
+            other.set_params(**wrong)
+    assert other.get_params() == before, "what was refused changed nothing"
+    chain = make_pipeline(SpeechEmbedding(), LinearSVC())
+    assert cross_val_score(chain, clips, [word.label for word in words], cv=2).mean() > 0.8
+    assert clone(chain).set_params(speechembedding__num_pieces=2)[0].options.num_pieces == 2
 
 
 def test_bad_input_is_named(embedding: SpeechEmbedding, tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from hri import _native
 from hri.core.display import summary
 from hri.core.errors import InvalidArgument
+from hri.core.estimator import flat_params, replaced_params
 from hri.core.sklearn_tags import make_tags
 from hri.media import naming_file
 from hri.recognition.inputs import AudioInput, as_audio, as_audios
@@ -75,16 +76,23 @@ class SpeechEmbedding:
     """
 
     def __init__(self, weights: str | PathLike[str] | None = None, **options: Unpack[SpeechEmbeddingKeywords]) -> None:
-        self.weights = weights
-        self.options = _native.SpeechEmbeddingOptions(**options)
+        chosen = _native.SpeechEmbeddingOptions(**options)
         path = embedding_weights() if weights is None else weights
-        self._native = _native.SpeechEmbedding(fspath(path), self.options)
+        self._native = _native.SpeechEmbedding(fspath(path), chosen)
+        self.weights = weights
+        self.options = chosen
 
     def __repr__(self) -> str:
         return summary("SpeechEmbedding", f"{self.num_outputs} values every {1000 * self._native.step_s:g} ms")
 
     def __sklearn_tags__(self) -> Any:
         return make_tags(None, rows=False, transforms=True)
+
+    def __sklearn_is_fitted__(self) -> bool:
+        return True
+
+    def __sklearn_clone__(self) -> SpeechEmbedding:
+        return SpeechEmbedding(**self.get_params(deep=False))
 
     def __reduce__(self) -> Any:
         return _again, (self.weights, self.options.as_dict())
@@ -100,8 +108,29 @@ class SpeechEmbedding:
         return str(self._native.checksum)
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
-        """The weights and the options by name."""
-        return {"weights": self.weights} | self.options.as_dict()
+        """The weights and the options by name.
+
+        Parameters
+        ----------
+        deep : bool
+            Also the fields of options within options, as ``activity__frame_ms``.
+        """
+        full = {"weights": self.weights, **self.options.as_dict()}
+        return full | (flat_params(full) if deep else {})
+
+    def set_params(self, **params: Any) -> SpeechEmbedding:
+        """Change the weights or options; a field of nested options as ``activity__frame_ms=20``.
+
+        Raises
+        ------
+        InvalidArgument
+            For a name that there is not, or a value out of range; then nothing is changed.
+        ImportError, FormatError, IoError
+            As the constructor, for other weights.
+        """
+        changed = replaced_params(self.get_params(deep=False), self.get_params(), params, "SpeechEmbedding")
+        self.__init__(**changed)  # type: ignore[misc]
+        return self
 
     def sequence(self, audio: AudioInput, sample_rate_hz: int | None = None) -> NDArray[np.float32]:
         """The embeddings of every window of a recording as it is, one row each.
