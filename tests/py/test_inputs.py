@@ -15,6 +15,7 @@ import pytest
 import hri
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.media import Audio, read_audio, read_frames, read_image
+from hri.recognition import inputs
 from hri.recognition.inputs import as_audio, as_frames
 
 
@@ -42,6 +43,33 @@ def test_a_word_is_recognised_from_whatever_holds_it(words: hri.WordRecognizer, 
     assert pcm16.nbest == expected.nbest and pcm16.notes == ("converted from 16-bit integers",)
     np.testing.assert_array_equal(words.scores(path), words.scores(audio))
     assert list(words.predict([path, audio])) == ["1", "1"]
+
+
+def test_one_recording_is_in_memory_at_a_time(
+    words: hri.WordRecognizer, signs: hri.GestureRecognizer, spoken: Path, signed: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    events: list[str] = []
+
+    def noted(owner: Any, name: str, event: str) -> None:
+        plain = getattr(owner, name)
+        monkeypatch.setattr(owner, name, lambda *args, **rest: (events.append(event), plain(*args, **rest))[1])
+
+    noted(inputs, "read_audio", "read")
+    noted(inputs, "read_frames", "read")
+    noted(hri.WordRecognizer, "recognise", "done")
+    noted(hri.GestureRecognizer, "recognise", "done")
+    noted(hri.GestureRecognizer, "features", "done")
+    clips = sorted(signed.glob("*/*"))[:3]
+    labels = ["a", "b", "b"]
+    for run in (
+        lambda: words.predict(sorted(spoken.glob("*.wav"))[:3]),
+        lambda: signs.score(clips, labels),
+        lambda: hri.GestureRecognizer(model="svm").fit(clips, labels),
+        lambda: hri.GestureRecognizer(model="knn").fit(clips, labels).add_gesture("c", clips),
+    ):
+        events.clear()
+        run()
+        assert len(events) in (6, 12) and events == ["read", "done"] * (len(events) // 2)
 
 
 def test_training_takes_files_and_arrays_alike(spoken: Path) -> None:

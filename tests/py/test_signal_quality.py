@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -20,6 +21,7 @@ from hri.fusion import LearnedFusion, fuse
 from hri.io import write_wav_pcm16
 from hri.live import ArraySource, ClipSource, Watcher
 from hri.media import write_image, write_video
+from hri.recognition import quality
 from hri.recognition.quality import mask_quality, speech_snr_db
 from hri.session import McapRecorder, Session, decisions, read_recording, replay
 from session_people import signing, speech, train_signs, train_words
@@ -72,6 +74,20 @@ def test_more_noise_is_a_lower_ratio(noise: str, rate: int) -> None:
 def test_the_ratio_does_not_depend_on_the_level() -> None:
     word = tone_word(next(iter(PERSONS.values())), 800.0, 1)
     assert speech_snr_db(0.01 * word, RATE_HZ) == pytest.approx(speech_snr_db(word, RATE_HZ), abs=1e-3)
+
+
+def test_long_recordings_are_measured_in_parts_that_change_nothing() -> None:
+    samples = tone_word(500.0, 800.0, 1)
+    long = np.tile(samples, 60) + np.float32(0.03) * np.random.default_rng(0).standard_normal(60 * len(samples), "f4")
+    tracemalloc.start()
+    found = speech_snr_db(long, RATE_HZ)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    frames = np.lib.stride_tricks.sliding_window_view(long, 400)[::160] * np.hanning(400)
+    power = np.square(np.abs(np.fft.rfft(frames, axis=1)))
+    low, high = np.quantile(power @ quality._bands(400, RATE_HZ).T, (0.1, 0.9), axis=0)
+    assert found == float((10 * np.log10(high / low)).mean()), "to the bit"
+    assert peak < 1.5 * power.nbytes
 
 
 @pytest.mark.parametrize(

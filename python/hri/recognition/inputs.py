@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, Protocol
@@ -72,12 +72,20 @@ def as_audio(value: AudioInput, sample_rate_hz: int | None, name: str = "audio")
 
 
 def as_audios(values: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None, name: str = "X") -> list[Audio]:
-    """Several utterances; `sample_rate_hz` is one rate for all, one for each, or None.
+    """Several utterances, all of them at once; parameters and errors as of `each_audio`."""
+    return list(each_audio(values, sample_rate_hz, name))
+
+
+def each_audio(
+    values: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None, name: str = "X"
+) -> Iterator[Audio]:
+    """Several utterances, each read when its turn comes; `sample_rate_hz` is one rate for all, one for each, or None.
 
     Raises
     ------
     InvalidArgument
-        As `as_audio`, naming the item; for one utterance in place of several, or rates that are more or fewer.
+        At once for one utterance in place of several, or rates that are more or fewer; as `as_audio`, naming the item,
+        when its turn comes.
     """
     given: object = values  # whatever the annotation says
     if isinstance(given, str | PathLike | Audio) or (isinstance(given, np.ndarray) and given.ndim == 1):
@@ -88,7 +96,7 @@ def as_audios(values: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] 
         rates = list(sample_rate_hz)
     if len(rates) != len(values):
         raise InvalidArgument(f"{name} and sample_rate_hz differ in length: {len(values)}, {len(rates)}")
-    return [as_audio(value, rate, f"{name}[{i}]") for i, (value, rate) in enumerate(zip(values, rates, strict=True))]
+    return (as_audio(value, rate, f"{name}[{i}]") for i, (value, rate) in enumerate(zip(values, rates, strict=True)))
 
 
 def as_frames(value: ClipInput, name: str = "clip") -> list[Frame]:
@@ -120,18 +128,18 @@ def as_frames(value: ClipInput, name: str = "clip") -> list[Frame]:
     return [_as_frame(frame, f"{name}[{i}]") for i, frame in enumerate(value)]
 
 
-def as_clips(values: Sequence[ClipInput], name: str = "X") -> list[list[Frame]]:
-    """Several signs.
+def each_clip(values: Sequence[ClipInput], name: str = "X") -> Iterator[list[Frame]]:
+    """Several signs, each read when its turn comes, as all videos together may not fit in memory.
 
     Raises
     ------
     InvalidArgument
-        As `as_frames`, naming the item; for one sign in place of several.
+        At once for one sign in place of several; as `as_frames`, naming the item, when its turn comes.
     """
     given: object = values  # whatever the annotation says
     if isinstance(given, str | PathLike | Clip) or (isinstance(given, np.ndarray) and given.ndim <= 3):
         raise InvalidArgument(f"{name} must be a sequence of signs, got one: write [{name}], or call recognise")
-    return [as_frames(value, f"{name}[{i}]") for i, value in enumerate(values)]
+    return (as_frames(value, f"{name}[{i}]") for i, value in enumerate(values))
 
 
 def as_texts(values: Iterable[object], name: str) -> list[str]:

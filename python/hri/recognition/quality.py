@@ -17,6 +17,8 @@ MIN_SNR_DB, MAX_SNR_DB = -20.0, 60.0
 _FRAME_S, _SHIFT_S = 0.025, 0.010
 _LOWEST_HZ, _HIGHEST_HZ = 100.0, 4000.0
 _NUM_BANDS = 16
+_FRAMES_AT_ONCE = 512
+"""Of long recordings: spectra of all frames at once take several times the memory of what is kept of them."""
 _FLOOR_SHARE, _TOP_SHARE = 0.1, 0.9
 
 
@@ -42,8 +44,11 @@ def speech_snr_db(samples: NDArray[np.float32], sample_rate_hz: int) -> float | 
     length, shift = round(_FRAME_S * sample_rate_hz), round(_SHIFT_S * sample_rate_hz)
     if len(samples) < length + 3 * shift or not np.isfinite(samples).all():
         return None
-    frames = np.lib.stride_tricks.sliding_window_view(samples, length)[::shift] * np.hanning(length)
-    power = np.square(np.abs(np.fft.rfft(frames, axis=1)))
+    frames, window = np.lib.stride_tricks.sliding_window_view(samples, length)[::shift], np.hanning(length)
+    power = np.empty((len(frames), length // 2 + 1))
+    for first in range(0, len(frames), _FRAMES_AT_ONCE):
+        block = slice(first, first + _FRAMES_AT_ONCE)
+        power[block] = np.square(np.abs(np.fft.rfft(frames[block] * window, axis=1)))
     bands = power @ _bands(length, sample_rate_hz).T
     floor, top = np.quantile(bands, (_FLOOR_SHARE, _TOP_SHARE), axis=0)
     heard = top > 0

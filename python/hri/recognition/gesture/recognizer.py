@@ -17,7 +17,7 @@ from hri import _native
 from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
-from hri.recognition.inputs import ClipInput, as_clips, as_frames, as_texts
+from hri.recognition.inputs import ClipInput, as_frames, as_texts, each_clip
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import mask_quality
@@ -202,7 +202,7 @@ class GestureRecognizer(Recognizer):
         if len(X) != len(y):
             raise InvalidArgument(f"X and y differ in length: {len(X)}, {len(y)}")
         rows = []
-        for done, clip in enumerate(as_clips(X)):
+        for done, clip in enumerate(each_clip(X)):
             rows.append(self.features(clip))
             if progress is not None:
                 progress(done + 1, len(X))
@@ -253,7 +253,7 @@ class GestureRecognizer(Recognizer):
         >>> "eight" in more.classes_, "eight" in signs.classes_
         (True, False)
         """
-        return self.add_gesture_features(label, [self.features(clip) for clip in as_clips(clips)])
+        return self.add_gesture_features(label, [self.features(clip) for clip in each_clip(clips)])
 
     def add_gesture_features(self, label: str, rows: Sequence[NDArray[np.float32]]) -> GestureRecognizer:
         """Add a gesture by what `features` returned for its clips; as `add_gesture`."""
@@ -330,7 +330,7 @@ class GestureRecognizer(Recognizer):
 
     def decide(self, X: Sequence[ClipInput]) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
-        return [self.recognise(clip) for clip in as_clips(X)]
+        return [self.recognise(clip) for clip in each_clip(X)]
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:

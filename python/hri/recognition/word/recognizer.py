@@ -21,7 +21,7 @@ from hri.media import Audio, naming_file, naming_files
 from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
 from hri.recognition.held_out_report import HeldOutReport
-from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts
+from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
 from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import speech_snr_db
@@ -282,7 +282,7 @@ class WordRecognizer(Recognizer):
 
     def decide(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
-        return [self.recognise(audio) for audio in as_audios(X, sample_rate_hz)]
+        return [self.recognise(audio) for audio in each_audio(X, sample_rate_hz)]
 
     def predict(self, X: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None = None) -> NDArray[np.str_]:
         """The best label for every clip, whether or not it would be rejected; "no_input" without speech."""
