@@ -87,6 +87,26 @@ def test_predictions_are_labels_of_any_kind_and_probabilities_sum_to_one() -> No
         np.testing.assert_array_equal(model.classes_[posterior.argmax(axis=1)], predicted)
 
 
+@pytest.mark.parametrize("kind", ["rows", "sequences", "symbols"])
+def test_scores_are_of_labels_one_for_each_item(kind: str) -> None:
+    rows, labels = blobs(count=12)
+    items: Any = rows
+    model: Any = models.GaussianBayes()
+    if kind == "sequences":
+        items, model = [np.tile(row, (20, 1)) for row in rows], models.SequenceNetwork(num_epochs=1)
+    elif kind == "symbols":
+        items, model = [[i % 3] * 5 for i in range(12)], models.PTBHMM(topology={"num_states": 2})
+    model.fit(items, labels)
+    right = np.mean(model.predict(items) == labels)
+    assert all(model.score(items, same) == right for same in (labels, labels[:, None], list(labels)))
+    for wrong, complaint in ((labels[:1], "differ in length: 12, 1"), (labels[:3], "differ in length: 12, 3"),
+                             (np.tile(labels, (12, 1)), "one-dimensional"), ("go", "one-dimensional")):  # fmt: skip
+        with pytest.raises(InvalidArgument, match=complaint):
+            model.score(items, wrong)
+    with pytest.raises(InvalidArgument):
+        model.score([], [])
+
+
 def test_parameters_are_checked_when_passed_and_by_fit() -> None:
     rows, labels = blobs()
     with pytest.raises(TypeError, match="cost"):

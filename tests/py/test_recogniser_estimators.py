@@ -159,6 +159,8 @@ def test_labels_that_are_numbers_are_scored_as_they_were_trained(case: Case) -> 
     assert recogniser.score(case.items, numbers) > 0.9
     with pytest.raises(ValueError, match="X and y differ in length: 12, 11"):
         recogniser.score(case.items, numbers[1:])
+    with pytest.raises(ValueError, match="one item or more"):
+        recogniser.score([], [])
 
 
 def test_groups_are_left_out_whole(case: Case) -> None:

@@ -25,7 +25,7 @@ from hri._native import (
 from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
-from hri.models.rows import as_labels, as_rows
+from hri.models.rows import as_labels, as_rows, share_right
 from hri.models.saving import RowEstimator
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class Classifier(RowEstimator):
 
     def score(self, X: ArrayLike, y: ArrayLike) -> float:
         """Share of rows whose label is predicted, 0..1."""
-        return float(np.mean(self.predict(X) == np.asarray(y)))
+        return share_right(self.predict(X), y, type(self).__name__)
 
     def __sklearn_tags__(self) -> Any:
         return make_tags("classifier", requires_y=True)

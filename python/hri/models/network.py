@@ -14,7 +14,7 @@ from hri import _native
 from hri._native import SequenceNetworkOptions
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
-from hri.models.rows import as_labels, as_rows
+from hri.models.rows import as_labels, as_rows, share_right
 from hri.models.saving import SavedEstimator
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ class SequenceNetwork(SavedEstimator):
 
     def score(self, X: Sequence[ArrayLike], y: ArrayLike) -> float:
         """Share of sequences whose label is predicted, 0..1."""
-        return float(np.mean(self.predict(X) == np.asarray(y)))
+        return share_right(self.predict(X), y, type(self).__name__)
 
     def __sklearn_tags__(self) -> Any:
         return make_tags("classifier", requires_y=True)

@@ -15,7 +15,7 @@ from hri._native import PossibilisticHmmOptions, PossibilisticHmmSet, StatePossi
 from hri.core.errors import InvalidArgument
 from hri.core.estimator import keywords_of
 from hri.core.sklearn_tags import make_tags
-from hri.models.rows import as_labels
+from hri.models.rows import as_labels, share_right
 from hri.models.saving import SavedEstimator
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ class PTBHMM(SavedEstimator):
 
     def score(self, X: Sequence[ArrayLike], y: ArrayLike) -> float:
         """Share of sequences whose label is predicted, 0..1."""
-        return float(np.mean(self.predict(X) == np.asarray(y)))
+        return share_right(self.predict(X), y, type(self).__name__)
 
     @property
     def model_(self) -> PossibilisticHmmSet:

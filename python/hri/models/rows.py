@@ -88,6 +88,26 @@ def as_labels(y: ArrayLike | None, num_rows: int, owner: str) -> tuple[NDArray[A
     return classes, indices.astype(np.int32)
 
 
+def share_right(predicted: NDArray[Any], y: ArrayLike, owner: str) -> float:
+    """Share of labels that are predicted, 0..1; `y` may be a column, as `as_labels` takes it.
+
+    Raises
+    ------
+    InvalidArgument
+        For another length than that of what was predicted, another shape, or nothing at all.
+    """
+    labels = np.asarray(y)
+    if labels.ndim == 2 and labels.shape[1] == 1:
+        labels = labels[:, 0]
+    if labels.ndim != 1:
+        raise InvalidArgument(f"y must be one-dimensional, got shape {labels.shape}")
+    if len(labels) != len(predicted):
+        raise InvalidArgument(f"X and y differ in length: {len(predicted)}, {len(labels)}")
+    if not len(labels):
+        raise InvalidArgument(f"{owner}.score needs one item or more")
+    return float(np.mean(predicted == labels))
+
+
 def _warn_of_column(owner: str) -> None:
     theirs = sys.modules.get("sklearn.exceptions")
     category = UserWarning if theirs is None else theirs.DataConversionWarning

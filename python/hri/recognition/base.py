@@ -174,7 +174,9 @@ def posteriors(decisions: Sequence[Decision], classes: NDArray[np.str_]) -> NDAr
 
 
 def share_right(predicted: NDArray[np.str_], y: Sequence[str]) -> float:
-    """Share of labels that are those of `y`, 0..1."""
+    """Share of labels that are those of `y`, 0..1. Raises InvalidArgument for lengths that differ, and for none."""
     if len(predicted) != len(y):
         raise InvalidArgument(f"X and y differ in length: {len(predicted)}, {len(y)}")
+    if not len(predicted):
+        raise InvalidArgument("score needs one item or more")
     return float(np.mean(predicted == np.asarray([str(label) for label in y])))
