@@ -57,12 +57,6 @@ def choose_options(
         For an option that the recogniser does not have, or a value that it refuses.
     FormatError, IoError
         For a recording looked at that cannot be read; the message names the file.
-
-    Examples
-    --------
-    >>> spoken = hri.Dataset.load("spoken", "speech")
-    >>> given = {"num_states": 10}
-    >>> words = hri.WordRecognizer(**given, **choose_options(spoken, given).options)
     """
     given = {} if given is None else given
     if dataset.kind == "gesture":

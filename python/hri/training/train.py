@@ -86,11 +86,6 @@ def train(
         given for gestures, a noise is none or silent, or training refuses the recordings or the embedding.
     FormatError, IoError
         For a recording that cannot be read; the message names the file.
-
-    Examples
-    --------
-    >>> words = hri.train("spoken")
-    >>> words = hri.train("spoken", hri.WordRecognizer(num_states=10), noises=["workshop.wav"])
     """
     given: object = recognizer  # whatever the annotation says
     if not isinstance(given, WordRecognizer | GestureRecognizer | None):
