@@ -71,7 +71,7 @@ class SpeechRunner:
         self._samples = dataset.samples
         self._adapt = adapt
         # What has no such front end need not know the word.
-        self._fit_with = {} if embedding is None else {"embedding": embedding}
+        self._fit_with: dict[str, Any] = {} if embedding is None else {"embedding": embedding}
         self._make = make_recognizer
         self._tests = tests
         self._train = train
@@ -103,6 +103,9 @@ class SpeechRunner:
         for number, added in enumerate(self._train):
             heard += [self._heard(i, added, _TRAIN, number) for i in fold.train]
         indices = fold.train * (1 + len(self._train))
+        fit_with = dict(self._fit_with)
+        if self._train and not any(self._samples[i].person for i in fold.train):
+            fit_with["recordings"] = [str(i) for i in indices]  # a recording is held out with its copies
         with naming_files([self._samples[i].path for i in indices], "X"):
             recognizer.fit(
                 [samples for samples, _ in heard],
@@ -110,7 +113,7 @@ class SpeechRunner:
                 sample_rate_hz=[rate for _, rate in heard],
                 groups=[self._samples[i].person for i in indices],
                 progress=lambda done, total: self._progress(f"training without {fold.name}", done, total),
-                **self._fit_with,
+                **fit_with,
             )
         results = {}
         for name, condition in self._tests.items():
