@@ -119,6 +119,60 @@ def test_layout_that_may_be_two_things_is_asked_for(tmp_path: Path) -> None:
     assert Dataset.load(tmp_path, pattern="{person}/{label}.jpg").persons == ["ann", "bob"]
 
 
+def test_noise_beside_words_is_no_word(tmp_path: Path) -> None:
+    words = ["yes/0a7c_nohash_0.wav", "no/0a7c_nohash_0.wav", "no/11ff_nohash_0.wav"]
+    dataset = Dataset.load(touch(tmp_path, *words, "_background_noise_/pink_noise.wav"))
+    assert dataset.pattern == "{label}/{person}_nohash_{take}"
+    assert (dataset.labels, dataset.persons) == (["no", "yes"], ["0a7c", "11ff"])
+    assert dataset.ignored == [tmp_path / "_background_noise_/pink_noise.wav"]
+    touch(tmp_path / "nameless", "yes/1.wav", "yes/2.wav", "no/1.wav", "_background_noise_/1.wav")
+    assert Dataset.load(tmp_path / "nameless").labels == ["no", "yes"]
+    with pytest.raises(FormatError, match="no speech recordings"):
+        Dataset.load(touch(tmp_path / "noise", "_background_noise_/1.wav"))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "names", "other"),
+    [
+        ("{label}/{person}_nohash_{take}", "{label}/{person}_nohash_0.wav", "go/hum.wav"),
+        ("{person}/{label}/{take}", "speaker{person}/{label}/1.wav", "speaker1/go/hum.wav"),
+    ],
+)
+def test_a_file_that_is_named_otherwise_does_not_cost_all_others_their_persons(
+    tmp_path: Path, pattern: str, names: str, other: str
+) -> None:
+    touch(tmp_path, *(names.format(label=label, person=person) for label in ("go", "halt") for person in range(5)))
+    assert Dataset.load(tmp_path).pattern == pattern
+    touch(tmp_path, other)
+    with pytest.raises(FormatError, match=f"10 of its 11 files .* these do not: {other}; say pattern='{pattern}'"):
+        Dataset.load(tmp_path)
+    assert len(Dataset.load(tmp_path, pattern=pattern).persons) == 5
+
+
+def test_takes_that_begin_alike_are_no_persons(tmp_path: Path) -> None:
+    takes = ["go/rec_1.wav", "go/rec_2.wav", "go/rec_3.wav", "halt/rec_1.wav", "halt/again.wav"]
+    assert Dataset.load(touch(tmp_path, *takes)).pattern == "{label}/{take}"
+
+
+def test_folders_that_are_links_are_followed_once(tmp_path: Path) -> None:
+    root = touch(tmp_path / "root", "speaker1/go.wav", "speaker1/halt.wav")
+    touch(tmp_path / "elsewhere", "go.wav", "halt.wav", ".hidden.wav")
+    (root / "speaker2").symlink_to(tmp_path / "elsewhere")
+    (root / "speaker3").symlink_to(tmp_path / "elsewhere")  # the same recordings
+    (root / "speaker0").symlink_to(root / "speaker1")
+    (root / "speaker1/up").symlink_to(root)
+    (root / "speaker1/top").symlink_to(tmp_path)
+    (tmp_path / "elsewhere/loop").symlink_to(root)
+    dataset = Dataset.load(root)
+    assert [(sample.person, sample.label) for sample in dataset] == [
+        ("speaker1", "go"),
+        ("speaker1", "halt"),
+        ("speaker2", "go"),
+        ("speaker2", "halt"),
+    ]
+    assert dataset.samples[2].path == root / "speaker2/go.wav"
+
+
 def test_given_pattern_says_which_files_it_left_out(tmp_path: Path) -> None:
     touch(tmp_path, "go_ann_1.wav", "noise.wav", "read.me")
     dataset = Dataset.load(tmp_path, pattern="{label}_{person}_{take}.wav")
@@ -287,8 +341,12 @@ def test_folds_that_cannot_be_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InvalidArgument, match="2 persons or more"):
         dataset.select(persons=["p1"]).folds_by_person()
     nameless = Dataset.load(touch(tmp_path / "x", "go/1.wav", "go/2.wav"), pattern="{label}/{take}")
-    with pytest.raises(InvalidArgument, match="sample 0 has no person"):
+    with pytest.raises(InvalidArgument, match=r"1\.wav: its person is not known, as of 2 of 2 recordings"):
         nameless.folds_by_person()
+    rows = [f'[[samples]]\npath = "a_p{i}_1.wav"\nlabel = "a"\n' + f'person = "p{i}"\n' * (i != 1) for i in range(3)]
+    manifest_in(tmp_path, 'kind = "speech"\n' + "".join(rows))
+    with pytest.raises(InvalidArgument, match=r"a_p1_1\.wav: its person is not known, as of 1 of 3 recordings"):
+        Dataset.load(tmp_path).folds_by_person()
     with pytest.raises(InvalidArgument, match="samples of label 'go'"):
         nameless.folds_stratified(3)
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from hri.core.display import count, html_table, short_path, summary
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.core.suggest import did_you_mean
-from hri.datasets.detection import detect_kind, detect_pattern, media_files
+from hri.datasets.detection import detect_kind, detect_pattern, is_noise, media_files
 from hri.datasets.folds import Fold, split_by_person, split_by_value, split_stratified
 from hri.datasets.manifest import KINDS, MANIFEST_NAME, Manifest, read_manifest
 from hri.datasets.pattern import PathFields, Pattern
@@ -55,7 +55,8 @@ class Dataset:
     synthetic : bool
         The manifest says that a program made the recordings.
     ignored : list of Path
-        Recordings under `root` that do not fit a pattern given by the caller or the manifest.
+        Recordings under `root` that do not fit a pattern given by the caller or the manifest, and, where the pattern
+        was found out, those in a folder ``_background_noise_``.
     """
 
     root: Path
@@ -106,16 +107,19 @@ class Dataset:
             raise IoError(f"{root}: not a folder" if root.exists() else f"{root}: no such folder")
         manifest_path = root / MANIFEST_NAME
         if pattern is not None:
-            return _load_pattern(root, kind or detect_kind(root), Pattern(pattern))
+            kind = kind or detect_kind(root)
+            return _load_pattern(root, kind, Pattern(pattern), media_files(root, kind))
         if manifest_path.exists():
             return _load_manifest(root, kind, manifest_path)
         kind = kind or detect_kind(root)
-        files = media_files(root, kind)
+        found = media_files(root, kind)
+        files = [path for path in found if not is_noise(root, path)]
         if not files:
             raise FormatError(f"{root}: no {kind} recordings in it")
         if kind == "gesture" and is_skig(root):
             return load_skig(root)
-        return _load_pattern(root, kind, detect_pattern(root, files))
+        dataset = _load_pattern(root, kind, detect_pattern(root, files), files)
+        return replace(dataset, ignored=[path for path in found if is_noise(root, path)])
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -185,8 +189,14 @@ class Dataset:
         Raises
         ------
         InvalidArgument
-            When persons are not known or fewer than the folds.
+            When the person of a recording is not known, which is named, or persons are fewer than the folds.
         """
+        nameless = [sample.path for sample in self.samples if not sample.person]
+        if nameless:
+            raise InvalidArgument(
+                f"{nameless[0]}: its person is not known, as of {len(nameless)} of {len(self)} recordings, so they "
+                "cannot be split by person"
+            )
         return split_by_person([sample.person for sample in self.samples], num_folds, seed)
 
     def folds_by_condition(self, name: str) -> list[Fold]:
@@ -214,9 +224,9 @@ def load_skig(root: Path, stream: str = "rgb") -> Dataset:
     return Dataset(root, "gesture", samples, ignored=[p for p in media_files(root, "gesture") if p not in used])
 
 
-def _load_pattern(root: Path, kind: str, pattern: Pattern) -> Dataset:
+def _load_pattern(root: Path, kind: str, pattern: Pattern, files: Iterable[Path]) -> Dataset:
     samples, ignored = [], []
-    for path in media_files(root, kind):
+    for path in files:
         fields = pattern.match(path.relative_to(root).as_posix())
         if fields is None:
             ignored.append(path)
@@ -240,7 +250,7 @@ def _load_manifest(root: Path, kind: str | None, path: Path) -> Dataset:
     if kind is not None and kind != manifest.kind:
         raise FormatError(f"{path}: kind is {manifest.kind!r}, but {kind!r} was asked for")
     if manifest.pattern is not None:
-        dataset = _load_pattern(root, manifest.kind, Pattern(manifest.pattern))
+        dataset = _load_pattern(root, manifest.kind, Pattern(manifest.pattern), media_files(root, manifest.kind))
         places: Iterable[str] = (str(sample.path) for sample in dataset.samples)
     else:
         dataset = Dataset(root, manifest.kind, _listed_samples(root, manifest, path))
