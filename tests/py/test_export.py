@@ -78,6 +78,9 @@ def test_the_command_writes_both(model: ModelFile, hri, tmp_path: Path) -> None:
     result = hri("export", tmp_path / "my words.hri", "-o", tmp_path / "my words.hpp")
     assert result.code == 0 and "my_words()" in result.err
     assert (tmp_path / "my words.hpp").read_text() == model_as_cpp(model, "my_words")
+    for stem, name in (("7", "model_7"), ("शब्द", "model"), ("_words", "model_words"), ("int", "int_model")):
+        assert hri("export", tmp_path / "my words.hri", "-o", tmp_path / f"{stem}.hpp").code == 0
+        assert (tmp_path / f"{stem}.hpp").read_text() == model_as_cpp(model, name)
     assert hri("export", tmp_path / "my words.hri", "-o", tmp_path / "a.json").code == 0
     assert json.loads((tmp_path / "a.json").read_text())["kind"] == "test"
     assert hri("export", tmp_path / "my words.hri", "-o", tmp_path / "a.json", "--name", "x").code == 2

@@ -46,10 +46,16 @@ def export(model: str, out: str, name: str | None) -> None:
             raise click.UsageError("--name is for C++: FILE must end in .hpp or .h")
         write_text(target, model_as_json(file))
         return
-    function = name or re.sub(r"[^A-Za-z0-9_]", "_", target.stem)
+    function = _function_of(target) if name is None else name
     if function in _CPP_WORDS:
-        if name is not None:
-            raise click.UsageError(f"--name {name}: it is a word of C++")
-        function += "_model"
+        raise click.UsageError(f"--name {name}: it is a word of C++")
     write_text(target, model_as_cpp(file, function))
     note(f'load it with hri::ModelFile::parse({function}(), "{function}")')
+
+
+def _function_of(target: Path) -> str:
+    """What the name of a file gives: a name for C++ that is none of its words."""
+    name = re.sub(r"[^A-Za-z0-9_]", "_", target.stem)
+    if not name[:1].isalpha():
+        name = f"model_{name.strip('_')}".rstrip("_")
+    return f"{name}_model" if name in _CPP_WORDS else name
