@@ -194,9 +194,13 @@ def test_tables_are_aligned_on_a_terminal_and_tabbed_elsewhere(monkeypatch: pyte
         assert stream.getvalue() == text
 
 
-def test_info_names_what_a_file_holds_instead_of_a_recogniser(hri, tmp_path: Path):
+def test_info_shows_kind_and_fields_of_what_is_no_recogniser(hri, tmp_path: Path):
     other = ModelFile()
     other.kind = "recipe"
+    other.set_text("rule", "product")
     other.write(str(tmp_path / "other.hri"))
     result = hri("info", tmp_path / "other.hri")
-    assert result.code == 3 and "'recipe'" in result.err
+    assert result.code == 0 and {"kind\trecipe", "metadata rule\tproduct"} <= set(result.out.splitlines()), result.err
+    other.kind = "word_recognizer"
+    other.write(str(tmp_path / "other.hri"))
+    assert hri("info", tmp_path / "other.hri").code == 3, "a damaged recogniser"

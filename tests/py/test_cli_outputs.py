@@ -103,6 +103,20 @@ def test_where_nothing_is_learned_no_model_is_written(hri, model: Path, tmp_path
         (("robot", "convert", "wave", "a.tsv", "--short"), "--short is a form of .csv"),
         (("robot", "render", "wave", "a.png"), "say of which moment by --still"),
         (("robot", "render", "wave", "a.mp4", "--fps", "nan"), "nan is not a finite number"),
+        (("recognise", "--gesture", "SAID", "--speech-model", "SAID"), "--speech-model is of speech"),
+        (("recognise", "SAID", "--gesture-model", "SAID"), "--gesture-model is of signs"),
+        (("recognise", "SAID", "--rule", "product"), "--rule is for a word and a sign together"),
+        (("recognise", "SAID", "--fusion", "SAID"), "--fusion is for a word and a sign together"),
+        (
+            ("recognise", "SAID", "--gesture", "SAID", "--fusion", "SAID", "--rule", "product"),
+            "--rule and --fusion exclude each other",
+        ),
+        (("recognise", "SAID", "--backend", "kinematic"), "--backend goes with --robot or --gui"),
+        (("features", "sign.jpg", "--preset", "kaldi"), "--preset is of sound"),
+        (("add-word", "--model", "MODEL", "--label", "a", "--language", "hi", "SAID"), "--language is for models from"),
+        (("corpus", "speech", "--out", "made", "--seed", "-1"), "--seed"),
+        (("corpus", "gesture", "--out", "made", "--seed", "-1"), "--seed"),
+        (("corpus", "sentences", "--out", "made", "--seed", "-1"), "--seed"),
         (("--threads", "9999999999", "info"), "--threads"),
         (("add-word", "--label", "a\nb", "SAID"), "break lines"),
         (("add-word", "--label", "a", "--spelling", " "), "--spelling is empty"),
@@ -117,8 +131,10 @@ def test_where_nothing_is_learned_no_model_is_written(hri, model: Path, tmp_path
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
 )
-def test_what_has_no_effect_is_refused(hri, arguments: tuple[str, ...], message: str, said: Path) -> None:
-    places = {"SAID": said, "FOLDER": said.parent}
+def test_what_has_no_effect_is_refused(hri, arguments: tuple[str, ...], message: str, said: Path, model: Path) -> None:
+    picture = said.parent / "sign.jpg"
+    picture.touch()
+    places = {"SAID": said, "FOLDER": said.parent, "MODEL": model, "sign.jpg": picture}
     done = hri(*(places.get(argument, argument) for argument in arguments))
     assert done.code == 2 and message in done.err, done.err
 

@@ -165,5 +165,5 @@ def test_the_command_line_takes_a_learned_fusion(
     write_video(tmp_path / "scene.avi", signing([("flat", 1.2)], 5.0), FPS)
     scene = ("--backend", "none", "--json", tmp_path / "scene.wav", tmp_path / "scene.avi")
     assert '"rule": "learned logistic' in hri("session", *models, *learned, *scene).out
-    wrong = hri("recognise", *models, "--fusion", tmp_path / "words.hri", tmp_path / "said.wav")
+    wrong = hri("recognise", *models, "--fusion", tmp_path / "words.hri", tmp_path / "said.wav", tmp_path / "shown.png")
     assert wrong.code != 0 and "the file holds 'word_recognizer', not 'learned_fusion'" in wrong.err

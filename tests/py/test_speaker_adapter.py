@@ -93,6 +93,8 @@ def test_command_adapts_a_model(hri, words: package.WordRecognizer, tmp_path: Pa
     files = sorted(tmp_path.glob("*.wav"))
     done = hri("adapt", "--model", tmp_path / "words.hri", "-o", tmp_path / "mine.hri", *files)
     assert done.code == 0 and "of 6 recordings" in done.err, done.err
+    heard = package.SpeakerAdapter(words)
+    assert done.out.splitlines() == [f"{heard.recognise(file).label}\t{file}" for file in files]
     clip = strange(800.0, 9)
     adapted = package.WordRecognizer.load(tmp_path / "mine.hri")
     assert not np.array_equal(adapted.scores(clip, RATE_HZ), words.scores(clip, RATE_HZ))
@@ -110,10 +112,10 @@ def test_command_learns_the_words_of_one_person_by_their_names(
     done = hri("adapt", *place, "--data", spoken, "--person", "low", "--json", "-")
     assert done.code == 0 and "from 6 of 6 recordings" in done.err, done.err
     reported = json.loads(done.out)
-    assert sorted(reported["learned"].values()) == ["1", "1", "1", "2", "2", "2"]
-    assert all(f"{label}_low_" in file for file, label in reported["learned"].items())
+    assert sorted(reported["labels"].values()) == ["1", "1", "1", "2", "2", "2"]
+    assert all(f"{label}_low_" in file for file, label in reported["labels"].items())
     adapter = package.SpeakerAdapter(words)
-    for file, label in reported["learned"].items():
+    for file, label in reported["labels"].items():
         adapter.learn(file, label)
     adapter.update()
     clip = strange(800.0, 9)

@@ -47,8 +47,9 @@ def adapt(
 ) -> None:
     """Adapt a model to a speaker, a microphone or a room, from recordings of single words.
 
-    Prints the label that each recording was learned as. Five words already help, more so with labels; from five a
-    label on, every word's own model is adapted too. The model given stays as it is.
+    Prints the label of each recording, or what it was recognised as in its turn; learned from is only what is accepted
+    once all have been heard. Five words already help, more so with labels; from five a label on, every word's own model
+    is adapted too. The model given stays as it is.
 
     \b
     Examples:
@@ -69,9 +70,9 @@ def adapt(
     recognizer = WordRecognizer.load(model or kept_model("speech"), embedding=load_embedding(embedding_path))
     adapter = SpeakerAdapter(recognizer)
     with progress_bars() as progress:
-        learned = []
-        for done, (path, word) in enumerate(_learned(adapter, words)):
-            learned.append((path, word))
+        heard = []
+        for done, (path, word) in enumerate(_heard(adapter, words)):
+            heard.append((path, word))
             progress("recognising", done + 1, len(words))
     adapter.update()
     if adapter.num_learned == 0:
@@ -82,14 +83,14 @@ def adapt(
         )
     Path(output).parent.mkdir(parents=True, exist_ok=True)
     adapter.recognizer.save(output)
-    for path, word in learned:
+    for path, word in heard:
         say(f"{word}\t{path}", json_path)
     counts = {"num_words": adapter.num_words, "num_learned": adapter.num_learned}
     note(f"learned from {adapter.num_learned} of {len(words)} recordings: {output}")
-    write_json(json_path, {"model": output, **counts, "learned": {str(path): word for path, word in learned}})
+    write_json(json_path, {"model": output, **counts, "labels": {str(path): word for path, word in heard}})
 
 
-def _learned(adapter: SpeakerAdapter, words: list[tuple[Path, str | None]]) -> Iterator[tuple[Path, str]]:
+def _heard(adapter: SpeakerAdapter, words: list[tuple[Path, str | None]]) -> Iterator[tuple[Path, str]]:
     """Every recording with its label, or else what it is recognised as."""
     for path, label in words:
         audio = read_audio(path)

@@ -36,7 +36,7 @@ def corpus() -> None:
 @click.option("--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to write.")
 @click.option("--speakers", default=24, show_default=True, type=click.IntRange(1, 1000), help="Made-up voices.")
 @click.option("--takes", default=2, show_default=True, type=click.IntRange(1, 1000), help="Repetitions by each voice.")
-@click.option("--seed", default=0, show_default=True, help="Equal seeds give equal recordings.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Equal seeds give equal recordings.")
 def speech(words: tuple[str, ...], language: str, out: str, speakers: int, takes: int, seed: int) -> None:
     """Words spoken by espeak-ng in many voices, pitches and paces; without words, the digits.
 
@@ -86,7 +86,7 @@ def _three(option: str, text: str) -> Callable[[Any], Any]:
 @click.option(
     "--takes", default=1, show_default=True, type=click.IntRange(1, 1000), help="Repetitions by each of them."
 )
-@click.option("--seed", default=0, show_default=True, help="Equal seeds give equal pictures.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Equal seeds give equal pictures.")
 @click.option("--skin", type=click.Choice(list(SKINS)), help="Tone of everybody's skin.")
 @click.option("--sleeve", type=click.Choice(list(SLEEVES)), help="Where everybody's sleeve ends.")
 @click.option("--light", type=click.Choice(list(LIGHTS)), help="Where the light comes from, and how hard it is.")
@@ -153,7 +153,7 @@ def gesture(
 @click.option("--signers", default=10, show_default=True, type=click.IntRange(1, 1000), help="Made-up people.")
 @click.option("--first-signer", default=0, show_default=True, type=click.IntRange(0), help="Number of the first one.")
 @click.option("--takes", default=3, show_default=True, type=click.IntRange(1, 100), help="Repetitions by each of them.")
-@click.option("--seed", default=0, show_default=True, help="Equal seeds give equal tracks.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Equal seeds give equal tracks.")
 def signed_sentences(out: str, table: str, signers: int, first_signer: int, takes: int, seed: int) -> None:
     """Drawn people who sign sentences: tracks of both hands and the head, and the frames of the words.
 

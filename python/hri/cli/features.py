@@ -12,7 +12,7 @@ from typing import Any
 import click
 import numpy as np
 
-from hri.cli.groups import CheckedCommand
+from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_bytes, write_text
 from hri.cli.recognizers import naming_options, parse_options
@@ -77,6 +77,8 @@ def features(
     kind = kind or ("hand" if seen else "mfcc")
     if kind not in known:
         raise click.UsageError(f"{recording} has no features of kind {kind}; there are: {', '.join(known)}")
+    if seen:
+        refuse_given(("preset",), "is of sound")
     found = _seen(recording, kind, options) if seen else _heard(recording, kind, preset, options)
     if plot is not None:
         _plot(plot, found)

@@ -21,6 +21,7 @@ from hri.io import ModelFile
 from hri.media import natural_key
 from hri.recognition import SentenceRecognizer, WordRecognizer, load
 
+_OF_SINGLE = ("word_recognizer", "subword_recognizer", "gesture_recognizer")
 _OF_SEVERAL = {"connected_word_recognizer": "connected", "sentence_recognizer": "sentences"}
 EXTRAS = {
     "audio": ("soundfile",),
@@ -83,9 +84,12 @@ def _has_vision() -> bool:
 
 
 def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
-    kind = _kind(path)
-    if kind is not None:
+    file = _read(path)
+    if file is not None and file.kind not in _OF_SINGLE:
         refuse_given(("embedding_path",), "is for models of single words")
+        if file.kind not in _OF_SEVERAL:
+            return {"kind": file.kind, "metadata": dict(file.metadata())}
+    kind = None if file is None else _OF_SEVERAL.get(file.kind)
     recognizer = load(path, embedding=load_embedding(embedding_path)) if kind is None else KINDS[kind].load(path)
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
     found: dict[str, Any] = {"mode": kind or recognizer.mode, "labels": labels}
@@ -95,10 +99,10 @@ def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
     return {**found, "options": trained.as_dict()}
 
 
-def _kind(path: str) -> str | None:
-    """Of a model of several words or signs; of all others `load` finds out, which says what is wrong, too."""
+def _read(path: str) -> ModelFile | None:
+    """None for what is no model: `load` says what is wrong with it."""
     try:
-        return _OF_SEVERAL.get(ModelFile.read(path).kind)
+        return ModelFile.read(path)
     except Error:
         return None
 

@@ -95,7 +95,15 @@ def recognise(
     if speech is None and gesture is None:
         raise click.UsageError("give a recording: --speech FILE, --gesture FILE, or both")
     if speech is None:
-        refuse_given(("embedding_path",), "is of speech, and no recording of a word is given")
+        refuse_given(("speech_model", "embedding_path"), "is of speech, and no recording of a word is given")
+    if gesture is None:
+        refuse_given(("gesture_model",), "is of signs, and no recording of one is given")
+    if speech is None or gesture is None:
+        refuse_given(("rule", "fusion_path"), "is for a word and a sign together")
+    if fusion_path is not None:
+        refuse_given(("rule",), "and --fusion exclude each other")
+    if robot_path is None and not gui:
+        refuse_given(("backend",), "goes with --robot or --gui")
     if faces is not None and gesture is None:
         raise click.UsageError("--faces is for signs: --gesture FILE")
     if gui and backend != "pybullet":

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from hri.cli.groups import CheckedCommand
+from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.recognizers import embedding_option, kept_model, load_embedding
@@ -46,7 +46,10 @@ def _printable(context: click.Context, param: click.Parameter, label: str) -> st
     "--spelling", metavar="TEXT", help="How the word is written; for models from 'hri train-units', without recordings."
 )
 @click.option(
-    "--language", default="en", show_default=True, help="With --spelling: which language, as espeak-ng calls it."
+    "--language",
+    default="en",
+    show_default=True,
+    help="Of the spelling, or of the label without one, as espeak-ng calls it; for models from 'hri train-units'.",
 )
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False), metavar="[FILE]...")
 @embedding_option
@@ -85,6 +88,7 @@ def add_word(
     elif spelling is not None:
         raise InvalidArgument("a word is added by its spelling to a model from 'hri train-units', not to one of words")
     else:
+        refuse_given(("language",), "is for models from 'hri train-units'")
         words.add_word(label, clips)
     _keep(words, target, json_path)
 
