@@ -10,9 +10,12 @@ from typing import Any
 
 import pytest
 
+from hri.cli import train_fusion
 from hri.core.errors import InvalidArgument
+from hri.evaluation import EvaluationItem, EvaluationResult, FoldResult
 from hri.fusion import LearnedFusion, pair_decisions
 from hri.recognition.decision import Decision, NBest
+from hri.training import choices
 
 pytest.importorskip("cv2")
 pytest.importorskip("hri._native_vision")
@@ -33,7 +36,7 @@ def corpora(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_fusion_is_trained_on_persons_held_out(hri: Any, corpora: Path, tmp_path: Path) -> None:
     out, report = tmp_path / "made" / "fusion.hri", tmp_path / "report.json"
     data = ("--speech-data", corpora / "spoken", "--gesture-data", corpora / "signed")
-    quick = ("--folds", "2", "--speech-option", "use_network=false", "--kind", "logistic")
+    quick = ("--folds", "2", "--front-end", "cepstra", "--no-network", "--source", "silhouettes", "--kind", "logistic")
     done = hri("train-fusion", *data, "--out", out, *quick, "--exposure", "0.4", "--json", report)
     assert done.code == 0, done.err
     assert done.out.strip() == str(out) and "labels: 1 2" in done.err
@@ -74,10 +77,72 @@ def test_what_cannot_be_learned_from_is_said(hri: Any, corpora: Path, tmp_path: 
         ((*spoken, *signed, *out, "--kind", "oracle"), 2, "oracle"),
         ((*spoken, *signed, *out, "--gesture-option", "colour=red"), 3, "--option"),
         ((*spoken, *signed), 2, "--out"),
+        (
+            (*spoken, *signed, *out, "--no-network", "--speech-option", "use_network=true"),
+            2,
+            "--network and --speech-option use_network=... exclude each other",
+        ),
+        ((*spoken, *signed, *out, "--source", "landmarks", "--gesture-option", "source=landmarks"), 2, "--source and"),
+        ((*spoken, *signed, *out, "--speech-pattern", "{label}-{person}"), 3, "fits '{label}-{person}'"),
+        ((*spoken, *signed, *out, "--gesture-pattern", "{label}-{person}"), 3, "fits '{label}-{person}'"),
     ):
         refused = hri("train-fusion", *arguments)
         assert refused.code == code and message in refused.err, (arguments, refused.err)
     assert not (tmp_path / "fusion.hri").exists()
+
+
+def _decided(mode: str, label: str) -> Decision:
+    other = "2" if label == "1" else "1"
+    return Decision(mode, label, "recognised", 0.9, nbest=(NBest(label, 0.9, 0.0), NBest(other, 0.1, -2.0)))
+
+
+@pytest.fixture
+def validated(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+    """By mode the recogniser and the embedding that were to be trained; all of the first person's words are "1"."""
+    asked: dict[str, Any] = {}
+
+    def fake(dataset: Any, make: Any, *, embedding: Any = None, **_: Any) -> EvaluationResult:
+        asked[dataset.kind] = (make().options, embedding)
+        rows = ("11", "12") if dataset.kind == "speech" else ("12", "12")
+        folds = [
+            FoldResult(str(number), tuple(EvaluationItem(i, t, _decided(dataset.kind, t)) for i, t in enumerate(row)))
+            for number, row in enumerate(rows)
+        ]
+        return EvaluationResult(dataset.labels, folds, {})
+
+    monkeypatch.setattr(train_fusion, "cross_validate", fake)
+    return asked
+
+
+def test_it_learns_from_the_recognisers_that_train_makes(
+    hri: Any, corpora: Path, tmp_path: Path, validated: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(choices, "_has_embedding", lambda: False)
+    monkeypatch.setattr(choices, "choose_source", lambda _: ("silhouettes", "source: silhouettes, because"))
+    data = ("--speech-data", corpora / "spoken", "--gesture-data", corpora / "signed", "--out", tmp_path / "fusion.hri")
+    done = hri("train-fusion", *data, "--json", "-")
+    assert done.code == 0 and "source: silhouettes, because" in done.err and "a network" in done.err, done.err
+    words, signs = validated["speech"][0], validated["gesture"][0]
+    assert (words.front_end, words.use_network, signs.source) == ("cepstra", True, "silhouettes")
+    assert json.loads(done.out)["options"] == {"speech": words.as_dict(), "gesture": signs.as_dict()}
+
+    weights = tmp_path / "weights.onnx"
+    weights.touch()
+    monkeypatch.setattr(train_fusion, "embedding_for", lambda _, path: path)
+    flags = ("--embedding", weights, "--no-network", "--source", "landmarks", "--hands", "both")
+    assert hri("train-fusion", *data, *flags, "--gesture-option", "model=hmm").code == 0
+    (words, embedding), (signs, none) = validated["speech"], validated["gesture"]
+    assert (words.front_end, words.use_network, embedding, none) == ("both", False, str(weights), None)
+    assert (signs.source, signs.num_hands) == ("landmarks", 2)
+
+
+@pytest.mark.usefixtures("validated")
+def test_a_fusion_that_cannot_be_measured_is_saved(hri: Any, corpora: Path, tmp_path: Path) -> None:
+    out = tmp_path / "fusion.hri"
+    data = ("--speech-data", corpora / "spoken", "--gesture-data", corpora / "signed", "--front-end", "cepstra")
+    done = hri("train-fusion", *data, "--source", "silhouettes", "--out", out, "--json", "-")
+    assert done.code == 0 and "cannot be measured" in done.err and "there are 1, and 1, 2" in done.err, done.err
+    assert json.loads(done.out)["held_out"] is None and LearnedFusion.load(out).kind == "product"
 
 
 def test_words_are_paired_with_signs_of_the_same_label() -> None:

@@ -18,31 +18,49 @@ from hri.training import choose_options
 
 Decorator = Callable[[Any], Any]
 
-front_end_option: Decorator = click.option(
-    "--front-end",
-    type=click.Choice(["cepstra", "both", "embedding"]),
-    help="Speech only: cepstra alone, both: with a pretrained speech embedding, which the extra embedding installs, or "
-    "that embedding alone. The default is both where the extra is. The same as --option front_end=...",
-)
-network_option: Decorator = click.option(
-    "--network/--no-network",
-    default=None,
-    help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes; the default is "
-    "to do so from three speakers on with cepstra, and from ten on with the embedding. The same as --option "
-    "use_network=true or false",
-)
-source_option: Decorator = click.option(
-    "--source",
-    type=click.Choice(["silhouettes", "landmarks"]),
-    help="Gesture only: silhouettes of hands, or their joints, as the extra mediapipe finds them. The default is "
-    "landmarks where the extra is installed and finds the hands. The same as --option source=...",
-)
-hands_option: Decorator = click.option(
-    "--hands",
-    type=click.Choice(["one", "both"]),
-    help="Gesture only: whether gestures are of one hand, the default, or of both. The same as --option num_hands=1 or "
-    "2",
-)
+
+def front_end_option(option: str = "--option") -> Decorator:
+    """``--front-end``; the same as a field that `option` sets."""
+    return click.option(
+        "--front-end",
+        type=click.Choice(["cepstra", "both", "embedding"]),
+        help="Speech only: cepstra alone, both: with a pretrained speech embedding, which the extra embedding "
+        "installs, or that embedding alone. The default is both where the extra is. The same as "
+        f"{option} front_end=...",
+    )
+
+
+def network_option(option: str = "--option") -> Decorator:
+    """``--network`` and ``--no-network``."""
+    return click.option(
+        "--network/--no-network",
+        default=None,
+        help="Speech only: whether a small network, trained on the same words, votes too. It takes minutes; the "
+        "default is to do so from three speakers on with cepstra, and from ten on with the embedding. The same as "
+        f"{option} use_network=true or false",
+    )
+
+
+def source_option(option: str = "--option") -> Decorator:
+    """``--source``."""
+    return click.option(
+        "--source",
+        type=click.Choice(["silhouettes", "landmarks"]),
+        help="Gesture only: silhouettes of hands, or their joints, as the extra mediapipe finds them. The default is "
+        f"landmarks where the extra is installed and finds the hands. The same as {option} source=...",
+    )
+
+
+def hands_option(option: str = "--option") -> Decorator:
+    """``--hands``."""
+    return click.option(
+        "--hands",
+        type=click.Choice(["one", "both"]),
+        help="Gesture only: whether gestures are of one hand, the default, or of both. The same as "
+        f"{option} num_hands=1 or 2",
+    )
+
+
 _OF_MODE = {"--front-end": "speech", "--embedding": "speech", "--network": "speech"}
 _NAMES = {"--front-end": "front_end", "--network": "use_network", "--hands": "num_hands", "--source": "source"}
 
@@ -56,13 +74,14 @@ def asked_options(
     mode: str,
     options: tuple[str, ...],
     *,
-    front_end: str | None,
-    embedding_path: str | None,
-    network: bool | None,
-    source: str | None,
-    hands: str | None,
+    front_end: str | None = None,
+    embedding_path: str | None = None,
+    network: bool | None = None,
+    source: str | None = None,
+    hands: str | None = None,
+    option: str = "--option",
 ) -> tuple[str, ...]:
-    """`options`, and behind them those that the flags stand for.
+    """`options`, which ``option`` gave, and behind them those that the flags stand for.
 
     Raises
     ------
@@ -74,7 +93,7 @@ def asked_options(
         if given is not None and mode != _OF_MODE.get(flag, "gesture"):
             raise click.UsageError(f"{flag} is for {_OF_MODE.get(flag, 'gesture')}")
         if given is not None and flag in _NAMES and names(options, _NAMES[flag]):
-            raise click.UsageError(f"{flag} and --option {_NAMES[flag]}=... exclude each other")
+            raise click.UsageError(f"{flag} and {option} {_NAMES[flag]}=... exclude each other")
     values = {
         "front_end": front_end,
         "use_network": None if network is None else str(network).lower(),

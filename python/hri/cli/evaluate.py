@@ -54,11 +54,11 @@ _folder = click.Path(exists=True, file_okay=False)
 @click.option("--train-noise", is_flag=True, help="Train on a noisy copy of every clip too.")
 @click.option("--exposure", type=FiniteRange(0.05, 20), help="Factor on the brightness of the test pictures.")
 @options_option("MODE", "num_states=8")
-@front_end_option
+@front_end_option()
 @embedding_option
-@network_option
-@source_option
-@hands_option
+@network_option()
+@source_option()
+@hands_option()
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of folds, training and noise.")
 @click.option(
     "--confusion",

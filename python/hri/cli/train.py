@@ -53,9 +53,9 @@ from hri.vision.faces import face_finder
     help="Speech only: a folder of words outside the vocabulary, for rejection, in place of the synthetic ones of hri.",
 )
 @click.option("--no-fillers", is_flag=True, help="Speech only: no filler words; training and recognition are faster.")
-@front_end_option
+@front_end_option()
 @embedding_option
-@network_option
+@network_option()
 @click.option(
     "--noise",
     "noises",
@@ -64,8 +64,8 @@ from hri.vision.faces import face_finder
     help="Speech only: train on a copy of every recording in noise too, 0 to 20 dB below the word, best in a recording "
     "of the place where the recogniser is used. With several, each copy takes one of them.",
 )
-@source_option
-@hands_option
+@source_option()
+@hands_option()
 @faces_option("never: an open palm may look like a face")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
 @json_option
