@@ -12,6 +12,7 @@ import cv2
 import pytest
 
 import hri as library
+from hri.cli import evaluate
 from hri.media import write_video
 from hri.vision import FaceFinder, FaceFinderOptions, faces
 from test_person_streams import CASCADE, room
@@ -60,6 +61,21 @@ def test_training_keeps_whether_hands_are_those_of_the_face(train: Any, hri: Any
     assert absent.code == 3 and "none.xml" in absent.err
     spoken = hri("train", "speech", "--data", shown, "--faces", "auto")
     assert spoken.code == 2 and "--faces" in spoken.err
+
+
+def test_evaluation_finds_hands_as_training_does(
+    hri: Any, shown: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[library.GestureRecognizer] = []
+    monkeypatch.setattr(evaluate, "cross_validate", lambda _, make, **__: made.append(make()) or 1 / 0)
+    command = ("evaluate", "gesture", "--data", shown, "--pattern", PATTERN)
+    hri(*command, "--faces", tmp_path / "any.xml")
+    assert made[0].options.use_faces and made[0].faces == str(tmp_path / "any.xml")
+    assert made[0].options.source == "silhouettes"
+    refused = hri(*command, "--faces", "auto", "--source", "landmarks")
+    assert refused.code == 2 and "--faces is for gestures by silhouettes" in refused.err
+    absent = hri(*command, "--faces", tmp_path / "none.xml")
+    assert absent.code == 3 and "none.xml" in absent.err and len(made) == 1
 
 
 def test_every_command_that_looks_for_hands_finds_them_as_told(

@@ -79,6 +79,7 @@ def asked_options(
     network: bool | None = None,
     source: str | None = None,
     hands: str | None = None,
+    faces: str | None = None,
     option: str = "--option",
 ) -> tuple[str, ...]:
     """`options`, which ``option`` gave, and behind them those that the flags stand for.
@@ -101,6 +102,14 @@ def asked_options(
         "source": source,
     }
     options = (*options, *(f"{name}={value}" for name, value in values.items() if value is not None))
+    if faces is not None:
+        if mode != "gesture" or "source=landmarks" in options:
+            raise click.UsageError("--faces is for gestures by silhouettes")
+        if names(options, "use_faces"):
+            raise click.UsageError(f"--faces and {option} use_faces=... exclude each other")
+        options = (*options, f"use_faces={str(faces != 'never').lower()}")
+        if not names(options, "source"):
+            options = (*options, "source=silhouettes")
     return with_embedding(options, embedding_path)
 
 

@@ -19,6 +19,7 @@ from hri.cli.choices import (
     source_option,
     what_words_are_of,
 )
+from hri.cli.faces import faces_option, require_faces
 from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say_table, write_json
@@ -35,7 +36,7 @@ from hri.cli.recognizers import (
 from hri.core.optional import import_optional
 from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, FoldResult, cross_validate, evaluate_split
-from hri.recognition import WordRecognizer
+from hri.recognition import GestureRecognizer, WordRecognizer
 
 _folder = click.Path(exists=True, file_okay=False)
 
@@ -59,6 +60,7 @@ _folder = click.Path(exists=True, file_okay=False)
 @network_option()
 @source_option()
 @hands_option()
+@faces_option("never, as of train")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of folds, training and noise.")
 @click.option(
     "--confusion",
@@ -92,6 +94,7 @@ def evaluate(
     network: bool | None,
     source: str | None,
     hands: str | None,
+    faces: str | None,
     seed: int,
     confusion: str | None,
     reliability: str | None,
@@ -99,8 +102,10 @@ def evaluate(
 ) -> None:
     """Measure the accuracy of MODE (speech or gesture) on persons who are not in the training data.
 
-    What is measured is what 'hri train' makes of the same recordings by the same options. That may take hours where
-    many people are held out one by one: --folds 5 and --no-network take a fraction of that.
+    What is measured is what 'hri train' makes of the same recordings by those of its options that stand here. Words
+    are trained with the filler words of hri, whatever 'hri train' takes by --fillers or --no-fillers, and in noise by
+    --train-noise only. That may take hours where many people are held out one by one: --folds 5 and --no-network take a
+    fraction of that.
 
     \b
     Examples:
@@ -131,13 +136,28 @@ def evaluate(
     if confusion is not None or reliability is not None:
         import_optional("matplotlib", "plots", "to draw the confusion matrix or the reliability diagram")
     options = asked_options(
-        mode, options, front_end=front_end, embedding_path=embedding_path, network=network, source=source, hands=hands
+        mode,
+        options,
+        front_end=front_end,
+        embedding_path=embedding_path,
+        network=network,
+        source=source,
+        hands=hands,
+        faces=faces,
     )
+    require_faces(faces)
     folder = data or train_dir
     assert folder is not None
     dataset = load_dataset(folder, mode, pattern)
     options, why_source = chosen_options(options, dataset, train_persons)
-    make = recognizer_factory(mode, options, seed)
+    untrained = recognizer_factory(mode, options, seed)
+
+    def make() -> WordRecognizer | GestureRecognizer:
+        recognizer = untrained()
+        if isinstance(recognizer, GestureRecognizer):
+            recognizer.faces = faces
+        return recognizer
+
     conditions: dict[str, Any] = {
         "seed": seed,
         "noise": noise,

@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from hri.recognition import GestureRecognizer, SentenceRecognizer
+from hri.vision.faces import face_finder
 
 
 def faces_option(default: str) -> Callable[[Any], Any]:
@@ -20,6 +21,12 @@ def faces_option(default: str) -> Callable[[Any], Any]:
         help="Whether hands are those of the person whose face is seen, where one is; FILE is a cascade of OpenCV's "
         f"that finds faces.  [default: {default}]",
     )
+
+
+def require_faces(faces: str | None) -> None:
+    """Refuse ``--faces`` where nothing here finds faces: now, not after all recordings."""
+    if faces not in (None, "never"):
+        face_finder(faces, required=True)
 
 
 def look_for_faces(signs: GestureRecognizer | SentenceRecognizer, faces: str | None) -> None:

@@ -19,7 +19,7 @@ from hri.cli.choices import (
     source_option,
     what_words_are_of,
 )
-from hri.cli.faces import faces_option
+from hri.cli.faces import faces_option, require_faces
 from hri.cli.groups import CheckedCommand, is_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
@@ -37,7 +37,6 @@ from hri.cli.recognizers import (
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
 from hri.training import fillers_of
 from hri.training import train as train_recognizer
-from hri.vision.faces import face_finder
 
 
 @click.command(cls=CheckedCommand)
@@ -111,16 +110,15 @@ def train(
         raise click.UsageError("--noise is for speech")
     refuse_wrong_noises(noises)
     options = asked_options(
-        mode, options, front_end=front_end, embedding_path=embedding_path, network=network, source=source, hands=hands
+        mode,
+        options,
+        front_end=front_end,
+        embedding_path=embedding_path,
+        network=network,
+        source=source,
+        hands=hands,
+        faces=faces,
     )
-    if faces is not None:
-        if mode != "gesture" or "source=landmarks" in options:
-            raise click.UsageError("--faces is for gestures by silhouettes")
-        if names(options, "use_faces"):
-            raise click.UsageError("--faces and --option use_faces=... exclude each other")
-        options = (*options, f"use_faces={str(faces != 'never').lower()}")
-        if not names(options, "source"):
-            options = (*options, "source=silhouettes")
     dataset = load_dataset(data, mode, pattern)
     options, why_source = chosen_options(options, dataset)
     untrained = recognizer_factory(mode, options, seed)()
@@ -132,8 +130,7 @@ def train(
     path.parent.mkdir(parents=True, exist_ok=True)
     if isinstance(untrained, GestureRecognizer):
         untrained.faces = faces
-        if faces not in (None, "never"):
-            face_finder(faces, required=True)  # refused now, not after all recordings
+        require_faces(faces)
     with progress_bars() as progress:
         recognizer = train_recognizer(
             dataset, untrained, fillers=others, embedding=embedding, noises=noises, progress=progress
