@@ -15,7 +15,9 @@ import hri as package
 from hri.core.errors import InvalidArgument, IoError
 from hri.datasets import Dataset
 from hri.live import ClipSource, GestureRecorder, Watcher
+from hri.live.spotting import SpottingStream
 from hri.media import read_frames, write_video
+from hri.recognition import GestureSegmenterOptions
 from test_watching_movements import FAR, FPS, Frame, picture
 
 cv2 = pytest.importorskip("cv2")
@@ -125,6 +127,24 @@ def test_bad_takes_are_refused_with_the_reason(tmp_path: Path) -> None:
 
     lost = list(GestureRecorder(tmp_path, ["left"], "ben", 1, pause_s=PAUSE_S).record(Losing(session(["left"]), FPS)))
     assert any("pictures were lost" in e.fields.get("reason", "") for e in lost)
+
+
+def test_pictures_are_kept_for_the_longest_gesture_only() -> None:
+    rng = np.random.default_rng(0)
+    options = GestureSegmenterOptions()
+    options.max_gesture_s = 1.0
+    stream = SpottingStream(options, 1, dynamic=False)
+    reasons, kept = [], []
+    for index in range(90):  # the hand moves on and on
+        x = (40, 100, 60, 120, 80)[index % 5]
+        happened = stream.push(picture(x, 70, rng), index / FPS)
+        reasons += [event.fields["reason"] for event in happened if event.event == "gesture_end"]
+        kept.append(len(stream._kept))
+    assert reasons == ["cut"]
+    assert len(stream.gesture.frames) >= FPS * options.max_gesture_s
+    assert max(kept) <= FPS * (options.max_gesture_s + options.context_s) + 2
+    stream.finish()
+    assert len(stream._kept) == 0
 
 
 def test_signs_that_are_held_come_into_view(tmp_path: Path) -> None:

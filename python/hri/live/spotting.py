@@ -76,7 +76,7 @@ class SpottingStream:
         finder = HandFinder() if hands is None else hands
         self.spotter = GestureSpotter(finder, dynamic=dynamic, options=options, max_hands=num_hands)
         self.gesture = SpottedGesture([], 0.0, 0.0)
-        self._context_s = float(options.context_s)
+        self._max_s, self._context_s = float(options.max_gesture_s), float(options.context_s)
         self._kept: deque[tuple[Frame, float, float]] = deque()
         self._time_s = 0.0
 
@@ -98,13 +98,17 @@ class SpottingStream:
         hand = self.spotter.hand
         self._kept.append((frame, time_s, float(hand.quality) if hand.mask.any() else 0.0))
         happened = self._events(segment)
-        while self._kept and self._kept[0][1] < self.spotter.kept_since_s:
+        # What began before that has been cut by now.
+        since_s = max(self.spotter.kept_since_s, time_s - self._max_s - self._context_s)
+        while self._kept and self._kept[0][1] < since_s:
             self._kept.popleft()
         return happened
 
     def finish(self) -> list[Event]:
         """The stream has ended."""
-        return self._events(self.spotter.finish())
+        happened = self._events(self.spotter.finish())
+        self._kept.clear()  # the next stream may begin at any time
+        return happened
 
     def interrupt(self) -> list[Event]:
         """Pictures are missing: what had begun is dropped."""

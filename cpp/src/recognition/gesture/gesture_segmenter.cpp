@@ -142,8 +142,9 @@ GestureSegment GestureSegmenter::rest(bool hand, bool still, bool gone, double t
     return {};
   }
   still_since_s_.reset();
+  if (spent_) return {};  // no gesture has begun, however long it goes on
   if (!moving_since_s_) moving_since_s_ = time_s;
-  if (spent_ || time_s - *moving_since_s_ < options_.appear_s) return {};
+  if (time_s - *moving_since_s_ < options_.appear_s) return {};
   return begin(*moving_since_s_, true);
 }
 

@@ -89,6 +89,27 @@ TEST(GestureSegmenter, CutsWhatGoesOnForTooLongUntilTheHandRests) {
             (Names{"start", "end cut", "start", "end ended"}));
 }
 
+TEST(GestureSegmenter, NothingMayHaveBegunAfterACutBeforeTheHandRests) {
+  GestureSegmenterOptions options;
+  options.max_gesture_s = 1.0;
+  GestureSegmenter segmenter(options);
+  double time_s = 0;
+  const auto push = [&](int column) {
+    time_s += kStep_s;
+    return segmenter.push(mask_at(column).view(), time_s);
+  };
+  bool cut = false;
+  for (const int column : kMoving * 8) {
+    cut = push(column).reason == GestureSegmentReason::cut || cut;
+    EXPECT_EQ(segmenter.may_have_begun_s().has_value(), !cut);
+  }
+  EXPECT_TRUE(cut);
+  for (const int column : kStill) push(column);
+  EXPECT_FALSE(segmenter.may_have_begun_s().has_value());
+  push(25);
+  EXPECT_DOUBLE_EQ(segmenter.may_have_begun_s().value_or(-1), time_s);
+}
+
 TEST(GestureSegmenter, SaysWhenAGestureBeganAndWhetherFromRest) {
   GestureSegmenter segmenter({});
   std::vector<GestureSegment> starts;
