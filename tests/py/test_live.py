@@ -145,6 +145,24 @@ def test_silence_and_noise_give_no_decision(words: hri.WordRecognizer) -> None:
         assert kinds == {"listening", "level", "ended"}
 
 
+def test_a_caller_that_stops_at_the_first_event_closes_the_source(words: hri.WordRecognizer) -> None:
+    class Closed(ArraySource):
+        closed = False
+
+        def close(self) -> None:
+            self.closed = True
+
+    source = Closed(np.zeros(RATE_HZ, np.float32), RATE_HZ)
+    events = Listener(words).listen(source)
+    assert next(events).event == "listening"
+    events.close()  # type: ignore[attr-defined]
+    assert source.closed
+    odd = Closed(np.zeros(9, np.float32), 1)  # a rate that end points cannot be found at
+    with pytest.raises(InvalidArgument):
+        next(Listener(words).listen(odd))
+    assert odd.closed
+
+
 def test_paced_recordings_take_their_time() -> None:
     source = ArraySource(np.zeros(4800, "f4"), 16000, paced=True)
     begun = time.monotonic()

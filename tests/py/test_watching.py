@@ -99,6 +99,14 @@ def test_segmenter_options_are_checked_when_they_are_used(signs: hri.GestureReco
         Watcher(signs, partial_interval_s=0.0)
 
 
+def test_a_caller_that_stops_at_the_first_event_closes_the_source(signs: hri.GestureRecognizer) -> None:
+    source = ClipSource(shown(["flat"]), FPS)
+    events = Watcher(signs).watch(source)
+    assert next(events).event == "watching"
+    events.close()  # type: ignore[attr-defined]
+    assert source.read() is None
+
+
 def test_time_that_runs_backwards_is_refused(signs: hri.GestureRecognizer) -> None:
     class Backwards(ClipSource):
         def read(self) -> Any:

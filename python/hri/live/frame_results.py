@@ -124,10 +124,9 @@ def frame_results(
     next_hand_s, num_lost, time_s = 0.0, 0, 0.0
     visibility = visibility or Visibility()
     visibility.reset()
-    yield FrameResult(
-        0.0, [gesture_event(0.0, events.WATCHING, {"source": source.name, "fps": source.fps, **metadata})]
-    )
     try:
+        begun = {"source": source.name, "fps": source.fps, **metadata}
+        yield FrameResult(0.0, [gesture_event(0.0, events.WATCHING, begun)])
         while True:
             try:
                 timed = source.read()

@@ -62,6 +62,12 @@ class UtteranceFinder:
         Stalled
             When the source gives no more samples, after an event that says so.
         """
+        try:
+            yield from self._process(source, metadata)
+        finally:
+            source.close()
+
+    def _process(self, source: AudioSource, metadata: dict[str, Any]) -> Generator[StreamResult, None, None]:
         rate = source.sample_rate_hz
         endpointer = Endpointer(rate, self._options)
         pauses = None if self._pauses is None else Endpointer(rate, self._pauses)
@@ -91,8 +97,6 @@ class UtteranceFinder:
         except Stalled as error:
             yield Event(history.num_samples / rate, events.STALL, {"message": str(error)}), None
             raise
-        finally:
-            source.close()
 
 
 def _result(endpoint: Endpoint, history: _History, rate: int) -> StreamResult:
