@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import math
 import threading
 import time
 from pathlib import Path
@@ -203,6 +204,36 @@ def test_a_camera_in_use_is_told_as_such(monkeypatch: pytest.MonkeyPatch) -> Non
     taken.holder = other_program
     with pytest.raises(IoError, match="connect a camera"):
         CameraSource("/dev/hri-no-such-camera")
+
+
+@pytest.mark.parametrize("stall_s", [1e10, math.inf])
+def test_a_camera_may_be_waited_for_without_end(camera: type[FakeCapture], stall_s: float) -> None:
+    source = CameraSource(0, stall_s=stall_s)
+    assert source.read() is not None and source.reconnect() and camera.opens == 2
+    source.close()
+
+
+def test_a_camera_whose_opening_fails_is_given_back(camera: type[FakeCapture], monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(grabber: Any, _: float) -> bool:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr("hri.live.camera._Grabber.wait_open", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            CameraSource(0)
+    assert not [thread for thread in threading.enumerate() if thread.name == "hri-camera"]
+    CameraSource(0).close()
+
+
+def test_a_number_that_no_camera_can_have_is_said_once(
+    hri: Any, signs: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    raised: list[Any] = []
+    monkeypatch.setattr(threading, "excepthook", raised.append)
+    signs.save(tmp_path / "signs.hri")
+    missing = hri("watch", "--model", tmp_path / "signs.hri", "--device", 10**20)
+    assert missing.code == 3 and f"camera {10**20} cannot be opened: connect a camera" in missing.err
+    assert not raised
 
 
 @pytest.mark.parametrize(

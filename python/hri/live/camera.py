@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 import time
 from collections import deque
@@ -19,6 +20,7 @@ from hri.live.sources import Stalled, require_positive
 
 _HELP = "connect a camera, name another with --device, or give a video instead"
 _IN_USE = "it is there, but does not open; another program may use it: close that, or name another camera with --device"
+_log = logging.getLogger(__name__)
 _RETRY_S = 0.02
 _CLOSE_S = 2.0
 _in_use: WeakValueDictionary[str, CameraSource] = WeakValueDictionary()
@@ -54,7 +56,7 @@ class FrameQueue:
     def get(self, timeout_s: float) -> TimedFrame | None:
         """Take the oldest picture; None when there is none for `timeout_s`."""
         with self._ready:
-            self._ready.wait_for(lambda: len(self._frames) > 0, timeout_s)
+            self._ready.wait_for(lambda: len(self._frames) > 0, _bounded(timeout_s))
             return self._frames.popleft() if self._frames else None
 
 
@@ -75,7 +77,7 @@ class _Grabber:
 
     def wait_open(self, timeout_s: float) -> bool:
         """Whether the camera could be opened."""
-        self._tried.wait(timeout_s)
+        self._tried.wait(_bounded(timeout_s))
         return self.is_open
 
     def stop(self, timeout_s: float) -> None:
@@ -96,6 +98,8 @@ class _Grabber:
                     self.frames.put(np.asarray(frame, dtype=np.uint8), time.monotonic())
                 else:
                     self._stopped.wait(_RETRY_S)  # a hiccup, or unplugged: the reader's clock decides
+        except self._cv2.error as error:  # the reader, who waits, raises
+            _log.info("camera %s: %s", self._device, error)
         finally:
             self._tried.set()
             if capture is not None:
@@ -135,15 +139,18 @@ class CameraSource:
         self._last: Frame | None = None
         self._started_s = self._changed_s = time.monotonic()
         self._take()
+        grabber: _Grabber | None = None
         try:
-            self._grabber = _Grabber(device, buffer_frames)
+            grabber = _Grabber(device, buffer_frames)
+            if not grabber.wait_open(max(5.0, stall_s)):
+                there = self._address and Path(self._address).is_char_device()
+                raise IoError(f"{self.name} cannot be opened: {_IN_USE if there else _HELP}")
         except BaseException:
+            if grabber is not None:
+                grabber.stop(_CLOSE_S)
             self._give_back()
             raise
-        if not self._grabber.wait_open(max(5.0, stall_s)):
-            self.close()
-            there = self._address and Path(self._address).is_char_device()
-            raise IoError(f"{self.name} cannot be opened: {_IN_USE if there else _HELP}")
+        self._grabber = grabber
         self._changed_s = time.monotonic()
         self.fps = self._grabber.fps if 1.0 <= self._grabber.fps <= 240.0 else 15.0
 
@@ -202,6 +209,11 @@ class CameraSource:
         with _taking:
             if _in_use.get(self._address) is self:
                 del _in_use[self._address]
+
+
+def _bounded(timeout_s: float) -> float:
+    """What locks take: they raise OverflowError where it is longer."""
+    return min(timeout_s, threading.TIMEOUT_MAX)
 
 
 def _address_of(device: int | str) -> str:
