@@ -87,6 +87,16 @@ def test_recording_whose_header_was_never_filled_in_is_recognised_with_a_note(
     assert result.err.count("note: ") == 1
 
 
+def test_a_recording_that_is_played_as_a_stream_says_what_is_wrong_with_it(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "cut.wav"
+    path.write_bytes(wav(np.repeat(WORD, 2), channels=2)[:-4000])
+    recorded = ("record", "word", "1", "--person", "asha", "--takes", "1", "--out", tmp_path / "words")
+    for command in (("listen", "--json", path), (*recorded, "--from", path)):
+        result = run(*command)
+        assert result.code == 0, result.err
+        assert f"{path}: file ends early" in result.err and f"{path}: 2 channels averaged to mono" in result.err
+
+
 def test_wav_cut_anywhere_is_read_in_part_with_a_note_or_refused_by_name(tmp_path: Path) -> None:
     whole, path = wav(WORD[:200]), tmp_path / "cut.wav"
     for length in range(len(whole)):

@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from hri.cli.groups import CheckedCommand, refuse_given
-from hri.cli.live_screen import device_option, microphone, stall_option
+from hri.cli.live_screen import device_option, microphone, recording, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
@@ -30,7 +30,7 @@ from hri.core.files import make_folder
 from hri.htk import WordLattice
 from hri.io import SpokenWords
 from hri.language import Grammar, NGramModel
-from hri.live import AudioSource, FileSource
+from hri.live import AudioSource
 from hri.media import VIDEO_SUFFIXES, read_audio
 from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream, Transcript, UtteranceResult
 from hri.recognition.sentence.recognizer import UNKNOWN
@@ -229,7 +229,7 @@ def transcribe(
     if grammar is not None:
         recognizer.set_grammar(Grammar.load(grammar))
     if stream:
-        sources: list[AudioSource] = [FileSource(file) for file in files] or [microphone(device, stall_s)]
+        sources: list[AudioSource] = [recording(file) for file in files] or [microphone(device, stall_s)]
         for source in sources:
             _follow(recognizer, source, wake)
         return

@@ -14,10 +14,18 @@ from pathlib import Path
 import click
 
 from hri.cli.groups import CheckedCommand, refuse_given
-from hri.cli.live_screen import describe_stream, device_option, events_json_option, microphone, report, stall_option
+from hri.cli.live_screen import (
+    describe_stream,
+    device_option,
+    events_json_option,
+    microphone,
+    recording,
+    report,
+    stall_option,
+)
 from hri.cli.recognizers import embedding_option, kept_model, load_embedding
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
-from hri.live import Attention, AudioSource, Event, FileSource, Listener, list_microphones
+from hri.live import Attention, AudioSource, Event, Listener, list_microphones
 from hri.recognition import WordRecognizer
 
 
@@ -95,7 +103,7 @@ def listen(
     attention = Attention(wake, within_s, always, min_score)
     listener = Listener(words, attention=attention, locale=locale, model_id=model_id)
     if files:
-        sources: Iterable[AudioSource] = (FileSource(file, paced) for file in files)
+        sources: Iterable[AudioSource] = (recording(file, paced) for file in files)
     else:
         sources = (microphone(device, stall_s) for _ in range(1))
     for source in sources:

@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable
+from os import PathLike
 
 import click
 
-from hri.live import CameraSource, Event, MicrophoneSource
+from hri.cli.messages import note
+from hri.live import CameraSource, Event, FileSource, MicrophoneSource
 from hri.live.visibility import missing_text
 
 device_option = click.option("--device", help="Number or part of the name of the microphone.")
@@ -28,6 +30,14 @@ def microphone(device: str | None, stall_s: float) -> MicrophoneSource:
 def camera(device: str, stall_s: float) -> CameraSource:
     """The camera of that number or address."""
     return CameraSource(int(device) if device.isdigit() else device, stall_s=stall_s)
+
+
+def recording(path: str | PathLike[str], paced: bool = False) -> FileSource:
+    """The recording as a stream; what is wrong with the file is said."""
+    source = FileSource(path, paced)
+    for text in source.notes:
+        note(f"{path}: {text}")
+    return source
 
 
 def report(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str]) -> None:

@@ -18,13 +18,14 @@ from hri.cli.live_screen import (
     device_option,
     events_json_option,
     microphone,
+    recording,
     report,
     stall_option,
 )
 from hri.cli.messages import note
 from hri.cli.result_screen import ResultScreen
 from hri.core.errors import FormatError
-from hri.live import AudioSource, Event, FileSource, FrameSource, GestureRecorder, VideoSource, WordRecorder
+from hri.live import AudioSource, Event, FrameSource, GestureRecorder, VideoSource, WordRecorder
 
 
 @click.group(cls=SuggestingGroup)
@@ -76,7 +77,7 @@ def word(
       hri record word go stop --person cem --takes 1 --from cem.wav --out commands/
     """
     recorder = WordRecorder(out, labels, person, takes)
-    sources: Iterable[AudioSource] = (FileSource(file) for file in files)
+    sources: Iterable[AudioSource] = (recording(file) for file in files)
     if not files and recorder.missing():
         sources = (microphone(device, stall_s) for _ in range(1))
     for source in sources:

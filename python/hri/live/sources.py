@@ -90,7 +90,13 @@ class ArraySource:
 
 
 class FileSource(ArraySource):
-    """A recording as a stream: what `hri.read_audio` reads."""
+    """A recording as a stream: what `hri.read_audio` reads.
+
+    Attributes
+    ----------
+    notes : list of str
+        What is wrong with the file, or was changed, as of `Audio`.
+    """
 
     def __init__(self, path: str | PathLike[str], paced: bool = False) -> None:
         audio = read_audio(path)
