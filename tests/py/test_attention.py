@@ -76,6 +76,9 @@ def test_what_makes_no_sense_is_refused_by_name(words: WordRecognizer) -> None:
         Attention(min_score=math.nan)
     with pytest.raises(InvalidArgument, match=r"'robot'.*fall, rise"):
         Listener(words, attention=Attention("robot"))
+    with pytest.raises(InvalidArgument, match=r"'haltt'.*fall, rise"):
+        Listener(words, attention=Attention("rise", always=("fall", "haltt")))
+    Listener(words, attention=Attention(always=("haltt",)))  # every word is a command
 
 
 def test_the_study_counts_as_the_listener_does() -> None:
@@ -137,6 +140,13 @@ def test_the_command_line_takes_a_wake_word(words: WordRecognizer, hri: Any, tmp
     assert [row["event"] for row in lines if "nbest" in row] == ["wake", "decision", "ignored"]
     refused = hri(*common, "--wake", "robot")
     assert refused.code == 3 and "robot" in refused.err and "fall, rise" in refused.err
+    for always in ("haltt", "stop"):
+        refused = hri(*common, "--wake", "rise", "--always", "fall", "--always", always)
+        assert refused.code == 3 and f"--always '{always}' is not in the vocabulary: fall, rise" in refused.err
+    warning = "WARNING: no word is a command without the wake word: none is stop; choose by --always"
+    assert warning in hri(*common, "--wake", "rise").err
+    assert "WARNING" not in hri(*common, "--wake", "rise", "--always", "fall").err
+    assert "WARNING" not in hri(*common).err
 
 
 def test_composed_words_lie_where_they_are_said_to_lie() -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from hri.cli.groups import CheckedCommand, refuse_given
+from hri.cli.groups import CheckedCommand, is_given, refuse_given
 from hri.cli.live_screen import (
     describe_stream,
     device_option,
@@ -23,7 +23,9 @@ from hri.cli.live_screen import (
     report,
     stall_option,
 )
+from hri.cli.messages import note
 from hri.cli.recognizers import embedding_option, kept_model, load_embedding
+from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.live import Attention, AudioSource, Event, Listener, list_microphones
 from hri.recognition import WordRecognizer
@@ -100,6 +102,8 @@ def listen(
     path = Path(model_path) if model_path else kept_model("speech")
     words = WordRecognizer.load(path, embedding=load_embedding(embedding_path))
     model_id = f"{path.name}:{hashlib.sha256(read_bytes(path, MAX_MODEL_BYTES)).hexdigest()[:12]}"
+    if wake:
+        _check_always(always, [str(label) for label in words.classes_])
     attention = Attention(wake, within_s, always, min_score)
     listener = Listener(words, attention=attention, locale=locale, model_id=model_id)
     if files:
@@ -108,6 +112,16 @@ def listen(
         sources = (microphone(device, stall_s) for _ in range(1))
     for source in sources:
         report(listener.listen(source), as_json, partial(describe, top=top))
+
+
+def _check_always(always: tuple[str, ...], labels: list[str]) -> None:
+    """Refuse words of --always that nothing can say, and warn where the default is none."""
+    unknown = [word for word in always if word not in labels]
+    if unknown and is_given("always"):
+        raise InvalidArgument(f"--always '{unknown[0]}' is not in the vocabulary: {', '.join(labels)}")
+    if unknown:
+        named, there_are = " or ".join(unknown), f"there are {', '.join(labels)}"
+        note(f"WARNING: no word is a command without the wake word: none is {named}; choose by --always, {there_are}")
 
 
 def _list_devices(as_json: bool) -> None:

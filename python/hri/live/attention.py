@@ -27,7 +27,8 @@ class Attention:
         Longest time from the end of the wake word to the beginning of the command, which is the first utterance after
         it: any other utterance in between ends the attention, since conversations would otherwise hold many commands.
     always : tuple of str
-        Words that are commands at any moment, without the wake word, for safety.
+        Words that are commands at any moment, without the wake word, for safety. The default is without effect where
+        the vocabulary has no "stop".
     min_score : float, optional
         Threshold on ``Decision.score`` of wake word and command, in place of the model's own.
     """

@@ -50,7 +50,8 @@ class Listener:
     Raises
     ------
     InvalidArgument
-        For a wake word outside the vocabulary (lists the vocabulary).
+        For a wake word outside the vocabulary, and for words that are always commands, other than the default of
+        `Attention` (lists the vocabulary).
     """
 
     def __init__(
@@ -68,6 +69,11 @@ class Listener:
         wake, labels = self._attention.wake, [str(label) for label in recognizer.classes_]
         if wake and wake not in labels:
             raise InvalidArgument(f"wake word '{wake}' is not in the vocabulary: {', '.join(labels)}")
+        always = self._attention.always
+        if wake and always != Attention.always:  # few vocabularies have the default's
+            for word in always:
+                if word not in labels:
+                    raise InvalidArgument(f"'{word}', always a command, is not in the vocabulary: {', '.join(labels)}")
         if isinstance(urgent, str):
             raise InvalidArgument(f"urgent must be a collection of labels, got {urgent!r}")
         self._recognizer = recognizer
