@@ -95,6 +95,22 @@ def test_where_nothing_is_learned_no_model_is_written(hri, model: Path, tmp_path
         (("listen", "SAID", "--device", "3"), "--device is of a microphone"),
         (("listen", "SAID", "--always", "stop"), "--always goes with --wake"),
         (("listen", "--paced"), "--paced is of recordings"),
+        (
+            ("record", "word", "a", "--person", "p", "--out", "FOLDER", "--from", "SAID", "--device", "9"),
+            "--device is of a microphone",
+        ),
+        (
+            ("record", "word", "a", "--person", "p", "--out", "FOLDER", "--from", "SAID", "--stall", "3"),
+            "--stall is of a microphone",
+        ),
+        (
+            ("record", "gesture", "a", "--person", "p", "--out", "FOLDER", "--from", "SAID", "--device", "9"),
+            "--device is of a camera",
+        ),
+        (
+            ("record", "gesture", "a", "--person", "p", "--out", "FOLDER", "--from", "SAID", "--stall", "3"),
+            "--stall is of a camera",
+        ),
         (("watch", "SAID", "--reconnect", "3"), "--reconnect is of a camera"),
         (("transcribe", "SAID", "--wake", "stop"), "--wake goes with --stream"),
         (("transcribe", "SAID", "--times", "--alternatives", "2"), "exclude each other"),

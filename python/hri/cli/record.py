@@ -10,7 +10,7 @@ from pathlib import Path
 
 import click
 
-from hri.cli.groups import SuggestingGroup
+from hri.cli.groups import SuggestingGroup, refuse_given
 from hri.cli.live_screen import (
     camera,
     camera_option,
@@ -76,6 +76,8 @@ def word(
       hri record word go stop --person ben --takes 10 --device 2 --out commands/
       hri record word go stop --person cem --takes 1 --from cem.wav --out commands/
     """
+    if files:
+        refuse_given(("device", "stall_s"), "is of a microphone, and --from takes its place")
     recorder = WordRecorder(out, labels, person, takes)
     sources: Iterable[AudioSource] = (recording(file) for file in files)
     if not files and recorder.missing():
@@ -136,6 +138,8 @@ def gesture(
       hri record gesture wave circle --person cem --takes 1 --from cem.mp4 --out signs/
       hri record gesture clap part --hands both --person asha --out pairs/
     """
+    if files:
+        refuse_given(("device", "stall_s"), "is of a camera, and --from takes its place")
     recorder = GestureRecorder(
         out, labels, person, takes, held=held, num_hands=1 if hands == "one" else 2, pause_s=pause_s
     )
