@@ -94,9 +94,9 @@ def train(
     if isinstance(dataset, str | PathLike):
         dataset = Dataset.load(dataset, None if recognizer is None else recognizer.mode)
     if dataset.kind != "speech":
-        for name, given in (("fillers", fillers is not None), ("embedding", embedding is not None), ("noises", noises)):
-            if given:
-                raise InvalidArgument(f"{name}: for speech, the data set is {dataset.kind}")
+        of_words = {"fillers are": fillers is not None, "embedding is": embedding is not None, "noises are": bool(noises)}
+        for what in (what for what, given in of_words.items() if given):
+            raise InvalidArgument(f"{what} for speech, the data set is {dataset.kind}")
     check_noises(noises)
     if recognizer is None:
         recognizer = _chosen(dataset, embedding)
