@@ -249,7 +249,7 @@ def test_stop_and_resume_by_the_caller(words: Any, robot: Robot) -> None:
 @pytest.mark.parametrize("goes_on", [False, True])
 def test_stop_is_not_lost_while_a_session_begins(words: Any, robot: Robot, live: bool, goes_on: bool) -> None:
     session = Session(words, robot=robot, motions=MOTIONS)
-    begun = session.run(ArraySource(speech([("flat", 0.8)], 2.5), RATE_HZ), live=live)
+    begun = session.run(ArraySource(speech([("flat", 0.8)], 2.5), RATE_HZ, paced=live), live=live)
     session.stop()
     if goes_on:
         session.resume()

@@ -351,7 +351,7 @@ def test_stop_counts_in_every_state(state: str) -> None:
     assert done[0].kind == "stop" and talk.state == "stopped"
     assert kinds(talk.decide(pair("7"), 4.0)) == [("ignored", "7")] and talk.state == "stopped"
     assert talk.moved("", False) == [] and talk.tick(99.0) == [] and talk.activity(True, 99.0) == []
-    assert [action.kind for action in talk.resume()] == ["resume", "say", "state"] and talk.resume() == []
+    assert [action.kind for action in talk.resume(0.0)] == ["resume", "say", "state"] and talk.resume(0.0) == []
 
 
 def test_only_stop_counts_in_what_begins_while_a_sample_is_recorded() -> None:
@@ -361,10 +361,10 @@ def test_only_stop_counts_in_what_begins_while_a_sample_is_recorded() -> None:
         (action,) = talk.decide(ignored, 12.0)
         assert action.kind == "ignored" and talk.state == "idle"
     assert talk.decide(ask(), 2.6)[0].kind == "stop", "a weak STOP, as nothing can be asked"
-    talk.resume()
+    talk.resume(0.0)
     assert talk.decide(pair("stop"), 3.0)[0].kind == "stop" and talk.state == "stopped"
     assert kinds(talk.decide(pair("start"), 4.0)) == [("ignored", "start")] and talk.state == "stopped"
-    talk.resume()
+    talk.resume(0.0)
     assert ("move", "7") in kinds(talk.decide(pair("7", first_s=10.0), 11.0))
     talk.moved("", False)
     talk.only_stop(12.0)
@@ -377,8 +377,8 @@ def test_a_label_may_resume_and_no_ends_a_motion() -> None:
     assert kinds(talk.decide(pair("start"), 1.0)) == [("ignored", "start")]
     talk.decide(pair("stop"), 2.0)
     assert talk.decide(pair("start"), 3.0)[0].kind == "resume" and talk.state == "idle"
-    talk.decide(pair("7"), 4.0)
-    assert kinds(talk.decide(pair("no"), 5.0)) == [("rest", "no"), ("state", "idle")]
+    talk.decide(pair("7", first_s=3.2), 4.0)
+    assert kinds(talk.decide(pair("no", first_s=4.2), 5.0)) == [("rest", "no"), ("state", "idle")]
 
 
 def test_a_button_begins_imitation_where_nothing_stands_against_it_and_ends_it() -> None:
@@ -399,7 +399,7 @@ def test_a_fault_of_the_robot_stops_it_and_a_refused_motion_does_not() -> None:
     talk = Dialogue(motions=MOTIONS)
     talk.decide(pair("7"), 1.0)
     assert [a.kind for a in talk.moved("no link", True)] == ["say", "stop", "state"] and talk.state == "stopped"
-    talk.resume()
+    talk.resume(0.0)
     talk.decide(pair("7"), 2.0)
     assert kinds(talk.moved("refused", False)) == [("say", "refused"), ("state", "idle")]
 

@@ -70,12 +70,12 @@ class Dialogue:
 
     ========== ================================================================================================
     idle       nothing goes on; without `SessionOptions.wake_labels` every decision is a command
-    attending  the wake word or sign came: a command may begin within `attend_s`
+    attending  the wake word or sign came: a command that begins after it, within `attend_s`, counts
     listening  something that may be a command is being said or shown
     confirming the robot repeats what it understood and waits: the same label or "yes" confirms, "no" takes back,
                another command replaces it, and after `confirm_s` nothing is done
     acting     the robot moves: "no" ends the motion, another command is ignored
-    stopped    no motion begins until `resume`, or one of `resume_labels`
+    stopped    no motion begins until `resume`, or one of `resume_labels`; what began before that is no command after it
     sentence   words and signs are collected until one of `sentence_end_labels`; then the robot says the stored sentence
                that is nearest to them, and moves as its answer names
     ========== ================================================================================================
@@ -102,7 +102,7 @@ class Dialogue:
         self._knowledge = knowledge
         self.state = IDLE
         self._active = False
-        self._attend_until_s = -math.inf
+        self._attend_from_s = self._attend_until_s = self._resumed_s = -math.inf
         self._answer_until_s = -math.inf
         self._asked: tuple[str, ...] = ()
         self._words: list[str] = []
@@ -144,8 +144,10 @@ class Dialogue:
             return [Action(IGNORE, label, _ONLY_STOP)]
         if self.state == STOPPED:
             if label in self._options.resume_labels:
-                return self.resume()
+                return self.resume(pair.last_s)
             return [Action(IGNORE, label, _STOPPED)]
+        if pair.taken_back and self.state != SENTENCE:  # of whose words "no" is one
+            return [Action(IGNORE, label, phrase("taken_back"))]
         if status == NO_INPUT:
             return [Action(IGNORE, label, phrase("no_input"))]
         if status == ASK:
@@ -155,6 +157,8 @@ class Dialogue:
             if label in self._options.no_labels:
                 return [Action(REST, label, phrase("taken_back")), *self._calm()]
             return [Action(IGNORE, label, _MOVES)]
+        if pair.first_s < self._resumed_s:
+            return [Action(IGNORE, label, _STOPPED)]
         if self.state == CONFIRMING:
             return self._answer(label, status, time_s)
         if self.state == SENTENCE or label in self._options.sentence_begin_labels:
@@ -185,11 +189,13 @@ class Dialogue:
         if first_s < self._only_stop_until_s:
             return [Action(IGNORE, text, _ONLY_STOP)]
         if self.state == STOPPED:
-            return self.resume() if alone in self._options.resume_labels else [Action(IGNORE, text, _STOPPED)]
+            return self.resume(time_s) if alone in self._options.resume_labels else [Action(IGNORE, text, _STOPPED)]
         if self.state == ACTING:
             if alone in self._options.no_labels:
                 return [Action(REST, alone, phrase("taken_back")), *self._calm()]
             return [Action(IGNORE, text, _MOVES)]
+        if first_s < self._resumed_s:
+            return [Action(IGNORE, text, _STOPPED)]
         if self.state == CONFIRMING:
             status = UNKNOWN if alone == UNKNOWN else RECOGNISED
             return self._answer(alone, status, time_s) if alone else [Action(IGNORE, text, phrase("not_an_answer"))]
@@ -197,8 +203,12 @@ class Dialogue:
             return self._collected(words, time_s)
         if self._options.wake_labels:
             called = words[0] in self._options.wake_labels
+            if not called and first_s < self._attend_from_s:
+                return [Action(IGNORE, text, phrase("no_wake_word"))]
             attended = called or first_s <= self._attend_until_s
-            self._attend_until_s = time_s + self._options.attend_s if called and len(words) == 1 else -math.inf
+            self._attend_until_s = -math.inf
+            if called and len(words) == 1:
+                self._attend_from_s, self._attend_until_s = first_s, time_s + self._options.attend_s
             words = words[1:] if called else words
             if not words:
                 return self._go(ATTENDING) if self.state != LISTENING else []
@@ -242,10 +252,11 @@ class Dialogue:
         self._answers = []
         return [Action(STOP, label, why), *self._go(STOPPED)]
 
-    def resume(self) -> list[Action]:
-        """A person ends STOP."""
+    def resume(self, time_s: float) -> list[Action]:
+        """A person ends STOP at this time; what began before it is no command."""
         if self.state != STOPPED:
             return []
+        self._resumed_s = time_s
         return [Action(RESUME), Action(SAY, text=phrase("ready")), *self._calm()]
 
     def imitate(self, time_s: float) -> list[Action]:
@@ -266,10 +277,13 @@ class Dialogue:
     def _command(self, pair: Pair, time_s: float) -> list[Action]:
         fused = pair.fused
         if self._options.wake_labels:
+            called = fused.label in self._options.wake_labels
+            if not called and pair.first_s < self._attend_from_s:  # the wake word still counts
+                return [Action(IGNORE, fused.label, phrase("no_wake_word"))]
             attended = pair.first_s <= self._attend_until_s
             self._attend_until_s = -math.inf
-            if fused.label in self._options.wake_labels:
-                self._attend_until_s = pair.last_s + self._options.attend_s
+            if called:
+                self._attend_from_s, self._attend_until_s = pair.first_s, pair.last_s + self._options.attend_s
                 return self._go(ATTENDING) if self.state != LISTENING else []
             if not attended:
                 return [Action(IGNORE, fused.label, phrase("no_wake_word")), *self._calm()]

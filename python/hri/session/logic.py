@@ -128,7 +128,8 @@ class SessionLogic:
         self._num_begun = 0
         self._unsettled: set[str] = set()
         self._whole_sentences = whole_sentences
-        self._signing = self._signs_stopped = False
+        self._signing = False
+        self._heeded: list[str] = []  # stable words of the sentence that is being signed
         self._state = self.dialogue.state
 
     def process(self, arrival: Arrival) -> list[Event]:
@@ -183,11 +184,15 @@ class SessionLogic:
             if event.event == kinds.PRELIMINARY:  # what was shown may go on
                 self._unsettled.add(mode)
             pairs = self.pairer.tick(mode, time_s)
-        for pair in pairs:
-            out.append(fused_event(pair, time_s))
-            decided = Cause(pair.last_s, time_s, cause.computed_s)
-            self._do(self.dialogue.decide(pair, time_s), decided, out)
+        self._decide(pairs, cause, out)
         self._time_passes(time_s, cause, out)
+
+    def _decide(self, pairs: list[Pair], cause: Cause, out: list[Event]) -> None:
+        """Heed what was decided on at the time of the cause."""
+        for pair in pairs:
+            out.append(fused_event(pair, cause.time_s))
+            decided = Cause(pair.last_s, cause.time_s, cause.computed_s)
+            self._do(self.dialogue.decide(pair, cause.time_s), decided, out)
 
     def _is_own(self, event: Event) -> bool:
         """Whether a decision may be on the robot's own voice."""
@@ -203,19 +208,27 @@ class SessionLogic:
         """Heed an event of a stream of signed sentences."""
         fields, time_s = event.fields, event.time
         if event.event == kinds.GESTURE_START:
-            self._signing, self._signs_stopped = True, False
-        elif event.event == kinds.SIGNING and not self._signs_stopped:
-            actions = self.dialogue.signing(fields["words"][: fields["num_stable"]])
-            self._signs_stopped = bool(actions)
-            self._do(actions, cause, out)
+            self._signing, self._heeded = True, []
+        elif event.event == kinds.SIGNING:
+            stable = fields["words"][: fields["num_stable"]]
+            self._do(self.dialogue.signing(self._unheeded(stable)), cause, out)
+            self._heeded = max(self._heeded, stable, key=len)
         elif event.event == kinds.SIGNED:
             self._signing = False
-            if not self._signs_stopped:
-                actions = self.dialogue.signed(fields["words"], fields["first_s"], time_s)
+            words, rest = fields["words"], self._unheeded(fields["words"])
+            # A STOP that was heeded as it was signed is not heeded again, nor are the words around it.
+            if any(map(self.pairer.is_stop_label, rest)) or not any(map(self.pairer.is_stop_label, words)):
+                actions = self.dialogue.signed(words, fields["first_s"], time_s)
                 self._do(actions, Cause(fields["last_s"], time_s, cause.computed_s), out)
+            self._heeded = []
         elif event.event == kinds.GESTURE_DROPPED or is_over(event):
             self._signing = False
         self._time_passes(time_s, cause, out)
+
+    def _unheeded(self, words: list[str]) -> list[str]:
+        """Of the words of the present sentence those after the ones that were heeded; all where these have changed."""
+        heeded = len(self._heeded)
+        return words[heeded:] if words[:heeded] == self._heeded else words
 
     def _moved(self, event: Event, cause: Cause, out: list[Event]) -> None:
         if event.event == MOTION_END:
@@ -238,7 +251,8 @@ class SessionLogic:
         elif command == REST:
             self._do(self.dialogue.rest(BY_BUTTON), cause, out)
         elif command == acts.RESUME:
-            self._do(self.dialogue.resume(), cause, out)
+            self._do(self.dialogue.resume(event.time), cause, out)
+        self._decide(self.pairer.passed(event.time), cause, out)
         self._time_passes(event.time, cause, out)
 
     def _time_passes(self, time_s: float, cause: Cause, out: list[Event]) -> None:
@@ -259,6 +273,7 @@ class SessionLogic:
                 self._body.rest(cause)
             elif action.kind == acts.RESUME:
                 self._body.resume()
+                self.pairer.clear()
             elif action.kind == acts.SAY and self._on_say is not None:
                 self._on_say(action.text)
             out.append(self._event(action, cause.time_s))

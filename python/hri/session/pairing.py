@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from hri.core.errors import InvalidArgument
 from hri.core.phrases import phrase
 from hri.fusion import FusedDecision, LearnedFusion, fuse
-from hri.recognition.decision import NO_INPUT, RECOGNISED, Decision
+from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision
 from hri.session.options import SessionOptions
 
 MODES = ("speech", "gesture")
@@ -63,6 +63,8 @@ class Pair:
         Between the end of one and the beginning of the other; 0 where they overlap, and for one alone.
     why : str
         Why they were paired, or why one was not waited for any longer.
+    taken_back : bool
+        One of `SessionOptions.no_labels` followed while it waited.
     """
 
     fused: FusedDecision
@@ -70,6 +72,7 @@ class Pair:
     last_s: float
     apart_s: float
     why: str
+    taken_back: bool = False
 
     @property
     def carried_by(self) -> str:
@@ -99,7 +102,8 @@ class Pairer:
 
     Where a learned fusion is given it decides in place of `SessionOptions.rule`.
 
-    A sure STOP and labels that lead the dialogue wait for nothing. An unsure STOP while the robot moves waits for what
+    A sure STOP and labels that lead the dialogue wait for nothing; what was said before such a label, or shown before
+    such a sign, comes before it, and waits no longer. An unsure STOP while the robot moves waits for what
     has begun in the other mode, and never for what may come. While it moves a STOP that was rejected by little counts,
     too: to halt for another word costs less than to go on.
     """
@@ -150,6 +154,11 @@ class Pairer:
         self._pass(mode, time_s)
         return list(self._resolve())
 
+    def passed(self, time_s: float) -> list[Pair]:
+        """The session has come to this time, whether or not either stream has."""
+        self._now_s = max(self._now_s, time_s)
+        return list(self._resolve())
+
     def is_stop_label(self, label: str) -> bool:
         """Whether a label is STOP."""
         return label in self._options.fusion.stop_labels
@@ -178,23 +187,32 @@ class Pairer:
         if self.is_sure_stop(decision):
             return [self._alone(observation, why)]
         if decision.status == RECOGNISED and decision.label in self._options.control_labels:
-            before = self._flushed(stream) if decision.label in self._options.sentence_labels else self._resolve()
-            return [*before, self._alone(observation, "it leads the dialogue")]
+            return [*self._before(observation), self._alone(observation, "it leads the dialogue")]
         if decision.status == NO_INPUT:  # belongs to nothing, and must not take the place of what does
             return [*self._resolve(), self._alone(observation, "no input")]
         stream.waiting.append(observation)
         return list(self._resolve())
 
     def clear(self) -> None:
-        """Forget what waits, as after STOP."""
+        """Forget what waits, as after STOP and what ends it."""
         for stream in self._streams.values():
             stream.waiting.clear()
 
-    def _flushed(self, stream: _Stream) -> Iterator[Pair]:
-        """What was said or shown before a sentence begins or ends comes first, though something may belong to it."""
+    def _before(self, leading: Observation) -> Iterator[Pair]:
+        """What waits and came before a label that leads the dialogue, though something may belong to it.
+
+        Without this a command would be heeded after what ends STOP, takes it back, or wakes the robot. "No" also takes
+        back what had ended in the other mode before it began.
+        """
         yield from self._resolve()
-        while stream.waiting:
-            yield self._alone(stream.waiting.pop(0), "a sentence begins or ends")
+        denies = leading.decision.label in self._options.no_labels
+        sentence = leading.decision.label in self._options.sentence_labels
+        why = "a sentence begins or ends" if sentence else f"{leading.decision.label} follows it"
+        waiting = sorted((o for s in self._streams.values() for o in s.waiting), key=lambda o: (o.last_s, o.mode))
+        for one in waiting:
+            if one.mode == leading.mode or (denies and one.last_s <= leading.first_s):
+                self._streams[one.mode].waiting.remove(one)
+                yield replace(self._alone(one, why), taken_back=denies)
 
     def _pass(self, mode: str, time_s: float) -> None:
         if mode not in self._streams:
@@ -271,6 +289,9 @@ class Pairer:
 
     def _together(self, word: Observation, sign: Observation) -> Pair:
         fused = self._fused(word.decision, sign.decision)
+        if fused.label in self._options.control_labels.difference(self._options.no_labels):
+            # What a mode decides on by itself is never paired: neither means it, and above all it must not end STOP.
+            fused = replace(fused, label=UNKNOWN, status=UNKNOWN, confidence=0.0)
         apart = _apart(word, sign)
         why = phrase("why_apart", seconds=f"{apart:.2f}") if apart else phrase("why_at_once")
         return Pair(fused, min(word.first_s, sign.first_s), max(word.last_s, sign.last_s), apart, why)
