@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -23,7 +24,7 @@ from hri.robot import Robot, Trajectory, open_robot
 from hri.robot.imitation import LiveImitation, SeenPerson
 from hri.session import EventQueue, Session, SessionOptions
 from hri.session.dialogue import ACTING, IDLE
-from hri.session.feeds import Feed, merge
+from hri.session.feeds import Alignment, Feed, merge
 from hri.session.live import LiveFeeds
 from hri.session.logic import NoRobot, SessionLogic, moved_event
 from hri.session.mover import Cause, Moved, Mover
@@ -122,6 +123,66 @@ def test_two_sessions_cannot_read_one_source(words: hri.WordRecognizer) -> None:
     assert list(Session(words).run(shared)), "it is free again"
 
 
+def test_a_source_is_back_when_it_is_open_again() -> None:
+    _, events, _ = run_live(Stalled("gone"))
+    times = [event.time for event in events if event.event == "reconnected"]
+    assert len(times) >= 2 and times[0] >= RETRY_S / 2 and times[1] >= times[0] + RETRY_S / 2
+
+
+class Busy:
+    """A recorder that takes no session."""
+
+    def begin(self, about: Any) -> None:
+        raise IoError("no place to write")
+
+
+@pytest.mark.parametrize("live", [False, True])
+def test_what_was_given_open_is_closed_where_a_session_cannot_begin(words: hri.WordRecognizer, live: bool) -> None:
+    class Closing(ArraySource):
+        closed = False
+
+        def close(self) -> None:
+            self.closed = True
+
+    sound = Closing(speech([("flat", 0.8)], 2.5), RATE_HZ)
+    with pytest.raises(IoError, match="no place"):
+        list(Session(words).run(sound, live=live, recorder=Busy()))  # type: ignore[arg-type]
+    assert sound.closed
+    session, heard = Session(words), Closing(speech([("flat", 0.8)], 2.5), RATE_HZ)
+    first = session.run(heard)
+    next(first)
+    with pytest.raises(InvalidArgument, match="running already"):
+        list(session.run(heard))
+    assert not heard.closed, "the first session reads it"
+    first.close()  # type: ignore[attr-defined]
+
+
+def delays(gap_s: float = 0.0, late_s: float = 0.0, counted: bool = False) -> list[float]:
+    """Offsets of 12 s of blocks of 20 ms; at 3 s something is lost, or the reader is late and makes up for it."""
+    now_s = 0.0
+    alignment = Alignment(math.inf, lambda: now_s)
+    found = []
+    free_s = 0.0
+    for number in range(600):
+        lost_s = gap_s if number == 150 else 0.0
+        come_s = 0.02 * (number + 1) + (gap_s if number >= 150 else 0.0) + 0.01 * (number % 4)
+        free_s = now_s = max(come_s, free_s) + (late_s if number == 150 else 0.001)
+        alignment.note(0.02 * (number + 1), 0.02, lost_s if counted else 0.0)
+        found.append(alignment.offset_s)
+    return found
+
+
+@pytest.mark.parametrize("counted", [False, True])
+def test_what_is_lost_shifts_the_time_of_what_comes_after_it(counted: bool) -> None:
+    found = delays(gap_s=1.5, counted=counted)
+    assert found[149] == pytest.approx(0.0, abs=0.02)
+    assert found[-1] == pytest.approx(1.5, abs=0.02) and found[150 + 200] == pytest.approx(1.5, abs=0.02)
+
+
+def test_a_reader_that_is_late_shifts_no_times() -> None:
+    assert max(delays(late_s=3.0)) < 0.02 and max(delays(gap_s=0.2)) < 0.05
+
+
 def decided(label: str) -> Event:
     decision = Decision("speech", label, "recognised", 0.9, nbest=(NBest(label, 0.9, 0.0),))
     return Event(0.0, "decision", {}, decision=decision, mode="speech")
@@ -187,6 +248,13 @@ def test_stop_drops_a_motion_that_waits(robot: Robot) -> None:
         assert [(moved.label, moved.number, moved.completed) for moved in ended] == [("tall", 1, False)]
     finally:
         mover.close()
+
+
+def test_a_mover_that_is_closed_begins_nothing(robot: Robot) -> None:
+    mover = Mover(robot, MOTIONS)
+    mover.close()
+    mover.begin("tall", CAUSE)
+    assert not mover.busy and mover.advance(5.0) == []
 
 
 def test_a_new_session_does_not_imitate_what_was_seen_in_the_one_before() -> None:

@@ -8,7 +8,8 @@ import math
 import threading
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping
-from dataclasses import dataclass, replace
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, Protocol, TypeVar
 
 from hri.core.errors import Error, IoError
@@ -21,6 +22,10 @@ from hri.robot import Trajectory
 
 LEAK = 5e-4
 """By how much of a second the clock of a sound card or a camera may lose against the computer's in a second."""
+_GAP_S = 0.3
+"""Shorter gaps that nothing counts pass for delays."""
+_GAP_SPAN_S, _STEADY_S = 1.25, 0.1
+"""The least delays of two such spans may differ by so much after a gap."""
 _TIMES = ("first_s", "last_s")
 
 _in_use: set[int] = set()
@@ -72,16 +77,31 @@ class Alignment:
     """By how much the session's time is ahead of a stream's.
 
     What comes from a device comes late, by more or less: the least delay seen is the offset. It may grow by `LEAK`, as
-    clocks differ, and grows with what was lost, which the stream's clock does not count.
+    clocks differ, and grows with what was lost, which the stream's clock does not count. What was lost and not counted,
+    as by a driver, shows in delays that are longer from then on, and do not change: then it becomes the least of these.
+    Where this computer is late, delays fall again as it makes up for it.
     """
 
     offset_s: float
     clock: Clock | None = None
+    _least_s: float = field(default=math.inf, init=False, repr=False)
+    _before_s: float = field(default=math.inf, init=False, repr=False)
+    _since_s: float = field(default=math.inf, init=False, repr=False)
 
     def note(self, stream_s: float, passed_s: float, lost_s: float = 0.0) -> None:
         """Something with this time in the stream has come, so much after what came before it."""
-        if self.clock is not None:
-            self.offset_s = min(self.offset_s + LEAK * passed_s + lost_s, self.clock() - stream_s)
+        if self.clock is None:
+            return
+        now_s = self.clock()
+        delay_s = now_s - stream_s
+        self.offset_s = min(self.offset_s + LEAK * passed_s + lost_s, delay_s)
+        self._since_s = min(self._since_s, now_s)
+        self._least_s = min(self._least_s, delay_s)
+        if now_s - self._since_s >= _GAP_SPAN_S:
+            steady = abs(self._least_s - self._before_s) < _STEADY_S
+            if steady and min(self._least_s, self._before_s) > self.offset_s + _GAP_S:
+                self.offset_s = min(self._least_s, self._before_s)
+            self._before_s, self._least_s, self._since_s = self._least_s, math.inf, math.inf
 
 
 class _SizeChanged(Stalled):
@@ -247,12 +267,14 @@ class Feed(Generic[Source]):
             _give_back(source)
             source.close()
 
-    def returns(self, time_s: float) -> bool:
-        """Try once to open a source that vanished; `events` then goes on from this time."""
+    def returns(self, time_s: float | None = None) -> bool:
+        """Try once to open a source that vanished; `events` then goes on from this time, by default the clock's."""
         try:
             self._source = self._opened()
         except (Error, OSError):
             return False
+        if time_s is None:
+            time_s = self.time_s if self._clock is None else self._clock()
         self.time_s = max(self.time_s, time_s)
         return True
 
@@ -277,6 +299,21 @@ class Feed(Generic[Source]):
         if "times_s" in event.fields:  # of the words of a signed sentence
             moved["times_s"] = [[round(t + offset_s, 4) for t in span] for span in event.fields["times_s"]]
         return replace(event, time=self.time_s, fields=event.fields | moved)
+
+
+@contextmanager
+def closing_unread_if_refused(*sources: Any) -> Iterator[None]:
+    """After an exception close those that were given open, and that no feed reads."""
+    try:
+        yield
+    except BaseException:
+        for source in sources:
+            if source is not None and not callable(source) and _take(source):
+                try:
+                    source.close()
+                finally:
+                    _give_back(source)
+        raise
 
 
 def _take(source: Any) -> bool:

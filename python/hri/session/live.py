@@ -129,7 +129,7 @@ class LiveFeeds:
                     return
                 # One that fails as soon as it is open must not be opened again and again without a rest.
                 left_s = opened_s + self._retry_s - time.monotonic()
-                while self._closed.wait(max(0.0, left_s)) or not feed.returns(feed.time_s):
+                while self._closed.wait(max(0.0, left_s)) or not feed.returns():
                     if self._closed.is_set():
                         return
                     left_s = self._retry_s

@@ -167,8 +167,10 @@ class Mover:
             return self._job is not None or len(self._jobs) > 0
 
     def begin(self, label: str, cause: Cause) -> None:
-        """Carry out the motion of this label, after the one that is under way."""
+        """Carry out the motion of this label, after the one that is under way; nothing once it is closed."""
         with self._turn:
+            if self._closed:
+                return
             self._num_begun += 1
             self._jobs.append(_Job(label, self._motions[label], cause.time_s, cause, self._num_begun))
             self._turn.notify_all()
@@ -223,7 +225,7 @@ class Mover:
         while True:
             with self._turn:
                 self._turn.wait_for(lambda: self._jobs or self._closed)
-                if not self._jobs:
+                if self._closed:
                     return
                 self._job = job = self._jobs.popleft()
                 job.begin_s = max(job.begin_s, self._ended_s)

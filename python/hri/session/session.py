@@ -27,7 +27,7 @@ from hri.recognition import (
     WordRecognizer,
 )
 from hri.robot import Robot, Trajectory
-from hri.session.feeds import Arrival, Clock, Feed, SessionRecorder, merge
+from hri.session.feeds import Arrival, Clock, Feed, SessionRecorder, closing_unread_if_refused, merge
 from hri.session.imitation import ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
@@ -320,29 +320,32 @@ class Session:
             self._voice.say(self.aloud(text))
 
     @contextmanager
-    def _begun(self, clock: Clock | None, recorder: SessionRecorder | None) -> Iterator[Body]:
-        """What moves, while the session runs."""
+    def _begun(self, clock: Clock | None, recorder: SessionRecorder | None, *sources: Any) -> Iterator[Body]:
+        """What moves, while the session runs; where it cannot begin, its sources are closed."""
+        with ExitStack() as stack:
+            with closing_unread_if_refused(*sources):
+                body = self._body(stack, clock, recorder)
+            yield body
+
+    def _body(self, stack: ExitStack, clock: Clock | None, recorder: SessionRecorder | None) -> Body:
         if not self._running.acquire(blocking=False):
             raise InvalidArgument("the session is running already")
-        with ExitStack() as stack:
-            stack.callback(self._running.release)
-            if self._imitator is not None:
-                self._imitator.reset()
-            if recorder is not None:
-                recorder.begin(self._about())
-                stack.callback(recorder.end)
-            if self._robot is None:
-                yield NoRobot()
-                return
-            on_joints = None if recorder is None else recorder.joints
-            body = Mover(self._robot, self._motions, clock, on_joints)
-            stack.callback(body.close)
-            yield body
+        stack.callback(self._running.release)
+        if self._imitator is not None:
+            self._imitator.reset()
+        if recorder is not None:
+            recorder.begin(self._about())
+            stack.callback(recorder.end)
+        if self._robot is None:
+            return NoRobot()
+        body = Mover(self._robot, self._motions, clock, None if recorder is None else recorder.joints)
+        stack.callback(body.close)
+        return body
 
     def _run(
         self, sound: SoundSource | None, pictures: PictureSource | None, recorder: SessionRecorder | None
     ) -> Iterator[Event]:
-        with self._begun(None, recorder) as body:
+        with self._begun(None, recorder, sound, pictures) as body:
             feeds = self._feeds(sound, pictures, None, recorder)
             logic = self._logic(body)
             time_s = 0.0
@@ -371,7 +374,7 @@ class Session:
 
         output = EventQueue()
         failure: list[BaseException] = []
-        with self._begun(clock, recorder) as body, ExitStack() as stack:
+        with self._begun(clock, recorder, sound, pictures) as body, ExitStack() as stack:
             logic = self._logic(body)
             live = LiveFeeds(self._feeds(sound, pictures, clock, recorder), self.options.retry_s)
             stack.callback(live.close)
