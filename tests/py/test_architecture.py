@@ -179,7 +179,7 @@ MAY_OPEN = {
     "media/video.py": r"cv2\.VideoCapture\(name\)",
     "media/video_writer.py": r"_cv2\.VideoWriter\(name|class VideoWriter|with VideoWriter\(|os\.open\(os\.devnull",
     "live/camera.py": r"VideoCapture\(self\._device\)",
-    "cli/result_screen.py": r"VideoWriter\(video_path",
+    "cli/result_screen.py": r"VideoWriter\(in_a_folder\(video_path",
     "vision/film.py": r"with VideoWriter\(",
     "cli/features.py": r"np\.save(?:txt)?\((?:stored|text)",
     "core/plotting.py": r"savefig\(drawn",

@@ -218,3 +218,11 @@ def test_an_interrupted_data_set_is_removed_where_nothing_else_was(hri, tmp_path
     assert left == ({"set/go/old.wav", "set/go/new.wav", "set/stop/new.wav"} if there_before else set())
     failed = hri("corpus", "speech", "go", "--language", "zz", "--out", tmp_path / "none")
     assert failed.code == 3 and not (tmp_path / "none").exists()
+
+
+def test_a_film_of_what_is_watched_may_be_in_a_folder_that_is_new(tmp_path: Path) -> None:
+    pytest.importorskip("cv2")
+    from hri.cli.result_screen import ResultScreen
+
+    with ResultScreen(str(tmp_path / "new" / "folder" / "seen.mp4"), 15.0, False, 3):
+        assert (tmp_path / "new" / "folder").is_dir()

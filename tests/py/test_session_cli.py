@@ -116,7 +116,7 @@ def test_the_robot_moves_and_reports_labels_without_a_motion(hri, scene: Path) -
 def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> None:
     said, shown = scene / "said.wav", scene / "shown.avi"
     (tmp_path / "no.hri").write_bytes(b"no model")
-    (tmp_path / "no.mcap").write_bytes(b"no recording")
+    words = ("--speech-model", scene / "words.hri")
     for arguments, code, message in (
         ((said, said), 2, "are both sound files"),
         ((scene / "words.hri",), 2, "neither a sound file nor a video"),
@@ -125,22 +125,51 @@ def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> 
         (("--speech-model", tmp_path / "no.hri", said), 3, "no.hri"),
         (("--speech-model", scene / "signs.hri", said), 3, "signs.hri is a gesture recogniser"),
         ((*models(scene), "--wake", "robot", said, shown), 3, "'robot' is in no vocabulary"),
-        ((*models(scene), "--confirm-below", "2", said), 3, "confirm_below"),
-        (("--replay", tmp_path / "no.mcap"), 3, "not a recorded session"),
+        ((*words, "--confirm-below", "2", said), 3, "confirm_below"),
         ((*models(scene), "--record", tmp_path / "kept.txt", said), 2, ".mcap"),
-        (("--replay", tmp_path / "no.mcap", said), 2, "--replay takes what was recorded"),
-        (("--replay", tmp_path / "no.mcap", "--record", tmp_path / "a.mcap"), 2, "--replay takes what was recorded"),
+        ((*models(scene), said), 2, "--gesture-model is of signs, and nothing is seen"),
+        ((*models(scene), shown), 2, "--speech-model is of words, and nothing is heard"),
+        ((*models(scene), "--no-gesture"), 2, "--gesture-model is of signs, and nothing is seen"),
+        (("--no-speech", "--grammar", said), 2, "--grammar is of words, and nothing is heard"),
+        ((*words, "--stand", said), 2, "--stand has no effect without a robot"),
+        ((*words, "--gui", said), 2, "--gui has no effect without a robot"),
+        ((*words, "--robot", "nao", said), 2, "--robot has no effect without a robot"),
+        ((*words, "--fusion", said, "--rule", "product", said), 2, "--rule has no effect: --fusion takes its place"),
         ((*models(scene), "--no-speech", said), 2, "leave out what FILE brings"),
         ((*models(scene), "--no-gesture", said, shown), 2, "leave out what FILE brings"),
         ((*models(scene), "--microphone", "1", said), 2, "FILE takes their place"),
         ((*models(scene), "--min-confidence", "0.5", said), 2, "--min-confidence goes with --grammar"),
         ((*models(scene), "--max-distance", "0.5", said), 2, "--max-distance goes with --knowledge"),
         ((*models(scene), "--language", "hi", said), 2, "--language goes with --knowledge"),
-        ((*models(scene), "--imitate", "nowhere", "--robot", "nao", said), 3, "'nowhere' is in no vocabulary"),
+        ((*words, "--imitate", "nowhere", said), 3, "'nowhere' is in no vocabulary"),
         (("--robot", "nao", "--url", "tcp://127.0.0.1:9"), 2, "--url is of a real one"),
     ):
         result = hri("session", "--backend", "none", *arguments)
         assert result.code == code and message in result.err, (arguments, result.err)
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        ("said.wav",),
+        ("--record", "a.mcap"),
+        ("--wake", "robot"),
+        ("--stop", "halt"),
+        ("--confirm-below", "0.9"),
+        ("--window", "2"),
+        ("--rule", "product"),
+        ("--resume", "start"),
+        ("--backend", "none"),
+        ("--camera", "1"),
+        ("--no-gesture",),
+    ],
+)
+def test_a_replay_refuses_what_the_recording_determines(hri, scene: Path, tmp_path: Path, more: tuple[str, ...]):
+    (tmp_path / "no.mcap").write_bytes(b"no recording")
+    replayed = ("session", "--replay", tmp_path / "no.mcap")
+    assert "not a recorded session" in hri(*replayed, "--speech-model", scene / "words.hri", "--json").err
+    refused = hri(*replayed, *(scene / one if one == "said.wav" else one for one in more))
+    assert refused.code == 2 and "has no effect: --replay takes what was recorded" in refused.err
 
 
 def test_a_session_that_nothing_stops_warns(hri, scene: Path) -> None:

@@ -83,6 +83,13 @@ def write_json(path: str | None, value: Any) -> None:
         write_text(Path(path), text)
 
 
+def in_a_folder(path: str | Path) -> Path:
+    """The path of a file that is written piece by piece, in a folder that is made if need be."""
+    target = Path(path)
+    files.make_folder(target.parent)
+    return target
+
+
 def write_text(target: Path, text: str) -> None:
     """Write `text` to `target`, in a folder that is made if need be; an old file stays whole if this fails."""
     files.make_folder(target.parent)

@@ -9,6 +9,7 @@ import sys
 
 import click
 
+from hri.cli.output import in_a_folder
 from hri.core.optional import import_opencv
 from hri.live import draw_result
 from hri.live.frame_results import FrameResult
@@ -24,7 +25,7 @@ class ResultScreen:
     def __init__(self, video_path: str | None, fps: float, show: bool, top: int) -> None:
         if show:
             _require_windows()
-        self._writer = None if video_path is None else VideoWriter(video_path, fps)
+        self._writer = None if video_path is None else VideoWriter(in_a_folder(video_path), fps)
         self._show = show
         self._top = top
 

@@ -16,11 +16,11 @@ import click
 from hri.cli.connected import connected_model
 from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
-from hri.cli.output import OutputFile
+from hri.cli.output import OutputFile, in_a_folder
 from hri.cli.recognizers import load_dataset
 from hri.cli.robot import nao_url_option
 from hri.cli.session_devices import NAO_NAME, open_camera, open_microphone, open_voice, require_nao
-from hri.cli.session_options import ChosenSession, session_options
+from hri.cli.session_options import ChosenSession, refuse_unused, session_options
 from hri.core.optional import import_optional
 from hri.io import SpokenWords
 from hri.media import Audio
@@ -98,6 +98,7 @@ def serve(
     require_nao(chosen, url, camera_name, microphone_name)
     if (microphone_name and chosen.no_speech) or (camera_name and chosen.no_gesture):
         raise click.UsageError("--no-speech and --no-gesture leave out --microphone and --camera")
+    refuse_unused(not chosen.no_speech, not chosen.no_gesture)
     for module in ("starlette", "uvicorn", "websockets"):
         import_optional(module, "web", "to serve the page")
     from hri.serve import PageServer, Stage
@@ -117,7 +118,7 @@ def serve(
         robot = chosen.open_robot(url=url)
         if robot is not None:
             stack.enter_context(robot)
-        paths = _numbered(record_path or "")
+        paths = _numbered("" if record_path is None else in_a_folder(record_path))
         note("preparing the robot's motions")
         ids = chosen.model_ids
         stage = Stage(
@@ -149,7 +150,7 @@ def serve(
         server.run()
 
 
-def _numbered(path: str) -> Iterator[Path]:
+def _numbered(path: str | Path) -> Iterator[Path]:
     """The file, and then those of the same name with the next number that is free."""
     first = Path(path)
     yield first

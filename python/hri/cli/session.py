@@ -12,13 +12,13 @@ from typing import Any
 
 import click
 
-from hri.cli.groups import CheckedCommand, is_given
+from hri.cli.groups import CheckedCommand, is_given, refuse_given
 from hri.cli.live_screen import events_json_option, stall_option
 from hri.cli.messages import note
-from hri.cli.output import OutputFile
+from hri.cli.output import OutputFile, in_a_folder
 from hri.cli.robot import nao_url_option
 from hri.cli.session_devices import open_camera, open_microphone, open_voice, require_nao
-from hri.cli.session_options import ChosenSession, model_file, session_options
+from hri.cli.session_options import ChosenSession, model_file, refuse_unused, session_options
 from hri.cli.session_screen import show_session
 from hri.core.errors import InvalidArgument
 from hri.live import FileSource, VideoSource
@@ -27,6 +27,12 @@ from hri.robot import stopped_by_signals
 from hri.session import McapRecorder, Session, is_repeated, read_recording, replay
 
 EXIT_DIFFERENT = 1
+_OF_REPLAY = (
+    *("replay_path", "as_json", "speech_model", "embedding_path", "grammar_path", "min_confidence", "gesture_model"),
+    *("faces", "knowledge_path", "max_distance", "fusion_path"),
+)
+"""Parameters that --replay heeds: what is in no recording."""
+_AS_RECORDED = "has no effect: --replay takes what was recorded"
 EXIT_SIGNAL = 128
 
 
@@ -81,10 +87,10 @@ def session(
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
     if replay_path is not None:
-        if files or record_path is not None or gui or speak or url is not None:
-            raise click.UsageError(
-                "--replay takes what was recorded: no FILE, --record, --gui, --speak or --url goes with it"
-            )
+        params = (param.name or "" for param in click.get_current_context().command.params)
+        refuse_given(tuple(name for name in params if name not in _OF_REPLAY), _AS_RECORDED)
+        if files:
+            raise click.UsageError(f"FILE {_AS_RECORDED}")
         _replay(replay_path, chosen, as_json)
         return
     require_nao(chosen, url, camera_name, microphone_name)
@@ -100,6 +106,7 @@ def session(
     with_gesture = not chosen.no_gesture and (live or video is not None)
     if not (with_speech or with_gesture):
         raise click.UsageError("--no-speech and --no-gesture leave nothing")
+    refuse_unused(with_speech, with_gesture)
     options = chosen.session_options()
     words = chosen.load_words() if with_speech else None
     signs = chosen.load_signs() if with_gesture else None
@@ -131,7 +138,7 @@ def session(
             hear = (lambda: open_microphone(microphone_name, stall_s, url)) if live else FileSource(sound or "")
         if with_gesture:
             see = (lambda: open_camera(camera_name, stall_s, url)) if live else VideoSource(video or "")
-        recorder = None if record_path is None else McapRecorder(record_path)
+        recorder = None if record_path is None else McapRecorder(in_a_folder(record_path))
         signals = stack.enter_context(stopped_by_signals(made))
         failed = show_session(made.run(hear, see, live=live, recorder=recorder), as_json, lambda: bool(signals))
     if recorder is not None and recorder.failure:

@@ -279,11 +279,24 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
             refuse_given(("embedding_path",), "is for single words, which --grammar and --no-speech leave out")
         if given["faces"] is not None and given["no_gesture"]:
             raise click.UsageError("--faces and --no-gesture exclude each other")
+        if given["fusion_path"] is not None:
+            refuse_given(("rule",), "has no effect: --fusion takes its place")
+        if given["backend"] == _NO_ROBOT and given.get("url") is None:
+            refuse_given(("stand", "gui", "table"), "has no effect without a robot, as --backend none has it")
         command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
 
     for option in reversed(_OPTIONS):
         collected = option(collected)
     return collected
+
+
+def refuse_unused(with_speech: bool, with_gesture: bool) -> None:
+    """Refuse options of words where nothing is heard, and of signs where nothing is seen."""
+    if not with_speech:
+        names = ("speech_model", "embedding_path", "grammar_path", "microphone_name")
+        refuse_given(names, "is of words, and nothing is heard")
+    if not with_gesture:
+        refuse_given(("gesture_model", "faces", "camera_name"), "is of signs, and nothing is seen")
 
 
 def _name_and_hash(path: Path) -> str:
