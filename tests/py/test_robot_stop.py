@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """STOP latches until `resume`, from whichever thread and whenever: nothing moves meanwhile."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -335,3 +336,18 @@ def test_reset_refuses_what_no_joint_can_do(robot, positions, posture, named):
     with pytest.raises(InvalidArgument, match="no joint"):
         robot.reset({"leg": 0.0})
     robot.reset({joint.name: joint.lower_rad for joint in HOAP2.joints})
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGPIPE"), reason="no SIGPIPE here")
+def test_a_broken_pipe_ends_no_program_that_moves_a_robot() -> None:
+    before = signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as the command line has it
+    try:
+        with open_robot("kinematic") as robot, stopped_by_signals(robot):
+            read, write = os.pipe()
+            os.close(read)
+            with pytest.raises(BrokenPipeError):
+                os.write(write, b"a line")
+            os.close(write)
+        assert signal.getsignal(signal.SIGPIPE) is signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGPIPE, before)

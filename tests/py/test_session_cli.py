@@ -172,6 +172,35 @@ def test_a_replay_refuses_what_the_recording_determines(hri, scene: Path, tmp_pa
     assert refused.code == 2 and "has no effect: --replay takes what was recorded" in refused.err
 
 
+@pytest.mark.parametrize("live", [False, True])
+def test_output_that_nobody_reads_any_more_ends_the_session_and_keeps_the_recording(
+    hri, scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, live: bool
+) -> None:
+    pytest.importorskip("mcap")
+    from hri.live import ArraySource
+    from hri.media import read_audio
+    from hri.session import read_recording
+
+    kept, shown = tmp_path / "new" / "folder" / "kept.mcap", []
+    to_json = Event.to_json
+
+    def read(event: Event) -> str:
+        if len(shown) == 3:
+            raise BrokenPipeError
+        shown.append(event)
+        return to_json(event)
+
+    monkeypatch.setattr(Event, "to_json", read)
+    said = read_audio(scene / "said.wav")
+    source = ArraySource(said.samples, said.sample_rate_hz, paced=True)
+    monkeypatch.setattr("hri.cli.session.open_microphone", lambda *_: source)
+    heard = ("--no-gesture",) if live else (scene / "said.wav",)
+    model = ("--speech-model", scene / "words.hri")
+    done = hri("session", *model, "--backend", "kinematic", "--record", kept, *heard)
+    assert done.code == 141 and len(rows(done.out)) == 3
+    assert len(list(read_recording(kept).events())) >= 3
+
+
 def test_a_session_that_nothing_stops_warns(hri, scene: Path) -> None:
     model, said = ("--speech-model", scene / "words.hri", "--backend", "none"), scene / "said.wav"
     for stops, message in (

@@ -116,7 +116,7 @@ def hri(verbose: int, quiet: bool, threads: int | None) -> None:
       hri train --help
 
     Exit codes: 0 done (also for "unknown"), 1 target not met, 2 wrong usage, 3 bad data, 70 a fault
-    of hri itself, 130 interrupted.
+    of hri itself, 130 interrupted, 141 the output is no longer read.
     """
     if verbose and quiet:
         raise click.UsageError("--verbose and --quiet exclude each other")

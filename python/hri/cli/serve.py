@@ -24,6 +24,7 @@ from hri.cli.session_options import ChosenSession, refuse_unused, session_option
 from hri.core.optional import import_optional
 from hri.io import SpokenWords
 from hri.media import Audio
+from hri.robot.control.stopping import broken_pipes_as_errors
 from hri.session import McapRecorder
 from hri.synthetic.speech import speak_words
 
@@ -115,6 +116,7 @@ def serve(
         recordings = [sample for folder in speech_data for sample in load_dataset(folder, "speech", None).samples]
         spoken = SpokenWords.read_beside(chosen.speech_model or connected_model())
     with ExitStack() as stack:
+        stack.enter_context(broken_pipes_as_errors())
         robot = chosen.open_robot(url=url)
         if robot is not None:
             stack.enter_context(robot)

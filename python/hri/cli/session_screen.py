@@ -12,26 +12,32 @@ import click
 from hri.cli.live_screen import describe_stream, hand_line, meter
 from hri.live import Event
 
+EXIT_NOT_READ = 141
+"""As a shell has it for a program that ends by SIGPIPE."""
 _WAIT_TEXT = "{wait:.0f} ms to be decided on, {compute:.0f} ms of computing"
 
 
 def show_session(events: Iterator[Event], as_json: bool, ended: Callable[[], bool]) -> str:
-    """Show events until there are no more, or `ended` says so; why nothing could be heard or seen, if so."""
+    """Show events until there are no more, or `ended` says so; why nothing could be heard or seen, if so.
+
+    They are closed then, and also when showing fails.
+    """
     lines = as_json or not sys.stdout.isatty()
     failures: dict[str, str] = {}
     began: set[str] = set()
     shown = _Lines() if lines else _Screen()
-    with shown:
-        for event in events:
-            shown.show(event)
-            if event.event in ("listening", "watching"):
-                began.add(event.mode)
-            elif event.event == "stall":
-                failures[event.mode] = str(event.fields["message"])
-            if ended():
-                break
-    close = getattr(events, "close", None)
-    if close is not None:
+    close = getattr(events, "close", lambda: None)
+    try:
+        with shown:
+            for event in events:
+                shown.show(event)
+                if event.event in ("listening", "watching"):
+                    began.add(event.mode)
+                elif event.event == "stall":
+                    failures[event.mode] = str(event.fields["message"])
+                if ended():
+                    break
+    finally:
         close()
     return "" if began else "; ".join(failures.values())
 
@@ -46,8 +52,11 @@ class _Lines:
         pass
 
     def show(self, event: Event) -> None:
-        click.echo(event.to_json())
-        sys.stdout.flush()
+        try:
+            click.echo(event.to_json())
+            sys.stdout.flush()
+        except BrokenPipeError:  # the program that reads them has ended
+            raise click.exceptions.Exit(EXIT_NOT_READ) from None
 
 
 class _Screen:

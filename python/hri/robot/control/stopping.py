@@ -60,11 +60,33 @@ class _Stoppable(Protocol):
 
 
 @contextmanager
+def broken_pipes_as_errors() -> Iterator[None]:
+    """Let the end of the program that reads the output, or of a robot's link, be a `BrokenPipeError`, as in Python.
+
+    Commands that end silently as soon as their output goes nowhere (SIGPIPE) would leave a robot in mid-motion, and a
+    recording without its end. Without effect in another thread than the main one.
+    """
+    number = getattr(signal, "SIGPIPE", None)
+    if number is None or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    if signal.getsignal(number) is not signal.SIG_DFL:
+        yield
+        return
+    signal.signal(number, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(number, signal.SIG_DFL)
+
+
+@contextmanager
 def stopped_by_signals(robot: _Stoppable) -> Iterator[list[int]]:
     """Let Ctrl-C and a request to end the process (SIGTERM, SIGHUP) stop a robot instead of ending the program.
 
     A motion under way comes to rest within its limits and the ones after it do not begin; the program goes on and
     should end itself. A second signal of the same kind acts as it did before. Only the main thread can do this.
+    A broken pipe is an error meanwhile, and ends no program.
 
     Parameters
     ----------
@@ -95,7 +117,8 @@ def stopped_by_signals(robot: _Stoppable) -> Iterator[list[int]]:
     try:
         for number in before:
             signal.signal(number, stop)
-        yield came
+        with broken_pipes_as_errors():
+            yield came
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
