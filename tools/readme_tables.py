@@ -31,6 +31,7 @@ ACCURACY = (
     Line("English digits, the same, with a pretrained speech embedding", "fsdd-both", {"listening": "alone"}),
     Line("Hindi digits, the same, with a pretrained speech embedding", "hindi-digits-both", {"listening": "alone"}),
     Line("40 commands, 4 of 24 speakers held out", "commands", {"front_end": "cepstra", "test": "quiet"}),
+    Line("The same with the embedding", "commands-both", {"front_end": "both", "test": "quiet"}),
     Line(
         "The same with the embedding and a network of the same words, as `hri train speech` makes of so many",
         "commands-network",
