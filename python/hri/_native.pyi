@@ -6760,6 +6760,7 @@ class WordRecognizer:
         embedding_fillers: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]] = [],
         embedding_filler_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         embedding_filler_labels: collections.abc.Sequence[str] = [],
+        recordings: collections.abc.Sequence[str] = [],
     ) -> WordRecognizer: ...
     def recognise(
         self,
