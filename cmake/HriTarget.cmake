@@ -48,7 +48,10 @@ function(hri_target_settings target optimisation)
     target_compile_options(${target} PRIVATE -ffp-contract=off)
     # Eigen's quick square root of floats starts from an estimate of the processor's, which every maker rounds its own way.
     target_compile_definitions(${target} PRIVATE EIGEN_FAST_MATH=0)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimisation}>)
+    # A project that has libhri in it may have no build type: code for a robot is optimised then, too.
+    set(is_release $<OR:$<CONFIG:Release>,$<STREQUAL:$<CONFIG>,>>)
+    target_compile_options(${target} PRIVATE $<${is_release}:${optimisation}>)
+    target_compile_definitions(${target} PRIVATE $<${is_release}:NDEBUG>)
     if(optimisation STREQUAL "-O1" AND NOT HRI_OPTIMISE_CALLERS)
       target_compile_options(${target} PRIVATE -O0)
     endif()

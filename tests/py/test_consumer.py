@@ -85,7 +85,7 @@ def test_cpp_gives_the_scores_of_python_to_the_bit(programs: Path, spoken: Path,
 
 def test_words_in_a_stream_are_found_and_recognised(programs: Path, spoken: Path, tmp_path: Path) -> None:
     """The tutorial's program, on two words with a second of quiet room around each."""
-    words = hri.train(hri.Dataset.load(spoken))
+    words = hri.train(hri.Dataset.load(spoken), hri.WordRecognizer())
     assert isinstance(words, hri.WordRecognizer)
     words.save(tmp_path / "words.hri")
     clips = [speak(word, "en", make_speaker(20)) for word in ("one", "three")]
@@ -173,6 +173,21 @@ def test_a_program_builds_with_pkg_config_alone(installed: Path, tmp_path: Path)
     )
     run("g++", "-std=c++17", source, "-o", tmp_path / "version", *flags)
     assert run(tmp_path / "version").split() == [hri.__version__, "8"]
+
+
+def test_a_program_for_this_processor_frees_what_libhri_allocated(installed: Path, tmp_path: Path) -> None:
+    """Eigen frees the matrices of AVX code in another way than those of the library, unless both allocate alike."""
+    flags = run("pkg-config", "--cflags", "--libs", "hri-core", PKG_CONFIG_PATH=str(installed / "lib" / "pkgconfig"))
+    source = ROOT / "examples" / "consumer" / "recognise_word.cpp"
+    built = ["g++", "-std=c++17", "-O2", "-march=native", source, "-o", tmp_path / "recognise_word"]
+    run(*built, *flags.split())
+    clip = speak("one", "en", make_speaker(20))
+    write_wav_pcm16(str(tmp_path / "one.wav"), clip.samples, clip.sample_rate_hz)
+    for model in sorted((ROOT / "tests" / "py" / "models_v2").glob("words_*.hri")):
+        assert run(tmp_path / "recognise_word", model, tmp_path / "one.wav"), model.name
+    without = [flag for flag in flags.split() if "EIGEN_MAX_ALIGN" not in flag]
+    refused = subprocess.run([str(part) for part in (*built, *without)], capture_output=True, text=True)
+    assert refused.returncode != 0 and "EIGEN_MAX_ALIGN_BYTES=64" in refused.stderr
 
 
 def test_vision_brings_opencv_to_those_who_ask(installed: Path, tmp_path: Path) -> None:

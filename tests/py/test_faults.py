@@ -37,8 +37,8 @@ def models(spoken: Path, signed: Path, tmp_path_factory: pytest.TempPathFactory)
 
     folder = tmp_path_factory.mktemp("models")
     (folder / "hri").mkdir()
-    hri.train(hri.Dataset.load(spoken)).save(folder / "hri" / "speech.hri")
-    hri.train(hri.Dataset.load(signed)).save(folder / "hri" / "gesture.hri")
+    hri.train(hri.Dataset.load(spoken), hri.WordRecognizer()).save(folder / "hri" / "speech.hri")
+    hri.train(hri.Dataset.load(signed), hri.GestureRecognizer()).save(folder / "hri" / "gesture.hri")
     return folder
 
 

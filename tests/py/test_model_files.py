@@ -160,7 +160,7 @@ def test_damage_is_named(tmp_path: Path) -> None:
 
 
 def test_weights_that_are_not_finite_are_refused(spoken: Path, tmp_path: Path) -> None:
-    hri.train(hri.Dataset.load(spoken)).save(tmp_path / "w.hri")
+    hri.train(hri.Dataset.load(spoken), hri.WordRecognizer()).save(tmp_path / "w.hri")
     header, tensors = taken_apart(tmp_path / "w.hri")
     name = next(key for key in header if key != "__metadata__" and "mean" in key)
     begin, _ = header[name]["data_offsets"]
@@ -172,7 +172,7 @@ def test_weights_that_are_not_finite_are_refused(spoken: Path, tmp_path: Path) -
 
 
 def test_models_of_another_kind_are_refused_by_name(signed: Path, tmp_path: Path) -> None:
-    hri.train(hri.Dataset.load(signed)).save(tmp_path / "g.hri")
+    hri.train(hri.Dataset.load(signed), hri.GestureRecognizer()).save(tmp_path / "g.hri")
     with pytest.raises(FormatError, match=r"g\.hri"):
         hri.WordRecognizer.load(tmp_path / "g.hri")
     with pytest.raises(IoError, match="missing"):

@@ -81,7 +81,7 @@ def test_silence_is_no_input(words: hri.WordRecognizer, x: np.ndarray) -> None:
 @pytest.mark.data
 def test_words_that_were_not_trained_are_rejected_more_often() -> None:
     data = Path(os.environ["HRI_DATA"]) / "hindi_words"
-    words = hri.train(hri.Dataset.load(data / "digits", "speech"))
+    words = hri.train(hri.Dataset.load(data / "digits", "speech"), hri.WordRecognizer())
     assert isinstance(words, hri.WordRecognizer)
 
     def rejected(folder: str) -> float:
@@ -189,7 +189,7 @@ def test_signs_of_unseen_persons_are_recognised(signed: Path) -> None:
 
 
 def test_picture_without_a_hand_is_no_input(signed: Path) -> None:
-    signs = hri.train(hri.Dataset.load(signed))
+    signs = hri.train(hri.Dataset.load(signed), hri.GestureRecognizer())
     assert isinstance(signs, hri.GestureRecognizer)
     wall = np.full((240, 320, 3), (180, 170, 160), np.uint8)
     assert signs.recognise([wall]).status == "no_input"

@@ -52,7 +52,7 @@ def test_a_wall_is_no_hand(tmp_path: Path) -> None:
     """Most walls that are mistaken for a hand have borders too weak to be trusted; drawn hands never are."""
     make_gesture_corpus(tmp_path / "g", labels=["1", "5"], num_persons=3)
     dataset = Dataset.load(tmp_path / "g", "gesture")
-    recognizer = hri.train(dataset)
+    recognizer = hri.train(dataset, hri.GestureRecognizer())
     for sample in dataset.samples:
         assert recognizer.recognise(read_frames(sample.path).frames).status != "no_input"
     walls = [recognizer.recognise(clip).status for clip in empty_clips(20)]

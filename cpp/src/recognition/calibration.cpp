@@ -166,6 +166,8 @@ Decision unknown_decision() {
 
 Decision Calibration::decide(const VectorF& scores, float score,
                              const std::vector<std::string>& labels) const {
+  require(!labels.empty() && labels.size() <= static_cast<std::size_t>(scores.size()),
+          "every label needs a score");
   // A class may be impossible; a score that is no number, or is beyond all, decides nothing.
   if (scores.hasNaN() || !std::isfinite(scores.maxCoeff()) || std::isnan(score) ||
       score > std::numeric_limits<float>::max())

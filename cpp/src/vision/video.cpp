@@ -13,6 +13,7 @@ namespace hri {
 namespace {
 
 constexpr double kMaxPixels = 1e8;  // more takes seconds a frame, and is no hand before a camera
+constexpr int kReadsPastTheEnd = 4;
 
 }  // namespace
 
@@ -45,6 +46,11 @@ VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
 bool VideoReader::read(VideoFrame* frame) {
   Capture& c = *capture_;
   if (!c.video.read(c.picture) || c.picture.empty()) {
+    // A frame that cannot be decoded looks like the end, but others follow.
+    for (int i = 0; i < kReadsPastTheEnd; ++i) {
+      if (c.video.grab())
+        fail(ErrorKind::format, c.path + ": frame " + std::to_string(c.count) + " is damaged");
+    }
     if (c.count == 0) fail(ErrorKind::format, c.path + ": video without frames");
     return false;
   }

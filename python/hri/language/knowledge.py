@@ -107,6 +107,7 @@ class KnowledgeBase:
         if SIGNS_COLUMN not in header or len(set(header)) < len(header) or "" in header:
             raise FormatError(f"{name}: row 1: the columns must be '{SIGNS_COLUMN}' and codes of languages")
         sentences: list[StoredSentence] = []
+        seen: set[tuple[str, ...]] = set()
         for number, row in enumerate(rows[1:], 2):
             cells = dict(zip(header, row, strict=False))
             words = tuple(cells.get(SIGNS_COLUMN, "").split())
@@ -114,8 +115,9 @@ class KnowledgeBase:
                 raise FormatError(f"{name}: row {number}: control characters in a cell")
             if len(row) != len(header) or not words:
                 raise FormatError(f"{name}: row {number}: must have {len(header)} cells, and words in '{SIGNS_COLUMN}'")
-            if any(stored.words == words for stored in sentences):
+            if words in seen:
                 raise FormatError(f"{name}: row {number}: '{' '.join(words)}' stands in an earlier row too")
+            seen.add(words)
             languages = (name for name in header if name not in (SIGNS_COLUMN, ANSWER_COLUMN))
             texts = {language: cells[language] for language in languages if cells[language]}
             sentences.append(StoredSentence(words, texts, tuple(cells.get(ANSWER_COLUMN, "").split())))

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import json
-from os import PathLike, fspath
+from os import PathLike, fsdecode, fspath
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -85,7 +85,12 @@ class SavedEstimator(Estimator):
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
         """Read what `save` wrote. Raises FormatError for anything else."""
-        return cls.from_model_file(ModelFile.read(fspath(path)))
+        name = fsdecode(path)
+        file = ModelFile.read(fspath(path))  # names the file by itself
+        try:
+            return cls.from_model_file(file)
+        except FormatError as error:
+            raise FormatError(str(error) if str(error).startswith(name) else f"{name}: {error}") from None
 
     def __getstate__(self) -> bytes:
         return self.to_model_file().to_bytes()

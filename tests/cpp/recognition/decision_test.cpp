@@ -214,6 +214,8 @@ TEST(Calibration, DecidesWithAnNBestListThatFallsAndSumsToOne) {
   const Calibration untrained = Calibration::fit({}, RejectionRates{});
   EXPECT_EQ(untrained.scale(), 1.0);
   EXPECT_EQ(untrained.decide(scores, -1e20F, {"a", "b", "c"}).status, DecisionStatus::recognised);
+  EXPECT_THROW(static_cast<void>(Calibration().decide({}, 0, {})), Error);
+  EXPECT_THROW(static_cast<void>(Calibration().decide(scores, 0, {"a", "b", "c", "d"})), Error);
 }
 
 TEST(Training, LabelsAreSortedAndTwoAtLeast) {

@@ -11,6 +11,11 @@
 #include <type_traits>
 #include <vector>
 
+#if EIGEN_MAX_ALIGN_BYTES != 64
+#error \
+    "compile with -DEIGEN_MAX_ALIGN_BYTES=64, as hri::core and pkg-config give it: libhri frees matrices of yours"
+#endif
+
 namespace hri {
 
 template <class T>

@@ -34,6 +34,9 @@ void write_delta(const float* const* rows, int window, int width, float* delta) 
 
 void append_deltas(MatrixRefF frames, int first_column, int width, int window) {
   require(window >= 1 && window <= kMostWindow, "window must lie in 1..10");
+  require(
+      first_column >= 0 && width >= 0 && first_column <= frames.cols() - 2 * Eigen::Index{width},
+      "deltas do not fit into the columns of frames");
   std::array<const float*, 2 * kMostWindow + 1> around{};
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
     for (Eigen::Index k = 0; k <= 2 * Eigen::Index{window}; ++k) {
@@ -48,6 +51,8 @@ void append_deltas(MatrixRefF frames, int first_column, int width, int window) {
 
 void normalise(MatrixRefF frames, int width, Normalisation kind, int c0_column) {
   require(!is_running(kind), "normalisation of a whole utterance must not be a running one");
+  require(width >= 0 && width <= frames.cols() && c0_column < frames.cols(),
+          "frames have fewer columns than are to be normalised");
   if (kind == Normalisation::none || (kind == Normalisation::level && c0_column < 0)) return;
   const int begin = kind == Normalisation::level ? c0_column : 0;
   const int end = kind == Normalisation::level ? c0_column + 1 : width;
@@ -76,6 +81,7 @@ void RunningNormaliser::start(int width, Normalisation kind, double num_frames) 
 }
 
 void RunningNormaliser::apply(Span<float> frame) {
+  require(frame.size() >= means_.size(), "frame is shorter than the width given at the start");
   seen_ = std::min(seen_ + 1, num_frames_);
   const double share = 1 / seen_;
   for (std::size_t c = 0; c < means_.size(); ++c) {
@@ -100,6 +106,7 @@ void RastaFilter::start(int width, double pole) {
 }
 
 void RastaFilter::apply(Span<float> frame) {
+  require(frame.size() >= output_.size(), "frame is shorter than the width given at the start");
   if (!started_) {
     for (std::size_t i = 0; i < past_.size(); ++i) past_[i] = static_cast<double>(frame[i / 4]);
     started_ = true;

@@ -299,11 +299,24 @@ class LayerChain {
                              static_cast<std::size_t>(layer.kernel_frames) *
                              static_cast<std::size_t>(layer.kernel_bands);
     if (weights.floats.size() != out * rows) refuse("has other weights than its shape says");
+    // Nodes may share weights, of which each layer has a copy: no more of them than the file has.
+    num_copied_ += weights.floats.size();
+    if (num_copied_ > num_floats()) refuse("has weights that layers before it have, too");
     layer.weights = transposed(weights.floats, layer);
     layer.bias.assign(out, 0.0F);
-    if (node.inputs.size() > 2 && !node.inputs[2].empty()) layer.bias = tensor(node, 2).floats;
+    if (node.inputs.size() > 2 && !node.inputs[2].empty()) {
+      const Tensor& bias = tensor(node, 2);
+      if (bias.floats.size() != out) refuse("has other biases than channels");
+      layer.bias = bias.floats;
+    }
     layers_.push_back(std::move(layer));
     open_ = true;
+  }
+
+  [[nodiscard]] std::size_t num_floats() const {
+    std::size_t total = 0;
+    for (const auto& [name, tensor] : graph_.tensors) total += tensor.floats.size();
+    return total;
   }
 
   [[nodiscard]] static bool is_plain(const Node& node) {
@@ -371,6 +384,7 @@ class LayerChain {
   std::int64_t bands_ = 0;
   std::size_t index_ = 0;
   bool open_ = false;
+  std::size_t num_copied_ = 0;
   std::vector<ConvLayer> layers_;
 };
 

@@ -10,6 +10,15 @@
 #include "recognition/gesture/gesture_verifier.hpp"
 
 namespace hri {
+namespace {
+
+void require_silhouettes(const GestureRecognizerOptions& options) {
+  require(options.source == GestureSource::silhouettes,
+          "the recogniser is one of landmarks, which masks of hands do not give");
+}
+
+}  // namespace
+
 MatrixF GestureRecognizer::features(const std::vector<HandImage>& frames,
                                     const HandFeatureOptions& options) {
   return GestureFeatureComputer(options, 0).compute(frames);
@@ -46,12 +55,14 @@ MatrixF GestureRecognizer::features(Span<const ImageView> clip, const HandSource
 
 Decision GestureRecognizer::recognise(Span<const HandObservation> hands) const {
   require(options_.num_hands == 1, "the recogniser is one of both hands: give left and right");
+  require_silhouettes(options_);
   return recognise_features(front_end_->compute(hands));
 }
 
 Decision GestureRecognizer::recognise(Span<const HandObservation> left,
                                       Span<const HandObservation> right) const {
   require(options_.num_hands == 2, "the recogniser is one of one hand: give one");
+  require_silhouettes(options_);
   return recognise_features(pair_rows(front_end_->compute_every(left),
                                       front_end_->compute_every(right), options_.relation_weight));
 }

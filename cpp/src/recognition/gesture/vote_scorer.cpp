@@ -126,8 +126,8 @@ class VoteScorer : public GestureScorer {
   };
 
   [[nodiscard]] MatrixF shape_rows(ConstMatrixRefF rows) const {
-    require(rows.cols() >= num_shape_columns,
-            "features have fewer columns than the model was trained on");
+    require(rows.cols() == num_shape_columns + kNumTrackColumns,
+            "features have another number of columns than the model was trained on");
     const MatrixF shapes = held_rows(rows).leftCols(num_shape_columns);
     return pca ? pca->transform(shapes) : shapes;
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "hri/core/error.hpp"
+
 namespace hri {
 namespace {
 
@@ -81,6 +83,7 @@ MatrixF WordSpectrogram::normalised(ConstMatrixRefF decibels) {
 }
 
 MatrixF WordSpectrogram::input(const MatrixF& window) {
+  require(window.rows() >= kMargin + kNumFrames, "the window has too few frames");
   return normalised(window.middleRows(kMargin, kNumFrames));
 }
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
+#include "hri/core/error.hpp"
 #include "hri/features/speech/cepstra.hpp"
 #include "models/model_testing.hpp"
 
@@ -99,6 +101,27 @@ TEST(Normalise, TakesOneFrameAndNone) {
   MatrixF one = MatrixF::Constant(1, 2, 3);
   normalise(one, 2, Normalisation::mean_variance, 0);
   EXPECT_EQ(one, MatrixF::Zero(1, 2));
+}
+
+TEST(AppendDeltas, RefuseColumnsThatAreNotThere) {
+  MatrixF frames = MatrixF::Zero(5, 3);
+  EXPECT_THROW(append_deltas(frames, 0, 2, 2), Error);
+  EXPECT_THROW(append_deltas(frames, 2, 1, 2), Error);
+  EXPECT_THROW(append_deltas(frames, -1, 1, 2), Error);
+  append_deltas(frames, 1, 1, 2);
+}
+
+TEST(Normalise, RefusesColumnsAndFramesThatAreTooFew) {
+  MatrixF frames = MatrixF::Zero(5, 3);
+  EXPECT_THROW(normalise(frames, 4, Normalisation::mean, -1), Error);
+  EXPECT_THROW(normalise(frames, 3, Normalisation::level, 3), Error);
+  std::vector<float> frame(2);
+  RunningNormaliser running;
+  running.start(3, Normalisation::running_mean, 100);
+  EXPECT_THROW(running.apply({frame.data(), frame.size()}), Error);
+  RastaFilter rasta;
+  rasta.start(3, 0.98);
+  EXPECT_THROW(rasta.apply({frame.data(), frame.size()}), Error);
 }
 
 }  // namespace

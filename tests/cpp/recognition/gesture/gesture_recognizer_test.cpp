@@ -357,6 +357,17 @@ TEST(GestureRecognizer, RemembersWhatItsFeaturesAreMadeFrom) {
   EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
 }
 
+TEST(GestureRecognizer, OfLandmarksRefusesSilhouettes) {
+  GestureRecognizerOptions options;
+  options.source = GestureSource::landmarks;
+  const auto recognizer = GestureRecognizer::train(stills(), options);
+  EXPECT_THROW(static_cast<void>(recognizer.recognise(Span<const HandObservation>{})), Error);
+  const MatrixF features = stills().front().features;
+  static_cast<void>(recognizer.recognise_features(features));
+  MatrixF wider = MatrixF::Zero(features.rows(), features.cols() + 1);
+  EXPECT_THROW(static_cast<void>(recognizer.recognise_features(wider)), Error);
+}
+
 TEST(GestureRecognizer, RemembersItsDescriptors) {
   GestureRecognizerOptions options;
   options.features.use_fourier = options.features.use_moments = true;
