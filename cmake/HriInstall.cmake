@@ -5,7 +5,7 @@ set(config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/hri")
 # Found from the .pc file itself, so that `cmake --install --prefix` and a moved tree stay right.
 file(RELATIVE_PATH HRI_PREFIX_FROM_PC "/x/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/x")
 
-# What a static library needs is linked by whoever links it; pkg-config leaves out what is private to it.
+# What a static library needs is linked by the program; pkg-config leaves out what is private to it.
 get_target_property(hri_core_type hri_core TYPE)
 set(HRI_PC_OPENCV "")
 if(hri_core_type STREQUAL "STATIC_LIBRARY")
