@@ -104,6 +104,9 @@ void require_whole_video(const std::string& path) {
     end = end_of_matroska(file);
   } else if (is_mp4(head.data() + 4)) {
     end = end_of_mp4(file);
+  } else {
+    // What else OpenCV reads may be a list that names other files.
+    fail(ErrorKind::format, path + ": not a video that OpenCV reads: no AVI, MP4 or Matroska");
   }
   if (end != 0) {
     fail(ErrorKind::format, path + ": file ends early: " + std::to_string(file.size()) + " of " +

@@ -42,6 +42,7 @@ Format parse_format(Span<const std::uint8_t> chunk, const std::string& name) {
   f.num_channels = static_cast<std::uint16_t>(whole_number(chunk.data() + 2, 2));
   f.sample_rate_hz = whole_number(chunk.data() + 4, 4);
   f.bits = static_cast<std::uint16_t>(whole_number(chunk.data() + 14, 2));
+  const std::uint32_t frame_bytes = whole_number(chunk.data() + 12, 2);
   if (f.tag == kExtensible) {
     if (chunk.size() < 40)
       refuse(name, "field 'fmt ' is extensible but has " + std::to_string(chunk.size()) + " bytes");
@@ -61,6 +62,12 @@ Format parse_format(Span<const std::uint8_t> chunk, const std::string& name) {
         name,
         "codec " + std::to_string(f.tag) + " with " + std::to_string(f.bits) +
             " bits is not supported; PCM (1) with 8, 16, 24, 32 or float (3) with 32, 64 bits is");
+  }
+  const std::uint32_t expected = f.num_channels * (f.bits / 8U);
+  if (frame_bytes != expected) {
+    refuse(name, "field 'block align' is " + std::to_string(frame_bytes) + ", " +
+                     std::to_string(f.num_channels) + " channels of " + std::to_string(f.bits) +
+                     " bits take " + std::to_string(expected) + " bytes");
   }
   return f;
 }
@@ -85,9 +92,11 @@ double decode(const std::uint8_t* p, const Format& f) {
 // The bytes of the data chunk that are really there, with a note where that is not what the header
 // says.
 Span<const std::uint8_t> data_bytes(Span<const std::uint8_t> rest, std::uint32_t declared,
-                                    const Format& f, std::vector<std::string>* notes) {
+                                    bool is_finished, const Format& f,
+                                    std::vector<std::string>* notes) {
   const std::size_t frame = static_cast<std::size_t>(f.num_channels) * (f.bits / 8U);
   std::size_t size = declared;
+  if (declared == 0 && is_finished) return {};
   if (declared == 0 || declared == kUnknownSize) {
     size = rest.size();
     notes->push_back("data size was never filled in: read to the end of the file");
@@ -96,6 +105,8 @@ Span<const std::uint8_t> data_bytes(Span<const std::uint8_t> rest, std::uint32_t
     notes->push_back("file ends early: " + std::to_string(rest.size()) + " of " +
                      std::to_string(declared) + " bytes of sound are there");
   }
+  if (size % frame != 0)
+    notes->push_back(std::to_string(size % frame) + " bytes at the end are no whole sample");
   return rest.subspan(0, size - size % frame);
 }
 
@@ -124,6 +135,8 @@ Wav parse_wav(Span<const std::uint8_t> bytes, const std::string& name) {
       std::memcmp(bytes.data() + 8, "WAVE", 4) != 0) {
     refuse(name, "not a WAV file: no RIFF WAVE header");
   }
+  // A recorder fills in the sizes at its end; this one says what a finished file holds.
+  const bool is_finished = whole_number(bytes.data() + 4, 4) == bytes.size() - 8;
   Format format;
   bool has_format = false;
   std::size_t at = 12;
@@ -140,7 +153,8 @@ Wav parse_wav(Span<const std::uint8_t> bytes, const std::string& name) {
       Wav wav;
       wav.sample_rate_hz = static_cast<int>(format.sample_rate_hz);
       wav.num_channels = format.num_channels;
-      wav.samples = to_mono(data_bytes(rest, declared, format, &wav.notes), format, name);
+      wav.samples =
+          to_mono(data_bytes(rest, declared, is_finished, format, &wav.notes), format, name);
       if (wav.samples.empty()) refuse(name, "too short: holds no samples");
       if (wav.num_channels > 1)
         wav.notes.push_back(std::to_string(wav.num_channels) + " channels averaged to mono");

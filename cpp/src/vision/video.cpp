@@ -3,6 +3,7 @@
 #include "hri/vision/video.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <opencv2/videoio.hpp>
 
@@ -13,7 +14,7 @@ namespace hri {
 namespace {
 
 constexpr double kMaxPixels = 1e8;  // more takes seconds a frame, and is no hand before a camera
-constexpr int kReadsPastTheEnd = 4;
+constexpr double kReadsPastTheEnd[] = {4, 250};  // at least and at most
 
 }  // namespace
 
@@ -46,8 +47,11 @@ VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
 bool VideoReader::read(VideoFrame* frame) {
   Capture& c = *capture_;
   if (!c.video.read(c.picture) || c.picture.empty()) {
-    // A frame that cannot be decoded looks like the end, but others follow.
-    for (int i = 0; i < kReadsPastTheEnd; ++i) {
+    // A frame that cannot be decoded looks like the end, but others follow, unless it spoils them.
+    const double missing = c.video.get(cv::CAP_PROP_FRAME_COUNT) - static_cast<double>(c.count);
+    const double num_reads =
+        std::clamp(std::isfinite(missing) ? missing : 0, kReadsPastTheEnd[0], kReadsPastTheEnd[1]);
+    for (double i = 0; i < num_reads; ++i) {
       if (c.video.grab())
         fail(ErrorKind::format, c.path + ": frame " + std::to_string(c.count) + " is damaged");
     }

@@ -17,7 +17,12 @@ from hri.live.visibility import missing_text
 device_option = click.option("--device", help="Number or part of the name of the microphone.")
 events_json_option = click.option("--json", "as_json", is_flag=True, help="Write JSON lines also on a terminal.")
 stall_option = click.option(
-    "--stall", "stall_s", type=float, default=2.0, show_default=True, help="Seconds without sound or picture after which a microphone or camera counts as gone."
+    "--stall",
+    "stall_s",
+    type=float,
+    default=2.0,
+    show_default=True,
+    help="Seconds without sound or picture after which a microphone or camera counts as gone.",
 )
 camera_option = click.option("--device", default="0", show_default=True, help="Number or address of the camera.")
 

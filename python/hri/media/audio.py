@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import io
 import logging
+import os
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -27,6 +28,9 @@ _log = logging.getLogger(__name__)
 
 _MAX_BYTES = 1 << 31
 _MAX_SAMPLES = 1 << 29  # of all channels: a small file of silence may claim any length
+_UNKNOWN_FRAMES = (1 << 63) - 1  # of FLAC that was written as a stream
+_DAMAGE = re.compile(r"should be|not equal|end-of-stream|file length", re.IGNORECASE)
+"""What libsndfile says of files that were cut, or whose parts do not fit together."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +88,7 @@ def read_audio(path: str | PathLike[str]) -> Audio:
     """
     path = Path(path)
     kind = kind_of_file(path)
-    if kind not in ("", "a sound file") and path.exists():
+    if kind not in ("", "a sound file") and os.path.exists(path):  # noqa: PTH110 - never raises
         raise FormatError(f"{path} is {kind}, and a sound file is needed here")
     if path.suffix.lower() == ".wav":
         wav = read_wav(path)
@@ -103,15 +107,24 @@ def _read_with_soundfile(path: Path) -> Audio:
     data = read_bytes(path, _MAX_BYTES)
     try:
         with soundfile.SoundFile(io.BytesIO(data)) as sound:
+            if sound.frames == _UNKNOWN_FRAMES:  # libsndfile fails at the end of such a file
+                raise FormatError(
+                    f"{path}: the file does not say its length, as of a stream: copy it with flac or ffmpeg"
+                )
             if sound.frames * sound.channels > _MAX_SAMPLES:
                 raise FormatError(f"{path}: {sound.frames} samples of {sound.channels} channels are too many")
             samples, rate = sound.read(dtype="float32", always_2d=True), sound.samplerate
+            is_short = len(samples) < sound.frames
+            damage = [line for line in sound.extra_info.splitlines() if _DAMAGE.search(line)]
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
         raise FormatError(
             f"{path}: not a sound file that soundfile reads: {getattr(error, 'error_string', error)}"
         ) from error
     num_channels = samples.shape[1]
     notes = [f"averaged {num_channels} channels to mono"] if num_channels > 1 else []
+    if is_short or damage:
+        why = "; ".join(line.strip(" *") for line in damage)
+        notes.append(f"file ends early or is damaged: {len(samples)} samples are there" + (f" ({why})" if why else ""))
     mono = np.ascontiguousarray(samples.mean(axis=1, dtype=np.float32))
     return Audio(mono, int(rate), notes, path)
 

@@ -11,6 +11,11 @@ _NO_LENGTH = {0x01, *range(0xD0, 0xD9)}  # JPEG's markers without a segment
 _FRAMES = {*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC}  # those that begin a frame and hold its size
 
 
+def is_picture(data: bytes) -> bool:
+    """Whether the data begin as a PNG, JPEG or BMP file does."""
+    return data.startswith((_PNG, b"\xff\xd8", b"BM"))
+
+
 def picture_size(data: bytes) -> tuple[int, int] | None:
     """Width and height in the header of a PNG, JPEG or BMP file; None for others, and where it is damaged."""
     try:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 AUDIO_SUFFIXES = (".wav", ".flac", ".ogg", ".opus", ".mp3", ".aiff", ".aif")
@@ -21,6 +22,6 @@ _KINDS = {
 
 def kind_of_file(path: Path) -> str:
     """ "a sound file", "a picture", "a video", "a model" or "a folder"; "" where the suffix says nothing."""
-    if path.is_dir():
+    if os.path.isdir(path):  # noqa: PTH112 - which, unlike Path.is_dir, is False where the path cannot be looked at
         return "a folder"
     return next((kind for kind, suffixes in _KINDS.items() if path.suffix.lower() in suffixes), "")

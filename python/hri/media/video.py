@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,10 +22,14 @@ from hri.core.files import read_bytes, utf8_name, write_bytes
 from hri.core.optional import import_opencv
 from hri.io import require_whole_video
 from hri.media.order import natural_key
-from hri.media.picture_size import is_cut, picture_size
+from hri.media.picture_size import is_cut, is_picture, picture_size
 from hri.media.suffixes import IMAGE_SUFFIXES, kind_of_file
 
 DEFAULT_FPS = 25.0
+MAX_CLIP_BYTES = 4 * 2**30
+"""Of all frames of a clip at once, as in C++; `iterate_frames` takes any length."""
+_READS_PAST_THE_END = (4, 250)
+"""At least and at most, as many as frames are missing by the header; a damaged frame may spoil those after it."""
 MAX_PIXELS = 100_000_000
 """Of a picture, or a frame; more takes seconds, and is no hand before a camera."""
 Frame = NDArray[np.uint8]
@@ -76,6 +81,8 @@ def decode_image(data: bytes, name: str) -> Frame:
     """A picture in memory, as `read_image` gives it; FormatError with the name of the file that it is from."""
     path = Path(name)
     cv2 = import_opencv("to read pictures")
+    if data and not is_picture(data):  # OpenCV reads others, too, whose size is not known before
+        raise FormatError(f"{path}: not a picture that OpenCV reads: no PNG, JPEG or BMP")
     if is_cut(data):
         raise FormatError(f"{path}: file ends early")
     _require_size(path, *picture_size(data) or (0, 0))
@@ -94,7 +101,8 @@ def iterate_frames(path: str | PathLike[str]) -> Iterator[tuple[Frame, float]]:
     Raises
     ------
     FormatError
-        For a file that is no video, holds no frame, ends before its container does, or whose time runs backwards.
+        For a file that is no video, holds no frame, ends before its container does, has a damaged frame that others
+        follow, or whose time runs backwards.
     IoError
         For a file that cannot be opened.
     """
@@ -128,21 +136,37 @@ def _require_size(path: Path, width: int, height: int) -> None:
 
 def _captured(capture: Any, path: Path, time_property: int) -> Iterator[tuple[Frame, float]]:
     last_s = -np.inf
+    interval_s = 0.0  # between the last two frames
     count = 0
     while True:
         ok, frame = capture.read()
         if not ok:
+            # A frame that cannot be decoded looks like the end, but others follow.
+            if any(capture.grab() for _ in range(_reads_past_the_end(capture, count))):
+                raise FormatError(f"{path}: frame {count} is damaged")
             break
         time_s = capture.get(time_property) / 1000.0
+        # OpenCV 4.6 gives 0 for the frames that the decoder still held at the end of the file, as any codec that
+        # reorders frames does.
+        if time_s == 0 and last_s > 0:
+            time_s = last_s + interval_s
         if not time_s >= last_s:
             raise FormatError(
                 f"{path}: time runs backwards: frame {count} is at {time_s:g} s, the one before at {last_s:g} s"
             )
         yield np.asarray(frame, dtype=np.uint8), time_s
+        if count > 0:
+            interval_s = time_s - last_s
         last_s = time_s
         count += 1
     if count == 0:
         raise FormatError(f"{path}: video without frames")
+
+
+def _reads_past_the_end(capture: Any, count: int) -> int:
+    number = capture.get(import_opencv("to read video").CAP_PROP_FRAME_COUNT)  # some containers have only a guess
+    least, most = _READS_PAST_THE_END
+    return int(min(max(number - count, least), most)) if np.isfinite(number) else least
 
 
 def read_frames(path: str | PathLike[str], max_frames: int | None = None) -> Clip:
@@ -160,7 +184,7 @@ def read_frames(path: str | PathLike[str], max_frames: int | None = None) -> Cli
     InvalidArgument
         For `max_frames` below 1.
     FormatError
-        For a file that is neither, holds no frame, or whose time runs backwards.
+        For a file that is neither, as `iterate_frames`, and for more than 4 GiB of frames.
     IoError
         For a file that cannot be opened.
     """
@@ -168,15 +192,25 @@ def read_frames(path: str | PathLike[str], max_frames: int | None = None) -> Cli
     if max_frames is not None and max_frames < 1:
         raise InvalidArgument(f"max_frames is {max_frames}, must be at least 1")
     kind = kind_of_file(path)
-    if kind in ("a sound file", "a model") and path.exists():
+    if kind in ("a sound file", "a model") and os.path.exists(path):  # noqa: PTH110 - never raises
         raise FormatError(f"{path} is {kind}, and a picture or video is needed here")
     if kind == "a folder":
         clip = read_pictures(path)
         return Clip(clip.frames[:max_frames], clip.times_s[:max_frames], path)
     if kind == "a picture":
         return Clip([read_image(path)], [0.0], path)
-    timed = list(islice(iterate_frames(path), max_frames))
-    return Clip([frame for frame, _ in timed], [time_s for _, time_s in timed], path)
+    frames, times_s, num_bytes = [], [], 0
+    for frame, time_s in islice(iterate_frames(path), max_frames):
+        num_bytes += frame.nbytes
+        _require_bytes(path, num_bytes)
+        frames.append(frame)
+        times_s.append(time_s)
+    return Clip(frames, times_s, path)
+
+
+def _require_bytes(path: Path, num_bytes: int) -> None:
+    if num_bytes > MAX_CLIP_BYTES:
+        raise FormatError(f"{path}: frames take more than {MAX_CLIP_BYTES} bytes; read them one by one")
 
 
 def read_pictures(directory: str | PathLike[str], fps: float = DEFAULT_FPS) -> Clip:
@@ -194,7 +228,8 @@ def read_pictures(directory: str | PathLike[str], fps: float = DEFAULT_FPS) -> C
     InvalidArgument
         For a bad rate.
     FormatError
-        For a folder without pictures, a file that is no picture, or pictures of different sizes.
+        For a folder without pictures, a file that is no picture, pictures of different sizes, or more than 4 GiB of
+        them.
     IoError
         For a folder that cannot be read.
     """
@@ -208,8 +243,11 @@ def read_pictures(directory: str | PathLike[str], fps: float = DEFAULT_FPS) -> C
     if not found:
         raise FormatError(f"{root}: no pictures ({', '.join(IMAGE_SUFFIXES)}) in this folder")
     found.sort(key=lambda path: natural_key(path.name))
-    frames = [read_image(path) for path in found]
-    for path, frame in zip(found, frames, strict=True):
+    frames: list[Frame] = []
+    for path in found:
+        frame = read_image(path)
+        frames.append(frame)
+        _require_bytes(root, len(frames) * frame.nbytes)
         if frame.shape != frames[0].shape:
             width, height = frames[0].shape[1::-1]
             raise FormatError(f"{path}: {frame.shape[1]} x {frame.shape[0]}, but {found[0].name} is {width} x {height}")
@@ -229,7 +267,7 @@ def write_image(path: str | PathLike[str], image: Frame, quality: int = 92) -> N
     Raises
     ------
     InvalidArgument
-        For a suffix that is no picture's.
+        For a suffix that is no picture's, and an array that is none.
     IoError
         When the file cannot be written.
     """
@@ -237,18 +275,29 @@ def write_image(path: str | PathLike[str], image: Frame, quality: int = 92) -> N
     path = Path(path)
     if path.suffix.lower() not in IMAGE_SUFFIXES:
         raise InvalidArgument(f"{path}: suffix must be one of {', '.join(IMAGE_SUFFIXES)}")
+    _require_picture(image, f"{path}: ")
     ok, data = cv2.imencode(path.suffix.lower(), image, [cv2.IMWRITE_JPEG_QUALITY, quality])
     if not ok:
-        raise InvalidArgument(f"{path}: an array of shape {image.shape} is no picture")
+        raise IoError(f"{path}: this OpenCV cannot write {path.suffix} pictures")
     write_bytes(path, data.tobytes())
+
+
+def _require_picture(image: Any, name: str = "") -> None:
+    shape, kind = np.shape(image), getattr(image, "dtype", None)
+    if kind != np.uint8 or not image.size or image.ndim not in (2, 3) or shape[2:] not in ((), (3,)):
+        raise InvalidArgument(
+            f"{name}an array of shape {shape} and type {kind} is no picture, which has uint8 of shape "
+            "(height, width, 3) or (height, width)"
+        )
 
 
 def encode_png(image: NDArray[np.uint8]) -> bytes:
     """A picture as a PNG file, quickly rather than small; InvalidArgument for an array that is no picture."""
     cv2 = import_opencv("to write pictures")
+    _require_picture(image)
     ok, data = cv2.imencode(".png", image, [cv2.IMWRITE_PNG_COMPRESSION, 1])
     if not ok:
-        raise InvalidArgument(f"an array of shape {image.shape} is no picture")
+        raise IoError("this OpenCV cannot write PNG pictures")
     return bytes(data.tobytes())
 
 
@@ -265,4 +314,4 @@ def frame_rate(path: str | PathLike[str]) -> float:
     cv2 = import_opencv("to read video")
     with open_video(Path(path)) as capture:
         rate = float(capture.get(cv2.CAP_PROP_FPS))
-    return rate if 1.0 <= rate <= 1000.0 else DEFAULT_FPS
+    return rate if 0.0 < rate <= 1000.0 else DEFAULT_FPS

@@ -41,6 +41,10 @@ class VideoWriter:
     fps : float
         Frames a second, above 0.
 
+    Notes
+    -----
+    Coders want even sizes: of frames of an odd size the last row or column stands twice in the video.
+
     Raises
     ------
     InvalidArgument
@@ -61,12 +65,15 @@ class VideoWriter:
         self._name = ExitStack()  # under which OpenCV knows the file
         self._writer: Any = None
         self._shape: tuple[int, ...] = ()
+        self._is_done = False
         self.num_frames = 0
 
     def __enter__(self) -> VideoWriter:
         return self
 
     def __exit__(self, kind: object, *_: object) -> None:
+        if self._is_done:
+            return
         if kind is None:
             self.close()
         else:
@@ -78,20 +85,25 @@ class VideoWriter:
         Raises
         ------
         InvalidArgument
-            For a frame of another size or type than the first (the message gives its index).
+            For a frame of another size or type than the first (the message gives its index), or after `close`.
         IoError
             When this OpenCV cannot write the format.
         """
+        if self._is_done:
+            raise InvalidArgument(f"{self.path}: the video is closed")
         if self._writer is None:
             self._shape = frame.shape
             _require_frame(frame, self._shape, self.num_frames)
             self._writer = self._open()
         _require_frame(frame, self._shape, self.num_frames)
-        self._writer.write(np.ascontiguousarray(frame))
+        height, width = self._shape[:2]
+        even = np.pad(frame, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge") if (height | width) % 2 else frame
+        self._writer.write(np.ascontiguousarray(even))
         self.num_frames += 1
 
     def close(self) -> None:
-        """Finish the file, and read it once more: OpenCV does not report what it could not write.
+        """Finish the file, and read it again: OpenCV does not report what it could not write. A second time this does
+        nothing.
 
         Raises
         ------
@@ -100,11 +112,15 @@ class VideoWriter:
         IoError
             When a frame is missing in the file, as on a full disk. An old file stays whole.
         """
+        if self._is_done:
+            return
         try:
             if self._writer is None:
                 raise InvalidArgument(f"{self.path}: no frames to write")
             self._writer.release()
-            found = _num_frames(Path(self._file.temporary_path))
+            found, size = _measured(Path(self._file.temporary_path))
+            if found and size != self._even_size():
+                raise IoError(f"{self.path}: cannot write: frames of {self._even_size()} pixels were written as {size}")
             if found != self.num_frames:
                 raise IoError(
                     f"{self.path}: cannot write: {found} of {self.num_frames} frames are in the file: is the disk full?"
@@ -115,17 +131,22 @@ class VideoWriter:
 
     def discard(self) -> None:
         """Leave nothing behind; after `close` this does nothing."""
+        self._is_done = True
         if self._writer is not None:
             self._writer.release()
         self._name.close()
         self._file.discard()
+
+    def _even_size(self) -> tuple[int, int]:
+        height, width = self._shape[:2]
+        return width + width % 2, height + height % 2
 
     def _open(self) -> Any:
         suffix = self.path.suffix.lower()
         fourcc = self._cv2.VideoWriter_fourcc(*_CODECS[suffix])
         name = self._name.enter_context(utf8_name(self._file.temporary_path))
         with _silent_stderr(suffix == ".webm"):
-            writer = self._cv2.VideoWriter(name, fourcc, self._fps, (self._shape[1], self._shape[0]))
+            writer = self._cv2.VideoWriter(name, fourcc, self._fps, self._even_size())
         if not writer.isOpened():
             raise IoError(f"{self.path}: this OpenCV cannot write {self.path.suffix} video here")
         return writer
@@ -156,16 +177,18 @@ def write_video(path: str | PathLike[str], frames: Iterable[Frame], fps: float) 
             writer.write(frame)
 
 
-def _num_frames(path: Path) -> int:
-    """Frames that a reader finds in a file; 0 in one that is none."""
+def _measured(path: Path) -> tuple[int, tuple[int, int]]:
+    """Frames that a reader finds in a file, their width and height; 0 in one that is none."""
+    cv2 = import_opencv("to read video")
     count = 0
     try:
         with open_video(path) as capture:
+            size = (int(capture.get(cv2.CAP_PROP_FRAME_WIDTH)), int(capture.get(cv2.CAP_PROP_FRAME_HEIGHT)))
             while capture.grab():
                 count += 1
     except FormatError:
-        return 0
-    return count
+        return 0, (0, 0)
+    return count, size
 
 
 def _require_frame(frame: Frame, shape: tuple[int, ...], index: int) -> None:

@@ -94,9 +94,10 @@ def train(
     if isinstance(dataset, str | PathLike):
         dataset = Dataset.load(dataset, None if recognizer is None else recognizer.mode)
     if dataset.kind != "speech":
-        of_words = {"fillers are": fillers is not None, "embedding is": embedding is not None, "noises are": bool(noises)}
-        for what in (what for what, given in of_words.items() if given):
-            raise InvalidArgument(f"{what} for speech, the data set is {dataset.kind}")
+        of_words = (("fillers are", fillers), ("embedding is", embedding), ("noises are", noises or None))
+        for what, value in of_words:
+            if value is not None:
+                raise InvalidArgument(f"{what} for speech, the data set is {dataset.kind}")
     check_noises(noises)
     if recognizer is None:
         recognizer = _chosen(dataset, embedding)

@@ -81,6 +81,30 @@ TEST(Wav, ShorterThanItsHeaderIsReadInPart) {
   }
 }
 
+TEST(Wav, OfAnEmptyRecordingIsNoSoundFromTheChunksBehind) {
+  Bytes bytes = wav(kPcm, 1, 16, {});
+  put(bytes, "LIST");
+  put(bytes, 4, 4);
+  put(bytes, "INFO");
+  const Bytes unfinished = bytes;  // its header says 36 bytes
+  bytes[4] = static_cast<std::uint8_t>(bytes.size() - 8);
+  EXPECT_EQ(message_of([&] { parse_wav(bytes, "x"); }), "x: too short: holds no samples");
+  EXPECT_EQ(parse_wav(unfinished, "x").samples.size(), 6U);
+}
+
+TEST(Wav, SaysThatItsEndIsNoWholeSample) {
+  const Wav found = parse_wav(wav(kPcm, 2, 16, Bytes(11, 0)), "x");
+  EXPECT_EQ(found.samples.size(), 2U);
+  EXPECT_EQ(found.notes.front(), "3 bytes at the end are no whole sample");
+}
+
+TEST(Wav, RefusesSamplesInWiderContainers) {
+  Bytes bytes = wav(kPcm, 1, 24, Bytes(12, 0));
+  bytes[32] = 4;
+  EXPECT_EQ(message_of([&] { parse_wav(bytes, "x"); }),
+            "x: field 'block align' is 4, 1 channels of 24 bits take 3 bytes");
+}
+
 TEST(Wav, RefusesWhatItCannotTellByName) {
   const std::string codec = message_of<FormatError>([] {
     (void)parse_wav(wav(7, 1, 8, {1, 2}), "ulaw.wav");
