@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -87,21 +88,56 @@ def test_manifests_shown_are_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize("page", [*PAGES, ROOT / "CONTRIBUTING.md"], ids=lambda page: page.name)
 def test_links_lead_somewhere(page: Path) -> None:
     prose = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
-    targets = re.findall(r"\]\(([^)#]+)", prose)
-    missing = [t for t in targets if "://" not in t and not (page.parent / t).exists()]
+    targets = [target for target in re.findall(r"\]\(([^)\s]+)\)", prose) if "://" not in target]
+    missing = []
+    for target in targets:
+        name, _, anchor = target.partition("#")
+        place = page.parent / name if name else page
+        if not place.exists() or (anchor and place.suffix == ".md" and anchor not in anchors_of(place)):
+            missing.append(target)
     assert missing == []
 
 
+def anchors_of(page: Path) -> set[str]:
+    """What links may name of a page: its headings, as GitHub writes them."""
+    prose = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+    headings = re.findall(r"^#+ +(.+?) *$", prose, re.MULTILINE)
+    texts = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower() for heading in headings]
+    return {re.sub(r"[^\w\- ]", "", text).replace(" ", "-") for text in texts}
+
+
+@pytest.mark.parametrize("page", [*PAGES, ROOT / "CHANGELOG.md"], ids=lambda page: page.name)
+def test_names_of_the_package_exist(page: Path) -> None:
+    """Every `hri.room.name` that a page names can be imported."""
+    schemas = {"hri.Event", "hri.Timing"}  # in MCAP files
+    names = set(re.findall(r"`(hri(?:\.\w+)+)", page.read_text(encoding="utf-8"))) - schemas
+    assert [name for name in sorted(names) if not can_be_named(name)] == []
+
+
+def can_be_named(name: str) -> bool:
+    found: object = hri
+    at = "hri"
+    for part in name.split(".")[1:]:
+        at += f".{part}"
+        try:
+            found = getattr(found, part)
+        except AttributeError:
+            try:
+                found = importlib.import_module(at)
+            except ImportError:
+                return False
+    return True
+
+
 def test_commands_shown_exist() -> None:
-    """Every hri command in a console block is one that the command line has, with options that it knows."""
+    """Every hri command in a block of the console is one that the command line has, with options that it knows."""
     import click
 
     from hri.cli.main import hri as group
 
     for page in PAGES:
-        for line in re.findall(
-            r"^(?:\$ |\./run )?(?:\w+=\S+ )?hri ([a-z].*)$", "\n".join(blocks(page, "console")), re.MULTILINE
-        ):
+        shown = "\n".join(blocks(page, "console") + blocks(page, "sh"))
+        for line in re.findall(r"^(?:\$ |\./run )?(?:\w+=\S+ )?hri ([a-z][^#\n]*)", shown, re.MULTILINE):
             words = line.split()
             command = group.get_command(click.Context(group), words[0])
             assert command is not None, f"{page.name}: hri {line}"
