@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,7 @@ _log = logging.getLogger(__name__)
 _MAX_BYTES = 1 << 31
 _MAX_SAMPLES = 1 << 29  # of all channels: a small file of silence may claim any length
 _UNKNOWN_FRAMES = (1 << 63) - 1  # of FLAC that was written as a stream
+_BLOCK_SAMPLES = 1 << 20
 _DAMAGE = re.compile(r"should be|not equal|end-of-stream|file length", re.IGNORECASE)
 """What libsndfile says of files that were cut, or whose parts do not fit together."""
 
@@ -107,14 +109,12 @@ def _read_with_soundfile(path: Path) -> Audio:
     data = read_bytes(path, _MAX_BYTES)
     try:
         with soundfile.SoundFile(io.BytesIO(data)) as sound:
-            if sound.frames == _UNKNOWN_FRAMES:  # libsndfile fails at the end of such a file
-                raise FormatError(
-                    f"{path}: the file does not say its length, as of a stream: copy it with flac or ffmpeg"
-                )
-            if sound.frames * sound.channels > _MAX_SAMPLES:
-                raise FormatError(f"{path}: {sound.frames} samples of {sound.channels} channels are too many")
-            samples, rate = sound.read(dtype="float32", always_2d=True), sound.samplerate
-            is_short = len(samples) < sound.frames
+            declared, rate = sound.frames, sound.samplerate
+            if declared != _UNKNOWN_FRAMES and declared * sound.channels > _MAX_SAMPLES:
+                raise FormatError(f"{path}: {declared} samples of {sound.channels} channels are too many")
+            is_streamed = declared == _UNKNOWN_FRAMES
+            samples = _read_stream(sound, path) if is_streamed else sound.read(dtype="float32", always_2d=True)
+            is_short = len(samples) < declared and not is_streamed
             damage = [line for line in sound.extra_info.splitlines() if _DAMAGE.search(line)]
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
         raise FormatError(
@@ -127,6 +127,19 @@ def _read_with_soundfile(path: Path) -> Audio:
         notes.append(f"file ends early or is damaged: {len(samples)} samples are there" + (f" ({why})" if why else ""))
     mono = np.ascontiguousarray(samples.mean(axis=1, dtype=np.float32))
     return Audio(mono, int(rate), notes, path)
+
+
+def _read_stream(sound: Any, path: Path) -> NDArray[np.float32]:
+    """All samples of a file whose header does not say how many there are, as encoders write to a pipe."""
+    sound.seekable = lambda: False  # soundfile would look for its place after each block, which such a file refuses
+    blocks: list[NDArray[np.float32]] = []
+    count = 0
+    while len(block := sound.read(_BLOCK_SAMPLES // sound.channels, dtype="float32", always_2d=True)):
+        blocks.append(block)
+        count += block.size
+        if count > _MAX_SAMPLES:
+            raise FormatError(f"{path}: more than {_MAX_SAMPLES} samples are too many")
+    return np.concatenate(blocks) if blocks else np.zeros((0, sound.channels), np.float32)
 
 
 def _require_usable(samples: NDArray[np.float32], path: Path) -> None:

@@ -68,8 +68,14 @@ TEST(VideoContainer, IsWholeWhenItIsAsLongAsItSays) {
   EXPECT_EQ(verdict(folder, matroska({0xE4})), "");
   EXPECT_EQ(verdict(folder, matroska({0xFF})), "") << "a stream";
   EXPECT_EQ(verdict(folder, matroska({0x01, 255, 255, 255, 255, 255, 255, 255})), "") << "a stream";
-  EXPECT_EQ(verdict(folder, bytes_of("something else entirely")), "");
-  EXPECT_EQ(verdict(folder, {}), "");
+}
+
+TEST(VideoContainer, OfNoKnownKindIsRefused) {
+  const TestFolder folder;
+  for (const Bytes& content : {bytes_of("ffconcat version 1.0\nfile other.mp4\n"), Bytes{}}) {
+    const std::string message = verdict(folder, content);
+    EXPECT_NE(message.find("clip: not a video that OpenCV reads"), std::string::npos) << message;
+  }
 }
 
 TEST(VideoContainer, ThatWasCutSaysByHowMuch) {

@@ -12,8 +12,8 @@
 namespace hri {
 
 /// Throws IoError as `require_regular_file`, and FormatError for an AVI, MP4, QuickTime, Matroska
-/// or WebM file that is shorter than its sizes say. Sizes that were never filled in, as in a
-/// stream, say nothing; nor do other formats.
+/// or WebM file that is shorter than its sizes say, and for any other: what else decoders read may
+/// be a list that names other files. Sizes that were never filled in, as in a stream, say nothing.
 HRI_API void require_whole_video(const std::string& path);
 
 }  // namespace hri
