@@ -143,13 +143,16 @@ void bind_decoder(py::module_& m) {
       .def(
           "push",
           [](hri::ConnectedDecoder& self, const FloatArray& log_emissions) {
-            self.push(as_span(log_emissions, "log_emissions"));
+            const auto frame = as_span(log_emissions, "log_emissions");
+            const py::gil_scoped_release release;
+            self.push(frame);
           },
           py::arg("log_emissions"), "One frame: log scores of all states, shape (num_states,).")
       .def(
           "push_all",
           [](hri::ConnectedDecoder& self, const FloatArray& log_emissions) {
             const auto matrix = as_matrix(log_emissions, "log_emissions");
+            const py::gil_scoped_release release;
             for (Eigen::Index t = 0; t < matrix.rows(); ++t) self.push(hri::row_span(matrix, t));
           },
           py::arg("log_emissions"), "push() of every row.")
@@ -249,18 +252,23 @@ void bind_grammar(py::module_& m) {
   py::class_<hri::Grammar>(m, "Grammar", "Commands with slots, in the JSpeech Grammar Format.")
       .def_static(
           "load", [](const hri_bind::Path& path) { return hri::Grammar::load(path.text); },
-          py::arg("path"), "Reads a file; raises FormatError naming file and line.")
+          py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+          "Reads a file; raises FormatError naming file and line.")
       .def_static("parse", &hri::Grammar::parse, py::arg("text"), py::arg("name"),
+                  py::call_guard<py::gil_scoped_release>(),
                   "The same of a text; `name` is what errors call it.")
       .def("slots_of", &hri::Grammar::slots_of, py::arg("sentence"),
+           py::call_guard<py::gil_scoped_release>(),
            "The slots of a list of words; None for what is no sentence of the grammar, or has more "
            "than 10000 words.")
       .def("sentences", &hri::Grammar::sentences, py::arg("most") = 10000,
+           py::call_guard<py::gil_scoped_release>(),
            "Every sentence once, as lists of words, in the grammar's order; raises InvalidArgument "
            "for more than `most`, for repetitions, which have no end, for a sentence of more than "
            "10000 words and for more than four million words in all.")
       .def("network", &hri::Grammar::network, py::arg("labels"), py::arg("silence") = -1,
-           py::arg("unknown") = -1, "Its sentences as a WordNetwork; model i is labels[i].")
+           py::arg("unknown") = -1, py::call_guard<py::gil_scoped_release>(),
+           "Its sentences as a WordNetwork; model i is labels[i].")
       .def_property_readonly("text", &hri::Grammar::text, "That was read.")
       .def_property_readonly("words", &hri::Grammar::words, "Sorted.");
 }
@@ -274,7 +282,10 @@ void bind_emissions(py::module_& m) {
           [](const hri::GaussianEmissions& self, const FloatArray& frames) {
             const auto matrix = as_matrix(frames, "frames");
             hri::MatrixF out(matrix.rows(), self.num_states());
-            self.compute(matrix, out);
+            {
+              const py::gil_scoped_release release;
+              self.compute(matrix, out);
+            }
             return to_array(out);
           },
           py::arg("frames"), "float32, shape (num_frames, num_states).")

@@ -11,6 +11,7 @@
 
 #include "core/arrays.hpp"
 #include "core/options.hpp"
+#include "core/paths.hpp"
 
 namespace py = pybind11;
 
@@ -27,8 +28,11 @@ void bind_speech_embedding(py::module_& m) {
 
   py::class_<hri::SpeechEmbedding, std::shared_ptr<hri::SpeechEmbedding>>(
       m, "SpeechEmbedding", "A pretrained speech embedding.")
-      .def(py::init(&hri::SpeechEmbedding::load), py::arg("path"),
-           py::arg("options") = hri::SpeechEmbeddingOptions{})
+      .def(py::init([](const hri_bind::Path& path, const hri::SpeechEmbeddingOptions& options) {
+             const py::gil_scoped_release release;
+             return hri::SpeechEmbedding::load(path.text, options);
+           }),
+           py::arg("path"), py::arg("options") = hri::SpeechEmbeddingOptions{})
       .def(
           "compute",
           [](const hri::SpeechEmbedding& self, const FloatArray& audio, int sample_rate_hz) {

@@ -7303,7 +7303,7 @@ class SpeechEmbedding:
     """
     A pretrained speech embedding.
     """
-    def __init__(self, path: str, options: SpeechEmbeddingOptions = ...) -> None: ...
+    def __init__(self, path: str | bytes | os.PathLike[str], options: SpeechEmbeddingOptions = ...) -> None: ...
     def compute(
         self,
         audio: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from sklearn.pipeline import make_pipeline
 from sklearn.svm import LinearSVC
 from sklearn.utils.validation import check_is_fitted
 
+from hri import _native
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.media import Audio
 from hri.models import LDA
@@ -149,6 +151,17 @@ def test_bad_input_is_named(embedding: SpeechEmbedding, tmp_path: Path) -> None:
         path.write_bytes(content)
         with pytest.raises(FormatError, match=f"{name}.onnx"):
             SpeechEmbedding(path)
+
+
+def test_weights_are_named_as_files_are(embedding: SpeechEmbedding, tmp_path: Path) -> None:
+    for path in (tmp_path / os.fsdecode(b"m\xff.onnx"), tmp_path / "मॉडल.onnx"):
+        try:
+            path.write_bytes(embedding_weights().read_bytes())
+        except OSError:  # a file system of UTF-8 names
+            continue
+        for name in (path, os.fsencode(path)):
+            assert _native.SpeechEmbedding(name).checksum == embedding.checksum
+        assert SpeechEmbedding(path).checksum == embedding.checksum
 
 
 def test_without_the_extra_the_error_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
