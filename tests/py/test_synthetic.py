@@ -118,6 +118,7 @@ def test_words_that_cannot_be_spoken_are_refused(tmp_path: Path) -> None:
     for arguments, message in (
         (({"xx": ["go"]},), "xx"),
         (({"en": {"go": "..."}},), "no sound"),
+        (({"en": {"go": "a\0b"}},), r"text 'a\\x00b' cannot be spoken"),
         (({},), "words is empty"),
         (({"en": ["a/b"]},), "label 'a/b'"),
         (({"en": ["go"]}, 0), "num_speakers is 0"),

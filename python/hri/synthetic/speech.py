@@ -187,6 +187,8 @@ def _synthesise(text: str, voice: str, pitch: int, rate: int) -> Audio:
             ) from error
         except subprocess.TimeoutExpired as error:
             raise IoError(f"espeak-ng did not finish {text!r} in {_TIMEOUT_S} s") from error
+        except ValueError as error:  # a null character
+            raise InvalidArgument(f"text {text!r} cannot be spoken: {error}") from error
         if done.returncode != 0:
             said = done.stderr.strip() or f"exit code {done.returncode}"
             raise InvalidArgument(f"espeak-ng refuses voice {voice!r}: {said}")

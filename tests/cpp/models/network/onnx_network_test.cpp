@@ -90,5 +90,19 @@ TEST(OnnxNetwork, SaysWhatItCannotCompute) {
   EXPECT_THROW((void)read_onnx_network("/nowhere/net.onnx"), IoError);
 }
 
+TEST(OnnxNetwork, RefusesBiasesThatDoNotFit) {
+  std::vector<ConvLayer> other_bias = layers();
+  other_bias[1].bias.push_back(0.0F);
+  expect_refused(OnnxWriter().model(8, other_bias), "(Conv) has other biases than channels");
+}
+
+// 200 layers would copy 200 times what the file holds.
+TEST(OnnxNetwork, RefusesWeightsThatManyLayersShare) {
+  OnnxWriter writer;
+  writer.shared = true;
+  const std::vector<ConvLayer> same(200, random_layer(4, 1, 1, 1));
+  expect_refused(writer.model(8, same), "(Conv) has weights that layers before it have, too");
+}
+
 }  // namespace
 }  // namespace hri

@@ -18,6 +18,7 @@ class OnnxWriter {
   bool raw = true;  ///< numbers as bytes
   int stride = 1;
   bool chained = true;
+  bool shared = false;  ///< every layer names the weights of the first one
   std::string activation = "LeakyRelu";
 
   std::string model(int bands, const std::vector<ConvLayer>& layers) {
@@ -27,12 +28,14 @@ class OnnxWriter {
     value = last_;
     for (const ConvLayer& l : layers) {
       const std::string number = std::to_string(count_);
-      graph +=
-          tensor("w" + number, {l.out_channels, l.in_channels, l.kernel_frames, l.kernel_bands},
-                 transposed(l));
+      if (!shared || weights_.empty()) {
+        weights_ = "w" + number;
+        graph += tensor(weights_, {l.out_channels, l.in_channels, l.kernel_frames, l.kernel_bands},
+                        transposed(l));
+      }
       graph += tensor("b" + number, {l.out_channels}, l.bias);
       graph += tensor("m" + number, {1, 1, 1, 1}, {l.floor});
-      add_node("Conv", {value, "w" + number, "b" + number}, &graph,
+      add_node("Conv", {value, weights_, "b" + number}, &graph,
                integers("pads", {0, l.pad_bands, 0, l.pad_bands}) +
                    integers("strides", {stride, stride}));
       add_node(activation, {chained ? last_ : "elsewhere"}, &graph, real("alpha", l.slope));
@@ -109,6 +112,7 @@ class OnnxWriter {
 
   int count_ = 0;
   std::string last_;
+  std::string weights_;
 };
 
 }  // namespace hri::testing_data
