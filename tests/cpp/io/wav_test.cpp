@@ -88,7 +88,8 @@ TEST(Wav, OfAnEmptyRecordingIsNoSoundFromTheChunksBehind) {
   put(bytes, "INFO");
   const Bytes unfinished = bytes;  // its header says 36 bytes
   bytes[4] = static_cast<std::uint8_t>(bytes.size() - 8);
-  EXPECT_EQ(message_of([&] { parse_wav(bytes, "x"); }), "x: too short: holds no samples");
+  EXPECT_EQ(message_of<FormatError>([&] { parse_wav(bytes, "x"); }),
+            "x: too short: holds no samples");
   EXPECT_EQ(parse_wav(unfinished, "x").samples.size(), 6U);
 }
 
@@ -101,7 +102,7 @@ TEST(Wav, SaysThatItsEndIsNoWholeSample) {
 TEST(Wav, RefusesSamplesInWiderContainers) {
   Bytes bytes = wav(kPcm, 1, 24, Bytes(12, 0));
   bytes[32] = 4;
-  EXPECT_EQ(message_of([&] { parse_wav(bytes, "x"); }),
+  EXPECT_EQ(message_of<FormatError>([&] { parse_wav(bytes, "x"); }),
             "x: field 'block align' is 4, 1 channels of 24 bits take 3 bytes");
 }
 
