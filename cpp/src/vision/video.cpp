@@ -51,6 +51,7 @@ bool VideoReader::read(VideoFrame* frame) {
     const double missing = c.video.get(cv::CAP_PROP_FRAME_COUNT) - static_cast<double>(c.count);
     const double num_reads =
         std::clamp(std::isfinite(missing) ? missing : 0, kReadsPastTheEnd[0], kReadsPastTheEnd[1]);
+    // NOLINTNEXTLINE(bugprone-float-loop-counter): whole numbers, 250 at most
     for (double i = 0; i < num_reads; ++i) {
       if (c.video.grab())
         fail(ErrorKind::format, c.path + ": frame " + std::to_string(c.count) + " is damaged");

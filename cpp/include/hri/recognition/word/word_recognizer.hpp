@@ -137,7 +137,7 @@ struct WordSample {
   int sample_rate_hz = 16000;
   std::string label;
   std::string group;
-  std::string name = {};  ///< what errors call it, such as a file; by default "samples[i]"
+  std::string name = {};       ///< what errors call it, such as a file; by default "samples[i]"
   std::string recording = {};  ///< by default one of its own
 };
 
