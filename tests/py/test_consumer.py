@@ -190,6 +190,21 @@ def test_a_program_for_this_processor_frees_what_libhri_allocated(installed: Pat
     assert refused.returncode != 0 and "EIGEN_MAX_ALIGN_BYTES=64" in refused.stderr
 
 
+def test_vision_links_with_pkg_config(installed: Path, tmp_path: Path) -> None:
+    flags = run("pkg-config", "--cflags", "--libs", "hri-vision", PKG_CONFIG_PATH=str(installed / "lib" / "pkgconfig"))
+    source = ROOT / "examples" / "gestures" / "recognise_gesture.cpp"
+    run("g++", "-std=c++17", source, "-o", tmp_path / "recognise_gesture", *flags.split())
+
+
+def test_without_opencv_the_core_is_found_alone(installed: Path, tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\nfind_package(hri CONFIG REQUIRED)\n"
+        "if(NOT TARGET hri::core OR TARGET hri::vision)\n  message(FATAL_ERROR other targets)\nendif()\n"
+    )
+    hidden = "-DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON"
+    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={installed}", hidden)
+
+
 def test_vision_brings_opencv_to_those_who_ask(installed: Path, tmp_path: Path) -> None:
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"
