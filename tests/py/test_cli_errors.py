@@ -105,12 +105,17 @@ def test_help_loads_no_recogniser_and_no_library_for_media():
     assert result.stdout.splitlines()[-1] == "[]"
 
 
-def test_output_to_a_program_that_ends_early_ends_silently():
+@pytest.mark.parametrize("change", [signal.SIG_UNBLOCK, signal.SIG_BLOCK])
+def test_output_to_a_program_that_ends_early_ends_silently(change: signal.Sigmasks):
     code = "from hri.cli.main import run; import sys; sys.argv[1:] = ['robot', 'joints']; run()"
-    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        assert process.stdout is not None and process.stderr is not None
-        process.stdout.close()
-        assert process.stderr.read() == b""
+    before = signal.pthread_sigmask(change, {signal.SIGPIPE})  # which the process inherits
+    try:
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            assert process.stdout is not None and process.stderr is not None
+            process.stdout.close()
+            assert process.stderr.read() == b""
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
     assert process.returncode == -signal.SIGPIPE
 
 

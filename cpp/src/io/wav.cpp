@@ -105,7 +105,7 @@ Span<const std::uint8_t> data_bytes(Span<const std::uint8_t> rest, std::uint32_t
     notes->push_back("file ends early: " + std::to_string(rest.size()) + " of " +
                      std::to_string(declared) + " bytes of sound are there");
   }
-  if (size % frame != 0)
+  if (size == declared && size % frame != 0)  // what ends early may end within a sample
     notes->push_back(std::to_string(size % frame) + " bytes at the end are no whole sample");
   return rest.subspan(0, size - size % frame);
 }

@@ -165,5 +165,7 @@ def run() -> None:
     if hasattr(signal, "SIGPIPE"):
         # Standard output may go to a program that ends early, such as head: then end as other tools do, silently.
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+        # Who started this may have blocked the signal, which would make it an error after all.
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGPIPE})
     print_any_name()
     sys.exit(main())
