@@ -119,7 +119,8 @@ void JsgfReader::split() {
     } else {
       std::string word;
       if (c == '"') {
-        word = until('"', "a quotation");
+        word = trimmed(until('"', "a quotation"));
+        if (const char* fault = label_fault(word)) refuse(line_, "'" + word + "' " + fault);
       } else {
         for (; at_ < text_.size() && !is_blank(text_[at_]) &&
                (kMarks + "<>{}/\"").find(text_[at_]) == std::string::npos;
@@ -128,8 +129,8 @@ void JsgfReader::split() {
           word += text_[at_];
         }
         if (word.empty()) refuse(line_, std::string("'") + c + "' has no meaning here");
+        if (const char* fault = word_fault(word)) refuse(line_, "'" + word + "' " + fault);
       }
-      if (const char* fault = word_fault(word)) refuse(line_, "'" + word + "' " + fault);
       add_token(Token::Kind::word, std::move(word));
     }
   }
@@ -288,6 +289,8 @@ GrammarPart JsgfReader::tagged(GrammarPart inside, const Token& tag) const {
   std::string value;
   if (equals != std::string::npos) {
     value = trimmed(tag.text.substr(equals + 1));
+    if (value.size() > 2 && value.front() == '"' && value.back() == '"')
+      value = value.substr(1, value.size() - 2);
     if (value.empty()) refuse(tag.line, "the tag of slot '" + slot + "' has no value");
   }
   if (!is_slot_name(slot))

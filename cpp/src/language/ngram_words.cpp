@@ -11,10 +11,15 @@ const char* word_fault(const std::string& word) {
   if (word.empty()) return "is empty";
   if (word.find_first_of(std::string(" \t\r\n\v\f\0", 7)) != std::string::npos)
     return "has white space in it";
-  const nlohmann::json text(word);
+  return label_fault(word);
+}
+
+const char* label_fault(const std::string& label) {
+  if (label.empty()) return "is empty";
+  const nlohmann::json text(label);
   const std::string kept = text.dump(-1, ' ', false, nlohmann::json::error_handler_t::ignore);
   const std::string read = nlohmann::json::parse(kept, nullptr, false).get<std::string>();
-  return read == word ? nullptr : "is not UTF-8";
+  return read == label ? nullptr : "is not UTF-8";
 }
 
 std::int64_t bad_line(const std::string& text) {

@@ -54,6 +54,11 @@ TEST(Grammar, ReadsWhatJsgfHas) {
   EXPECT_EQ(slots_of(grammar, {"a", "b", "a"}), (Slots{{"all", "a b a"}, {"c", ""}}));
   EXPECT_EQ(slots_of(grammar, {"b", "c", "c"}), (Slots{{"all", "b"}, {"c", "c c"}}));
   EXPECT_TRUE(grammar.slots_of({"{", "d"}));
+  // A label may be of several words.
+  const auto blanks =
+      Grammar::parse(kHead + "public <s> = \" New York \" {to=\"the city\"};", "file");
+  EXPECT_EQ(blanks.words(), (std::vector<std::string>{"New York"}));
+  EXPECT_EQ(slots_of(blanks, {"New York"}), (Slots{{"to", "the city"}}));
   // Of several readings the first counts.
   const auto twice = Grammar::parse(kHead + "public <s> = a {first=1} | a {second=2};", "file");
   EXPECT_EQ(slots_of(twice, {"a"}), (Slots{{"first", "1"}}));
@@ -185,6 +190,7 @@ TEST(Grammar, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_EQ(refusal("public <a> = /1/ b | c;"),
             "file: line 3: all alternatives have a weight, or none");
   EXPECT_EQ(refusal("public <a> = b \"c;"), "file: line 3: a quotation does not end");
+  EXPECT_EQ(refusal("public <a> = b \" \";"), "file: line 3: '' is empty");
   EXPECT_EQ(refusal("public <a> = | b;"), "file: line 3: expected a word, a <rule> or a bracket");
   EXPECT_EQ(refusal("public <NULL> = b;"), "file: line 3: <NULL> cannot be defined");
   EXPECT_EQ(refusal("public <a> = > b;"), "file: line 3: '>' has no meaning here");

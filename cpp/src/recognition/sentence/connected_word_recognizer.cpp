@@ -196,21 +196,29 @@ Transcript ConnectedWordRecognizer::recognise(const ScoredRecording& recording,
   transcript.complete = decoded.complete;
   transcript.log_score = decoded.log_score;
   transcript.words = words_of(decoded.words, recording);
-  if (grammar_ != nullptr && query.num_words == 0 && decoded.complete)
-    transcript.slots = slots_of(transcript.words);
-  if (!decoded.complete || (!query.confidences && query.num_alternatives == 0)) return transcript;
+  if (!decoded.complete) return transcript;
+  if (query.confidences || query.num_alternatives > 0)
+    weigh(recording, query, searched, decoded.words, &transcript);
+  // After the confidences, by which words are unknown.
+  if (grammar_ != nullptr && query.num_words == 0) transcript.slots = slots_of(transcript.words);
+  return transcript;
+}
+
+void ConnectedWordRecognizer::weigh(const ScoredRecording& recording,
+                                    const TranscriptionQuery& query, const WordNetwork& searched,
+                                    const std::vector<DecodedWord>& decoded,
+                                    Transcript* transcript) const {
+  const MatrixF& scores = recording.log_emissions;
   if (!Lattice::fits(chains_, searched, scores.rows())) {
-    transcript.notes.emplace_back("too long for confidences and alternatives");
-    return transcript;
+    transcript->notes.emplace_back("too long for confidences and alternatives");
+    return;
   }
   const Lattice lattice =
       Lattice::decode(chains_, searched, scores, options_.decoder, options_.lattice);
-  if (query.confidences) add_confidences(lattice, decoded.words, &transcript);
-  if (query.num_alternatives > 0) {
-    for (const DecodedSentence& sentence : lattice.n_best(query.num_alternatives))
-      transcript.alternatives.push_back({words_of(sentence.words, recording), sentence.log_score});
-  }
-  return transcript;
+  if (query.confidences) add_confidences(lattice, decoded, transcript);
+  if (query.num_alternatives == 0) return;
+  for (const DecodedSentence& sentence : lattice.n_best(query.num_alternatives))
+    transcript->alternatives.push_back({words_of(sentence.words, recording), sentence.log_score});
 }
 
 Transcript ConnectedWordRecognizer::recognise_begun(const ScoredRecording& recording,
@@ -233,8 +241,10 @@ Transcript ConnectedWordRecognizer::recognise_begun(const ScoredRecording& recor
 
 Slots ConnectedWordRecognizer::slots_of(const std::vector<TranscribedWord>& words) const {
   std::vector<std::string> sentence;
-  // NOLINTNEXTLINE(performance-inefficient-vector-operation): a sentence is short
-  for (const TranscribedWord& word : words) sentence.push_back(word.label);
+  for (const TranscribedWord& word : words) {
+    if (word.unknown) return {};
+    sentence.push_back(word.label);
+  }
   return grammar_->slots_of(sentence).value_or(Slots());
 }
 

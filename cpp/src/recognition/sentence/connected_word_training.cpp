@@ -335,6 +335,25 @@ class ConnectedWordTrainer {
   FillerModels fillers_;
 };
 
+// Options of isolated words that were set, and that connected ones are not made by.
+const char* without_effect(const WordRecognizerOptions& words) {
+  const WordRecognizerOptions usual;
+  if (words.trim != usual.trim) return "words.trim has no effect";
+  if (words.garbage_mixtures != usual.garbage_mixtures)
+    return "words.garbage_mixtures has no effect";
+  if (words.false_reject_rate != usual.false_reject_rate)
+    return "words.false_reject_rate has no effect; min_confidence and unknown_margin have";
+  if (words.num_embedding_copies != usual.num_embedding_copies)
+    return "words.num_embedding_copies has no effect";
+  if (words.embedding_penalty != usual.embedding_penalty)
+    return "words.embedding_penalty has no effect";
+  if (words.embedding_shrinkage != usual.embedding_shrinkage)
+    return "words.embedding_shrinkage has no effect";
+  if (words.embedding_false_accept_rate != usual.embedding_false_accept_rate)
+    return "words.embedding_false_accept_rate has no effect";
+  return nullptr;
+}
+
 }  // namespace
 
 ConnectedWordRecognizer ConnectedWordRecognizer::train(
@@ -342,6 +361,7 @@ ConnectedWordRecognizer ConnectedWordRecognizer::train(
     const TrainingProgress& progress, const StopCheck& should_stop,
     const std::vector<WordSample>& fillers) {
   validate(options);
+  if (const char* fault = without_effect(options.words)) fail(ErrorKind::invalid_argument, fault);
   std::vector<std::string> labels;
   std::set<std::string> speakers;
   ConnectedWordRecognizerOptions used = options;

@@ -163,6 +163,12 @@ TEST(ConnectedWordRecognizer, IsLessSureOfWordsBetweenTwo) {
   EXPECT_EQ(found.text().substr(0, 5), "<unk>");
   EXPECT_LT(*found.words[0].confidence,
             *doubting.recognise(sentence({"rise"}, 0), kRateHz).words[0].confidence);
+  // Words that are unknown fill no slot.
+  const auto following = doubting.with_grammar(Grammar::parse(
+      "#JSGF V1.0;\ngrammar tones;\npublic <s> = ( rise | fall )+ {tones};", "tones.jsgf"));
+  const Transcript filling = following.recognise(audio, kRateHz);
+  EXPECT_TRUE(filling.complete && filling.words[0].unknown);
+  EXPECT_TRUE(filling.slots.empty());
 }
 
 TEST(ConnectedWordRecognizer, MarksSoundsThatAreNoWord) {
@@ -277,6 +283,9 @@ TEST(ConnectedWordRecognizer, RefusesWhatItCannotTrainOn) {
   samples.push_back({silence, kRateHz, "nothing", "low"});
   EXPECT_THROW(ConnectedWordRecognizer::train(samples, small_options()), InvalidArgument);
   EXPECT_THROW(ConnectedWordRecognizer::train({}, small_options()), InvalidArgument);
+  ConnectedWordRecognizerOptions options = small_options();
+  options.words.false_reject_rate = 0.01;  // which isolated words alone are rejected by
+  EXPECT_THROW(ConnectedWordRecognizer::train(clips().samples, options), InvalidArgument);
   const std::vector<float> audio = sentence(kWords, 0);
   EXPECT_THROW((void)trained().recognise(audio, 10), InvalidArgument);
   EXPECT_THROW((void)trained().recognise(audio, kRateHz, {-1}), InvalidArgument);

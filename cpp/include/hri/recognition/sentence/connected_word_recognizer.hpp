@@ -109,7 +109,7 @@ struct Transcript {
   std::vector<TranscribedWord> words;
   /// As many as were asked for, the best first, which is `words`; they differ in their words.
   std::vector<TranscriptAlternative> alternatives;
-  Slots slots;                     ///< of the grammar, where there is one
+  Slots slots;                     ///< of the grammar, where all words are known
   double log_score = 0;            ///< natural log, of the best path; 0 without speech
   bool complete = true;            ///< false: too short for so many words, these are what was found
   std::vector<std::string> notes;  ///< what was converted or assumed on the way
@@ -233,6 +233,10 @@ class HRI_API ConnectedWordRecognizer {
                                                       const ScoredRecording& recording) const;
   [[nodiscard]] Slots slots_of(const std::vector<TranscribedWord>& words) const;
   [[nodiscard]] std::vector<bool> states_of_words() const;
+  // Adds confidences and alternatives.
+  void weigh(const ScoredRecording& recording, const TranscriptionQuery& query,
+             const WordNetwork& searched, const std::vector<DecodedWord>& decoded,
+             Transcript* transcript) const;
   void add_confidences(const Lattice& lattice, const std::vector<DecodedWord>& decoded,
                        Transcript* transcript) const;
 
