@@ -97,12 +97,21 @@ def orientation_histogram() -> Timed:
     return medians(lambda: features.orientation_histogram(image, options), peer, 101)
 
 
-def _python_hand(frame: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The chain that most programs have: blur, fixed HSV bounds, opening and closing, largest outline, its moments."""
+def _fixed_bounds(frame: np.ndarray) -> np.ndarray:
+    """The mask that most programs make: blur, fixed HSV bounds, opening and closing."""
     hsv = cv2.cvtColor(cv2.GaussianBlur(frame, (5, 5), 0), cv2.COLOR_BGR2HSV)
     mask = cv2.inRange(hsv, (0, 0.23 * 255, 40), (25, 0.68 * 255, 255))
     square = np.ones((5, 5), np.uint8)
-    mask = cv2.morphologyEx(cv2.morphologyEx(mask, cv2.MORPH_OPEN, square), cv2.MORPH_CLOSE, square)
+    return cv2.morphologyEx(cv2.morphologyEx(mask, cv2.MORPH_OPEN, square), cv2.MORPH_CLOSE, square)
+
+
+def _small_fixed_bounds(frame: np.ndarray) -> np.ndarray:
+    """The same in a picture as small as HandColours looks at."""
+    return _fixed_bounds(cv2.resize(frame, (160, 120), interpolation=cv2.INTER_AREA))
+
+
+def _python_hand(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The largest outline, and its moments."""
     outlines, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
     hand = max(outlines, key=cv2.contourArea)
     moments = cv2.moments(hand)
@@ -110,7 +119,7 @@ def _python_hand(frame: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _agree(mask: np.ndarray, outline: np.ndarray) -> bool:
-    """Whether both found the same hand."""
+    """Whether the mask is the hand that fixed bounds find in the whole picture."""
     theirs = np.zeros((hand_pictures.HEIGHT, hand_pictures.WIDTH), np.uint8)
     cv2.drawContours(theirs, [outline], -1, 255, cv2.FILLED)
     found, wanted = mask > 0, cv2.resize(theirs, mask.shape[::-1], interpolation=cv2.INTER_AREA) > 127
@@ -146,7 +155,9 @@ def _tracker_ms(clip: Sequence[np.ndarray]) -> float:
     return 1000 * statistics.median(seconds[len(clip) :])
 
 
-def _hand_frame(make_finder: Callable[[Sequence[np.ndarray]], Any]) -> Timed:
+def _hand_frame(
+    make_finder: Callable[[Sequence[np.ndarray]], Any], python_mask: Callable[[np.ndarray], np.ndarray]
+) -> Timed:
     clip = hand_pictures.hand_clip("right", 2)
     frame, finder = clip[len(clip) // 2], make_finder(clip)
     computer = GestureFeatureComputer()
@@ -157,21 +168,23 @@ def _hand_frame(make_finder: Callable[[Sequence[np.ndarray]], Any]) -> Timed:
 
     mask, row = ours()
     assert row.shape[0] == 1 and np.isfinite(row).all()
-    assert _agree(mask, _python_hand(frame)[0])
+    assert mask.shape == python_mask(frame).shape
+    assert _agree(mask, _python_hand(_fixed_bounds(frame))[0])
     details: Details = {"decode_ms": _decode_ms(clip)}
     if find_spec("mediapipe") is not None:
         details["mediapipe_ms"] = _tracker_ms(clip)
-    return *medians(ours, lambda: _python_hand(frame), _FRAME_REPEATS), details
+    return *medians(ours, lambda: _python_hand(python_mask(frame)), _FRAME_REPEATS), details
 
 
 def hand_frame() -> Timed:
-    """A picture of 640 x 480 to the hand's features, by colours learned from its clip; decoding comes on top."""
-    return _hand_frame(vision.HandColours.learn)
+    """A picture of 640 x 480 to the hand's features, by colours learned from its clip; decoding comes on top. The
+    peer: fixed bounds of colour in a picture as small (160 x 120), largest outline, Hu's moments."""
+    return _hand_frame(vision.HandColours.learn, _small_fixed_bounds)
 
 
 def hand_frame_otsu() -> Timed:
-    """The same, the hand found in the picture by itself."""
-    return _hand_frame(lambda _: vision.SilhouetteExtractor(vision.SilhouetteOptions()))
+    """The same, the hand found in the picture by itself at 320 x 240; the peer by the same steps, and Hu's moments."""
+    return _hand_frame(lambda _: vision.SilhouetteExtractor(vision.SilhouetteOptions()), _python_silhouette)
 
 
 BENCHES = [

@@ -13,6 +13,12 @@
 namespace hri {
 namespace {
 
+Eigen::Index argmax(const VectorF& scores) {
+  Eigen::Index best = 0;
+  scores.maxCoeff(&best);
+  return best;
+}
+
 // Mean negative log posterior of the true classes at a given scale.
 double mean_nll(const std::vector<HeldOut>& held_out, double scale) {
   double sum = 0;
@@ -43,14 +49,43 @@ double best_scale(const std::vector<HeldOut>& held_out) {
   return std::pow(10.0, 0.5 * (low + high));
 }
 
+bool all_right(const std::vector<HeldOut>& held_out) {
+  return std::all_of(held_out.begin(), held_out.end(),
+                     [](const HeldOut& h) { return argmax(h.scores) == h.truth; });
+}
+
+// Mean posterior of the true classes.
+double mean_confidence(const std::vector<HeldOut>& held_out, double scale) {
+  double sum = 0;
+  for (const HeldOut& h : held_out) {
+    const double top = h.scores[h.truth];
+    double z = 0;
+    for (Eigen::Index c = 0; c < h.scores.size(); ++c) z += std::exp(scale * (h.scores[c] - top));
+    sum += 1 / z;
+  }
+  return sum / static_cast<double>(held_out.size());
+}
+
+// Where all n decisions are right, the likelihood grows with the scale for ever, and all others
+// would be sure, too. By Laplace's rule of succession the next one is right with a probability of
+// (n + 1) / (n + 2): as sure they are on average.
+double scale_of_right(const std::vector<HeldOut>& held_out) {
+  const auto n = static_cast<double>(held_out.size());
+  double low = -4;
+  double high = 3;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (mean_confidence(held_out, std::pow(10.0, middle)) < (n + 1) / (n + 2)) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return std::pow(10.0, 0.5 * (low + high));
+}
+
 // Held-out scores give at most 1e3 (best_scale).
 constexpr double kMaxScale = 1e6;
-
-Eigen::Index argmax(const VectorF& scores) {
-  Eigen::Index best = 0;
-  scores.maxCoeff(&best);
-  return best;
-}
 
 // The threshold of one class from the confidences of held-out decisions for it: `right` ones, and
 // `wrong` ones among `num_others` samples of other classes.
@@ -105,7 +140,7 @@ Calibration Calibration::fit(const std::vector<HeldOut>& held_out, const Rejecti
     if (argmax(h.scores) == h.truth) right.push_back(h.score);
   }
   if (right.empty()) return result;
-  result.scale_ = best_scale(held_out);
+  result.scale_ = all_right(held_out) ? scale_of_right(held_out) : best_scale(held_out);
   std::sort(right.begin(), right.end());
   result.threshold_ = static_cast<double>(threshold_of(right, rates, std::move(others)));
 

@@ -40,6 +40,23 @@ TEST(Calibration, FindsHowMuchTooSureScoresAre) {
   }
 }
 
+// The likelihood alone would make all decisions certain, those for other words, too.
+TEST(Calibration, IsNoSurerThanItsSamplesAllowWhereAllAreRight) {
+  for (const int count : {4, 100}) {
+    std::vector<HeldOut> samples(static_cast<std::size_t>(count));
+    for (HeldOut& s : samples) {
+      s.scores = VectorF::Zero(3);
+      s.scores[s.truth] = s.score = 5;
+    }
+    const Calibration c = Calibration::fit(samples, RejectionRates{});
+    EXPECT_NEAR(c.posterior(samples[0].scores)[0], (count + 1.0) / (count + 2.0), 1e-4);
+    // What is nearly as like another class is far less sure.
+    VectorF between = VectorF::Zero(3);
+    between << 5, 4.9F, 0;
+    EXPECT_LT(c.posterior(between)[0], 0.6F);
+  }
+}
+
 TEST(Calibration, NeverRecognisesWhatIsNoNumber) {
   const Calibration c = Calibration::fit(held_out(1.0, 3000), RejectionRates{});
   const float nan = std::nanf("");

@@ -47,7 +47,9 @@ class HRI_API Calibration {
 
   Calibration() = default;
 
-  /// Fits the scale to the least negative log-likelihood of `held_out`, and the threshold to the
+  /// Fits the scale to the least negative log-likelihood of `held_out`, or, where all n of these
+  /// are right, to their mean confidence (n + 1) / (n + 2), Laplace's rule of succession, as the
+  /// likelihood has no maximum then; and the threshold to the
   /// quantile rates.false_reject (0..0.5) of the score of its correct decisions, or as far beyond,
   /// up to rates.max_false_reject, as it takes to accept no more than rates.false_accept of
   /// `others`, scores of words outside the vocabulary. A class threshold is the least confidence at
