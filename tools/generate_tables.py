@@ -31,7 +31,7 @@ import readme_tables
 from hri.core.errors import InvalidArgument
 from hri.studies import STUDIES
 from hri.studies.kept import command_of, read_kept, stale_rooms
-from hri.studies.tables import Pivot, markdown_table, pivot
+from hri.studies.rendering import Pivot, markdown_table, pivot
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "docs" / "results"

@@ -12,7 +12,7 @@ from typing import Any
 
 from hri.studies.kept import command_of, read_kept
 from hri.studies.registry import Layout
-from hri.studies.tables import markdown_table, show
+from hri.studies.rendering import markdown_table, show
 
 BENCHES = "bench.json"
 

@@ -16,7 +16,8 @@ import pytest
 from hri.core.errors import InvalidArgument
 from hri.studies import kept, provenance
 from hri.studies.registry import Layout, Study
-from hri.studies.tables import Pivot, markdown_table, pivot, statistics
+from hri.studies.rendering import Pivot, markdown_table, pivot
+from hri.studies.tables import statistics
 
 ROOT = Path(__file__).resolve().parents[2]
 PEOPLE = ("ann", "bob", "cem")
