@@ -100,7 +100,7 @@ def _parsed(path: Path, changed_ns: int) -> _Source:
 
 
 def _imports(tree: ast.AST, for_types: bool) -> Iterator[tuple[Import, str]]:
-    """What is imported, and as what; with `for_types` also what only the reader of types is told."""
+    """What is imported, and as what; with `for_types` also what is imported for type checkers only."""
     for node in ast.iter_child_nodes(tree):
         if isinstance(node, ast.Import):
             yield from (((alias.name, ""), alias.asname or alias.name) for alias in node.names)
