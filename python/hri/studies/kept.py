@@ -105,7 +105,7 @@ def _same_data(kept: Row, now: Row) -> bool:
 
 def code_of(kept: Row) -> Row:
     """Version and commit of the code that a result was last verified with, or measured with."""
-    code: Row = kept.get("verified", kept["measured"])
+    code: Row = kept["verified"] if "verified" in kept else kept["measured"]
     return code
 
 
