@@ -29,7 +29,7 @@ import bench_training
 import bench_vision
 import bench_wavelets
 from hri.core.files import write_text
-from hri.studies.provenance import describe_code, source_root
+from hri.studies.provenance import date_of_commit, describe_code, hash_benches, source_root
 
 MODULES = (
     bench_wavelets,
@@ -72,6 +72,15 @@ def processor() -> str:
     return platform.machine()
 
 
+def describe() -> dict[str, object]:
+    """The code that is measured: its commit and day, and hashes by which a later change to it is seen."""
+    root = source_root()
+    measured = describe_code(root)
+    if root is None:
+        return {"measured": measured}
+    return {"measured": {**measured, "date": date_of_commit(root)}, "sources": hash_benches(root)}
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(prog="./run bench", description=__doc__)
@@ -88,6 +97,7 @@ def main() -> None:
         return
     if arguments.quick:
         timing.most_repeats = 1
+    code = describe()
     entries = []
     print(f"{'bench':22} {'ours':>12} {'peer':>12}  {'ratio':>7}  peer")
     for name in arguments.only or ALL:
@@ -108,7 +118,7 @@ def main() -> None:
             values = " ".join(f"{v:.4g}" for v in (value if isinstance(value, list) else [value]))
             print(f"{'':22} {what}: {values}", flush=True)
     if arguments.json:
-        report = {"measured": describe_code(source_root()), "machine": processor(), "benches": entries}
+        report = {**code, "machine": processor(), "benches": entries}
         write_text(arguments.json, json.dumps(report, indent=2) + "\n")
 
 

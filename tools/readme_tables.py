@@ -4,17 +4,19 @@
 
 from __future__ import annotations
 
+import ast
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from hri.studies.kept import command_of, read_kept
+from hri.studies.kept import code_of, command_of, read_kept
 from hri.studies.registry import Layout
-from hri.studies.tables import markdown_table, show
+from hri.studies.rendering import markdown_table, show
 
 BENCHES = "bench.json"
+BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,7 @@ def accuracy(results: Path) -> str:
     for line in ACCURACY:
         kept = read_kept(results / f"{line.file}.json")
         (row,) = (row for row in kept["rows"] if all(row[axis] == value for axis, value in line.where.items()))
-        table.append([line.text, show(row, Layout()), f"`{command_of(kept)}`", f"`{kept['measured']['commit']}`"])
+        table.append([line.text, show(row, Layout()), f"`{command_of(kept)}`", f"`{code_of(kept)['commit']}`"])
     return markdown_table(table)
 
 
@@ -81,7 +83,21 @@ def all_benches(results: Path) -> str:
     for found in report["benches"]:
         ratio = f"{found['ratio']:.2f}"
         table.append([f"`{found['name']}`", found["what"], found["peer_name"], ratio, f"`{_commit(found, report)}`"])
-    return markdown_table(table) + _machine(report)
+    kept = {found["name"] for found in report["benches"]}
+    lacking = [f"`{name}`" for name in bench_names() if name not in kept]
+    listed = f"\nWithout a kept figure: {', '.join(lacking)}.\n" if lacking else ""
+    return markdown_table(table) + listed + _machine(report)
+
+
+def bench_names() -> list[str]:
+    """The benches that there are, read from their sources: most need peers that are not installed everywhere."""
+    calls = (
+        node
+        for path in sorted(BENCHMARKS.glob("bench_*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Bench"
+    )
+    return [call.args[0].value for call in calls if isinstance(call.args[0], ast.Constant)]
 
 
 def read_benches(results: Path) -> dict[str, Any]:
@@ -95,7 +111,9 @@ def _commit(bench: dict[str, Any], report: dict[str, Any]) -> str:
 
 
 def _machine(report: dict[str, Any]) -> str:
-    return f"\n<sub>`./run bench`, one thread of {report['machine']}</sub>\n"
+    measured = report["measured"]
+    code = f"`{measured['commit']}` of {measured['date']}"
+    return f"\n<sub>`./run bench` at {code}, one thread of {report['machine']}</sub>\n"
 
 
 TABLES: dict[str, Callable[[Path], str]] = {

@@ -24,6 +24,8 @@ def test_every_bench_agrees_with_its_peer_and_is_reported(tmp_path: Path) -> Non
     table = run("--quick", "--json", str(report))
     written = json.loads(report.read_text())
     assert written["machine"] and written["measured"]["version"]
+    if "commit" in written["measured"]:  # in a checkout
+        assert written["measured"]["date"] and "benchmarks" in written["sources"]
     entries = written["benches"]
     listed = [line.split("\t")[0] for line in run("--list").splitlines()]
     skipped = [line.split()[0] for line in table.splitlines() if " skipped: " in line]
@@ -32,6 +34,13 @@ def test_every_bench_agrees_with_its_peer_and_is_reported(tmp_path: Path) -> Non
         assert set(entry) == {"name", "what", "ours", "peer", "unit", "peer_name", "ratio", "details"}
         assert entry["ratio"] == pytest.approx(entry["peer"] / entry["ours"]) and entry["ratio"] > 0
         assert entry["what"].endswith(".") and entry["name"] in table
+
+
+def test_the_page_knows_every_bench(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(RUN_ALL.parents[1] / "tools"))
+    import readme_tables
+
+    assert sorted(readme_tables.bench_names()) == sorted(line.split("\t")[0] for line in run("--list").splitlines())
 
 
 def test_a_bench_without_its_recordings_is_skipped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -54,7 +54,7 @@ def test_the_study_of_features_runs_whole(films: Path, monkeypatch: pytest.Monke
         assert shown[name, "knn"]["accuracy_mean"] == 1.0 and shown[name, "knn"]["frames_mean"] > 0.9
         assert shown[name, "HMM, Gaussian"]["accuracy_mean"] == 1.0
         assert set(found["num_neighbours"][name].values()) <= {1, 3, 5, 7}
-        assert set(shown[name, "svm"]["frames_by_condition"]) == set(shown[name, "svm"]["per_fold"])
+        assert set(shown[name, "svm"]["frames_per_fold"]) == set(shown[name, "svm"]["per_fold"])
         assert "frames_mean" not in shown[name, "HMM"]
 
 

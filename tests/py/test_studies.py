@@ -19,7 +19,7 @@ from hri.core.errors import InvalidArgument
 from hri.evaluation import EvaluationItem, EvaluationResult, FoldResult
 from hri.io import write_wav_pcm16
 from hri.recognition import Decision, NBest
-from hri.studies import commands, distance, noise, tables, tempo, training_size
+from hri.studies import commands, distance, noise, rendering, tables, tempo, training_size
 from hri.studies.registry import Layout
 from hri.studies.sweeps import measured
 from hri.studies.word_classifiers import CLASSIFIERS
@@ -61,28 +61,28 @@ def test_statistics_are_over_persons() -> None:
 
 def test_a_single_fold_has_no_spread() -> None:
     for per_fold, shown in (({"ann": 0.5}, "50.0"), ({"ann": 0.5, "bob": 0.5}, "50.0 ± 0.0")):
-        assert tables.show(tables.statistics(per_fold), Layout()) == shown
+        assert rendering.show(tables.statistics(per_fold), Layout()) == shown
 
 
 def test_a_table_spreads_one_axis_over_its_columns() -> None:
-    assert tables.table(RESULT, Layout(columns="snr_db")) == [
+    assert rendering.table(RESULT, Layout(columns="snr_db")) == [
         ["features", "snr_db 10", "snr_db 20"],
         ["mfcc", "65.0 ± 5.0", "70.0 ± 0.0"],
         ["hfcc", "90.0 ± 10.0", ""],
     ]
-    text = tables.markdown(RESULT, Layout(columns="snr_db"))
+    text = rendering.markdown(RESULT, Layout(columns="snr_db"))
     assert "target: to be shown (met)" in text and "| mfcc | 65.0 ± 5.0 | 70.0 ± 0.0 |" in text
 
 
 def test_the_csv_holds_every_fold_in_full() -> None:
-    rows = list(csv.DictReader(tables.csv_text(RESULT, Layout()).splitlines()))
+    rows = list(csv.DictReader(rendering.csv_text(RESULT, Layout()).splitlines()))
     assert [row["features"] for row in rows] == ["mfcc", "mfcc", "hfcc"]
     assert float(rows[1]["per_fold: ann"]) == 0.6 and float(rows[1]["accuracy_mean"]) == pytest.approx(0.65)
 
 
 def test_a_result_without_rows_is_shown_by_its_parts() -> None:
     result = {"accuracy_mean": 0.5, "accuracy_std": 0.1, "dark": {"hmm": {"accuracy_mean": 0.25, "folds": [1]}}}
-    assert tables.table(result, Layout()) == [["part", "accuracy %"], ["all", "50.0 ± 10.0"], ["dark / hmm", "25.0"]]
+    assert rendering.table(result, Layout()) == [["part", "accuracy %"], ["all", "50.0 ± 10.0"], ["dark / hmm", "25.0"]]
 
 
 @pytest.mark.parametrize("layout", [Layout(x="snr_db"), Layout(panel="features"), Layout(x="features", panel="snr_db")])
@@ -257,6 +257,8 @@ def test_commands_of_groups_of_speakers(data_dir: Path, monkeypatch: pytest.Monk
     result = run("commands", data_dir, front_end=["cepstra"])
     quiet, noisy = result["rows"]
     assert (quiet["test"], noisy["test"]) == (commands.QUIET, commands.NOISY) and len(quiet["per_fold"]) == 3
+    for measure in ("recognised", "right", "no_input", "calibration_error"):
+        assert set(quiet[f"{measure}_per_fold"]) == set(quiet["per_fold"]), measure
     for row in result["rows"]:
         assert row["right_mean"] <= min(row["recognised_mean"], row["accuracy_mean"])
         assert 0 <= row["calibration_error_mean"] <= 1

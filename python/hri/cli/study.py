@@ -15,7 +15,7 @@ from hri.cli.progress import progress_bars
 from hri.core.optional import import_optional
 from hri.studies import STUDIES, Study, draw, get_study
 from hri.studies.kept import measure, read_kept, verify
-from hri.studies.tables import csv_text, markdown, table
+from hri.studies.rendering import csv_text, markdown, table
 
 
 @click.command(cls=CheckedCommand)

@@ -14,7 +14,7 @@ from hri.core.errors import InvalidArgument
 from hri.recognition import SpeakerAdapter, WordRecognizer
 from hri.studies.clips import Clip, fit_clips, read_clips
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, by_fold, statistics
 from hri.studies.word_features import WORD_FOLDERS
 
 DATA = tuple(WORD_FOLDERS)
@@ -102,9 +102,10 @@ def _run(
                 found.setdefault(key, {})[person] = shares
             say("speakers", number + 1, len(persons))
         for (how, count), by_person in found.items():
-            right = float(np.mean([shares["right"] for shares in by_person.values()]))
-            accuracy = statistics({person: shares["accuracy"] for person, shares in by_person.items()})
-            rows.append({"data": name, "learning": how, "words": count, **accuracy, "right_mean": right})
+            right = {person: shares["right"] for person, shares in by_person.items()}
+            row = {"data": name, "learning": how, "words": count}
+            row |= statistics({person: shares["accuracy"] for person, shares in by_person.items()})
+            rows.append({**row, "right_mean": float(np.mean(list(right.values()))), **by_fold("right", right)})
     return {"seed": SEED, "draws": DRAWS, "rows": rows, "passed": None}
 
 

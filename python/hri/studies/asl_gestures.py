@@ -87,9 +87,6 @@ STUDIES = (
             "cpp/models/...",
             "cpp/recognition",
             "cpp/recognition/gesture",
-            "python/datasets",
-            "python/recognition/gesture",
-            "python/studies/sentences.py",
         ),
     ),
 )

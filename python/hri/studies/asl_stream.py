@@ -114,7 +114,7 @@ STUDIES = (
         f"at least {100 * MIN_SAME:.0f} % of the sentences have the words of the file",
         _run,
         Layout(measure="word_error"),
-        sources=(*SOURCES, "python/studies/sentences.py"),
+        sources=SOURCES,
         folds=True,
     ),
 )

@@ -85,7 +85,7 @@ STUDIES = (
         Layout(columns="test"),
         axes={"front_end": tuple(FRONT_ENDS)},
         thins=True,
-        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
+        sources=WORD_SOURCES,
         folds=True,
         quick={"front_end": ("cepstra",)},
     ),
@@ -98,7 +98,7 @@ STUDIES = (
         Layout(columns="test"),
         axes={"front_end": tuple(WITH_NETWORK)},
         thins=True,
-        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
+        sources=WORD_SOURCES,
         folds=True,
     ),
 )

@@ -70,7 +70,7 @@ STUDIES = (
         _run,
         Layout(columns="speakers", x="speakers", panel="test"),
         axes={"front_end": tuple(CHOICES)},
-        sources=(*WORD_SOURCES, "python/studies/commands.py", "python/studies/sweeps.py"),
+        sources=WORD_SOURCES,
         folds=True,
         quick={"front_end": ("cepstra",)},
     ),

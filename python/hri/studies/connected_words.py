@@ -24,7 +24,7 @@ from hri.recognition.base import best_labels
 from hri.signal import ActivityOptions, find_speech
 from hri.studies.clips import Clip, read_clips
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.word_features import WORD_FOLDERS
 
 PAUSES_MS = (0, 100, 300)
@@ -218,8 +218,7 @@ def _row(
 ) -> Row:
     measured: Row = {}
     for rule, by_person in (times or {}).items():
-        measured |= statistics(by_person, rule)
-    measured.pop("per_fold", None)
+        measured |= further_statistics(by_person, rule)
     return {"pause_ms": pause_ms, "words": words, **statistics(errors, "word_error"), **measured}
 
 
@@ -366,8 +365,6 @@ def _study(name: str, source: str, what: str) -> Study:
             *WORD_SOURCES,
             "cpp/language",
             "cpp/recognition/sentence",
-            "python/language",
-            "python/recognition/sentence",
         ),
     )
 

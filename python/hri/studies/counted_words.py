@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hri.language import WordErrors, count_word_errors
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, by_fold, statistics
 
 
 @dataclass
@@ -20,6 +20,8 @@ class CountedWords:
     errors: dict[str, float] = field(default_factory=dict)
     total: WordErrors = field(default_factory=WordErrors)
     near: list[bool] = field(default_factory=list)
+    right: dict[str, float] = field(default_factory=dict)
+    near_by_condition: dict[str, float] = field(default_factory=dict)
 
     def add(self, condition: str, truth: list[list[str]], found: list[list[str]], near: Sequence[bool] = ()) -> None:
         """Count the sentences of a condition."""
@@ -27,15 +29,28 @@ class CountedWords:
         self.errors[condition] = errors.rate
         self.total += errors
         self.near += near
+        self.right[condition] = _words_right(errors)
+        if near:
+            self.near_by_condition[condition] = float(np.mean(near))
 
     @property
     def words_right(self) -> float:
         """Share of the words of all conditions."""
-        return 1 - (self.total.substitutions + self.total.deletions) / self.total.num_words
+        return _words_right(self.total)
 
     def row(self, **names: object) -> Row:
         """A row of a table, which begins with these columns."""
         over_all = {"word_error": self.total.rate, "words_right": self.words_right, **vars(self.total)}
         if self.near:
             over_all["boundaries_near"] = float(np.mean(self.near))
-        return {**names, **statistics(self.errors, "word_error"), "over_all": over_all}
+        row = {
+            **names,
+            **statistics(self.errors, "word_error"),
+            "over_all": over_all,
+            **by_fold("words_right", self.right),
+        }
+        return row | (by_fold("boundaries_near", self.near_by_condition) if self.near else {})
+
+
+def _words_right(errors: WordErrors) -> float:
+    return 1 - (errors.substitutions + errors.deletions) / errors.num_words

@@ -128,7 +128,7 @@ STUDIES = (
         "every decision and every event equal to the bit where both sides read the same pictures",
         _compare,
         Layout(columns="pictures", measure="equal"),
-        sources=(*GESTURE_SOURCES, "python/live"),
+        sources=GESTURE_SOURCES,
         folds=True,
     ),
 )

@@ -92,7 +92,7 @@ STUDIES = (
         _run,
         Layout(columns="noise", panel="noise", measure="gain_db", percent=False),
         {"threshold": tuple(RULES), "noise": tuple(RECORDED)},
-        sources=("cpp/signal", "python/signal", "python/evaluation"),
+        sources=("cpp/signal",),
         quick={"noise": ("white",), "threshold": ("bayes",)},
     ),
 )

@@ -105,7 +105,7 @@ def _study(name: str, how: str, run: Callable[..., dict[str, Any]]) -> Study:
         layout=Layout(columns="distance", x="distance", panel="data"),
         axes={"data": DATA, "training": TRAINING, "ambience": AMBIENCE},
         thins=True,
-        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
+        sources=WORD_SOURCES,
         folds=True,
         quick={"data": ("hindi-words",), "training": ("close",)},
     )

@@ -118,7 +118,7 @@ STUDIES = (
         _run,
         layout=Layout(columns="pictures"),
         axes={"trained_on": TRAINED_ON, "pictures": tuple(PICTURES), "faces": tuple(WAYS)},
-        sources=(*GESTURE_SOURCES, "python/synthetic", "python/synthetic/drawing"),
+        sources=GESTURE_SOURCES,
         quick={"trained_on": ("drawn hands",), "pictures": ("hand alone",), "faces": ("never",)},
     ),
 )

@@ -15,7 +15,7 @@ from hri.language import count_word_errors
 from hri.recognition import SentenceRecognizer
 from hri.studies.registry import Layout, Progress, Study, within
 from hri.studies.sentences import ALONE, BIGRAM, MODELS, SOURCES, labels_of
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.synthetic.sentences import SENTENCES, draw_sentences
 
 NUM_SIGNERS = 10
@@ -66,7 +66,7 @@ def _run(
                     for labels, is_right in zip(truth, same, strict=True):
                         right.setdefault(said[" ".join(labels)], []).append(is_right)
                 row = {"table": name, "words": words, "model": kind}
-                rows.append({**row, **statistics(whole, "accuracy"), **statistics(errors, "word_error")})
+                rows.append({**row, **further_statistics(whole, "accuracy"), **statistics(errors, "word_error")})
                 by_sentence[", ".join(row.values())] = {text: float(np.mean(one)) for text, one in right.items()}
     return {
         "synthetic": True,
@@ -89,7 +89,7 @@ STUDIES = (
         _run,
         Layout(columns="model"),
         axes={"table": tuple(SENTENCES), "model": MODELS},
-        sources=(*SOURCES, "python/synthetic", "python/studies/sentences.py"),
+        sources=SOURCES,
         folds=True,
     ),
 )

@@ -17,7 +17,7 @@ from hri.media import read_audio
 from hri.signal import Endpointer, find_speech
 from hri.studies.noise import noise_paths
 from hri.studies.registry import Layout, Progress, Study
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics
 from hri.studies.word_features import WORD_FOLDERS
 
 SEED = 0
@@ -105,7 +105,7 @@ def _row(noise: str, snr_db: float, by_person: dict[str, list[tuple[float, float
             measures.setdefault(name, {})[person] = float(value)
     row: Row = {"noise": noise, "snr_db": snr_db}
     for name, per_person in measures.items():
-        row |= {key: value for key, value in statistics(per_person, name).items() if key != "per_fold"}
+        row |= further_statistics(per_person, name)
     return row
 
 
@@ -144,6 +144,6 @@ STUDIES = (
         "within 150 ms",
         _run,
         Layout(x="snr_db", panel="noise", measure="end_95_ms", percent=False),
-        sources=("cpp/signal", "python/signal", "python/evaluation"),
+        sources=("cpp/signal",),
     ),
 )

@@ -238,7 +238,7 @@ STUDIES = (
         _run,
         Layout(measure="same"),
         {"input": tuple(INPUTS)},
-        sources=(*dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES, "python/live")),),
+        sources=(*dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES)),),
         folds=True,
     ),
 )

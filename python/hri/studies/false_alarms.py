@@ -23,7 +23,7 @@ from hri.signal import find_speech, resample
 from hri.studies.commands import FrontEndKind
 from hri.studies.noise import noise_paths
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.unknown_words import halves
 from hri.studies.word_features import WORD_FOLDERS, load_words
 
@@ -283,10 +283,11 @@ def _row(folds: dict[str, Fold], place: Row, mode: str, threshold: float | None)
     limits = {person: fold.threshold if threshold is None else threshold for person, fold in folds.items()}
     rejects = {person: 100 * fold.false_rejects(mode, limits[person]) for person, fold in folds.items()}
     row: Row = {**place, "mode": mode, "threshold": OF_THE_MODEL if threshold is None else threshold}
-    row |= {k: v for k, v in statistics(rejects, "false_rejects_percent").items() if k != "per_fold"}
+    row |= further_statistics(rejects, "false_rejects_percent")
     for sound in SOUNDS:
         alarms = {p: fold.alarms_per_hour(mode, sound, limits[p]) for p, fold in folds.items()}
-        row |= statistics(alarms, f"{sound}_per_hour")
+        measure = f"{sound}_per_hour"
+        row |= statistics(alarms, measure) if sound == "words" else further_statistics(alarms, measure)
     return row
 
 
@@ -372,7 +373,7 @@ STUDIES = (
         Layout(measure="words_per_hour", percent=False),
         {"vocabulary": tuple(OTHER_WORDS)},
         thins=True,
-        sources=(*WORD_SOURCES, "python/live"),
+        sources=WORD_SOURCES,
     ),
     Study(
         "false-alarms-both",
@@ -384,6 +385,6 @@ STUDIES = (
         Layout(measure="words_per_hour", percent=False),
         {"vocabulary": tuple(OTHER_WORDS)},
         thins=True,
-        sources=(*WORD_SOURCES, "python/live"),
+        sources=WORD_SOURCES,
     ),
 )

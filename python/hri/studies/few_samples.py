@@ -16,7 +16,7 @@ from hri.recognition import WordRecognizer
 from hri.recognition.decision import RECOGNISED
 from hri.studies.clips import Clip, fit_clips, read_clips
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.word_features import WORD_FOLDERS
 
 DATA = ("fsdd", "hindi-words")
@@ -133,8 +133,7 @@ def _rows(found: Mapping[tuple[str, int], Mapping[str, Sequence[Row]]], place: R
                 if measure in ones[0]
             }
             if shares:
-                values = statistics(shares, measure)
-                row |= values if measure == "added" else {k: v for k, v in values.items() if k != "per_fold"}
+                row |= statistics(shares, measure) if measure == "added" else further_statistics(shares, measure)
         yield row
 
 

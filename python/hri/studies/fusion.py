@@ -109,7 +109,7 @@ STUDIES = (
         f"a fusion rule beats the better mode by {100 * GAIN:.0f} points wherever that is below {100 * CEILING:.0f} %",
         _run,
         layout=Layout(columns="decided by"),
-        sources=tuple(dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES, "python/fusion"))),
+        sources=tuple(dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES))),
         folds=True,
     ),
 )

@@ -217,9 +217,6 @@ STUDIES = (
                 (
                     *WORD_SOURCES,
                     *GESTURE_SOURCES,
-                    "python/fusion",
-                    "python/recognition",
-                    "python/studies/fusion_pairs.py",
                 )
             )
         ),

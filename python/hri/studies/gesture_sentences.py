@@ -239,8 +239,6 @@ STUDIES = (
             *GESTURE_SOURCES,
             "cpp/language",
             "cpp/recognition/sentence",
-            "python/language",
-            "python/recognition/sentence",
         ),
         folds=True,
     ),

@@ -105,7 +105,7 @@ STUDIES = (
         _run,
         layout=Layout(measure="kept"),
         axes={"rule": RULES},
-        sources=("cpp/features/hand", "python/features"),
+        sources=("cpp/features/hand",),
         quick={"rule": ("tracker",)},
     ),
 )

@@ -111,6 +111,6 @@ STUDIES = (
         _run,
         layout=Layout(measure="found"),
         axes={"signs": FOLDERS, "way": WAYS},
-        sources=("cpp/vision", "python/vision"),
+        sources=("cpp/vision",),
     ),
 )

@@ -151,7 +151,7 @@ STUDIES = (
         _run,
         Layout(columns="speakers", x="speakers", panel="data"),
         axes={"data": tuple(FOLDERS), "features": tuple(KINDS)},
-        sources=("cpp/htk", "cpp/models/hmm", "cpp/language", "python/htk", "python/language"),
+        sources=("cpp/htk", "cpp/models/hmm", "cpp/language"),
         quick={"data": ("hindi",), "features": ("MFCC",)},
     ),
 )

@@ -193,6 +193,6 @@ STUDIES = (
         _run,
         Layout(columns="gaussians", measure="word_error"),
         thins=True,
-        sources=("cpp/htk", "cpp/models/hmm", "cpp/language", "python/htk", "python/language"),
+        sources=("cpp/htk", "cpp/models/hmm", "cpp/language"),
     ),
 )

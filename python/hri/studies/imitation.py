@@ -97,7 +97,6 @@ STUDIES = (
         _run,
         layout=Layout(measure="rms_cm", percent=False),
         axes={"form": FORMS},
-        sources=("python/robot/model", "python/robot/motion", "python/robot/imitation"),
         quick={"form": FORMS[:1]},
     ),
 )

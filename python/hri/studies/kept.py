@@ -2,26 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """Results that are kept as JSON, and whether they still hold for the code as it is.
 
-A kept result names the commit it was measured at and the hash of every room of the source tree that it depends on.
-Where one of these has changed since, `verify` measures a part of it anew: every value of every fold in that part has to
-be the kept one to the last digit. Then the result is stamped with the present code; otherwise it has to be measured
-again. Where ``"rounded_to"`` says that only means were kept, rounded to so many decimals, these are compared.
+A kept result names the commit it was measured at and the hash of every room of the source tree that it depends on (see
+`hri.studies.provenance`). Where one of these has changed since, `verify` measures a part of it anew: in that part every
+value of every fold that is kept has to be the same to the last digit, and of a row measured whole every measure. Then
+the result is stamped with the present commit; otherwise it has to be measured again. Where ``"rounded_to"`` says that
+only means were kept, rounded to so many decimals, these are compared. What stands beside the rows is not compared.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.core.files import read_json
 from hri.studies.provenance import describe_code, describe_data, hash_rooms, newer_than_build, source_root
 from hri.studies.registry import Progress, Study, find_data, run_study
-from hri.studies.tables import Row, axes_of
+from hri.studies.tables import PER_FOLD, Row, axes_of, folds_of
 
 Only = Mapping[str, Sequence[str]]
+_NOTHING = object()
 
 
 def measure(
@@ -72,24 +76,37 @@ def verify(study: Study, kept: Row, directory: str | os.PathLike[str] | None, pr
     Raises
     ------
     InvalidArgument
-        For other data, a value that differs (names the first), compiled modules that are older than their sources, or
-        an installed package instead of a checkout.
+        For other data, a value that differs (names the first), compiled modules that are older than their sources,
+        sources that are in no commit, or an installed package instead of a checkout.
     """
     root = source_root()
     if root is None:
         raise InvalidArgument("results are verified in a checkout of the sources")
     if newer := newer_than_build(root):
         raise InvalidArgument(f"{newer[0].relative_to(root)} is newer than the compiled modules; run ./run build")
+    code = {"verified": describe_code(root), "sources": hash_rooms(root, study)}
+    if code["verified"]["commit"].endswith("+"):
+        raise InvalidArgument("cpp, bindings or python have changes that are not in a commit; commit them first")
     data = describe_data(find_data(directory), study)
-    if data != kept["data"]:
+    if not _same_data(kept["data"], data):
         raise InvalidArgument(f"{study.name}: the recordings are not those that were measured: {data}")
     arguments = kept["arguments"]
-    code = {"verified": describe_code(root), "sources": hash_rooms(root, study)}
     # Of results that were kept as rounded means only, every fold is needed.
     folds = 1 if study.folds and "rounded_to" not in kept else arguments.get("folds")
     fresh = run_study(study, directory, progress, _quick(study, arguments["only"]), arguments.get("takes"), folds)
-    compare(study.name, kept, fresh)
-    return {**kept, **code}
+    compare(study.name, kept, fresh, limited=folds != arguments.get("folds"))
+    return {**kept, "data": data, **code}
+
+
+def _same_data(kept: Row, now: Row) -> bool:
+    """Whether all that is kept of the recordings still holds; older results have no hash of them."""
+    return kept.keys() == now.keys() and all(kept[name].items() <= now[name].items() for name in kept)
+
+
+def code_of(kept: Row) -> Row:
+    """Version and commit of the code that a result was last verified with, or measured with."""
+    code: Row = kept["verified"] if "verified" in kept else kept["measured"]
+    return code
 
 
 def _quick(study: Study, only: Only) -> dict[str, list[str]]:
@@ -100,35 +117,61 @@ def _quick(study: Study, only: Only) -> dict[str, list[str]]:
     return chosen
 
 
-def compare(name: str, kept: Row, fresh: Row) -> None:
-    """Raise InvalidArgument unless every measured value of `fresh` is one of `kept`, to the last digit kept."""
+def compare(name: str, kept: Row, fresh: Row, limited: bool = False) -> None:
+    """Raise InvalidArgument unless every measured value of `fresh` is the one of `kept`, to the last digit kept.
+
+    Of every row, each measure is compared in the folds measured anew, where the kept result has its folds; of a row of
+    which all folds were measured, everything. With `limited`, not all folds were asked for: then a row without folds
+    is not compared, unless the kept result has no folds at all.
+    """
+    fresh = json.loads(json.dumps(fresh, default=str))  # as kept results are written
     digits = kept.get("rounded_to")
-    old, new = dict(fold_values(kept, digits)), dict(fold_values(fresh, digits))
-    if digits is not None:  # what was never kept cannot be compared
-        new = {place: value for place, value in new.items() if place in old}
-    if not new:
-        raise InvalidArgument(f"{name}: nothing was measured that can be compared")
-    for place, value in new.items():
+    axes = axes_of(kept["rows"])
+    old = {_place(row, axes): row for row in kept["rows"]}
+    no_folds = not any(folds_of(row) for row in kept["rows"])
+    compared = 0
+    for row in fresh["rows"]:
+        place = _place(row, axes)
         if place not in old:
+            if digits is not None:  # what was never kept cannot be compared
+                continue
             raise InvalidArgument(f"{name}: the kept result has no {_said(place)}")
-        if old[place] != value:
-            raise InvalidArgument(f"{name}: {_said(place)} was {old[place]}, is {value}")
+        for what, then, now in _pairs(old[place], row, whole=no_folds or not limited):
+            if digits is not None:
+                if not _is_measure(what[-1]) or None in (then, now):
+                    continue
+                then, now = round(then, digits), round(now, digits)
+            if then is _NOTHING:
+                raise InvalidArgument(f"{name}: the kept result has no {_said((*place, *what))}")
+            if now is _NOTHING:
+                raise InvalidArgument(f"{name}: {_said((*place, *what))} is no longer measured")
+            if json.dumps(then, sort_keys=True) != json.dumps(now, sort_keys=True):  # as text: NaN is itself
+                raise InvalidArgument(f"{name}: {_said((*place, *what))} was {then}, is {now}")
+            compared += 1
+    if not compared:
+        raise InvalidArgument(f"{name}: nothing was measured that can be compared")
 
 
-def fold_values(result: Row, digits: int | None = None) -> Iterator[tuple[tuple[str, ...], float]]:
-    """Every fold's value by what was varied; the means, rounded to `digits`, of a result that has no folds."""
-    rows = result["rows"]
-    axes = axes_of(rows)
-    with_folds = digits is None and any("per_fold" in row for row in rows)
-    for row in rows:
-        place = tuple(str(row.get(axis, "")) for axis in axes)
-        if with_folds:
-            yield from (((*place, fold), value) for fold, value in row.get("per_fold", {}).items())
-        else:
-            means = {key: value for key, value in row.items() if key.endswith(("_mean", "_std"))}
-            yield from (
-                ((*place, key), value if digits is None else round(value, digits)) for key, value in means.items()
-            )
+def _place(row: Row, axes: Sequence[str]) -> tuple[str, ...]:
+    return tuple(str(row.get(axis, "")) for axis in axes)
+
+
+def _pairs(old: Row, new: Row, whole: bool) -> Iterator[tuple[tuple[str, ...], Any, Any]]:
+    """What is compared of a row: its name, the kept value and the new one; `whole` is for a row without folds."""
+    then, now = folds_of(old), folds_of(new)
+    both = [key for key in now if key in then]
+    for key in both:
+        measure = key[: -len(PER_FOLD)].rstrip("_")
+        for fold, value in now[key].items():
+            yield (*((measure,) if measure else ()), fold), then[key].get(fold, _NOTHING), value
+    if all(then[key].keys() == now[key].keys() for key in both) if both else whole:
+        for key, value in old.items():
+            if _is_measure(key) or (isinstance(value, dict) and key in new and key not in then):
+                yield (key,), value, new.get(key, _NOTHING)
+
+
+def _is_measure(key: str) -> bool:
+    return key.endswith(("_mean", "_std"))
 
 
 def _said(place: Sequence[str]) -> str:

@@ -101,6 +101,6 @@ STUDIES = (
         _run,
         layout=Layout(measure="separated"),
         axes={"way": WAYS},
-        sources=("cpp/vision", "python/vision"),
+        sources=("cpp/vision",),
     ),
 )

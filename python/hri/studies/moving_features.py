@@ -24,7 +24,7 @@ from hri.studies.hybrid_features import FAMILIES, NUM_FRAMES, NUM_PARTS, SEEDS, 
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.sign_features import FEATURES as SIGN_FEATURES
 from hri.studies.sign_shapes import CLASSIFIERS, NUM_COMPONENTS, NUM_NEIGHBOURS, Fit, scaled
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.webcam import CONDITIONS, FOLDER, PATTERN, read_conditions
 from hri.vision.hands import find_silhouettes
 
@@ -162,9 +162,7 @@ def _run_features(
     for (name, classifier), values in per_fold.items():
         row = {"features": name, "classifier": classifier, **statistics(values)}
         if (name, classifier) in frames:
-            single = statistics(frames[name, classifier], "frames")
-            row |= {"frames_mean": single["frames_mean"], "frames_std": single["frames_std"]}
-            row["frames_by_condition"] = frames[name, classifier]
+            row |= further_statistics(frames[name, classifier], "frames")
         rows_of_result.append(row)
     return {"seeds": list(SEEDS), "num_neighbours": neighbours, "rows": rows_of_result, "passed": None}
 
@@ -227,14 +225,12 @@ def _run_sentences(
                 errors[condition] = counted.rate
                 whole[condition] = float(np.mean([a == b for a, b in zip(truth, found, strict=True)]))
                 progress(f"{num_bins} bins, {name}", done + 1, len(conditions))
-            measured = statistics(errors, "word_error")
             rows.append(
                 {
                     "bins": num_bins,
                     "model": name,
                     **statistics(whole),
-                    "word_error_mean": measured["word_error_mean"],
-                    "word_error_std": measured["word_error_std"],
+                    **further_statistics(errors, "word_error"),
                     "over_all": {"word_error": total.rate, **vars(total)},
                 }
             )
@@ -247,10 +243,6 @@ _SOURCES = (
     "cpp/features/hand",
     "cpp/models/...",
     "cpp/vision",
-    "python/features",
-    "python/models",
-    "python/vision",
-    "python/studies/sign_shapes.py",
 )
 
 STUDIES = (
@@ -277,7 +269,7 @@ STUDIES = (
         _run_sentences,
         layout=Layout(columns="model"),
         axes={"bins": BINS, "model": MODELS},
-        sources=(*_SOURCES, "cpp/language", "cpp/recognition/sentence", "python/recognition/sentence"),
+        sources=(*_SOURCES, "cpp/language", "cpp/recognition/sentence"),
         folds=True,
         quick={"bins": ("18",), "model": ("ptbhmm",)},
     ),

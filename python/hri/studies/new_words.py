@@ -20,7 +20,7 @@ from hri.recognition import SubwordRecognizer, WordRecognizer
 from hri.studies.clips import Clip, read_clips
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.synthetic_speakers import WORDS
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.word_features import WORD_FOLDERS
 from hri.synthetic.speech import make_speech_corpus
 
@@ -151,8 +151,7 @@ def _rows(found: dict[tuple[str, int], dict[str, list[Row]]], name: str) -> Iter
         row: Row = {"data": name, "method": method, "recordings": count}
         for measure in ("added", "others", "all"):
             shares = {person: float(np.mean([one[measure] for one in ones])) for person, ones in by_person.items()}
-            values = statistics(shares, measure)
-            row |= values if measure == "added" else {k: v for k, v in values.items() if k != "per_fold"}
+            row |= statistics(shares, measure) if measure == "added" else further_statistics(shares, measure)
         yield row
 
 
@@ -198,7 +197,7 @@ STUDIES = (
         _run,
         layout=Layout(columns="recordings", x="recordings", panel="data", measure="added"),
         axes={"data": tuple(WORDS)},
-        sources=(*WORD_SOURCES, "cpp/recognition/subword", "cpp/htk", "python/recognition/subword", "python/language"),
+        sources=(*WORD_SOURCES, "cpp/recognition/subword", "cpp/htk"),
         folds=True,
         quick={"data": ("hindi-words",)},
     ),

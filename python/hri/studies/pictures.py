@@ -11,7 +11,8 @@ import numpy as np
 
 from hri.core.plotting import new_axes, new_figure, save_figure
 from hri.studies.registry import Layout
-from hri.studies.tables import Row, axes_of, result_rows
+from hri.studies.rendering import result_rows
+from hri.studies.tables import Row, axes_of
 
 
 def draw(result: Row, layout: Layout, path: str | PathLike[str] | None = None) -> Any:

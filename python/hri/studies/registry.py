@@ -22,8 +22,6 @@ WORD_SOURCES = (
     "cpp/models/...",
     "cpp/recognition",
     "cpp/recognition/word",
-    "python/recognition/word",
-    "python/evaluation",
 )
 """The rooms that the recognition of words depends on; see `Study.sources`."""
 GESTURE_SOURCES = (
@@ -33,9 +31,6 @@ GESTURE_SOURCES = (
     "cpp/recognition",
     "cpp/recognition/gesture",
     "cpp/vision",
-    "python/recognition/gesture",
-    "python/vision",
-    "python/evaluation",
 )
 """Those that the recognition of gestures depends on."""
 

@@ -153,8 +153,6 @@ STUDIES = (
             *WORD_SOURCES,
             "cpp/language",
             "cpp/recognition/sentence",
-            "python/language",
-            "python/recognition/sentence",
         ),
     ),
 )

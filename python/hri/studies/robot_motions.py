@@ -157,8 +157,6 @@ def _robustness_row(motion: str, condition: str, found: dict[tuple[str, str, int
     }
 
 
-_SOURCES = ("python/robot/model", "python/robot/motion", "python/robot/control", "python/robot/simulation")
-
 STUDIES = (
     Study(
         name="factory-motions",
@@ -168,7 +166,6 @@ STUDIES = (
         "its base above 0.27 m for 2 s",
         run=_factory_motions,
         layout=Layout(measure="forward_m", percent=False),
-        sources=_SOURCES,
     ),
     Study(
         name="factory-robustness",
@@ -178,7 +175,6 @@ STUDIES = (
         run=_factory_robustness,
         layout=Layout(measure="successes", percent=False),
         axes={"motion": tuple(MOTIONS), "condition": tuple(CONDITIONS)},
-        sources=_SOURCES,
         quick={"motion": ("walk.csv",), "condition": ("as built",)},
     ),
 )

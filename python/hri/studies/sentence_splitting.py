@@ -181,7 +181,7 @@ STUDIES = (
         "none: a baseline beside the decoder of gesture-sentences",
         _run,
         Layout(columns="named", measure="word_error"),
-        sources=(*GESTURE_SOURCES, "python/language", "python/studies/gesture_sentences.py"),
+        sources=GESTURE_SOURCES,
         folds=True,
     ),
 )

@@ -231,9 +231,6 @@ SOURCES = (
     "cpp/language",
     "cpp/recognition",
     "cpp/recognition/sentence",
-    "python/datasets",
-    "python/language",
-    "python/recognition/sentence",
 )
 
 STUDIES = (

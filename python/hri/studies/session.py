@@ -299,14 +299,7 @@ STUDIES = (
         "of the turns taken apart or joined wrongly",
         _run,
         Layout(),
-        sources=(
-            *dict.fromkeys(
-                (
-                    *(*WORD_SOURCES, *GESTURE_SOURCES, "python/live", "python/fusion", "python/session"),
-                    *("python/robot/control", "python/robot/motion"),
-                )
-            ),
-        ),
+        sources=(*dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES)),),
         folds=True,
     ),
 )

@@ -93,11 +93,6 @@ STUDIES = (
                 (
                     *WORD_SOURCES,
                     *GESTURE_SOURCES,
-                    "python/live",
-                    "python/fusion",
-                    "python/session",
-                    "python/robot/control",
-                    "python/robot/motion",
                 )
             ),
         ),

@@ -180,18 +180,7 @@ STUDIES = (
         f"{MAX_COMPUTE_MS:.0f} ms of computing (median)",
         _run,
         Layout(),
-        sources=(
-            *dict.fromkeys(
-                (
-                    *WORD_SOURCES,
-                    "python/live",
-                    "python/fusion",
-                    "python/session",
-                    "python/robot/control",
-                    "python/robot/motion",
-                )
-            ),
-        ),
+        sources=WORD_SOURCES,
         folds=True,
     ),
 )

@@ -23,7 +23,7 @@ from hri.studies.commands import FRONT_ENDS as TWO_FRONT_ENDS
 from hri.studies.false_alarms import Samples, compose_words
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study
 from hri.studies.session_stop import NUM_FOLDS, WORDS
-from hri.studies.tables import statistics
+from hri.studies.tables import further_statistics, statistics
 
 SEED = 0
 FRONT_ENDS: dict[str, WordRecognizerKeywords] = {**TWO_FRONT_ENDS, "embedding": {"front_end": "embedding"}}
@@ -89,7 +89,8 @@ def _run(
                 shares[kind][place] = found[kind] / hours
         row: dict[str, Any] = {"front_end": name}
         for kind, values in shares.items():
-            row |= statistics({p: 100 * v if kind == "heard" else v for p, v in values.items()}, kind)
+            shown = {p: 100 * v if kind == "heard" else v for p, v in values.items()}
+            row |= statistics(shown, kind) if kind == "stops" else further_statistics(shown, kind)
         rows.append(row)
     return {
         "seed": SEED,
@@ -109,7 +110,7 @@ STUDIES = (
         _run,
         Layout(measure="stops", percent=False),
         axes={"front_end": tuple(FRONT_ENDS)},
-        sources=(*dict.fromkeys((*WORD_SOURCES, "python/live", "python/fusion", "python/session")),),
+        sources=WORD_SOURCES,
         folds=True,
         quick={"front_end": ("cepstra",)},
     ),

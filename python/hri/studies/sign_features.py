@@ -200,10 +200,7 @@ _SOURCES = (
     "cpp/signal",
     "cpp/features/hand",
     "cpp/models/...",
-    "python/models",
-    "python/features",
     "cpp/vision",
-    "python/studies/sign_shapes.py",
 )
 
 STUDIES = (

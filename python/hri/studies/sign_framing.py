@@ -155,10 +155,7 @@ STUDIES = (
             "cpp/signal",
             "cpp/features/hand",
             "cpp/models/...",
-            "python/models",
-            "python/features",
             "cpp/vision",
-            "python/studies/sign_shapes.py",
         ),
         quick={
             "signal": ("columns",),

@@ -51,7 +51,7 @@ def _study(
         f"is decided before it is learned from{alone}",
         run,
         Layout(),
-        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
+        sources=WORD_SOURCES,
         folds=True,
     )
 

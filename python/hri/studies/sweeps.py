@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from hri.evaluation import EvaluationResult, evaluate_conditions
+from hri.evaluation import EvaluationItem, EvaluationResult, evaluate_conditions
 from hri.evaluation.conditions import Condition
 from hri.recognition import WordRecognizer
 from hri.recognition.decision import NO_INPUT, RECOGNISED
 from hri.studies.front_ends import CHOICES
 from hri.studies.registry import Progress, within
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, by_fold, statistics
 from hri.studies.word_features import load_words
 
 SEED = 0
@@ -31,16 +31,25 @@ def measured(result: EvaluationResult) -> Row:
     Accuracy by fold (the best label is right, rejected or not), and of all clips the shares that were recognised, that
     were recognised and rightly, and in which no speech was found, and the expected calibration error.
     """
-    unheard = [np.mean([t.decision.status == NO_INPUT for t in fold.items]) for fold in result.folds]
+    unheard = {fold.name: _share(fold.items, NO_INPUT) for fold in result.folds}
     row: Row = {
         **statistics({fold.name: fold.accuracy for fold in result.folds}),
-        "recognised_mean": float(np.mean([t.decision.status == RECOGNISED for t in result.items])),
+        "recognised_mean": _share(result.items, RECOGNISED),
+        **by_fold("recognised", {fold.name: _share(fold.items, RECOGNISED) for fold in result.folds}),
         "right_mean": result.recognised_right,
-        "no_input_mean": float(np.mean(unheard)),
-        "no_input_std": float(np.std(unheard)),
+        **by_fold("right", {fold.name: fold.recognised_right for fold in result.folds}),
+        "no_input_mean": float(np.mean(list(unheard.values()))),
+        "no_input_std": float(np.std(list(unheard.values()))),
+        **by_fold("no_input", unheard),
     }
-    error = result.calibration_error
-    return row if error is None else {**row, "calibration_error_mean": error}
+    if (error := result.calibration_error) is not None:
+        errors = {fold.name: fold.calibration_error for fold in result.folds}
+        row |= {"calibration_error_mean": error, **by_fold("calibration_error", errors)}
+    return row
+
+
+def _share(items: Sequence[EvaluationItem], status: str) -> float:
+    return float(np.mean([t.decision.status == status for t in items]))
 
 
 def sweep(

@@ -96,7 +96,7 @@ STUDIES = (
         layout=Layout(columns="synthetic", x="synthetic", panel="data"),
         axes={"data": tuple(WORDS), "real": tuple(map(str, REAL)), "synthetic": tuple(map(str, SYNTHETIC))},
         thins=True,
-        sources=(*WORD_SOURCES, "python/synthetic"),
+        sources=WORD_SOURCES,
         quick={"data": ("hindi-digits",), "real": ("0",)},
     ),
 )

@@ -50,7 +50,7 @@ STUDIES = (
         layout=Layout(columns="tempo", x="tempo", panel="data"),
         axes={"data": DATA, "training": TRAINING},
         thins=True,
-        sources=(*WORD_SOURCES, "python/studies/sweeps.py"),
+        sources=WORD_SOURCES,
         folds=True,
         quick={"data": ("hindi-words",), "training": ("natural",)},
     ),

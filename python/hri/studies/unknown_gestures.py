@@ -19,7 +19,7 @@ from hri.recognition import Decision, GestureRecognizer
 from hri.recognition.decision import NO_INPUT, RECOGNISED
 from hri.studies import webcam
 from hri.studies.registry import GESTURE_SOURCES, Layout, Progress, Study, within
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.unknown_words import halves
 
 SEED = 0
@@ -140,8 +140,7 @@ def _measure(
             measured.setdefault(measure, {})[f"half {number + 1}"] = value
     row: Row = {}
     for measure, values in measured.items():
-        row |= {key: value for key, value in statistics(values, measure).items() if key != "per_fold"}
-    row["per_fold"] = measured["eer"]
+        row |= statistics(values, measure) if measure == "eer" else further_statistics(values, measure)
     return row, {"halves": chosen, "by_half": measured}
 
 

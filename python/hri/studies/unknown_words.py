@@ -23,7 +23,7 @@ from hri.recognition.decision import NO_INPUT, RECOGNISED
 from hri.studies.noise import noise_paths
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.speech import FrontEndKind
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.word_features import WORD_FOLDERS, load_words
 
 SEED = 0
@@ -144,8 +144,7 @@ def _measure(
             curve[name] = false_rejects_at(turn.known, turn.unknown, FALSE_ACCEPTS)
     row: Row = {}
     for measure, values in measured.items():
-        row |= {key: value for key, value in statistics(values, measure).items() if key != "per_fold"}
-    row["per_fold"] = measured["eer"]
+        row |= statistics(values, measure) if measure == "eer" else further_statistics(values, measure)
     mean = np.mean(list(curve.values()), axis=0)
     more = {"halves": chosen, "by_fold": measured, "curve_by_fold": curve, "curve": [float(x) for x in mean]}
     return row, more

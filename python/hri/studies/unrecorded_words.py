@@ -18,7 +18,7 @@ from hri.studies.clips import Clip, read_clips
 from hri.studies.connected_words import directory_of, fit_connected, strings_of
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.synthetic_speakers import WORDS
-from hri.studies.tables import Row, statistics
+from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.word_features import WORD_FOLDERS
 from hri.synthetic.speech import speak_words
 
@@ -97,8 +97,8 @@ def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = DATA, take
 def _row(name: str, method: str, by_person: dict[str, dict[str, float]]) -> Row:
     row: Row = {"data": name, "method": method}
     for measure in MEASURES:
-        values = statistics({person: of[measure] for person, of in by_person.items()}, measure)
-        row |= values if measure == "added" else {k: v for k, v in values.items() if k != "per_fold"}
+        shares = {person: of[measure] for person, of in by_person.items()}
+        row |= statistics(shares, measure) if measure == "added" else further_statistics(shares, measure)
     return row
 
 
@@ -119,9 +119,6 @@ STUDIES = (
             *WORD_SOURCES,
             "cpp/language",
             "cpp/recognition/sentence",
-            "python/language",
-            "python/recognition/sentence",
-            "python/synthetic",
         ),
     ),
 )

@@ -84,7 +84,7 @@ STUDIES = (
         (FOLDER,),
         f"the last decision of the stream is right as often as that of the file, less {100 * MAX_GAP:.0f} points",
         _live,
-        sources=(*GESTURE_SOURCES, "python/live"),
+        sources=GESTURE_SOURCES,
         folds=True,
     ),
 )

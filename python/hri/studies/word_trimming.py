@@ -87,7 +87,7 @@ STUDIES = (
         Layout(columns="clips", panel="test"),
         axes={"data": tuple(FOLDERS)},
         thins=True,
-        sources=(*WORD_SOURCES, "python/studies/commands.py", "python/studies/sweeps.py"),
+        sources=WORD_SOURCES,
         folds=True,
         quick={"data": ("hindi-digits",)},
     ),
