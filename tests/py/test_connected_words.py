@@ -382,3 +382,32 @@ def test_htk_counts_errors_of_what_was_transcribed(hri, kept: tuple[Path, Path],
     (tmp_path / "list").write_text("1\n2\n")
     counted = hri("htk", "results", "-I", tmp_path / "said.mlf", tmp_path / "list", tmp_path / "found.mlf")
     assert "[H=3, D=0, S=0, I=1, N=3]" in counted.out
+
+
+def test_word_errors_are_measured_with_speakers_held_out(
+    hri, spoken: Path, sentence: np.ndarray, tmp_path: Path
+) -> None:
+    (tmp_path / "numbers").mkdir()
+    for name in ("a_low.wav", "b.wav"):
+        write_wav_pcm16(str(tmp_path / "numbers" / name), sentence, RATE_HZ)
+    said = tmp_path / "numbers" / "said.mlf"
+    said.write_text('#!MLF!#\n"*/a_low.lab"\n1\n2\n2\n1\n.\n"*/b.lab"\n1\n2\n3\n.\n')
+    quick = ("words.num_states=5", "words.num_vtlp_factors=1", "words.num_noisy_copies=0", "choose_penalty=false")
+    arguments = ("--data", spoken, "--transcripts", said, *(f"--option={option}" for option in quick))
+    measured = hri("evaluate", "connected", *arguments, "--json", tmp_path / "found.json")
+    assert measured.code == 0 and "name no person" in measured.err and "wherever they stand: 3" in measured.err
+    rows = [line.split("\t") for line in measured.out.splitlines()]
+    assert [row[0] for row in rows] == ["held out", "low", "others", "all"]
+    assert rows[1][1:] == ["1", "4", "0", "0", "0", "0.0 %", "100.0 %"] and rows[2][3:6] == ["1", "0", "1"]
+    found = json.loads((tmp_path / "found.json").read_text())
+    assert found["word_error_rate"] == 2 / 7 and found["folds"][0]["items"][0]["found"] == WORDS
+    said.write_text("1 2 2 1 (a_low)\n1 2 2 (c)\n")
+    refused = hri("evaluate", "connected", *arguments)
+    assert refused.code == 3 and "'c' is the name of 0 recordings" in refused.err
+    said.write_text("1 2 2 1\n")
+    assert "row 1: is not words and the name" in hri("evaluate", "connected", *arguments).err
+    for wrong in (("--folds", 2), ("--noise", "white"), ("--network",)):
+        refused = hri("evaluate", "connected", *arguments, *wrong)
+        assert refused.code == 2 and f"{wrong[0]} is for speech and gesture" in refused.err
+    assert "--transcripts is for connected" in hri("evaluate", "speech", *arguments).err
+    assert "connected takes --data DIR" in hri("evaluate", "connected", "--data", spoken).err
