@@ -19,7 +19,7 @@ from hri.core.errors import FormatError, InvalidArgument, NotFittedError
 from hri.datasets import Dataset
 from hri.htk import WordLattice
 from hri.io import SpokenWords, write_wav_pcm16
-from hri.language import Grammar, NGramModel
+from hri.language import Grammar, NGramModel, NGramOptions
 from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream, FillerWord
 from hri.synthetic.speech import make_speaker, speak
 
@@ -249,3 +249,165 @@ def test_command_line_says_what_is_missing(hri, spoken: Path, tmp_path: Path) ->
     (tmp_path / "bad.arpa").write_text("\\data\\\n")
     damaged = hri("train-connected", "--data", spoken, "--language", tmp_path / "bad.arpa")
     assert damaged.code == 3 and "bad.arpa: line 1: has no counts of n-grams" in damaged.err
+
+
+@pytest.fixture
+def kept(words: ConnectedWordRecognizer, sentence: np.ndarray, tmp_path: Path) -> tuple[Path, Path]:
+    """A model and a recording of the sentence, as files."""
+    words.save(tmp_path / "words.hri")
+    write_wav_pcm16(str(tmp_path / "number.wav"), sentence, RATE_HZ)
+    return tmp_path / "words.hri", tmp_path / "number.wav"
+
+
+def test_transcribe_refuses_what_would_have_no_effect(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
+    model, file = kept
+    (tmp_path / "tones.jsgf").write_text(GRAMMAR)
+    NGramModel.train([WORDS]).save(tmp_path / "digits.arpa")
+    grammar, language = ("--grammar", tmp_path / "tones.jsgf"), ("--language", tmp_path / "digits.arpa")
+    for arguments, message in (
+        (("--stream", "--words", 2), "--words is for whole recordings"),
+        (("--stream", "--alternatives", 3), "--alternatives is for whole recordings"),
+        (("--stream", "--lattices", tmp_path), "--lattices is for whole recordings"),
+        (("--stream", "--mlf", tmp_path / "a.mlf"), "--mlf is for whole recordings"),
+        (("--stream", "--json", "-"), "--json goes without --stream"),
+        ((*grammar, "--words", 2), "--grammar and --words exclude each other"),
+        ((*language, "--words", 2), "--language and --words exclude each other"),
+        ((*language, *grammar), "and --grammar exclude each other"),
+        (("--no-language", *language), "and --language exclude each other"),
+    ):
+        refused = hri("transcribe", file, "--model", model, *arguments)
+        assert refused.code == 2 and message in refused.err
+    for arguments in (("--no-grammar",), ("--no-language",), ("--language-scale", 3)):
+        refused = hri("transcribe", file, "--model", model, *arguments)
+        assert refused.code == 3 and arguments[0] in refused.err
+    streamed = hri("transcribe", file, "--model", model, "--stream", "--times")
+    assert [line.split("\t")[2] for line in streamed.out.splitlines()] == WORDS
+
+
+def test_transcribe_goes_on_behind_a_bad_recording(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
+    model, file = kept
+    (tmp_path / "empty.wav").write_bytes(b"RIFF")
+    other = tmp_path / "other.wav"
+    shutil.copy(file, other)
+    done = hri("--quiet", "transcribe", file, tmp_path / "empty.wav", other, "--model", model, "--json", tmp_path / "j")
+    assert done.code == 3 and done.err.count("hri: error: ") == 1 and "empty.wav" in done.err
+    assert done.out == f"{file}\t1 2 2 1\n{other}\t1 2 2 1\n"
+    found = json.loads((tmp_path / "j").read_text())
+    assert found[str(other)]["text"] == "1 2 2 1" and list(found[str(tmp_path / "empty.wav")]) == ["error"]
+    lines = hri("transcribe", file, other, "--model", model, "--times").out.splitlines()
+    assert [line.split("\t")[0] for line in lines] == [str(file)] * 4 + [str(other)] * 4
+
+
+def test_words_of_no_sentence_of_the_grammar_are_no_result(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
+    model, file = kept
+    (tmp_path / "long.jsgf").write_text(
+        f"#JSGF V1.0;\ngrammar g;\n<w> = 1 | 2;\npublic <s> = {' '.join(100 * ['<w>'])};\n"
+    )
+    done = hri("transcribe", file, "--model", model, "--grammar", tmp_path / "long.jsgf")
+    assert (done.code, done.out) == (0, "\n") and "no sentence of the grammar fits" in done.err
+    report = hri("transcribe", file, "--model", model, "--grammar", tmp_path / "long.jsgf", "--json", "-").out
+    (found,) = json.loads(report).values()
+    assert not found["complete"] and found["words"] == [] and found["notes"] == ["no sentence of the grammar fits"]
+
+
+def test_lattices_stand_apart_and_say_scale_and_penalty(
+    hri, words: ConnectedWordRecognizer, kept: tuple[Path, Path], tmp_path: Path
+) -> None:
+    model, file = kept
+    (tmp_path / "a").mkdir()
+    shutil.copy(file, tmp_path / "a" / "number.wav")
+    refused = hri("transcribe", file, tmp_path / "a" / "number.wav", "--model", model, "--lattices", tmp_path / "l")
+    assert refused.code == 2 and "would both be" in refused.err and not (tmp_path / "l").exists()
+    assert hri("transcribe", file, "--model", model, "--lattices", tmp_path / "l", "--words", 3).code == 0
+    written = WordLattice.read(tmp_path / "l" / "number.slf")
+    assert written.insertion_penalty == words.insertion_penalty and written.language_scale == 1
+    assert {weight for _, _, weight in written.arcs} == {0.0}  # words in any order have no weight
+    lattice, first_s, frame_s = words.lattice(file, num_words=3)
+    back = written.to_lattice(["1", "2", "<sil>", "<unk>"], ["<sil>"], first_s, frame_s)
+    assert len([word for word in back.best().words if word.model < 2]) == 3
+    assert back.best().log_score == pytest.approx(lattice.best().log_score)
+    with pytest.raises(InvalidArgument, match="num_words is 0"):
+        words.lattice(file, num_words=0)
+
+
+def test_a_language_model_or_grammar_is_set_and_dropped(
+    hri, words: ConnectedWordRecognizer, kept: tuple[Path, Path], tmp_path: Path
+) -> None:
+    model, file = kept
+    plain = words.to_model_file().to_bytes()
+    changed = copy.deepcopy(words).set_grammar(Grammar.parse("#JSGF V1.0;\ngrammar g;\npublic <s> = 1 2;", "g"))
+    assert changed.grammar is not None and changed.grammar.words == ["1", "2"] and changed.language is None
+    changed.save(tmp_path / "grammar.hri")
+    assert changed.set_grammar(None).grammar is None and changed.to_model_file().to_bytes() == plain
+    language = NGramModel.train([["2"]] * 1000, vocabulary=["1"])
+    changed.set_language(language).save(tmp_path / "language.hri")
+    assert changed.language is not None and changed.language.to_arpa() == language.to_arpa()
+    assert changed.set_language(None).language is None and changed.to_model_file().to_bytes() == plain
+    lines = hri("info", tmp_path / "grammar.hri").out.splitlines()
+    assert "grammar words\t1 2" in lines and any(line.startswith("grammar nodes\t") for line in lines)
+    assert {"language order\t2", "language ngrams\t4 2"} <= set(hri("info", tmp_path / "language.hri").out.splitlines())
+    assert hri("transcribe", file, "--model", tmp_path / "grammar.hri").out == "1 2\n"
+    assert hri("transcribe", file, "--model", tmp_path / "grammar.hri", "--no-grammar").out == "1 2 2 1\n"
+    language.save(tmp_path / "twos.arpa")
+    free = ("--model", model, "--language", tmp_path / "twos.arpa")
+    assert hri("transcribe", file, *free, "--language-scale", 1e5).out == "2\n"
+    counted = hri("transcribe", file, "--model", tmp_path / "language.hri", "--words", 4)
+    assert counted.out == "1 2 2 1\n" and "the language model of the model has no say" in counted.err
+
+
+def test_training_checks_the_language_model_before_it_begins(hri, spoken: Path, tmp_path: Path) -> None:
+    options = [f"words.{name}={value}" for name, value in OPTIONS["words"].items()]
+    arguments = ["--data", spoken, *(word for option in options for word in ("--option", option))]
+    (tmp_path / "1.arpa").write_text("\\data\\\nngram 1=3\n\n\\1-grams:\n-1 </s>\n-99 <s>\n-1 1\n\n\\end\\\n")
+    refused = hri("train-connected", *arguments, "--language", tmp_path / "1.arpa")
+    assert refused.code == 3 and "1.arpa: does not have these labels, and no <unk>: 2" in refused.err
+    NGramModel.train([WORDS], NGramOptions(order=3)).save(tmp_path / "3.arpa")
+    refused = hri("train-connected", *arguments, "--language", tmp_path / "3.arpa")
+    assert refused.code == 3 and "3.arpa: has order 3" in refused.err
+    assert not (tmp_path / "data").exists()
+    (tmp_path / "1.arpa").write_text("\\data\\\nngram 1=4\n\n\\1-grams:\n-1 </s>\n-99 <s>\n-1 <unk>\n-1 1\n\n\\end\\\n")
+    for extra, scale in (((), 10), (("--language-scale", 7), 7), (("--option", "decoder.language_scale=1"), 1)):
+        trained = hri("train-connected", *arguments, "--language", tmp_path / "1.arpa", *extra)
+        assert trained.code == 0 and "<unk> stands for each: 2\n" in trained.err
+        assert ConnectedWordRecognizer.load(trained.out.strip()).language_scale == scale
+    both = ("--language", tmp_path / "1.arpa", "--option", "decoder.language_scale=1", "--language-scale", 2)
+    assert hri("train-connected", *arguments, *both).code == 2
+    assert "goes with --language" in hri("train-connected", *arguments, "--language-scale", 2).err
+
+
+def test_htk_counts_errors_of_what_was_transcribed(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
+    model, file = kept
+    assert hri("transcribe", file, "--model", model, "--mlf", tmp_path / "found.mlf").code == 0
+    (tmp_path / "said.mlf").write_text('#!MLF!#\n"*/number.lab"\n1\n2\n1\n.\n')
+    (tmp_path / "list").write_text("1\n2\n")
+    counted = hri("htk", "results", "-I", tmp_path / "said.mlf", tmp_path / "list", tmp_path / "found.mlf")
+    assert "[H=3, D=0, S=0, I=1, N=3]" in counted.out
+
+
+def test_word_errors_are_measured_with_speakers_held_out(
+    hri, spoken: Path, sentence: np.ndarray, tmp_path: Path
+) -> None:
+    (tmp_path / "numbers").mkdir()
+    for name in ("a_low.wav", "b.wav"):
+        write_wav_pcm16(str(tmp_path / "numbers" / name), sentence, RATE_HZ)
+    said = tmp_path / "numbers" / "said.mlf"
+    said.write_text('#!MLF!#\n"*/a_low.lab"\n1\n2\n2\n1\n.\n"*/b.lab"\n1\n2\n3\n.\n')
+    quick = ("words.num_states=5", "words.num_vtlp_factors=1", "words.num_noisy_copies=0", "choose_penalty=false")
+    arguments = ("--data", spoken, "--transcripts", said, *(f"--option={option}" for option in quick))
+    measured = hri("evaluate", "connected", *arguments, "--json", tmp_path / "found.json")
+    assert measured.code == 0 and "name no person" in measured.err and "wherever they stand: 3" in measured.err
+    rows = [line.split("\t") for line in measured.out.splitlines()]
+    assert [row[0] for row in rows] == ["held out", "low", "others", "all"]
+    assert rows[1][1:] == ["1", "4", "0", "0", "0", "0.0 %", "100.0 %"] and rows[2][3:6] == ["1", "0", "1"]
+    found = json.loads((tmp_path / "found.json").read_text())
+    assert found["word_error_rate"] == 2 / 7 and found["folds"][0]["items"][0]["found"] == WORDS
+    said.write_text("1 2 2 1 (a_low)\n1 2 2 (c)\n")
+    refused = hri("evaluate", "connected", *arguments)
+    assert refused.code == 3 and "'c' is the name of 0 recordings" in refused.err
+    said.write_text("1 2 2 1\n")
+    assert "row 1: is not words and the name" in hri("evaluate", "connected", *arguments).err
+    for wrong in (("--folds", 2), ("--noise", "white"), ("--network",)):
+        refused = hri("evaluate", "connected", *arguments, *wrong)
+        assert refused.code == 2 and f"{wrong[0]} is for speech and gesture" in refused.err
+    assert "--transcripts is for connected" in hri("evaluate", "speech", *arguments).err
+    assert "connected takes --data DIR" in hri("evaluate", "connected", "--data", spoken).err

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from copy import copy
 from pathlib import Path
 
@@ -106,6 +107,25 @@ def test_a_dictionary_comes_before_the_spelling(spoken: Dataset) -> None:
         recognizer.fit(
             [s.path for s in chosen], [s.label for s in chosen], dictionary=Dictionary.parse("go sil o\n", "words")
         )
+
+
+def test_a_dictionary_without_effect_is_refused(hri, spoken: Dataset, tmp_path: Path) -> None:
+    few = tmp_path / "few"
+    few.mkdir()
+    for sample in spoken.samples:
+        if sample.label in ("go", "stop"):
+            shutil.copy(sample.path, few / f"{sample.label}_{sample.person}_0.wav")
+    arguments = ["train-units", "--data", str(few), "--out", str(tmp_path / "units.hri"), "--dictionary"]
+    options = [f"--option={name}" for name in ("words.num_vtlp_factors=1", "num_folds=0", "num_word_folds=0")]
+    (tmp_path / "words").write_text(";;; comment\nGO G OW\nzebra z\n")
+    refused = hri(*arguments, str(tmp_path / "words"), *options)
+    assert refused.code == 3 and "words: the dictionary has none of the labels go stop; " in refused.err
+    assert "letters differ in GO for go" in refused.err
+    (tmp_path / "words").write_text(";;;\ngo G OW\n")
+    trained = hri(*arguments, str(tmp_path / "words"), *options)
+    assert trained.code == 0 and "words, pronounced by espeak-ng: stop\n" in trained.err and "G OW" in trained.err
+    (tmp_path / "words").write_text(";;; comment\ngo\n")
+    assert "words: line 2:" in hri(*arguments, str(tmp_path / "words"), *options).err
 
 
 def test_the_command_line_adds_a_word_by_its_spelling(hri, spoken: Dataset, tmp_path: Path) -> None:

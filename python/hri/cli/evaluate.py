@@ -19,16 +19,17 @@ from hri.cli.choices import (
     source_option,
     what_words_are_of,
 )
+from hri.cli.evaluate_connected import evaluate_connected
 from hri.cli.faces import faces_option, require_faces
-from hri.cli.groups import CheckedCommand, FiniteRange
+from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say_table, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
+    CLASSES,
     embedding_for,
     embedding_option,
     load_dataset,
-    mode_argument,
     options_option,
     pattern_option,
     recognizer_factory,
@@ -42,10 +43,16 @@ _folder = click.Path(exists=True, file_okay=False)
 
 
 @click.command(cls=CheckedCommand)
-@mode_argument
+@click.argument("mode", type=click.Choice([*CLASSES, "connected"]))
 @click.option("--data", type=_folder, help="Folder of recordings, split into folds by person.")
 @click.option("--train", "train_dir", type=_folder, help="Train on this folder ...")
 @click.option("--test", "test_dir", type=_folder, help="... and test on this one.")
+@click.option(
+    "--transcripts",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="FILE",
+    help="Connected words: what was said in recordings beside this file, as MLF or trn.",
+)
 @pattern_option
 @click.option("--folds", type=click.IntRange(2), help="Folds by person; the default holds out one person at a time.")
 @click.option("--train-persons", type=click.IntRange(1), help="Train on so many persons only, drawn at random.")
@@ -80,6 +87,7 @@ def evaluate(
     data: str | None,
     train_dir: str | None,
     test_dir: str | None,
+    transcripts: str | None,
     pattern: str | None,
     folds: int | None,
     train_persons: int | None,
@@ -100,7 +108,7 @@ def evaluate(
     reliability: str | None,
     json_path: str | None,
 ) -> None:
-    """Measure the accuracy of MODE (speech or gesture) on persons who are not in the training data.
+    """Measure the accuracy of MODE (speech, gesture or connected) on persons who are not in the training data.
 
     What is measured is what 'hri train' makes of the same recordings by those of its options that stand here. Words
     are trained with the filler words of hri, whatever 'hri train' takes by --fillers or --no-fillers, and in noise by
@@ -116,7 +124,15 @@ def evaluate(
       hri evaluate speech --data spoken/ --noise white --snr 10 --train-noise
       hri evaluate gesture --data signed/ --exposure 0.5
       hri evaluate gesture --data skig/ --leave-out illumination
+      hri evaluate connected --data spoken/ --transcripts numbers/said.mlf
     """
+    if mode == "connected":
+        _refuse_all_but("data", "transcripts", "pattern", "options", "seed", "json_path")
+        if data is None or transcripts is None:
+            raise click.UsageError("connected takes --data DIR, of one word each, and --transcripts FILE")
+        evaluate_connected(data, transcripts, pattern, options, seed, json_path)
+        return
+    refuse_given(("transcripts",), "is for connected")
     if (data is None) == (train_dir is None) or (train_dir is None) != (test_dir is None):
         raise click.UsageError("give either --data DIR, or --train DIR and --test DIR")
     if (noise is None) != (snr is None):
@@ -196,6 +212,12 @@ def evaluate(
         note("no reliability diagram: no recording has a word or a sign in it")
     found = {**result.to_dict(), "reliability": result.reliability().to_dict() if has_input else None}
     write_json(json_path, {"mode": mode, **found, "options": measured.options.as_dict()})
+
+
+def _refuse_all_but(*names: str) -> None:
+    """Refuse options that are for words and gestures one by one."""
+    params = click.get_current_context().params
+    refuse_given(tuple(name for name in params if name not in (*names, "mode")), "is for speech and gesture")
 
 
 def _warn_of_shared_persons(train: Dataset, test: Dataset) -> None:

@@ -19,7 +19,7 @@ from hri.cli.recognizers import default_model, embedding_option, load_embedding
 from hri.core.errors import Error
 from hri.io import ModelFile
 from hri.media import natural_key
-from hri.recognition import SentenceRecognizer, WordRecognizer, load
+from hri.recognition import ConnectedWordRecognizer, SentenceRecognizer, WordRecognizer, load
 
 _OF_SINGLE = ("word_recognizer", "subword_recognizer", "gesture_recognizer")
 _OF_SEVERAL = {"connected_word_recognizer": "connected", "sentence_recognizer": "sentences"}
@@ -95,8 +95,22 @@ def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
     found: dict[str, Any] = {"mode": kind or recognizer.mode, "labels": labels}
     if isinstance(recognizer, WordRecognizer) and recognizer.held_out is not None:
         found["held_out"] = recognizer.held_out.to_dict()
+    if isinstance(recognizer, ConnectedWordRecognizer):
+        found |= _sentences(recognizer)
     trained = recognizer.trained_options if isinstance(recognizer, SentenceRecognizer) else recognizer.options
     return {**found, "options": trained.as_dict()}
+
+
+def _sentences(recognizer: ConnectedWordRecognizer) -> dict[str, Any]:
+    """The language model or the grammar that a model of connected words holds."""
+    language, grammar = recognizer.language, recognizer.grammar
+    if language is not None:
+        numbers = [language.num_ngrams(order) for order in range(1, language.order + 1)]
+        return {"language": {"order": language.order, "ngrams": numbers, "scale": recognizer.language_scale}}
+    if grammar is not None:
+        nodes = len(grammar.network([str(label) for label in recognizer.classes_]).models)
+        return {"grammar": {"words": grammar.words, "nodes": nodes}}
+    return {}
 
 
 def _read(path: str) -> ModelFile | None:
@@ -121,10 +135,15 @@ def _lines(found: dict[str, Any]) -> list[str]:
             lines += [f"{key} {name}\t{_text(value)}" for name, value in entry.items() if value is not pairs]
             lines += [f"{key} confused\t{pair['first']} {pair['second']} {pair['rate']}" for pair in pairs]
         elif isinstance(entry, dict):
-            lines += [f"{key} {name}\t{_text(value)}" for name, value in entry.items()]
+            texts = {name: _joined(value) if isinstance(value, list) else _text(value) for name, value in entry.items()}
+            lines += [f"{key} {name}\t{text}" for name, text in texts.items()]
         else:
-            lines.append(f"{key}\t{' '.join(entry) if isinstance(entry, list) else entry}")
+            lines.append(f"{key}\t{_joined(entry) if isinstance(entry, list) else entry}")
     return lines
+
+
+def _joined(values: list[Any]) -> str:
+    return " ".join(map(str, values))
 
 
 def _flat(options: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

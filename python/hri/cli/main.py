@@ -52,7 +52,7 @@ COMMANDS = {
     "remove-word": ("hri.cli.vocabulary:remove_word", "Remove a word from a trained recogniser."),
     "add-gesture": ("hri.cli.vocabulary:add_gesture", "Add a gesture to a trained recogniser, from few clips."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
-    "transcribe": ("hri.cli.connected:transcribe", "Recognise several words in one recording, with their times."),
+    "transcribe": ("hri.cli.transcribe:transcribe", "Recognise several words in one recording, with their times."),
     "read-sentences": ("hri.cli.sentences:read_sentences", "Recognise signed sentences in tracks of both hands."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
     "watch": ("hri.cli.watch:watch", "Recognise gestures as they are shown, to a camera or in a video."),

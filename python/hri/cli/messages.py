@@ -31,6 +31,11 @@ def note(text: str) -> None:
     _COMMANDS.info(text)
 
 
+def report_fault(error: Exception) -> None:
+    """What is wrong with one of several items, on standard error, whatever the verbosity; the others go on."""
+    _COMMANDS.error("hri: error: %s", " ".join(str(error).split()))
+
+
 def set_verbosity(verbosity: int) -> None:
     """How much is said.
 

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -21,9 +22,11 @@ from hri.cli.recognizers import (
     pattern_option,
 )
 from hri.core.errors import InvalidArgument
+from hri.core.files import read_text
 from hri.htk import Dictionary
 from hri.media import read_audio
 from hri.recognition import SubwordRecognizer
+from hri.recognition.subword.recognizer import labels_without_entry
 
 MODE = "units"
 """Under which name the model is kept per user."""
@@ -52,7 +55,8 @@ MODE = "units"
     "--dictionary",
     type=click.Path(exists=True, dir_okay=False),
     metavar="FILE",
-    help="Pronunciations, a line a word, as HTK's dictionaries; words that it has not are pronounced by espeak-ng.",
+    help="Pronunciations, a line a word, as HTK's dictionaries; lines that begin with ;;; are comments, as in that of "
+    "CMU. Words that it has not are pronounced by espeak-ng.",
 )
 @options_option("units", "words.num_states=3")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random in training.")
@@ -81,8 +85,9 @@ def train_units(
     with naming_options():
         recognizer = SubwordRecognizer(**fields)
     written = dict(_split(spelling) for spelling in spellings)
-    lexicon = None if dictionary is None else Dictionary.read(dictionary)
+    lexicon = None if dictionary is None else _read_dictionary(dictionary)
     dataset = load_dataset(data, "speech", pattern)
+    by_rule = [] if dictionary is None or lexicon is None else _not_in(lexicon, dictionary, dataset.labels)
     for label in written:
         if label not in dataset.labels:
             raise InvalidArgument(f"--spelling {label}: no recording has this label")
@@ -103,7 +108,22 @@ def train_units(
     say(str(path), json_path)
     note(f"{len(dataset)} recordings, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
     note(f"{len(recognizer.units)} units: {' '.join(recognizer.units)}")
+    if by_rule:
+        note(f"not in {dictionary}, pronounced by espeak-ng: {' '.join(by_rule)}")
     write_json(json_path, {"model": str(path), "labels": dataset.labels, "units": list(recognizer.units)})
+
+
+def _read_dictionary(path: str) -> Dictionary:
+    """HTK's dictionaries have no comments: lines of these become empty ones, so that errors name the right line."""
+    lines = read_text(path).split("\n")
+    return Dictionary.parse("\n".join("" if line.startswith(";;;") else line for line in lines), path)
+
+
+def _not_in(lexicon: Dictionary, path: str, labels: Sequence[str]) -> list[str]:
+    try:
+        return labels_without_entry(labels, lexicon)
+    except InvalidArgument as error:
+        raise InvalidArgument(f"{path}: {error}") from error
 
 
 def _split(spelling: str) -> tuple[str, str]:

@@ -14,7 +14,8 @@ from typing import Any, Unpack
 import numpy as np
 
 from hri import _native
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
+from hri.io import ModelFile
 from hri.language import ConfusionSlot, Grammar, Lattice, NGramModel, WordErrors, count_word_errors
 from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer
@@ -27,6 +28,8 @@ _log = logging.getLogger(__name__)
 
 UNKNOWN = "<unk>"
 """The label of a word that is not in the vocabulary."""
+_LANGUAGE, _GRAMMAR = "language", "grammar"
+"""Fields of the model file."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,8 @@ class Transcript:
     log_score : float
         Natural log, of the best path; 0 without speech.
     complete : bool
-        False where the recording was too short for so many words as were asked for.
+        False where the recording was too short for so many words as were asked for, or no sentence of the grammar fits:
+        the words are then those of the best beginning of a sentence.
     notes : tuple of str
         What was converted or assumed on the way.
     alternatives : tuple of Alternative
@@ -134,6 +138,11 @@ def transcript_of(found: _native.Transcript, notes: Sequence[str] = ()) -> Trans
 
 def _word_of(word: _native.TranscribedWord) -> TranscribedWord:
     return TranscribedWord(word.label, word.first_s, word.last_s, word.log_score, word.confidence, word.unknown)
+
+
+def _require_number(num_words: int | None) -> None:
+    if num_words is not None and num_words < 1:
+        raise InvalidArgument(f"num_words is {num_words}, must lie in 1..1000")
 
 
 def _speakers_of(fillers: Sequence[FillerWord]) -> list[str]:
@@ -237,27 +246,59 @@ class ConnectedWordRecognizer(Recognizer):
             )
         return self
 
-    def set_language(self, language: NGramModel) -> ConnectedWordRecognizer:
+    def set_language(self, language: NGramModel | None) -> ConnectedWordRecognizer:
         """Weigh sequences of words by a language model of order 1 or 2, which is saved with the model.
+
+        A grammar is dropped. With None the language model is dropped: words in any order.
 
         Raises
         ------
         InvalidArgument
             For another order, and a label that the language model does not know.
         """
-        self._native = self._trained.with_language(language)
+        trained = self._trained
+        self._native = self._without(_LANGUAGE) if language is None else trained.with_language(language)
         return self
 
-    def set_grammar(self, grammar: Grammar) -> ConnectedWordRecognizer:
-        """Find sentences of a grammar alone, which is saved with the model; a language model is dropped.
+    def set_grammar(self, grammar: Grammar | None) -> ConnectedWordRecognizer:
+        """Find sentences of a grammar alone, which is saved with the model.
+
+        A language model is dropped. With None the grammar is dropped: words in any order.
 
         Raises
         ------
         InvalidArgument
             For a word of the grammar that is no label.
         """
-        self._native = self._trained.with_grammar(grammar)
+        trained = self._trained
+        self._native = self._without(_GRAMMAR) if grammar is None else trained.with_grammar(grammar)
         return self
+
+    @property
+    def language(self) -> NGramModel | None:
+        """The language model that sequences of words are weighed by."""
+        file = self.to_model_file()
+        return NGramModel.parse(file.text(_LANGUAGE), _LANGUAGE) if file.has(_LANGUAGE) else None
+
+    @property
+    def grammar(self) -> Grammar | None:
+        """The grammar whose sentences are found."""
+        file = self.to_model_file()
+        return Grammar.parse(file.text(_GRAMMAR), _GRAMMAR) if file.has(_GRAMMAR) else None
+
+    def _without(self, field: str) -> _native.ConnectedWordRecognizer:
+        """The trained model without a field of its file."""
+        file = self.to_model_file()
+        kept = ModelFile()
+        for name, text in file.metadata().items():
+            if name != field:
+                kept.set_text(name, text)
+        for name in file.tensor_shapes():
+            try:
+                kept.set_matrix_d(name, file.matrix_d(name))
+            except FormatError:  # it is of float32
+                kept.set_matrix_f(name, file.matrix_f(name))
+        return self._from_model_file(kept)
 
     def set_decoder(self, **options: Unpack[ConnectedDecoderKeywords]) -> ConnectedWordRecognizer:
         """Change options of the decoder after training, such as ``insertion_penalty`` or ``language_scale``."""
@@ -269,6 +310,11 @@ class ConnectedWordRecognizer(Recognizer):
     def insertion_penalty(self) -> float:
         """Added to the log score at every word; by default chosen in training."""
         return float(self._trained.options.decoder.insertion_penalty)
+
+    @property
+    def language_scale(self) -> float:
+        """Factor on the log probabilities of language model and grammar."""
+        return float(self._trained.options.decoder.language_scale)
 
     def recognise(
         self,
@@ -298,16 +344,22 @@ class ConnectedWordRecognizer(Recognizer):
         FormatError, IoError
             For a file that is no recording.
         """
-        if num_words is not None and num_words < 1:
-            raise InvalidArgument(f"num_words is {num_words}, must lie in 1..1000")
+        _require_number(num_words)
         clip = as_audio(audio, sample_rate_hz)
         words = self._trained
         with naming_file(clip.path):
             found = words.recognise(clip.samples, clip.sample_rate_hz, num_words or 0, num_alternatives)
         return transcript_of(found, clip.notes)
 
-    def lattice(self, audio: AudioInput, sample_rate_hz: int | None = None) -> tuple[Lattice, float, float]:
+    def lattice(
+        self, audio: AudioInput, sample_rate_hz: int | None = None, *, num_words: int | None = None
+    ) -> tuple[Lattice, float, float]:
         """All sentences that come near the best, with their times.
+
+        Parameters
+        ----------
+        audio, sample_rate_hz, num_words
+            As `recognise` takes them.
 
         Returns
         -------
@@ -321,11 +373,12 @@ class ConnectedWordRecognizer(Recognizer):
         InvalidArgument, FormatError, IoError
             As `recognise` does, and for a recording too long for a lattice.
         """
+        _require_number(num_words)
         clip = as_audio(audio, sample_rate_hz)
         words = self._trained
         with naming_file(clip.path):
             scored = words.score(clip.samples, clip.sample_rate_hz)
-            return words.lattice(scored), scored.first_s, scored.frame_s
+            return words.lattice(scored, num_words or 0), scored.first_s, scored.frame_s
 
     def confusion_network(self, audio: AudioInput, sample_rate_hz: int | None = None) -> list[ConfusionSlot]:
         """What may have been said instead, word by word; models are numbered as those of `lattice`."""

@@ -101,7 +101,7 @@ class SubwordRecognizer(Recognizer):
         ------
         InvalidArgument
             For lengths that differ, a clip that is not finite or too short, a label without speech, a spelling without
-            sound, and names of units that cannot be.
+            sound, a dictionary that has none of the labels, and names of units that cannot be.
         IoError
             For labels that the dictionary has not, where espeak-ng is not installed.
         Interrupted
@@ -243,10 +243,30 @@ class SubwordRecognizer(Recognizer):
         return cls._wrap(load_native(_native.SubwordRecognizer.from_model_file, path, "subword_recognizer"))
 
 
+def labels_without_entry(labels: Sequence[str], dictionary: Dictionary) -> list[str]:
+    """The labels that a dictionary does not have, which espeak-ng pronounces.
+
+    Raises
+    ------
+    InvalidArgument
+        Where it has none of them: it would have no effect.
+    """
+    words = {entry.word for entry in dictionary.entries}
+    missing = [label for label in labels if label not in words]
+    if len(missing) < len(labels):
+        return missing
+    folded = {word.casefold(): word for word in words}
+    alike = [f"{folded[label.casefold()]} for {label}" for label in labels if label.casefold() in folded]
+    hint = f"; capital and small letters differ in {', '.join(alike)}" if alike else ""
+    raise InvalidArgument(f"the dictionary has none of the labels {' '.join(labels)}{hint}")
+
+
 def _lexicon(
     labels: Sequence[str], language: str, spellings: Mapping[str, str], dictionary: Dictionary | None
 ) -> Dictionary:
     """Of the dictionary where it has them, else by espeak-ng."""
+    if dictionary is not None:
+        labels_without_entry(labels, dictionary)
     entries: dict[str, list[Any]] = {}
     for entry in [] if dictionary is None else dictionary.entries:
         entries.setdefault(entry.word, []).append(entry)

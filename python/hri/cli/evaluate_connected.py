@@ -1,0 +1,176 @@
+# SPDX-FileCopyrightText: The hri contributors
+# SPDX-License-Identifier: Apache-2.0
+"""``hri evaluate connected``: word errors of connected words on one's own recordings."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from hri.cli.messages import note
+from hri.cli.output import say_table, write_json
+from hri.cli.progress import progress_bars
+from hri.cli.recognizers import load_dataset, naming_options, parse_options
+from hri.core.errors import FormatError, InvalidArgument
+from hri.core.files import read_text, split_lines
+from hri.datasets import Dataset
+from hri.htk import MasterLabelFile
+from hri.language import WordErrors, count_word_errors
+from hri.media import AUDIO_SUFFIXES, read_audio
+from hri.recognition import ConnectedWordRecognizer
+
+_MASTER = "#!MLF!#"
+_OTHERS = "others"
+"""Held out of nothing: recordings whose name has no person of the training data in it."""
+
+
+@dataclass(frozen=True)
+class SpokenString:
+    """A recording of connected words: where it is, what was said, and by whom; "": by no person of the training data."""
+
+    path: Path
+    words: list[str]
+    person: str
+
+
+def evaluate_connected(
+    data: str, transcripts: str, pattern: str | None, options: tuple[str, ...], seed: int, json_path: str | None
+) -> None:
+    """Train without each person who speaks connected words, count the errors in these, print and write them."""
+    fields = parse_options((f"words.seed={seed}", *options))
+    with naming_options():
+        ConnectedWordRecognizer(**fields)
+    dataset = load_dataset(data, "speech", pattern)
+    strings = read_strings(transcripts, dataset.persons)
+    _tell_of_words(strings, dataset, transcripts)
+    persons = sorted({string.person for string in strings}, key=lambda person: (not person, person))
+    folds: list[dict[str, Any]] = []
+    total = WordErrors()
+    with progress_bars() as progress:
+        for number, person in enumerate(persons):
+            progress("speakers held out", number, len(persons))
+            recognizer = _trained_without(person, dataset, ConnectedWordRecognizer(**fields))
+            items = _recognised([string for string in strings if string.person == person], recognizer)
+            errors = count_word_errors([item["words"] for item in items], [item["found"] for item in items])
+            total += errors
+            folds.append({"held_out": person or None, **_figures(errors), "items": items})
+        progress("speakers held out", len(persons), len(persons))
+    say_table(_table(folds, total), json_path)
+    measured = ConnectedWordRecognizer(**fields).options.as_dict()
+    write_json(json_path, {"mode": "connected", **_figures(total), "folds": folds, "seed": seed, "options": measured})
+
+
+def read_strings(path: str, persons: Sequence[str]) -> list[SpokenString]:
+    """The recordings that a table of transcripts names, below the folder where it stands.
+
+    Parameters
+    ----------
+    path : str
+        A master label file of HTK, or lines of words with the name of their recording behind them in brackets (trn).
+    persons : sequence of str
+        Of the training data: one is the speaker of a recording whose name, or folder, has him or her in it, as a part
+        between ``_``, ``-`` or ``.``.
+
+    Raises
+    ------
+    FormatError
+        For a line of another form, and a name that belongs to no recording, or to several.
+    """
+    text = read_text(path)
+    if text.startswith(_MASTER):
+        master = MasterLabelFile.parse(text, path)
+        said = [(name, [label.name for label in labels.labels]) for name, labels in master.entries]
+    else:
+        said = _lines_of(text, path)
+    root = Path(path).parent
+    sounds: dict[str, list[Path]] = {}
+    for sound in sorted(root.rglob("*")):
+        if sound.suffix.lower() in AUDIO_SUFFIXES:
+            sounds.setdefault(sound.stem, []).append(sound)
+    strings = []
+    for name, words in said:
+        folder = [part for part in Path(name).parent.parts if part != "*"]
+        found = [
+            sound
+            for sound in sounds.get(Path(name).stem, sounds.get(Path(name).name, []))
+            if not folder or list(sound.parent.parts[-len(folder) :]) == folder
+        ]
+        if len(found) != 1:
+            raise FormatError(f"{path}: {name!r} is the name of {len(found)} recordings in {root}, not of one")
+        parts = {part for piece in found[0].relative_to(root).parts for part in re.split(r"[_.-]", piece)}
+        speakers = [person for person in persons if person in parts]
+        strings.append(SpokenString(found[0], words, speakers[0] if len(speakers) == 1 else ""))
+    if not any(string.words for string in strings):
+        raise FormatError(f"{path}: no recording has a word")
+    return strings
+
+
+def _lines_of(text: str, path: str) -> list[tuple[str, list[str]]]:
+    said = []
+    for row, line in enumerate(split_lines(text), 1):
+        match = re.fullmatch(r"(.*)\(([^()\s]+)\)\s*", line)
+        if match is None and line.strip():
+            raise FormatError(f"{path}: row {row}: is not words and the name of their recording in brackets")
+        if match is not None:
+            said.append((match[2], match[1].split()))
+    return said
+
+
+def _tell_of_words(strings: Sequence[SpokenString], dataset: Dataset, path: str) -> None:
+    """Words that nothing can recognise, and speakers who may have been trained on."""
+    said = {word for string in strings for word in string.words}
+    unknown = sorted(said - set(dataset.labels))
+    if len(unknown) == len(said):
+        raise InvalidArgument(f"{path}: none of its words is a label of {dataset.root}")
+    if unknown:
+        note(f"{path}: no labels of {dataset.root}, and errors wherever they stand: {' '.join(unknown)}")
+    others = [string.path.name for string in strings if not string.person]
+    if others:
+        note(
+            f"{len(others)} recordings, such as {others[0]}, name no person of {dataset.root}: no person is held out "
+            "for them, and if one of these persons speaks there, the test is not speaker-independent"
+        )
+
+
+def _trained_without(person: str, dataset: Dataset, recognizer: ConnectedWordRecognizer) -> ConnectedWordRecognizer:
+    samples = [sample for sample in dataset.samples if not person or sample.person != person]
+    missing = sorted(set(dataset.labels) - {sample.label for sample in samples})
+    if missing:
+        raise InvalidArgument(f"only {person}, who is held out, says {' '.join(missing)}")
+    return recognizer.fit(
+        [read_audio(sample.path) for sample in samples],
+        [sample.label for sample in samples],
+        groups=[sample.person for sample in samples],
+    )
+
+
+def _recognised(strings: Sequence[SpokenString], recognizer: ConnectedWordRecognizer) -> list[dict[str, Any]]:
+    return [
+        {"path": str(string.path), "words": string.words, "found": list(recognizer.recognise(string.path).labels)}
+        for string in strings
+    ]
+
+
+def _figures(errors: WordErrors) -> dict[str, Any]:
+    return {"word_error_rate": errors.rate if errors.num_words else None, **asdict(errors)}
+
+
+def _table(folds: Sequence[dict[str, Any]], total: WordErrors) -> list[tuple[str, ...]]:
+    """A row for each speaker held out, then all."""
+    rows: list[tuple[str, ...]] = [
+        ("held out", "recordings", "words", "substituted", "deleted", "inserted", "word error rate", "all words right")
+    ]
+    items = [item for fold in folds for item in fold["items"]]
+    for name, figures, of_fold in [
+        *((fold["held_out"] or _OTHERS, fold, fold["items"]) for fold in folds),
+        ("all", _figures(total), items),
+    ]:
+        counts = [len(of_fold), *(figures[key] for key in ("num_words", "substitutions", "deletions", "insertions"))]
+        rate = figures["word_error_rate"]
+        right = sum(item["words"] == item["found"] for item in of_fold) / len(of_fold)
+        shares = ("" if rate is None else f"{100 * rate:.1f} %", f"{100 * right:.1f} %")
+        rows.append((name, *map(str, counts), *shares))
+    return rows
