@@ -120,7 +120,7 @@ def compose_words(
 
 
 def compose_noise(paths: Sequence[str], rate: int, num_samples: int, rng: np.random.Generator) -> Samples:
-    """Pieces of recorded noises of 5 to 30 s, each at a level of its own."""
+    """Pieces of files of noise of 5 to 30 s, each at a level of its own."""
     stream = np.zeros(num_samples, dtype=np.float32)
     at = 0
     while at < num_samples:
