@@ -26,7 +26,7 @@ from hri.synthetic.speech import make_speech_corpus
 
 OTHER_WORDS = {"fsdd": "other_words"}
 """Where more words of the language are by other people, which units are trained on, too. The Hindi sets are not each
-other's: whoever is left out of one may be in the other under another name."""
+other's: who is left out of one may be in the other under another name."""
 RECORDINGS = (0, 1, 3)
 ADDED = 3
 """Words of the ten that are left out and added, together; so many for each of GROUPS."""
