@@ -56,12 +56,13 @@ SPEED = {
 
 
 def accuracy(results: Path) -> str:
-    """The rows of `ACCURACY`."""
-    table = [["recordings", "accuracy, %", "measured by", "at commit"]]
+    """The rows of `ACCURACY`; a measure that a result lacks is a dash."""
+    table = [["recordings", "accuracy, %", "right, %", "measured by", "at commit"]]
     for line in ACCURACY:
         kept = read_kept(results / f"{line.file}.json")
         (row,) = (row for row in kept["rows"] if all(row[axis] == value for axis, value in line.where.items()))
-        table.append([line.text, show(row, Layout()), f"`{command_of(kept)}`", f"`{code_of(kept)['commit']}`"])
+        shares = [show(row, Layout(), measure) or "–" for measure in ("accuracy", "right")]
+        table.append([line.text, *shares, f"`{command_of(kept)}`", f"`{code_of(kept)['commit']}`"])
     return markdown_table(table)
 
 

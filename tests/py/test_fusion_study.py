@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 
 from hri.datasets import Sample
+from hri.fusion import fuse
 from hri.recognition import Decision, NBest
 from hri.studies import fusion_conditions as study
+from hri.studies.fusion import RULE, meets_target
 from hri.studies.fusion_pairs import WORST_EXPOSURE, WORST_SNR_DB, Pair, paired, plan_test, plan_training
 
 LABELS = ("1", "2", "3")
@@ -126,3 +128,10 @@ def test_a_missing_mode_is_not_seen_by_the_rule() -> None:
     assert measured == {"speech": 1.0, "product": 1.0, "chosen": 1.0}
     fold = SimpleNamespace(**study._measured(pairs, {"product": "product"}, "product", "dark"))
     assert (fold.speech, fold.gesture, fold.product) == (1.0, 0.0, 0.0)
+
+
+def test_digits_that_are_above_the_ceiling_may_lose_little() -> None:
+    assert meets_target(0.9, 0.03) and not meets_target(0.9, 0.02)
+    assert meets_target(0.99, -0.004) and not meets_target(0.99, -0.006)
+    word, sign = decided("speech", "1", 30.0), decided("gesture", "2", 1.0)
+    assert fuse(word, sign).rule == fuse(word, sign, rule=RULE).rule

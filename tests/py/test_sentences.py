@@ -284,6 +284,9 @@ def test_groups_hold_out_every_recording_of_a_text() -> None:
     assert all(len({texts[i] for i in range(first, 30, 3)}) == 1 for first in range(3))
     recordings = sentence_studies.groups_of(sentences, "recordings")
     assert sorted(np.bincount(recordings)) == [6] * 5
+    assert set(sentence_studies.groups_of(sentences, "signers")) == {0}
+    others = [SignedSentence(s.video, "abe", s.positions, s.words) for s in sentences[:3]]
+    assert sentence_studies.groups_of([*sentences[3:], *others], "signers") == [1] * 27 + [0] * 3
 
 
 def test_other_sentences_may_have_been_meant(signs: SentenceRecognizer) -> None:

@@ -19,7 +19,19 @@ from hri.core.errors import InvalidArgument
 from hri.evaluation import EvaluationItem, EvaluationResult, FoldResult
 from hri.io import write_wav_pcm16
 from hri.recognition import Decision, NBest
-from hri.studies import commands, distance, noise, rendering, tables, tempo, training_size
+from hri.studies import (
+    commands,
+    distance,
+    false_alarms,
+    htk_thesis,
+    new_words,
+    noise,
+    rendering,
+    robot_commands,
+    tables,
+    tempo,
+    training_size,
+)
 from hri.studies.registry import Layout
 from hri.studies.sweeps import measured
 from hri.studies.word_classifiers import CLASSIFIERS
@@ -283,3 +295,38 @@ def test_synthetic_voices_are_added_to_people(data_dir: Path) -> None:
     assert found[2, 0]["accuracy_mean"] >= 0.9 and set(found[2, 0]["per_fold"]) == {"low", "middle", "high"}
     with pytest.raises(InvalidArgument, match="axis real has no '9'"):
         run("synthetic-speakers", data_dir, real=["9"])
+
+
+def test_no_study_takes_the_hindi_sets_for_each_others_people(data_dir: Path) -> None:
+    """Who is called speaker2 in one of them is not the speaker2 of the other."""
+    hindi = {"hindi-digits", "hindi-words"}
+    for name in hindi:
+        assert not hindi & set(false_alarms.OTHER_WORDS[name])
+        assert new_words._other_clips(data_dir, name) == ([], {})
+    folders = [folder for folder in htk_thesis.FOLDERS.values() if "hindi" in folder]
+    assert len(set(folders)) == 2
+
+
+def test_bounds_of_commands_are_chosen_without_who_is_tested(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each person of the part left out has the bound of decisions by people, and on people, of the other parts."""
+    (data_dir / "robot").mkdir()
+    (data_dir / "robot" / "commands").symlink_to(data_dir / "fsdd" / "recordings")
+    people = ("high", "low", "middle")
+    seen: list[tuple[set[str], str, bool]] = []
+
+    def heard(self: object, met: set[str], person: str, conditions: tuple[str, ...] = ()) -> list[object]:
+        seen.append((met, person, conditions == [robot_commands.QUIET]))
+        sure = {"high": 0.991, "low": 0.96, "middle": 0.85}[person]
+        return [
+            robot_commands.Heard(person, condition, "stop", "stop", sure) for condition in robot_commands.CONDITIONS
+        ]
+
+    monkeypatch.setattr(robot_commands._Study, "trained", lambda self, met, progress: met)
+    monkeypatch.setattr(robot_commands._Study, "heard", heard)
+    found = run("robot-commands", data_dir / "robot")
+    assert all(person not in met for met, person, _ in seen)
+    inner = sorted((*met, person) for met, person, is_inner in seen if is_inner)
+    assert inner == sorted((one, other) for one in people for other in people if one != other)
+    assert found["chosen_min_confidence"] == [0.8, 0.8, 0.95]
+    row = next(r for r in found["rows"] if (r["min_confidence"], r["condition"]) == ("chosen", robot_commands.QUIET))
+    assert row["per_fold"] == {"high": 1.0, "low": 1.0, "middle": 0.0}

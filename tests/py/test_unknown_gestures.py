@@ -39,6 +39,7 @@ def test_the_study_of_unknown_gestures_runs_whole(tmp_path: Path, monkeypatch: p
     assert len(found["details"]["sign-digits"]["by_half"]["eer"]) == 2
     assert row["accuracy_mean"] > 0.8 and row["eer_mean"] < 0.5
     assert "rest_eer_mean" not in row  # stills have no rest
+    assert len(found["details"]["sign-digits"]["by_half"]["absent_accepts"]) == 2  # walls are shown to every fold
 
 
 def test_empty_clips_are_walls_in_noise() -> None:

@@ -18,7 +18,7 @@ from hri.evaluation import AddNoise
 from hri.media import read_audio
 from hri.signal import wavedec, waverec
 from hri.signal.noise_reduction import NOISES, RULES, denoise
-from hri.studies.noise import NOISES as RECORDED
+from hri.studies.noise import NOISES as FILES
 from hri.studies.noise import noise_paths
 from hri.studies.registry import Layout, Progress, Study
 from hri.studies.tables import statistics
@@ -54,7 +54,7 @@ def _run(
     progress: Progress,
     *,
     threshold: Sequence[str] = tuple(RULES),
-    noise: Sequence[str] = tuple(RECORDED),
+    noise: Sequence[str] = tuple(FILES),
 ) -> dict[str, Any]:
     clips = Dataset.load(data_dir / "fsdd" / "recordings", "speech").samples
     paths = noise_paths(data_dir)
@@ -85,13 +85,13 @@ def _energy(samples: Samples) -> float:
 STUDIES = (
     Study(
         "denoise",
-        "gain in signal-to-noise ratio (dB) of spoken digits in recorded noise at 10 dB, by threshold, shape and "
+        "gain in signal-to-noise ratio (dB) of spoken digits in noise at 10 dB, by threshold, shape and "
         "estimate of the noise, and by the approximation of levels 1 to 3",
         ("fsdd/recordings", "noise"),
         "none: a comparison",
         _run,
         Layout(columns="noise", panel="noise", measure="gain_db", percent=False),
-        {"threshold": tuple(RULES), "noise": tuple(RECORDED)},
+        {"threshold": tuple(RULES), "noise": tuple(FILES)},
         sources=("cpp/signal",),
         quick={"noise": ("white",), "threshold": ("bayes",)},
     ),

@@ -23,7 +23,11 @@ SEED = 0
 GAIN = 0.03
 """What fusion has to add to the better single mode ..."""
 CEILING = 0.97
-"""... wherever that one is below this."""
+"""... wherever that one is below this ..."""
+MAX_LOSS = 0.005
+"""... and how much it may lose to that one elsewhere."""
+RULE = "table_6_9"
+"""The rule that the target is for: the one that `hri.fuse` takes when none is named."""
 _SHOWN = ("accuracy_mean", "accuracy_std", "per_fold")
 
 
@@ -64,8 +68,13 @@ def _condition(speech: EvaluationResult, signs: EvaluationResult) -> dict[str, A
         result[rule] = {**by_speaker(right), "rules_fired": fired}
         gain = result[rule]["accuracy_mean"] - better
         result[rule]["gain_over_better_mode"] = gain
-        result[rule]["passed"] = better >= CEILING or gain >= GAIN
+        result[rule]["passed"] = meets_target(better, gain)
     return result
+
+
+def meets_target(better: float, gain: float) -> bool:
+    """Whether a rule gains enough over the better mode; above the ceiling, whether it loses little enough to it."""
+    return gain >= (GAIN if better < CEILING else -MAX_LOSS)
 
 
 def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dict[str, Any]:
@@ -96,7 +105,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         "rows": rows,
         "rules": {name: {rule: found[rule]["rules_fired"] for rule in RULES} for name, found in conditions.items()},
         "passed_by_rule": passed,
-        "passed": any(passed.values()),
+        "passed": passed[RULE],
     }
 
 
@@ -106,7 +115,8 @@ STUDIES = (
         "spoken digits of unseen speakers with signed digits of unseen persons: clean, in noise and poor light, and "
         "with few persons to learn signs from",
         ("fsdd/recordings", "sign_digits"),
-        f"a fusion rule beats the better mode by {100 * GAIN:.0f} points wherever that is below {100 * CEILING:.0f} %",
+        f"the default rule, {RULE}, beats the better mode by {100 * GAIN:.0f} points wherever that is below "
+        f"{100 * CEILING:.0f} %, and loses at most {100 * MAX_LOSS:g} points to it elsewhere",
         _run,
         layout=Layout(columns="decided by"),
         sources=tuple(dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES))),

@@ -24,9 +24,9 @@ from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.word_features import WORD_FOLDERS
 from hri.synthetic.speech import make_speech_corpus
 
-OTHER_WORDS = {"hindi-digits": "hindi-words", "hindi-words": "hindi-digits"}
-"""Where more words of the language are, which units are trained on, too."""
-ENGLISH_WORDS = "other_words"
+OTHER_WORDS = {"fsdd": "other_words"}
+"""Where more words of the language are by other people, which units are trained on, too. The Hindi sets are not each
+other's: who is left out of one may be in the other under another name."""
 RECORDINGS = (0, 1, 3)
 ADDED = 3
 """Words of the ten that are left out and added, together; so many for each of GROUPS."""
@@ -48,12 +48,11 @@ class _Fold:
     own: dict[str, list[Clip]]
 
 
-def _other_clips(data_dir: Path, name: str, progress: Progress) -> tuple[list[Clip], dict[str, str]]:
+def _other_clips(data_dir: Path, name: str) -> tuple[list[Clip], dict[str, str]]:
     """Recordings of other words in the same language, and how these are written."""
-    if name in OTHER_WORDS:
-        other = OTHER_WORDS[name]
-        return read_clips(data_dir, other, progress), next(iter(WORDS[other].values()))
-    samples = Dataset.load(data_dir / ENGLISH_WORDS, "speech").samples
+    if name not in OTHER_WORDS:
+        return [], {}
+    samples = Dataset.load(data_dir / OTHER_WORDS[name], "speech").samples
     clips = [(sample.label, sample.person, read_audio(sample.path)) for sample in samples]
     return clips, {label: label for label, _, _ in clips}
 
@@ -161,14 +160,13 @@ def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = tuple(WORD
         say = within(progress, name)
         ((language, spellings),) = WORDS[name].items()
         clips = read_clips(data_dir, name, say)
-        others, other_spellings = _other_clips(data_dir, name, say)
+        others, other_spellings = _other_clips(data_dir, name)
         voices = _by_voices(WORDS[name], say)
         found: dict[tuple[str, int], dict[str, list[Row]]] = {}
         splits = list(_folds(clips))[: None if folds is None else GROUPS * folds]
         for done, (person, fold) in enumerate(splits):
-            more = [clip for clip in others if clip[1] != person]
             cells = [
-                *_of_units(fold, more, language, {**other_spellings, **spellings}),
+                *_of_units(fold, others, language, {**other_spellings, **spellings}),
                 *_of_word_models(fold),
                 ((ALONE, 0), _shares(voices, fold)),
             ]
@@ -192,7 +190,7 @@ STUDIES = (
         "new-words",
         "words never recorded, added by their spelling to units of other words by other speakers, with 0, 1 and "
         "3 recordings by the user; beside synthetic voices and models of whole words; leave one of 4 speakers out",
-        (*(WORD_FOLDERS[name] for name in WORDS), ENGLISH_WORDS),
+        (*(WORD_FOLDERS[name] for name in WORDS), *OTHER_WORDS.values()),
         "without recordings, a larger share of the new words than a recogniser trained on synthetic voices alone",
         _run,
         layout=Layout(columns="recordings", x="recordings", panel="data", measure="added"),

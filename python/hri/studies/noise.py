@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Spoken digits of unseen speakers in recorded noise, trained on clean speech and with noise added.
+"""Spoken digits of unseen speakers in noise, trained on clean speech and with noise added.
+
+White and pink noise are synthetic signals, dishes and a running tap are recorded; all four are files.
 
 "clean" is trained on the recordings as they are, "random" on copies with random noise too, as the recogniser makes them
-by default, "noisy" on copies with other parts of the recorded noises beside these.
+by default, "noisy" on copies with other parts of these noises beside that.
 """
 
 from __future__ import annotations
@@ -46,7 +48,7 @@ CLEAN = "clean"
 
 
 def noise_paths(data_dir: Path) -> dict[str, str]:
-    """The recorded noises by name."""
+    """The files of noise by name; white and pink are computed signals, the others are recorded."""
     return {name: str(data_dir / "noise" / file) for name, file in NOISES.items()}
 
 
@@ -147,7 +149,7 @@ def _listed(targets: Mapping[int, float]) -> str:
 STUDIES = (
     Study(
         "fsdd-noise",
-        "English digits in recorded noise, leave one of 4 speakers out; trained clean and with other parts of the "
+        "English digits in noise, leave one of 4 speakers out; trained clean and with other parts of the "
         "noises added, with and without HFCC-E and wavelet shrinkage",
         ("fsdd/recordings", "noise"),
         f"white noise at 10 dB: >= {100 * TARGETS['clean']:.0f} % trained clean, "
@@ -163,7 +165,7 @@ STUDIES = (
     ),
     Study(
         "fsdd-noise-both",
-        "English digits in recorded noise, leave one of 4 speakers out, by cepstra and a pretrained speech embedding "
+        "English digits in noise, leave one of 4 speakers out, by cepstra and a pretrained speech embedding "
         "(extra embedding)",
         ("fsdd/recordings", "noise"),
         f"white noise at {_listed(TARGETS_BOTH)}, trained with noise, alone",
@@ -177,7 +179,7 @@ STUDIES = (
     ),
     Study(
         "fsdd-noise-network",
-        "English digits in recorded noise, leave one of 4 speakers out, with a network trained on the same words: "
+        "English digits in noise, leave one of 4 speakers out, with a network trained on the same words: "
         "beside cepstra, and beside cepstra and the embedding",
         ("fsdd/recordings", "noise"),
         f"white noise at {_listed(TARGETS_ALONE)} (cepstra) and {_listed(TARGETS_BOTH)} (both), trained with noise, "

@@ -4,9 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import permutations
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ NUM_FOLDS = 3
 PAUSE_MS = 200
 NOISE_DB = 20
 SEED = 0
-QUIET, NOISY, OTHER_WORDS = "quiet", f"white noise at {NOISE_DB} dB", "other words"
+QUIET, NOISY, OTHER_WORDS = CONDITIONS = "quiet", f"white noise at {NOISE_DB} dB", "other words"
 TARGET = 0.9
 BOUNDS = (0.999, 0.998, 0.995, 0.99, 0.98, 0.95, 0.9, 0.8, 0.5, 0.0)
 KEPT = 0.95
@@ -78,10 +79,9 @@ def _chosen(heard: Sequence[Heard]) -> float:
     return next(bound for bound in BOUNDS if sum(one.right(bound) for one in right) >= KEPT * len(right))
 
 
-def _rows(heard: Sequence[Heard], parts: Sequence[set[str]]) -> list[Row]:
-    """By bound: the default one, none, and one that is chosen for each part on the others."""
-    persons = {person: part for part in parts for person in part}
-    chosen = {person: _chosen([one for one in heard if one.person not in part]) for person, part in persons.items()}
+def _rows(heard: Sequence[Heard], chosen: Mapping[str, float]) -> list[Row]:
+    """By bound: none, the default one, and that which is `chosen` for each person; shares are of a person each."""
+    persons = sorted(chosen)
     bounds = {"0": dict.fromkeys(persons, 0.0), "default": dict.fromkeys(persons, MIN_CONFIDENCE), "chosen": chosen}
     rows: list[Row] = []
     for name, of_person in bounds.items():
@@ -95,43 +95,74 @@ def _rows(heard: Sequence[Heard], parts: Sequence[set[str]]) -> list[Row]:
     return rows
 
 
-def _run(data_dir: Path, progress: Progress, *, takes: int | None = None) -> dict[str, Any]:
-    grammar = Grammar.parse(GRAMMAR, "commands.jsgf")
-    dataset = first_takes(Dataset.load(data_dir / FOLDER, "speech"), takes)
-    clips: list[Clip] = [(s.label, s.person, read_audio(s.path)) for s in dataset.samples]
-    people = sorted({person for _, person, _ in clips})
-    parts = [set(people[fold::NUM_FOLDS]) for fold in range(NUM_FOLDS)]
-    heard: list[Heard] = []
-    for fold, held_out in enumerate(parts):
-        train = [clip for clip in clips if clip[1] not in held_out and clip[0] in grammar.words]
+class _Study:
+    """Recordings, and recognisers of commands trained on some of the people."""
+
+    def __init__(self, clips: Sequence[Clip]) -> None:
+        self.grammar = Grammar.parse(GRAMMAR, "commands.jsgf")
+        self.clips = clips
+        self.people = sorted({person for _, person, _ in clips})
+
+    def trained(self, people: set[str], progress: Progress) -> CommandRecognizer:
+        """A recogniser of commands that has met these people only."""
+        train = [clip for clip in self.clips if clip[1] in people and clip[0] in self.grammar.words]
         words = ConnectedWordRecognizer(max_words=4, unknown_words=True).fit(
             [sound for _, _, sound in train],
             [label for label, _, _ in train],
             groups=[person for _, person, _ in train],
-            progress=partial(within(progress, f"part {fold + 1}"), "training"),
+            progress=partial(progress, "training"),
         )
-        commands = CommandRecognizer(words, grammar, min_confidence=0.0)
-        for done, person in enumerate(sorted(held_out)):
-            rng = np.random.default_rng([SEED, people.index(person)])
-            labels = sorted(commands.commands_)
-            of_person = [clip for clip in clips if clip[1] == person]
-            rate_hz = of_person[0][2].sample_rate_hz
-            said = _sentences(of_person, labels, rng)
-            strings = [(QUIET, label, string.samples) for label, string in zip(labels, said, strict=True)]
-            strings += [
-                (NOISY, label, with_noise(one, NOISE_DB, rng).samples) for one, label in zip(said, labels, strict=True)
-            ]
-            strings += [(OTHER_WORDS, "", sound.samples) for label, _, sound in of_person if label not in grammar.words]
-            for condition, label, samples in strings:
-                found = commands.recognise(samples, rate_hz)
-                heard.append(Heard(person, condition, label, found.label, found.confidence))
-            progress(f"part {fold + 1}: testing", done + 1, len(held_out))
-    rows = _rows(heard, parts)
+        return CommandRecognizer(words, self.grammar, min_confidence=0.0)
+
+    def heard(self, commands: CommandRecognizer, person: str, conditions: Sequence[str] = CONDITIONS) -> list[Heard]:
+        """What is recognised of a person, who says the same whatever the recogniser and the conditions."""
+        rng = np.random.default_rng([SEED, self.people.index(person)])
+        labels = sorted(commands.commands_)
+        of_person = [clip for clip in self.clips if clip[1] == person]
+        rate_hz = of_person[0][2].sample_rate_hz
+        said = _sentences(of_person, labels, rng)
+        strings = [(QUIET, label, string.samples) for label, string in zip(labels, said, strict=True)]
+        strings += [
+            (NOISY, label, with_noise(one, NOISE_DB, rng).samples) for one, label in zip(said, labels, strict=True)
+        ]
+        strings += [
+            (OTHER_WORDS, "", sound.samples) for label, _, sound in of_person if label not in self.grammar.words
+        ]
+        found = []
+        for condition, label, samples in strings:
+            if condition in conditions:
+                one = commands.recognise(samples, rate_hz)
+                found.append(Heard(person, condition, label, one.label, one.confidence))
+        return found
+
+
+def _run(data_dir: Path, progress: Progress, *, takes: int | None = None) -> dict[str, Any]:
+    dataset = first_takes(Dataset.load(data_dir / FOLDER, "speech"), takes)
+    study = _Study([(s.label, s.person, read_audio(s.path)) for s in dataset.samples])
+    parts = [set(study.people[fold::NUM_FOLDS]) for fold in range(NUM_FOLDS)]
+    heard: list[Heard] = []
+    inner: list[list[Heard]] = [[] for _ in parts]
+    for fold, part in enumerate(parts):
+        say = within(progress, f"part {fold + 1}")
+        commands = study.trained(set(study.people) - part, say)
+        for done, person in enumerate(sorted(part)):
+            heard += study.heard(commands, person)
+            say("testing", done + 1, len(part))
+        # The bound of a part is chosen on the two others, each scored by a recogniser that has met only the other one.
+        alone = study.trained(part, say)
+        for held_out, scored in permutations(set(range(NUM_FOLDS)) - {fold}):
+            for person in sorted(parts[scored]):
+                inner[held_out] += study.heard(alone, person, [QUIET])
+            say("choosing", held_out + 1, NUM_FOLDS)
+    bounds = [_chosen(ones) for ones in inner]
+    chosen = {person: bound for part, bound in zip(parts, bounds, strict=True) for person in part}
+    rows = _rows(heard, chosen)
     quiet = next(row for row in rows if (row["min_confidence"], row["condition"]) == ("default", QUIET))
     return {
         "seed": SEED,
-        "num_commands": len(grammar.sentences()),
+        "num_commands": len(study.grammar.sentences()),
         "min_confidence": MIN_CONFIDENCE,
+        "chosen_min_confidence": bounds,
         "confusions": sorted(f"{one.said} -> {one.found}" for one in heard if one.said and one.found != one.said),
         "rows": rows,
         "passed": quiet["accuracy_mean"] >= TARGET,

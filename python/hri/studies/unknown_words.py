@@ -68,7 +68,7 @@ def halves(labels: Sequence[str], number: int = NUM_HALVES, seed: int = SEED) ->
 
 
 def noises(paths: dict[str, str], seed: int = SEED) -> dict[str, list[Clip]]:
-    """Pieces of recorded noise: a second as it is, and bursts of 0.2 to 0.8 s in silence."""
+    """Pieces of a file of noise: a second as it is, and bursts of 0.2 to 0.8 s in silence."""
     rng = np.random.default_rng(seed)
     stationary, bursts = [], []
     for path in paths.values():
