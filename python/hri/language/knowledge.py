@@ -43,7 +43,7 @@ class StoredSentence:
 
 @dataclass(frozen=True)
 class StoredMatch:
-    """The stored sentence nearest to some words, and how far it is from them, 0 (the same) to 1."""
+    """The stored sentence nearest to some words, and how far it is from them, 0 (the same) to 1 (no word in common)."""
 
     sentence: StoredSentence
     distance: float
@@ -163,7 +163,10 @@ class KnowledgeBase:
                 cost += insertion
             elif pair.reference != pair.hypothesis:
                 cost += substitution
-        return cost / (substitution * max(len(stored), len(words)))
+        # Of sentences without a common word: as many pairs as the shorter one has words, and the rest of the longer one.
+        pairs, rest = min(len(stored), len(words)), abs(len(stored) - len(words))
+        more = deletion if len(stored) > len(words) else insertion
+        return cost / (min(substitution, deletion + insertion) * pairs + more * rest)
 
 
 def choose_max_distance(right: Sequence[float], wrong: Sequence[float]) -> float:
