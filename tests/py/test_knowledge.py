@@ -63,6 +63,12 @@ def test_far_words_and_unknown_words_are_none_of_them() -> None:
     assert base.match([]) is None
 
 
+def test_words_that_no_recogniser_knows_are_named_with_those_that_differ_in_case() -> None:
+    base = KnowledgeBase([SAD, AGREE, HOME])
+    labels = ["you", "SAD", "I", "YOUR", "HOME", "BIG", "SMALL", "sad"]
+    assert base.unknown_words(labels) == {"YOU": "you", "WHY": None, "AGREE": None}
+
+
 def test_texts_are_given_by_language() -> None:
     assert HOME.text("hi") == "आपका घर बड़ा है या छोटा?"
     assert SAD.text("hi") == "YOU SAD WHY" and AGREE.text() == "I AGREE"
