@@ -31,6 +31,11 @@ def note(text: str) -> None:
     _COMMANDS.info(text)
 
 
+def fault(text: str) -> None:
+    """What is wrong with one of several things, on standard error even with ``hri --quiet``; the others go on."""
+    _COMMANDS.error(f"hri: error: {text}")
+
+
 def set_verbosity(verbosity: int) -> None:
     """How much is said.
 
