@@ -19,16 +19,17 @@ from hri.cli.choices import (
     source_option,
     what_words_are_of,
 )
+from hri.cli.evaluate_sentences import evaluate_sentences
 from hri.cli.faces import faces_option, require_faces
 from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say_table, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
+    CLASSES,
     embedding_for,
     embedding_option,
     load_dataset,
-    mode_argument,
     options_option,
     pattern_option,
     recognizer_factory,
@@ -38,11 +39,12 @@ from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, FoldResult, cross_validate, evaluate_split
 from hri.recognition import GestureRecognizer, WordRecognizer
 
+SENTENCES = "sentences"
 _folder = click.Path(exists=True, file_okay=False)
 
 
 @click.command(cls=CheckedCommand)
-@mode_argument
+@click.argument("mode", type=click.Choice([*CLASSES, SENTENCES]))
 @click.option("--data", type=_folder, help="Folder of recordings, split into folds by person.")
 @click.option("--train", "train_dir", type=_folder, help="Train on this folder ...")
 @click.option("--test", "test_dir", type=_folder, help="... and test on this one.")
@@ -100,12 +102,15 @@ def evaluate(
     reliability: str | None,
     json_path: str | None,
 ) -> None:
-    """Measure the accuracy of MODE (speech or gesture) on persons who are not in the training data.
+    """Measure the accuracy of MODE (speech, gesture or sentences) on persons who are not in the training data.
 
     What is measured is what 'hri train' makes of the same recordings by those of its options that stand here. Words
     are trained with the filler words of hri, whatever 'hri train' takes by --fillers or --no-fillers, and in noise by
     --train-noise only. That may take hours where many people are held out one by one: --folds 5 and --no-network take a
     fraction of that.
+
+    Of signed sentences, in the files that 'hri train-sentences' reads, word errors are measured, each signer held out
+    in turn, or a fifth of the videos where there is one signer; --folds, --option, --seed and --json apply.
 
     \b
     Examples:
@@ -116,7 +121,11 @@ def evaluate(
       hri evaluate speech --data spoken/ --noise white --snr 10 --train-noise
       hri evaluate gesture --data signed/ --exposure 0.5
       hri evaluate gesture --data skig/ --leave-out illumination
+      hri evaluate sentences --data signed/ --json errors.json
     """
+    if mode == SENTENCES:
+        evaluate_sentences(data, folds, options, seed, json_path)
+        return
     if (data is None) == (train_dir is None) or (train_dir is None) != (test_dir is None):
         raise click.UsageError("give either --data DIR, or --train DIR and --test DIR")
     if (noise is None) != (snr is None):

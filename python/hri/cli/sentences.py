@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -19,7 +18,8 @@ from hri.cli.progress import progress_bars
 from hri.cli.recognizers import default_model, naming_options, options_option, parse_options, warn_of_stored
 from hri.cli.voice import SpokenText, spoken
 from hri.core.errors import Error, FormatError, InvalidArgument
-from hri.datasets.asl_sentences import SignedSentence, read_asl_sentences
+from hri.datasets.asl_sentences import read_asl_sentences
+from hri.evaluation.sentences import fit_sentences
 from hri.io import write_wav_pcm16
 from hri.language import KnowledgeBase, StoredMatch
 from hri.language.knowledge import MAX_DISTANCE
@@ -59,12 +59,7 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
     path = default_model(MODE) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
-        recognizer.fit(
-            [sentence.positions for sentence in sentences],
-            [[(word.label, word.first, word.last + 1) for word in sentence.words] for sentence in sentences],
-            groups=signers_of(sentences),
-            progress=lambda done, total: progress("training", done, total),
-        )
+        fit_sentences(recognizer, sentences, lambda done, total: progress("training", done, total))
     recognizer.save(path)
     labels = [str(label) for label in recognizer.classes_]
     say(str(path), json_path)
@@ -181,12 +176,6 @@ def read_sentences(
     write_json(json_path, found)
     if num_faults:
         sys.exit(EXIT_BAD_DATA)
-
-
-def signers_of(sentences: Sequence[SignedSentence]) -> list[str] | None:
-    """The signer of each sentence, to choose weights on signers held out; None of one signer."""
-    signers = [sentence.signer for sentence in sentences]
-    return signers if len(set(signers)) > 1 else None
 
 
 def _read_tracks(file: str) -> dict[str, NDArray[np.float64]]:

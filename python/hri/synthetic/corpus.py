@@ -18,7 +18,7 @@ from hri.datasets.dataset import Dataset
 from hri.datasets.manifest import MANIFEST_NAME, Manifest, manifest_text, read_manifest, write_manifest
 
 MADE_UP_PERSON = re.compile(r"(voice|signer)[0-9]+")
-"""Names of the persons of synthetic data sets; any other is taken for one of people."""
+"""Names of the persons of synthetic data sets; any other is that of a real one."""
 
 
 def make_corpus(
