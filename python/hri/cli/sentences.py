@@ -131,8 +131,9 @@ def read_sentences(
     if not path.is_file():
         raise InvalidArgument("there is no model of signed sentences yet: run 'hri train-sentences --data DIR'")
     recognizer = SentenceRecognizer.load(path)
-    stored = None if knowledge is None else KnowledgeBase.read(knowledge, max_distance)
-    if stored is not None:
+    stored = None
+    if knowledge is not None:
+        stored = KnowledgeBase.read(knowledge, max_distance)
         warn_of_stored(stored, [recognizer], knowledge)
     if stored is not None and language != "en" and not any(language in s.texts for s in stored.sentences):
         raise InvalidArgument(f"{knowledge}: no stored sentence has a text in '{language}'")
