@@ -39,7 +39,7 @@ PYTHON = {
     "synthetic": {"core", "io", "signal", "media", "datasets"},
     "recognition": {"core", "io", "media", "vision", "language", "htk"},
     "live": {"core", "io", "signal", "media", "datasets", "vision", "recognition"},
-    "evaluation": {"core", "signal", "media", "datasets", "recognition"},
+    "evaluation": {"core", "signal", "media", "datasets", "language", "recognition"},
     "training": {"core", "media", "datasets", "vision", "recognition", "evaluation"},
     "fusion": {"core", "io", "models", "recognition.decision"},
     "robot": {"core", "media"},

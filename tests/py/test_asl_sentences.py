@@ -13,6 +13,7 @@ import pytest
 from hri.core.errors import FormatError, IoError
 from hri.core.files import MAX_BYTES
 from hri.datasets.asl_sentences import SignedWord, read_asl_sentences
+from hri.robot.imitation import read_hand_tracks
 
 HANDS = "video,frame,left-x,left-y,right-x,right-y,nose-x,nose-y"
 GOOD = {
@@ -41,6 +42,14 @@ def test_positions_words_and_signers_come_together(tmp_path: Path) -> None:
     assert bob.positions.tolist() == [[[-9, 8], [7, 6], [5, 4]]]
 
 
+def test_positions_may_lie_between_pixels_or_be_out_of_sight(tmp_path: Path) -> None:
+    hands = GOOD["hands.csv"].replace("2,0,-9,8,7,6", "2,0,-9.25,8,,nan")
+    _, bob = read_asl_sentences(write(tmp_path, hands=hands))
+    np.testing.assert_array_equal(bob.positions, [[[-9.25, 8], [np.nan, np.nan], [5, 4]]])
+    read = read_hand_tracks(tmp_path / "hands.csv")["2"]
+    np.testing.assert_array_equal(np.hstack([read.left, read.right, read.nose]), bob.positions.reshape(-1, 6))
+
+
 def test_windows_line_ends_and_a_byte_order_mark_are_read(tmp_path: Path) -> None:
     plain = read_asl_sentences(write(tmp_path))
     marked = {name.removesuffix(".csv"): ("\ufeff" + text).replace("\n", "\r\n") for name, text in GOOD.items()}
@@ -54,11 +63,11 @@ def test_windows_line_ends_and_a_byte_order_mark_are_read(tmp_path: Path) -> Non
     [
         ("hands", "nose-y", "nose-z", "hands.csv: row 1: the columns are"),
         ("hands", "2,0,-9,8,7,6,5,4", "2,0,-9,8,7,6,5", "hands.csv: row 4: 7 fields, must be 8"),
-        ("hands", "2,0,-9", "2,0,nan", "hands.csv: row 4, field left-x: 'nan' is no whole number"),
-        ("hands", "2,0,-9", "2,0,1.5", "row 4, field left-x: '1.5' is no whole number"),
-        ("hands", "2,0,-9", "2,0,٣", "row 4, field left-x: '٣' is no whole number"),
+        ("hands", "2,0,-9", "2,0,inf", "hands.csv: row 4, field left-x: 'inf' is no number within 65535"),
+        ("hands", "2,0,-9", "2,0.5,-9", "row 4, field frame: '0.5' is no whole number"),
+        ("hands", "2,0,-9", "2,0,٣", "row 4, field left-x: '٣' is no number within 65535"),
         ("hands", "2,0,-9", "2,0," + "9" * 5000, "row 4, field left-x: '9999"),
-        ("hands", "2,0,-9", "2,0,99999999", "row 4, field left-x: 99999999, must be -65535..65535"),
+        ("hands", "2,0,-9", "2,0,99999999", "row 4, field left-x: '99999999' is no number within 65535"),
         ("hands", "2,0,-9", "2,1,-9", "row 4, field frame: 1, but the next frame of video '2' is 0"),
         ("hands", "7,2,11", "7,1,11", "row 5, field frame: 1, but the next frame of video '7' is 2"),
         ("hands", "2,0,-9", "3,0,-9", "row 4, field video: '3' is not in signers.csv"),

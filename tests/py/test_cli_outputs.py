@@ -195,27 +195,7 @@ def test_a_plot_takes_names_in_hindi_and_names_that_are_no_text(
     assert len(families) > 1 or "no font for Devanagari" in caplog.text
 
 
-@pytest.mark.parametrize("there_before", [False, True])
-def test_an_interrupted_data_set_is_removed_where_nothing_else_was(hri, tmp_path: Path, there_before: bool) -> None:
-    from hri.cli.output import whole_folder
-
-    folder = tmp_path / "set"
-    if there_before:
-        (folder / "go").mkdir(parents=True)
-        (folder / "go" / "old.wav").write_bytes(b"old")
-
-    @whole_folder(folder)
-    def interrupted() -> None:
-        (folder / "go").mkdir(parents=True, exist_ok=True)
-        (folder / "stop").mkdir()
-        for name in ("go", "stop"):
-            (folder / name / "new.wav").write_bytes(b"new")
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        interrupted()
-    left = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
-    assert left == ({"set/go/old.wav", "set/go/new.wav", "set/stop/new.wav"} if there_before else set())
+def test_a_data_set_that_cannot_be_made_leaves_no_folder(hri, tmp_path: Path) -> None:
     failed = hri("corpus", "speech", "go", "--language", "zz", "--out", tmp_path / "none")
     assert failed.code == 3 and not (tmp_path / "none").exists()
 

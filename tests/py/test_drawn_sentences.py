@@ -106,6 +106,24 @@ def test_a_data_set_is_written_and_trained_on(hri: Any, tmp_path: Path) -> None:
     assert hri("corpus", "sentences", "--table", "table 4.4", "--out", tmp_path / "c").code == 2
 
 
+def test_drawn_sentences_never_take_the_place_of_those_of_people(hri, tmp_path: Path) -> None:
+    few = ("corpus", "sentences", "--signers", 1, "--takes", 1, "--out", tmp_path)
+    assert hri(*few).code == 0 and hri(*few).code == 0
+    other = hri(*few, "--seed", 1)
+    assert other.code == 3 and "--replace" in other.err
+    assert hri(*few, "--seed", 1, "--replace").code == 0
+    assert "seed = 1" in (tmp_path / "synthetic.toml").read_text()
+    for name, row in {"signers": "x,asha", "hands": "x,0,1,1,2,2,3,3", "words": "x,asha,go,0,0"}.items():
+        with (tmp_path / f"{name}.csv").open("a") as file:
+            file.write(f"{row}\n")
+    before = (tmp_path / "signers.csv").read_text()
+    refused = hri(*few, "--replace")
+    assert refused.code == 3 and "'asha'" in refused.err
+    (tmp_path / "synthetic.toml").unlink()
+    assert "not empty" in hri(*few, "--replace").err
+    assert (tmp_path / "signers.csv").read_text() == before
+
+
 def test_the_study_tests_signers_that_were_not_trained_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(drawn_sentences, "NUM_SIGNERS", 4)
     monkeypatch.setattr(drawn_sentences, "TAKES", 1)

@@ -29,10 +29,16 @@ def test_words_that_are_stored_are_at_no_distance() -> None:
 def test_the_distance_is_that_of_the_edits() -> None:
     base = KnowledgeBase([SAD], costs=(4, 3, 2))
     assert base.nearest(["YOU", "SAD", "HOW"]).distance == pytest.approx(4 / (4 * 3))
-    assert base.nearest(["YOU", "SAD"]).distance == pytest.approx(3 / (4 * 3))
-    assert base.nearest(["YOU", "VERY", "SAD", "WHY"]).distance == pytest.approx(2 / (4 * 4))
-    assert base.nearest([]).distance == pytest.approx(9 / (4 * 3))
-    assert base.nearest(["A", "B", "C"]).distance == 1
+    assert base.nearest(["YOU", "SAD"]).distance == pytest.approx(3 / (4 * 2 + 3))
+    assert base.nearest(["YOU", "VERY", "SAD", "WHY"]).distance == pytest.approx(2 / (4 * 3 + 2))
+    assert KnowledgeBase([SAD]).nearest(["WHY"]).distance == pytest.approx(6 / (4 + 3 * 2))
+
+
+@pytest.mark.parametrize("costs", [(4, 3, 3), (4, 3, 2), (9, 2, 3)])
+def test_words_without_any_in_common_are_as_far_as_can_be(costs: tuple[int, int, int]) -> None:
+    base = KnowledgeBase([HOME], costs=costs)
+    for found in ([], ["X"], ["X", "Y", "Z", "W"], list("ABCDEFGH")):
+        assert base.nearest(found).distance == 1
 
 
 def test_alternatives_may_be_nearer_than_what_was_recognised() -> None:
@@ -55,6 +61,12 @@ def test_far_words_and_unknown_words_are_none_of_them() -> None:
     assert unknown_word is not None and unknown_word.sentence is SAD
     assert base.match(["OLD", "KEYS", "RUST"]) is None
     assert base.match([]) is None
+
+
+def test_words_that_no_recogniser_knows_are_named_with_those_that_differ_in_case() -> None:
+    base = KnowledgeBase([SAD, AGREE, HOME])
+    labels = ["you", "SAD", "I", "YOUR", "HOME", "BIG", "SMALL", "sad"]
+    assert base.unknown_words(labels) == {"YOU": "you", "WHY": None, "AGREE": None}
 
 
 def test_texts_are_given_by_language() -> None:

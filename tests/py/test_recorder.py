@@ -138,6 +138,9 @@ def test_what_cannot_be_recorded_is_said_before(tmp_path: Path) -> None:
     manifest.write_text('kind = "speech"\npattern = "{label}/{take}.wav"\n')
     with pytest.raises(InvalidArgument, match="another data set"):
         WordRecorder(tmp_path, ["go"], "asha")
+    manifest.write_text('kind = "speech"\npattern = "{label}/{person}_{take}.wav"\nsynthetic = true\n')
+    with pytest.raises(InvalidArgument, match="synthetic recordings: record people into another folder"):
+        WordRecorder(tmp_path, ["go"], "asha")
     (tmp_path / "dataset.toml").write_text(
         'kind = "speech"\npattern = "{label}/{person}_{take}.wav"\nlabels = ["go"]\n'
     )

@@ -220,7 +220,7 @@ def test_command_line_reads_stored_sentences_and_speaks(hri, signs: SentenceReco
     read = "read-sentences", tmp_path / "new" / "hands.csv", "--model", tmp_path / "signs.hri", "--knowledge", stored
     english = hri(*read)
     assert english.out == "0\tThe cat sees the dog\n1\tBALL\n"
-    assert "1: none of the stored sentences" in english.err
+    assert "1: none of the stored sentences" in english.err and "WARNING" not in english.err
     assert hri(*read, "--language", "hi").out.startswith("0\tबिल्ली कुत्ते को देखती है\n")
     assert hri(*read, "--max-distance", "0").out == "0\tCAT DOG\n1\tBALL\n"
     found = json.loads(hri(*read, "--json", "-").out)[str(read[1])]
@@ -230,6 +230,8 @@ def test_command_line_reads_stored_sentences_and_speaks(hri, signs: SentenceReco
         audio = package.read_audio(tmp_path / "voice" / "001.wav")
         assert len(audio.samples) > audio.sample_rate_hz and np.abs(audio.samples).max() > 0.1
         assert (tmp_path / "voice" / "002.wav").exists()
+    stored.write_text("signs,en\nCAT dog,A\nCOW,B\n", "utf-8")
+    assert "words that no recogniser knows: dog (there is DOG), COW" in hri(*read).err
     refused = hri(*read, "--language", "de")
     assert refused.code == 3 and "no stored sentence has a text in 'de'" in refused.err
     (tmp_path / "bad.csv").write_text("words\nCAT\n")
@@ -246,6 +248,46 @@ def test_command_line_says_what_is_missing(hri, signs: SentenceRecognizer, tmp_p
     (tmp_path / "empty.csv").write_text("left-x,left-y,right-x,right-y,nose-x,nose-y\n,,,,1,2\n")
     blind = hri("read-sentences", tmp_path / "empty.csv", "--model", tmp_path / "signs.hri")
     assert blind.code == 3 and "empty: tracks: no frame shows a hand" in blind.err
+
+
+def test_a_video_or_a_file_that_cannot_be_read_leaves_the_others(
+    hri, signs: SentenceRecognizer, tmp_path: Path
+) -> None:
+    signs.save(tmp_path / "signs.hri")
+    write_folder(tmp_path / "new", [signed(["CAT"], 57), signed(["DOG"], 58)])
+    good, blind, bad = tmp_path / "new" / "hands.csv", tmp_path / "blind.csv", tmp_path / "bad.csv"
+    header, *lines = good.read_text().splitlines()
+    unseen = [line.split(",")[1] for line in lines if line.startswith("1,")]
+    kept = [line for line in lines if line.startswith("0,")]
+    blind.write_text("\n".join([header, *(f"9,{frame},,,,,," for frame in unseen), *kept]) + "\n")
+    bad.write_text("words\nCAT\n")
+    done = hri(
+        "--quiet", "read-sentences", bad, blind, good, "--model", tmp_path / "signs.hri", "--json", tmp_path / "o"
+    )
+    assert done.code == 3 and done.out == "0\tCAT\n0\tCAT\n1\tDOG\n"
+    assert "bad.csv: row 1: no column" in done.err and "blind.csv: 9: tracks: no frame shows" in done.err
+    found = json.loads((tmp_path / "o").read_text())
+    assert "no column" in found[str(bad)]["error"] and "no frame shows" in found[str(blind)]["9"]["error"]
+    assert found[str(blind)]["0"]["text"] == "CAT" and found[str(good)]["1"]["text"] == "DOG"
+
+
+def test_weights_are_chosen_on_signers_held_out_where_there_are_two(
+    hri, sentences: list[Sentence], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen = []
+    fit = SentenceRecognizer.fit
+    monkeypatch.setattr(
+        SentenceRecognizer, "fit", lambda self, X, y, **more: seen.append(more["groups"]) or fit(self, X, y, **more)
+    )
+    write_folder(tmp_path / "one", sentences[:6])
+    write_folder(tmp_path / "two", sentences[:6])
+    for name in ("signers.csv", "words.csv"):
+        path = tmp_path / "two" / name
+        path.write_text(path.read_text().replace("5,ann", "5,ben"))
+    for folder in ("one", "two"):
+        done = hri("train-sentences", "--data", tmp_path / folder, "--option", "choose_weights=false")
+        assert done.code == 0, done.err
+    assert seen == [None, ["ann"] * 5 + ["ben"]]
 
 
 def test_the_studies_hold_sentences_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

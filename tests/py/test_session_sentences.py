@@ -41,7 +41,7 @@ def test_the_nearest_stored_sentence_is_said_and_answered_by_one_gesture_after_t
     talk, done = talked("you", "why")
     (read, *rest) = done
     assert read.kind == "sentence" and read.words == ("you", "why")
-    assert read.nearest.sentence.words == ("you", "sad", "why") and read.nearest.distance == 0.25
+    assert read.nearest.sentence.words == ("you", "sad", "why") and read.nearest.distance == pytest.approx(3 / 11)
     assert kinds(rest) == [("say", "Why are you sad?"), ("state", "acting"), ("move", "5")]
     assert kinds(talk.moved("", False)) == [("move", "7")] and talk.state == "acting"
     assert kinds(talk.moved("", False)) == [("state", "idle")]

@@ -287,9 +287,53 @@ def test_gesture_corpus_says_that_it_is_synthetic(tmp_path: Path, kind: str, suf
         assert len(read_frames(sample.path).frames) == (1 if kind == "still" else 36)
 
 
-def test_second_corpus_in_a_folder_lists_only_its_own(tmp_path: Path) -> None:
-    make_gesture_corpus(tmp_path, ["1", "2"], num_persons=2)
-    assert len(make_gesture_corpus(tmp_path, ["1"], num_persons=1)) == 1
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_a_second_corpus_takes_the_place_of_its_own_kind_only_when_asked(tmp_path: Path) -> None:
+    made = make_gesture_corpus(tmp_path, ["1", "2"], num_persons=2)
+    before = contents(tmp_path)
+    assert make_gesture_corpus(tmp_path, ["1", "2"], num_persons=2) == made and contents(tmp_path) == before
+    with pytest.raises(InvalidArgument, match=r"made with other options: .*--replace"):
+        make_gesture_corpus(tmp_path, ["1"], num_persons=1)
+    assert contents(tmp_path) == before
+    assert len(make_gesture_corpus(tmp_path, ["1"], num_persons=1, replace=True)) == 1
+    assert sorted(contents(tmp_path)) == ["1/signer01_still1.jpg", "dataset.toml"] and not (tmp_path / "2").exists()
+
+
+@pytest.mark.parametrize("replace", [(), ("--replace",)])
+def test_a_corpus_never_takes_the_place_of_what_people_recorded(hri, tmp_path: Path, replace: tuple[str, ...]) -> None:
+    def refused(folder: Path, reason: str) -> bool:
+        before = contents(folder)
+        found = hri("corpus", "gesture", "1", "--persons", 1, "--out", folder, *replace)
+        return found.code == 3 and reason in found.err and contents(folder) == before
+
+    recorded = tmp_path / "recorded"
+    (recorded / "1").mkdir(parents=True)
+    (recorded / "1" / "asha_1.jpg").touch()
+    assert refused(recorded, "not empty, there is 1/asha_1.jpg")
+    (recorded / "dataset.toml").write_text('kind = "gesture"\npattern = "{label}/{person}_{take}.jpg"\n')
+    assert refused(recorded, "hri.synthetic.signer did not make")
+    mixed = tmp_path / "mixed"
+    make_gesture_corpus(mixed, ["1"], num_persons=1)
+    (mixed / "1" / "asha_1.jpg").touch()
+    assert refused(mixed, "more than synthetic data, 1/asha_1.jpg")
+    with (mixed / "dataset.toml").open("a") as file:
+        file.write('\n[[samples]]\npath = "1/asha_1.jpg"\nlabel = "1"\nperson = "asha"\n')
+    assert refused(mixed, "recordings by 'asha'")
+
+
+def test_a_corpus_that_is_interrupted_leaves_what_was_there(tmp_path: Path) -> None:
+    def stop(done: int, total: int) -> None:
+        raise KeyboardInterrupt
+
+    make_gesture_corpus(tmp_path / "old", ["1"], num_persons=1)
+    before = contents(tmp_path)
+    for folder in ("old", "new"):
+        with pytest.raises(KeyboardInterrupt):
+            make_gesture_corpus(tmp_path / folder, ["1", "2"], num_persons=1, progress=stop, replace=True)
+    assert contents(tmp_path) == before and not (tmp_path / "new").exists()
 
 
 @pytest.mark.parametrize(

@@ -10,17 +10,26 @@ from typing import Any
 import click
 
 from hri.cli.groups import FiniteRange, SuggestingGroup
-from hri.cli.output import whole_folder
 from hri.cli.progress import progress_bars
 from hri.synthetic.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
 from hri.synthetic.sentences import SENTENCES, make_sentence_corpus
 from hri.synthetic.signer import SIGNS, make_gesture_corpus
 from hri.synthetic.speech import DIGIT_WORDS, make_speech_corpus
 
+_out = click.option(
+    "--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to write, new or empty."
+)
+_replace = click.option(
+    "--replace", is_flag=True, help="What this command made in the folder with other options gives way; nothing else."
+)
+
 
 @click.group(cls=SuggestingGroup)
 def corpus() -> None:
     """Make a data set where there are no recordings yet; it says of itself that it is synthetic.
+
+    The folder must be empty, or hold what the same command made; with --replace, what it made with other options gives
+    way. Recordings of people, and anything else, are never replaced.
 
     \b
     Example:
@@ -33,11 +42,14 @@ def corpus() -> None:
 @corpus.command()
 @click.argument("words", nargs=-1, metavar="[WORD|LABEL=TEXT]...")
 @click.option("--language", default="en", show_default=True, help="An espeak-ng voice: en, hi, de, ...")
-@click.option("--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to write.")
+@_out
+@_replace
 @click.option("--speakers", default=24, show_default=True, type=click.IntRange(1, 1000), help="Made-up voices.")
 @click.option("--takes", default=2, show_default=True, type=click.IntRange(1, 1000), help="Repetitions by each voice.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Equal seeds give equal recordings.")
-def speech(words: tuple[str, ...], language: str, out: str, speakers: int, takes: int, seed: int) -> None:
+def speech(
+    words: tuple[str, ...], out: str, replace: bool, language: str, speakers: int, takes: int, seed: int
+) -> None:
     """Words spoken by espeak-ng in many voices, pitches and paces; without words, the digits.
 
     A word is its own label unless one is given. Synthetic voices vary less than people: record people where you can.
@@ -53,9 +65,15 @@ def speech(words: tuple[str, ...], language: str, out: str, speakers: int, takes
     table = dict(_split(word) for word in words) or DIGIT_WORDS[language]
     if words and len(table) < len(words):
         raise click.UsageError("two words have the same label")
-    with progress_bars() as progress, whole_folder(out):
+    with progress_bars() as progress:
         dataset = make_speech_corpus(
-            out, {language: table}, speakers, takes, seed, lambda done, total: progress("speaking", done, total)
+            out,
+            {language: table},
+            speakers,
+            takes,
+            seed,
+            lambda done, total: progress("speaking", done, total),
+            replace,
         )
     click.echo(f"{len(dataset)} synthetic recordings of {len(dataset.labels)} words by {speakers} voices: {out}")
 
@@ -73,7 +91,8 @@ def _three(option: str, text: str) -> Callable[[Any], Any]:
 
 @corpus.command()
 @click.argument("labels", nargs=-1, metavar="[LABEL]...")
-@click.option("--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to write.")
+@_out
+@_replace
 @click.option(
     "--kind",
     type=click.Choice(["still", "clip"]),
@@ -106,6 +125,7 @@ def _three(option: str, text: str) -> Callable[[Any], Any]:
 def gesture(
     labels: tuple[str, ...],
     out: str,
+    replace: bool,
     kind: str,
     persons: int,
     first_person: int,
@@ -125,7 +145,7 @@ def gesture(
       hri corpus gesture --skin dark --sleeve short --light left --cast 1.3 1 0.7 --noise 12 --out hard/
     """
     options = SignerOptions(**asked)
-    with progress_bars() as progress, whole_folder(out):
+    with progress_bars() as progress:
         dataset = make_gesture_corpus(
             out,
             labels or SIGNS,
@@ -136,13 +156,15 @@ def gesture(
             lambda done, total: progress("drawing", done, total),
             options,
             first_person,
+            replace,
         )
     what = "pictures" if kind == "still" else "clips"
     click.echo(f"{len(dataset)} synthetic {what} of {len(dataset.labels)} signs by {persons} drawn people: {out}")
 
 
 @corpus.command("sentences")
-@click.option("--out", required=True, type=click.Path(file_okay=False), metavar="DIR", help="Folder to write.")
+@_out
+@_replace
 @click.option(
     "--table",
     type=click.Choice(list(SENTENCES)),
@@ -154,7 +176,9 @@ def gesture(
 @click.option("--first-signer", default=0, show_default=True, type=click.IntRange(0), help="Number of the first one.")
 @click.option("--takes", default=3, show_default=True, type=click.IntRange(1, 100), help="Repetitions by each of them.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Equal seeds give equal tracks.")
-def signed_sentences(out: str, table: str, signers: int, first_signer: int, takes: int, seed: int) -> None:
+def signed_sentences(
+    out: str, replace: bool, table: str, signers: int, first_signer: int, takes: int, seed: int
+) -> None:
     """Drawn people who sign sentences: tracks of both hands and the head, and the frames of the words.
 
     For 'hri train-sentences' and 'hri read-sentences'. A file synthetic.toml says that no one was filmed.
@@ -164,9 +188,16 @@ def signed_sentences(out: str, table: str, signers: int, first_signer: int, take
       hri corpus sentences --out signed/
       hri corpus sentences --table 'table 5.1' --signers 4 --first-signer 10 --out others/
     """
-    with progress_bars() as progress, whole_folder(out):
+    with progress_bars() as progress:
         written = make_sentence_corpus(
-            out, table, signers, takes, seed, first_signer, lambda done, total: progress("signing", done, total)
+            out,
+            table,
+            signers,
+            takes,
+            seed,
+            first_signer,
+            lambda done, total: progress("signing", done, total),
+            replace,
         )
     num_words = len({word.label for sentence in written for word in sentence.words})
     click.echo(f"{len(written)} synthetic sentences of {num_words} words by {signers} drawn people: {out}")

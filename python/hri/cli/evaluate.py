@@ -20,6 +20,7 @@ from hri.cli.choices import (
     what_words_are_of,
 )
 from hri.cli.evaluate_connected import evaluate_connected
+from hri.cli.evaluate_sentences import evaluate_sentences
 from hri.cli.faces import faces_option, require_faces
 from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
 from hri.cli.messages import note
@@ -39,11 +40,12 @@ from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, FoldResult, cross_validate, evaluate_split
 from hri.recognition import GestureRecognizer, WordRecognizer
 
+CONNECTED, SENTENCES = "connected", "sentences"
 _folder = click.Path(exists=True, file_okay=False)
 
 
 @click.command(cls=CheckedCommand)
-@click.argument("mode", type=click.Choice([*CLASSES, "connected"]))
+@click.argument("mode", type=click.Choice([*CLASSES, CONNECTED, SENTENCES]))
 @click.option("--data", type=_folder, help="Folder of recordings, split into folds by person.")
 @click.option("--train", "train_dir", type=_folder, help="Train on this folder ...")
 @click.option("--test", "test_dir", type=_folder, help="... and test on this one.")
@@ -108,12 +110,15 @@ def evaluate(
     reliability: str | None,
     json_path: str | None,
 ) -> None:
-    """Measure the accuracy of MODE (speech, gesture or connected) on persons who are not in the training data.
+    """Measure the accuracy of MODE on persons who are not in the training data.
 
     What is measured is what 'hri train' makes of the same recordings by those of its options that stand here. Words
     are trained with the filler words of hri, whatever 'hri train' takes by --fillers or --no-fillers, and in noise by
     --train-noise only. That may take hours where many people are held out one by one: --folds 5 and --no-network take a
     fraction of that.
+
+    Of signed sentences, in the files that 'hri train-sentences' reads, word errors are measured, each signer held out
+    in turn, or a fifth of the videos where there is one signer; --folds, --option, --seed and --json apply.
 
     \b
     Examples:
@@ -125,14 +130,19 @@ def evaluate(
       hri evaluate gesture --data signed/ --exposure 0.5
       hri evaluate gesture --data skig/ --leave-out illumination
       hri evaluate connected --data spoken/ --transcripts numbers/said.mlf
+      hri evaluate sentences --data signed/ --json errors.json
     """
-    if mode == "connected":
+    if mode == CONNECTED:
         _refuse_all_but("data", "transcripts", "pattern", "options", "seed", "json_path")
         if data is None or transcripts is None:
             raise click.UsageError("connected takes --data DIR, of one word each, and --transcripts FILE")
         evaluate_connected(data, transcripts, pattern, options, seed, json_path)
         return
     refuse_given(("transcripts",), "is for connected")
+    if mode == SENTENCES:
+        _refuse_all_but("data", "folds", "options", "seed", "json_path")
+        evaluate_sentences(data, folds, options, seed, json_path)
+        return
     if (data is None) == (train_dir is None) or (train_dir is None) != (test_dir is None):
         raise click.UsageError("give either --data DIR, or --train DIR and --test DIR")
     if (noise is None) != (snr is None):

@@ -31,8 +31,8 @@ def note(text: str) -> None:
     _COMMANDS.info(text)
 
 
-def report_fault(error: Exception) -> None:
-    """What is wrong with one of several items, on standard error, whatever the verbosity; the others go on."""
+def report_fault(error: Exception | str) -> None:
+    """What is wrong with one of several items, on standard error even with ``hri --quiet``; the others go on."""
     _COMMANDS.error("hri: error: %s", " ".join(str(error).split()))
 
 

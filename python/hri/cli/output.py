@@ -8,10 +8,8 @@ import codecs
 import io
 import json
 import os
-import shutil
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -100,22 +98,6 @@ def write_bytes(target: Path, content: bytes) -> None:
     """Write `content` to `target`, in a folder that is made if need be; an old file stays whole if this fails."""
     files.make_folder(target.parent)
     files.write_bytes(target, content)
-
-
-@contextmanager
-def whole_folder(path: str | Path) -> Iterator[None]:
-    """Remove a folder that is not finished, as half a data set looks like a whole one.
-
-    One that held something before stays as it is: who wrote what is in it is not known.
-    """
-    root = Path(path)
-    mine = not root.exists() or not any(root.iterdir())
-    try:
-        yield
-    except BaseException:
-        if mine:
-            shutil.rmtree(root, ignore_errors=True)
-        raise
 
 
 def print_any_name() -> None:

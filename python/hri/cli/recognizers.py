@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,10 @@ from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import parse_toml
 from hri.datasets import Dataset
 from hri.io import ModelFile
+from hri.language import KnowledgeBase
 from hri.recognition import GestureRecognizer, SentenceRecognizer, SpeechEmbedding, WordRecognizer
+
+_MOST_NAMED = 10
 
 CLASSES: dict[str, type[WordRecognizer] | type[GestureRecognizer]] = {
     "speech": WordRecognizer,
@@ -120,6 +123,16 @@ def load_signs(path: Path) -> GestureRecognizer | SentenceRecognizer:
             f"{path} was trained on rows of features, and does not say which: Session and SignWatcher in Python take it"
         )
     return signs
+
+
+def warn_of_stored(stored: KnowledgeBase, recognizers: Iterable[Any], path: str | Path) -> None:
+    """Warn of words of stored sentences that nothing recognises."""
+    labels = {str(label) for one in recognizers if one is not None for label in one.classes_}
+    unknown = stored.unknown_words(labels)
+    if unknown:
+        named = [word if other is None else f"{word} (there is {other})" for word, other in unknown.items()]
+        more = f" and {len(named) - _MOST_NAMED} more" if len(named) > _MOST_NAMED else ""
+        note(f"WARNING: {path}: words that no recogniser knows: {', '.join(named[:_MOST_NAMED])}{more}")
 
 
 def load_dataset(directory: str, mode: str, pattern: str | None) -> Dataset:

@@ -4,25 +4,29 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
 import numpy as np
+from numpy.typing import NDArray
 
 from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
-from hri.cli.messages import note
+from hri.cli.messages import report_fault, note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import default_model, naming_options, options_option, parse_options
+from hri.cli.recognizers import default_model, naming_options, options_option, parse_options, warn_of_stored
 from hri.cli.voice import SpokenText, spoken
-from hri.core.errors import FormatError, InvalidArgument
+from hri.core.errors import Error, FormatError, InvalidArgument
 from hri.datasets.asl_sentences import read_asl_sentences
+from hri.evaluation.sentences import fit_sentences
 from hri.io import write_wav_pcm16
 from hri.language import KnowledgeBase, StoredMatch
 from hri.language.knowledge import MAX_DISTANCE
 from hri.recognition import SentenceRecognizer
 from hri.robot.imitation import read_hand_tracks
 
+EXIT_BAD_DATA = 3
 MODE = "sentences"
 """Under which name the model is kept per user."""
 
@@ -41,6 +45,8 @@ MODE = "sentences"
 def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: int, json_path: str | None) -> None:
     """Train a recogniser of signed sentences on tracks of both hands with their words.
 
+    Where there are two signers or more, weights are chosen on signers held out.
+
     \b
     Examples:
       hri train-sentences --data signed/
@@ -53,11 +59,7 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
     path = default_model(MODE) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
-        recognizer.fit(
-            [sentence.positions for sentence in sentences],
-            [[(word.label, word.first, word.last + 1) for word in sentence.words] for sentence in sentences],
-            progress=lambda done, total: progress("training", done, total),
-        )
+        fit_sentences(recognizer, sentences, lambda done, total: progress("training", done, total))
     recognizer.save(path)
     labels = [str(label) for label in recognizer.classes_]
     say(str(path), json_path)
@@ -113,7 +115,8 @@ def read_sentences(
     """Recognise signed sentences in CSV files of tracks; print a line for each sentence: its name and its words.
 
     A file has the columns left-x, left-y, right-x, right-y, nose-x, nose-y, in pixels, and may have video and frame;
-    an empty cell is a position that was not seen.
+    an empty cell is a position that was not seen. What cannot be recognised is said on standard error, the others are
+    read, and the exit code is 3.
 
     \b
     Examples:
@@ -128,21 +131,32 @@ def read_sentences(
     if not path.is_file():
         raise InvalidArgument("there is no model of signed sentences yet: run 'hri train-sentences --data DIR'")
     recognizer = SentenceRecognizer.load(path)
-    stored = None if knowledge is None else KnowledgeBase.read(knowledge, max_distance)
+    stored = None
+    if knowledge is not None:
+        stored = KnowledgeBase.read(knowledge, max_distance)
+        warn_of_stored(stored, [recognizer], knowledge)
     if stored is not None and language != "en" and not any(language in s.texts for s in stored.sentences):
         raise InvalidArgument(f"{knowledge}: no stored sentence has a text in '{language}'")
     found: dict[str, dict[str, object]] = {}
-    num_spoken = 0
+    num_spoken = num_faults = 0
     voice = SpokenText(language) if play else None
     for file in files:
         found[file] = {}
-        for name, track in read_hand_tracks(file).items():
-            if track.nose is None:
-                raise FormatError(f"{file}: row 1: no column nose-x, nose-y")
+        try:
+            tracks = _read_tracks(file)
+        except Error as error:
+            report_fault(error)
+            found[file]["error"] = str(error)
+            num_faults += 1
+            continue
+        for name, track in tracks.items():
             try:
-                sentence = recognizer.recognise(np.hstack([track.left, track.right, track.nose]))
+                sentence = recognizer.recognise(track)
             except InvalidArgument as error:
-                raise FormatError(f"{file}: {name}: {error}") from error
+                report_fault(f"{file}: {name}: {error}")
+                found[file][name] = {"error": str(error)}
+                num_faults += 1
+                continue
             match = None if stored is None else stored.match(sentence.labels)
             text = sentence.text if match is None else match.sentence.text(language)
             found[file][name] = sentence.to_dict()
@@ -161,6 +175,18 @@ def read_sentences(
             if voice is not None and text:
                 voice.say(text)
     write_json(json_path, found)
+    if num_faults:
+        sys.exit(EXIT_BAD_DATA)
+
+
+def _read_tracks(file: str) -> dict[str, NDArray[np.float64]]:
+    """Tracks of a file by name, shape (frames, 6) each."""
+    tracks: dict[str, NDArray[np.float64]] = {}
+    for name, track in read_hand_tracks(file).items():
+        if track.nose is None:
+            raise FormatError(f"{file}: row 1: no column nose-x, nose-y")
+        tracks[name] = np.hstack([track.left, track.right, track.nose])
+    return tracks
 
 
 def _as_dict(match: StoredMatch, text: str) -> dict[str, object]:

@@ -110,7 +110,8 @@ def serve(
     words = None if chosen.no_speech else chosen.load_words()
     signs = None if chosen.no_gesture else chosen.load_signs()
     chosen.warn_of_stop(words, signs)
-    learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(), chosen.person_finder()
+    learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(words, signs), chosen.person_finder()
+    chosen.require_sentences(signs)
     recordings, spoken = None, None
     if speech_data:
         recordings = [sample for folder in speech_data for sample in load_dataset(folder, "speech", None).samples]

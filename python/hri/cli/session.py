@@ -111,7 +111,8 @@ def session(
     words = chosen.load_words() if with_speech else None
     signs = chosen.load_signs() if with_gesture else None
     chosen.warn_of_stop(words, signs)
-    learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(), chosen.person_finder()
+    learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(words, signs), chosen.person_finder()
+    chosen.require_sentences(signs)
     with ExitStack() as stack:
         robot = chosen.open_robot(gui, url)
         if robot is not None:
@@ -154,7 +155,7 @@ def _replay(path: Path, chosen: ChosenSession, as_json: bool) -> None:
     recording = read_recording(path)
     words = chosen.load_words() if any(True for _ in recording.sound()) else None
     signs = chosen.load_signs() if any(True for _ in recording.pictures()) else None
-    learned, stored = chosen.load_fusion(), chosen.load_knowledge()
+    learned, stored = chosen.load_fusion(), chosen.load_knowledge(words, signs)
     for mode, name in chosen.model_ids.items():
         if name != recording.models.get(mode):
             note(f"{mode}: recorded with {recording.models.get(mode) or 'another model'}, replayed with {name}")

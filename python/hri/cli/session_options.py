@@ -17,7 +17,7 @@ from hri.cli.connected import connected_model
 from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import FiniteRange, is_given, refuse_given
 from hri.cli.messages import note
-from hri.cli.recognizers import embedding_option, kept_model, load_embedding, load_signs
+from hri.cli.recognizers import embedding_option, kept_model, load_embedding, load_signs, warn_of_stored
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.fusion import RULES, FusionOptions, LearnedFusion
@@ -239,12 +239,24 @@ class ChosenSession:
         """The learned fusion, if any."""
         return None if self.fusion_path is None else self._load(LearnedFusion, "fusion", self.fusion_path)
 
-    def load_knowledge(self) -> KnowledgeBase | None:
-        """Stored sentences, if any; how near words must be to them is part of the id."""
+    def load_knowledge(self, words: Any, signs: Any) -> KnowledgeBase | None:
+        """Stored sentences, if any; how near words must be to them is part of the id.
+
+        Warns of words that neither recogniser knows.
+        """
         if self.knowledge_path is None:
             return None
         self.model_ids["knowledge"] = f"{_name_and_hash(self.knowledge_path)} within {self.max_distance:g}"
-        return KnowledgeBase.read(self.knowledge_path, self.max_distance)
+        stored = KnowledgeBase.read(self.knowledge_path, self.max_distance)
+        warn_of_stored(stored, (words, signs), self.knowledge_path)
+        return stored
+
+    def require_sentences(self, signs: Any) -> None:
+        """Refuse --knowledge where no sentence can begin."""
+        if self.knowledge_path is not None and not (self.sentence_begin or isinstance(signs, SentenceRecognizer)):
+            raise click.UsageError(
+                "--knowledge needs --sentence-begin and --sentence-end, or a --gesture-model by 'hri train-sentences'"
+            )
 
     def open_robot(self, gui: bool = False, url: str | None = None) -> Robot | None:
         """The real NAO at `url`, or the simulated robot, to be closed; None where there is to be none."""
@@ -275,6 +287,8 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
             speaks = name == "language" and given.get("speak", False)
             if is_given(name) and given[needed] is None and not speaks:
                 raise click.UsageError(f"{option} goes with {needed_option}")
+        if bool(given["sentence_begin"]) != bool(given["sentence_end"]):
+            raise click.UsageError("--sentence-begin and --sentence-end go together")
         if given["grammar_path"] is not None or given["no_speech"]:
             refuse_given(("embedding_path",), "is for single words, which --grammar and --no-speech leave out")
         if given["faces"] is not None and given["no_gesture"]:

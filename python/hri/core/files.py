@@ -160,6 +160,11 @@ def parse_number(cell: str) -> float | None:
     return value if -_INFINITY < value < _INFINITY else None
 
 
+def parse_seen(cell: str) -> float | None:
+    """The finite number in a cell of a track, NaN for an empty one or ``nan``: not seen; None for anything else."""
+    return float("nan") if cell.strip().lower() in ("", "nan") else parse_number(cell)
+
+
 def parse_whole(cell: str) -> int | None:
     """The whole number of at most 18 digits in a cell, blanks around it aside; None for anything else."""
     text = cell.strip(_BLANKS)

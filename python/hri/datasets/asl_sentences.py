@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hri.core.display import short_repr
 from hri.core.errors import FormatError
-from hri.core.files import read_csv
+from hri.core.files import parse_seen, read_csv
 
 HANDS_COLUMNS = ("video", "frame", "left-x", "left-y", "right-x", "right-y", "nose-x", "nose-y")
 WORDS_COLUMNS = ("video", "speaker", "word", "startframe", "endframe")
@@ -44,7 +44,7 @@ class SignedSentence:
     ----------
     video, signer : str
     positions : ndarray of float32, shape (num_frames, 3, 2)
-        Pixels from the upper left corner: left hand, right hand, nose; x, y.
+        Pixels from the upper left corner: left hand, right hand, nose; x, y. NaN where not seen.
     words : tuple of SignedWord
         In the order of the file; all within the frames.
     """
@@ -57,6 +57,8 @@ class SignedSentence:
 
 def read_asl_sentences(directory: Path) -> list[SignedSentence]:
     """Read ``hands.csv``, ``words.csv`` and ``signers.csv``; videos come in the order of ``signers.csv``.
+
+    An empty cell or ``nan`` among the positions is one that was not seen.
 
     Parameters
     ----------
@@ -90,14 +92,14 @@ def _read_signers(path: Path) -> dict[str, str]:
 
 
 def _read_positions(path: Path, signers: dict[str, str]) -> dict[str, NDArray[np.float32]]:
-    points: dict[str, list[list[int]]] = {}
+    points: dict[str, list[list[float]]] = {}
     for where, row in _rows(path, HANDS_COLUMNS):
         video = _known_video(where, row, signers)
         frames = points.setdefault(video, [])
         frame = _number(where, row, "frame", 0, _MAX_FRAME)
         if frame != len(frames):
             raise FormatError(f"{where}, field frame: {frame}, but the next frame of video {video!r} is {len(frames)}")
-        frames.append([_number(where, row, name, -MAX_PIXELS, MAX_PIXELS) for name in HANDS_COLUMNS[2:]])
+        frames.append([_position(where, row, name) for name in HANDS_COLUMNS[2:]])
     return {video: np.array(rows, np.float32).reshape(-1, 3, 2) for video, rows in points.items()}
 
 
@@ -143,6 +145,13 @@ def _known_video(where: str, row: dict[str, str], signers: dict[str, str]) -> st
     if video not in signers:
         raise FormatError(f"{where}, field video: {video!r} is not in signers.csv")
     return video
+
+
+def _position(where: str, row: dict[str, str], field: str) -> float:
+    value = parse_seen(row[field])
+    if value is None or abs(value) > MAX_PIXELS:
+        raise FormatError(f"{where}, field {field}: {row[field]!r} is no number within {MAX_PIXELS}")
+    return value
 
 
 def _number(where: str, row: dict[str, str], field: str, least: int, most: int) -> int:

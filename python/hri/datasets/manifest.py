@@ -164,6 +164,11 @@ def write_manifest(path: Path, manifest: Manifest) -> None:
     IoError
         When the file cannot be written.
     """
+    write_text(path, manifest_text(manifest))
+
+
+def manifest_text(manifest: Manifest) -> str:
+    """What `write_manifest` writes."""
     lines = [f"format_version = {FORMAT_VERSION}", f"kind = {_toml(manifest.kind)}"]
     for key in ("name", "description", "licence", "pattern", "labels"):
         value = getattr(manifest, key)
@@ -176,7 +181,7 @@ def write_manifest(path: Path, manifest: Manifest) -> None:
     for row in manifest.rows:
         lines += ["", "[[samples]]"]
         lines += [f"{key} = {_toml(getattr(row, key))}" for key in _SAMPLE_KEYS if getattr(row, key)]
-    write_text(path, "\n".join(lines) + "\n")
+    return "\n".join(lines) + "\n"
 
 
 def _toml(value: Any) -> str:

@@ -7,6 +7,11 @@ from hri.evaluation.conditions import Condition, FrontEnd, expose, gamma, tint
 from hri.evaluation.evaluate import cross_validate, evaluate_split
 from hri.evaluation.noise import AddNoise, active_power, make_noise, mix_noise
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
+from hri.evaluation.sentences import (
+    SentenceItem,
+    SentenceResult,
+    cross_validate_sentences,
+)
 from hri.evaluation.speech import adapting, evaluate_conditions
 
 __all__ = [
@@ -18,9 +23,12 @@ __all__ = [
     "FrontEnd",
     "Reliability",
     "ReliabilityBin",
+    "SentenceItem",
+    "SentenceResult",
     "active_power",
     "adapting",
     "cross_validate",
+    "cross_validate_sentences",
     "evaluate_conditions",
     "evaluate_split",
     "expose",

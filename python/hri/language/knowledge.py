@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike, fspath
 
@@ -43,7 +43,7 @@ class StoredSentence:
 
 @dataclass(frozen=True)
 class StoredMatch:
-    """The stored sentence nearest to some words, and how far it is from them, 0 (the same) to 1."""
+    """The stored sentence nearest to some words, and how far it is from them, 0 (the same) to 1 (no word in common)."""
 
     sentence: StoredSentence
     distance: float
@@ -148,6 +148,13 @@ class KnowledgeBase:
         matches = [StoredMatch(stored, self._distance(stored.words, one)) for one in tried for stored in self.sentences]
         return min(matches, key=lambda match: match.distance)
 
+    def unknown_words(self, labels: Iterable[str]) -> dict[str, str | None]:
+        """Words of the stored sentences that are none of `labels`, each with the label that differs in case alone."""
+        known = set(labels)
+        by_case = {label.casefold(): label for label in sorted(known)}
+        words = dict.fromkeys(word for stored in self.sentences for word in stored.words)
+        return {word: by_case.get(word.casefold()) for word in words if word not in known}
+
     def match(self, words: Sequence[str], alternatives: Sequence[Sequence[str]] = ()) -> StoredMatch | None:
         """The nearest stored sentence within ``max_distance``; None: it is none of them."""
         found = self.nearest(words, alternatives)
@@ -163,7 +170,10 @@ class KnowledgeBase:
                 cost += insertion
             elif pair.reference != pair.hypothesis:
                 cost += substitution
-        return cost / (substitution * max(len(stored), len(words)))
+        # Of sentences without a common word: a pair for each word of the shorter one, and the rest of the longer one.
+        pairs, rest = min(len(stored), len(words)), abs(len(stored) - len(words))
+        more = deletion if len(stored) > len(words) else insertion
+        return cost / (min(substitution, deletion + insertion) * pairs + more * rest)
 
 
 def choose_max_distance(right: Sequence[float], wrong: Sequence[float]) -> float:

@@ -117,7 +117,9 @@ class Takes:
         if not manifest.exists():
             return
         found = read_manifest(manifest)
-        if (found.kind, found.pattern, found.synthetic) != (self._kind, self._pattern, False):
+        if found.synthetic:
+            raise InvalidArgument(f"{self.folder} holds synthetic recordings: record people into another folder")
+        if (found.kind, found.pattern) != (self._kind, self._pattern):
             raise InvalidArgument(
                 f"{self.folder} holds another data set: {manifest} has not pattern '{self._pattern}' for {self._kind}"
             )

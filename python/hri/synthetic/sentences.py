@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import InvalidArgument
-from hri.core.files import make_folder, parse_toml, write_text
+from hri.core.files import parse_toml, read_text, write_text
 from hri.datasets.asl_sentences import (
     HANDS_COLUMNS,
     SIGNERS_COLUMNS,
@@ -28,6 +28,7 @@ from hri.datasets.asl_sentences import (
     SignedWord,
     read_asl_sentences,
 )
+from hri.synthetic.corpus import files_in, new_content, require_made_up, to_replace
 
 SENTENCES: dict[str, dict[str, str]] = {
     "table 4.3": {
@@ -70,6 +71,7 @@ table 5.1 has it does not say: these have the 36 words that it counts."""
 
 FPS = 25.0
 _WORDS = "signed_words.toml"
+_ABOUT = "synthetic.toml"
 _REST = np.array([[1.15, -3.1], [1.15, -3.1]])
 """Right hand, left hand."""
 _MIRROR = np.array([[-1.0, -1.0], [1.0, -1.0]])
@@ -230,27 +232,29 @@ def make_sentence_corpus(
     seed: int = 0,
     first_signer: int = 0,
     progress: Callable[[int, int], None] | None = None,
+    replace: bool = False,
 ) -> list[SignedSentence]:
     """Write drawn sentences as `read_asl_sentences` reads them, and a file ``synthetic.toml`` that says what they are.
 
     Parameters
     ----------
     directory : path-like
-        Made if needed; files of the same names are replaced.
+        Made if needed. One that is not empty must hold what an equal call made, see `replace`.
     table, num_signers, takes, seed, first_signer
         As of `draw_sentences`.
     progress : callable, optional
         Called with (done, total) sentences.
+    replace : bool
+        Whether drawn sentences that another call made there give way. Nothing else ever does, as those of people.
 
     Raises
     ------
     InvalidArgument
-        As of `draw_sentences`.
+        As of `draw_sentences`; for a folder that holds something else.
     IoError
         When a file cannot be written.
     """
     sentences = draw_sentences(table, num_signers, takes, seed, first_signer)
-    root = make_folder(Path(directory))
     hands, words, signers = [[",".join(names)] for names in (HANDS_COLUMNS, WORDS_COLUMNS, SIGNERS_COLUMNS)]
     for done, one in enumerate(sentences, start=1):
         signers.append(f"{one.video},{one.signer}")
@@ -266,14 +270,27 @@ def make_sentence_corpus(
         f'table = "{table}"',
         *(f"{name} = {value}" for name, value in made_by.items()),
     ]
-    for name, lines in {
-        "synthetic.toml": about,
-        "signers.csv": signers,
-        "hands.csv": hands,
-        "words.csv": words,
-    }.items():
-        write_text(root / name, "\n".join(lines) + "\n")
+    files = {_ABOUT: about, "signers.csv": signers, "hands.csv": hands, "words.csv": words}
+    texts = {name: "\n".join(lines) + "\n" for name, lines in files.items()}
+    root = Path(directory)
+    with new_content(root, _giving_way(root, texts, replace)) as folder:
+        for name, text in texts.items():
+            write_text(folder / name, text)
     return read_asl_sentences(root)
+
+
+def _giving_way(root: Path, texts: dict[str, str], replace: bool) -> list[Path]:
+    """The files in `root` in whose place new ones come; InvalidArgument where that would lose anything."""
+    there = files_in(root)
+    if not there:
+        return []
+    if not (root / _ABOUT).is_file():
+        raise InvalidArgument(f"{root} is not empty, there is {there[0]}: choose another folder")
+    signers = [signed.signer for signed in read_asl_sentences(root)]
+    require_made_up(root, signers, [path for path in there if str(path) not in texts])
+    if not replace and any(read_text(root / name) != text for name, text in texts.items()):
+        raise InvalidArgument(to_replace(root))
+    return there
 
 
 def _frames(seconds: float, style: SigningStyle, rng: np.random.Generator) -> int:

@@ -8,8 +8,10 @@ how well.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from os import PathLike
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +19,9 @@ from numpy.typing import NDArray
 from hri.core.errors import InvalidArgument
 from hri.core.optional import import_opencv
 from hri.datasets.dataset import Dataset
-from hri.datasets.manifest import SampleRow
+from hri.datasets.manifest import Manifest, SampleRow
 from hri.media import write_image, write_video
-from hri.synthetic.corpus import finish_corpus, start_corpus
+from hri.synthetic.corpus import make_corpus
 from hri.synthetic.drawing.hand import draw_hand
 from hri.synthetic.drawing.hand_pose import (
     DIGIT_POSES,
@@ -163,13 +165,14 @@ def make_gesture_corpus(
     progress: Callable[[int, int], None] | None = None,
     options: SignerOptions | None = None,
     first_person: int = 0,
+    replace: bool = False,
 ) -> Dataset:
     """Write drawn signs, ``{label}/{person}_{take}.jpg`` or ``.mp4``, and a manifest that says so.
 
     Parameters
     ----------
     directory : path-like
-        Made if needed; pictures of the same names are replaced.
+        Made if needed. One that is not empty must hold what an equal call made, see `replace`.
     labels : iterable of str
         Out of `SIGNS`.
     num_persons : int
@@ -186,11 +189,14 @@ def make_gesture_corpus(
         Skin, sleeve, light, background, camera and tempo, where they are asked for.
     first_person : int
         Number of the first person, at least 0: others than those of another corpus.
+    replace : bool
+        Whether signs that another call made there give way. Nothing else ever does, as pictures of people.
 
     Raises
     ------
     InvalidArgument
-        For an unknown label or kind, no labels, counts below 1, or a first person below 0.
+        For an unknown label or kind, no labels, counts below 1, a first person below 0, or a folder that holds
+        something else.
     IoError
         When a file cannot be written.
     ImportError
@@ -206,29 +212,24 @@ def make_gesture_corpus(
     for label in labels:
         _pose(label)
     import_opencv("to draw signs")
-    root = start_corpus(directory, labels)
-    rows = []
     asked = options or SignerOptions()
-    for index in range(first_person, first_person + num_persons):
-        signer = make_signer(index, seed, options)
-        for label in labels:
-            for take in range(takes):
-                name = f"{label}/{signer.name}_{kind}{take + 1}"
-                if kind == "still":
-                    name += ".jpg"
-                    write_image(root / name, draw_still(signer, label, take, seed))
-                else:
-                    name += ".mp4"
-                    write_video(root / name, draw_clip(signer, label, take, seed), asked.fps)
-                rows.append(SampleRow(name, label, signer.name, f"{kind}{take + 1}"))
-                if progress is not None:
-                    progress(len(rows), num_persons * takes * len(labels))
-    return finish_corpus(
-        root,
+    suffix = "jpg" if kind == "still" else "mp4"
+    made = [
+        (signer, label, take)
+        for signer in (make_signer(index, seed, options) for index in range(first_person, first_person + num_persons))
+        for label in labels
+        for take in range(takes)
+    ]
+    rows = [
+        SampleRow(f"{label}/{signer.name}_{kind}{take + 1}.{suffix}", label, signer.name, f"{kind}{take + 1}")
+        for signer, label, take in made
+    ]
+    manifest = Manifest(
         "gesture",
         "synthetic signs",
         "Drawn people who show digits with one hand; no recordings of people.",
-        {
+        synthetic=True,
+        made_by={
             "program": "hri.synthetic.signer",
             "seed": seed,
             "num_persons": num_persons,
@@ -237,8 +238,19 @@ def make_gesture_corpus(
             **({"first_person": first_person} if first_person else {}),
             **asked.asked_for(),
         },
-        rows,
+        rows=rows,
     )
+
+    def writers() -> Iterator[Callable[[Path], None]]:
+        for done, (signer, label, take) in enumerate(made, start=1):
+            if kind == "still":
+                yield partial(write_image, image=draw_still(signer, label, take, seed))
+            else:
+                yield partial(write_video, frames=draw_clip(signer, label, take, seed), fps=asked.fps)
+            if progress is not None:
+                progress(done, len(rows))
+
+    return make_corpus(directory, manifest, replace, writers())
 
 
 def _generator(signer: Signer, label: str, take: int, seed: int, use: int) -> np.random.Generator:

@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from os import PathLike
 from pathlib import Path
 
@@ -22,11 +23,11 @@ from numpy.typing import NDArray
 
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.datasets.dataset import Dataset
-from hri.datasets.manifest import SampleRow
+from hri.datasets.manifest import Manifest, SampleRow
 from hri.io import write_wav_pcm16
 from hri.media import Audio, read_audio
 from hri.signal import resample
-from hri.synthetic.corpus import finish_corpus, start_corpus
+from hri.synthetic.corpus import make_corpus
 
 DIGIT_WORDS: dict[str, dict[str, str]] = {
     "en": dict(
@@ -286,13 +287,14 @@ def make_speech_corpus(
     takes: int = 2,
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
+    replace: bool = False,
 ) -> Dataset:
     """Write spoken words, ``{label}/{person}_{take}.wav``, and a manifest that says so.
 
     Parameters
     ----------
     directory : path-like
-        Made if needed; recordings of the same names are replaced.
+        Made if needed. One that is not empty must hold what an equal call made, see `replace`.
     words : mapping, optional
         Language to words: a list (the label is the word) or a mapping from label to spoken text.
         By default the ten digits in English and Hindi under common labels, `DIGIT_WORDS`.
@@ -303,33 +305,41 @@ def make_speech_corpus(
     seed : int
     progress : callable, optional
         Called with (done, total) after every recording.
+    replace : bool
+        Whether spoken words that another call made there give way. Nothing else ever does, as recordings of people.
 
     Raises
     ------
     InvalidArgument
-        For no words, counts below 1, a label that is no folder name, or a language espeak-ng does
-        not know.
+        For no words, counts below 1, a label that is no folder name, a language espeak-ng does not know, or a folder
+        that holds something else.
     IoError
         When espeak-ng is not installed or a file cannot be written.
     """
     sayings = _sayings(DIGIT_WORDS if words is None else words, num_speakers, takes, seed)
-    root = start_corpus(directory, dict.fromkeys(one.label for one in sayings))
     rows = []
-    for one, audio in zip(sayings, _made(sayings, seed, progress), strict=True):
+    for one in sayings:
         take = f"{one.language}{one.take + 1}"
         name = f"{one.label}/{one.speaker.name}_{take}.wav"
-        write_wav_pcm16(str(root / name), audio.samples, audio.sample_rate_hz)
         rows.append(SampleRow(name, one.label, one.speaker.name, take))
-    return finish_corpus(
-        root,
+    manifest = Manifest(
         "speech",
         "synthetic words",
         "Words spoken by the espeak-ng synthesiser with synthetic voices; no recordings of people.",
-        {
+        synthetic=True,
+        made_by={
             "program": "hri.synthetic.speech",
             "seed": seed,
             "num_speakers": num_speakers,
             "takes": takes,
+            "texts": list(dict.fromkeys(f"{one.language} {one.label}={one.text}" for one in sayings)),
         },
-        rows,
+        rows=rows,
     )
+    return make_corpus(
+        directory, manifest, replace, (partial(_write, audio) for audio in _made(sayings, seed, progress))
+    )
+
+
+def _write(audio: Audio, path: Path) -> None:
+    write_wav_pcm16(str(path), audio.samples, audio.sample_rate_hz)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from hri.core.display import short_repr
 from hri.core.errors import FormatError, InvalidArgument
-from hri.core.files import parse_number, read_csv
+from hri.core.files import parse_number, parse_seen, read_csv
 
 Floats = NDArray[np.float64]
 
@@ -159,7 +160,7 @@ def read_hand_tracks(path: str | PathLike[str], fps: float = 30.0) -> dict[str, 
                     f"{where}, column frame: {row[frame]!r}, more than {_MOST_LEFT_OUT} are left out in all"
                 )
             lines += [[np.nan] * len(wanted) for _ in range(int(index) - len(lines))]
-        lines.append([_number(f"{where}, column {header[c]}", row[c], True) for c in columns])
+        lines.append([_number(f"{where}, column {header[c]}", row[c], parse_seen) for c in columns])
     return {name: _track(name, fps, wanted, np.array(lines)) for name, lines in found.items()}
 
 
@@ -182,10 +183,8 @@ def _cells(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     return [name.strip() for name in rows[0][1]], rows[1:]
 
 
-def _number(where: str, cell: str, may_be_empty: bool = False) -> float:
-    if may_be_empty and cell.strip().lower() in ("", "nan"):
-        return np.nan
-    value = parse_number(cell)
+def _number(where: str, cell: str, parse: Callable[[str], float | None] = parse_number) -> float:
+    value = parse(cell)
     if value is None or abs(value) > MAX_PIXELS:
         raise FormatError(f"{where}: {cell!r} is no number within {MAX_PIXELS:g}")
     return value
